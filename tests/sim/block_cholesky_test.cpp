@@ -84,7 +84,7 @@ TEST(BlockCholesky, AgreesWithADenseFactorization) {
     for (int trial = 0; trial < trials(200); ++trial) {
         const std::size_t bodies = 2 + std::size_t(random.below(20));
         const Pairs pairs = random_pairs(random, bodies, random.below(int(3 * bodies)));
-        blocks.analyse(bodies, pairs);
+        blocks.analyze(bodies, pairs);
         expect_solves(blocks, dense_matrix(random, bodies, pairs, 1.0), bodies, pairs, random);
     }
 }
@@ -102,7 +102,7 @@ TEST(BlockCholesky, GraphsOfEveryKind) {
     twice = {{3, 5}, {5, 3}, {3, 5}, {0, 3}};
     for (const Pairs& pairs : {Pairs{}, chain, star, ring, all, twice}) {
         BlockCholesky blocks;
-        blocks.analyse(n, pairs);
+        blocks.analyze(n, pairs);
         expect_solves(blocks, dense_matrix(random, n, pairs, 10.0), n, pairs, random);
     }
 }
@@ -114,7 +114,7 @@ TEST(BlockCholesky, ChainsAndStarsHaveNoFill) {
         Pairs pairs;
         for (std::uint32_t i = 1; i < n; ++i) pairs.push_back({star ? 0 : i - 1, i});
         BlockCholesky blocks;
-        blocks.analyse(n, pairs);
+        blocks.analyze(n, pairs);
         EXPECT_EQ(blocks.work(), n + 2 * (n - 1)) << star;
     }
 }
@@ -124,7 +124,7 @@ TEST(BlockCholesky, ReportsAMatrixThatIsNotPositive) {
     const Pairs pairs = {{0, 1}, {1, 2}};
     Eigen::MatrixXd h = dense_matrix(random, 3, pairs, 1.0);
     BlockCholesky blocks;
-    blocks.analyse(3, pairs);
+    blocks.analyze(3, pairs);
     fill(blocks, h, 3, pairs);
     EXPECT_TRUE(blocks.factor());
     h.diagonal().array() -= 1.01 * h.selfadjointView<Eigen::Lower>().eigenvalues().minCoeff();

@@ -212,7 +212,7 @@ struct Flying {
     Trajectory path;
     explicit Flying(const Body& b, const Vec3& acceleration = {0.0, -9.81, 0.0})
         : body(b), path(Trajectory::flight(b, acceleration)) {}
-    Traveller traveller() const { return {&body, &path, 0.0}; }
+    MovingBody moving_body() const { return {&body, &path, 0.0}; }
 };
 
 Body standing(const CollisionShape& collider) {
@@ -242,8 +242,8 @@ TEST(CompoundImpact, ABoxOfEightBoxesHitsWhenTheBoxDoes) {
         const Flying whole(free_body(BoxShape{size}, 1.0, at, v, q, w)),
             parts(free_body(box_of_eight(size), 1.0, at, v, q, w));
         for (const Flying& obstacle : obstacles) {
-            const TimeOfImpact first = search.find(obstacle.traveller(), whole.traveller(), 2.0);
-            const TimeOfImpact second = search.find(parts.traveller(), obstacle.traveller(), 2.0);
+            const TimeOfImpact first = search.find(obstacle.moving_body(), whole.moving_body(), 2.0);
+            const TimeOfImpact second = search.find(parts.moving_body(), obstacle.moving_body(), 2.0);
             EXPECT_EQ(first.kind == TimeOfImpact::Kind::none, second.kind == TimeOfImpact::Kind::none);
             if (first.kind != TimeOfImpact::Kind::impact) continue;
             EXPECT_NEAR(first.time, second.time, 1e-11);
@@ -261,7 +261,7 @@ TEST(CompoundImpact, ABallFliesThroughALink) {
         Vec3::Zero());
     const auto time = [&](double radius, double x) {
         const Flying ball(free_ball(radius, 1.0, {x, 0.0, 2.0}, {0.0, 0.0, -4.0}), Vec3::Zero());
-        return search.find(link.traveller(), ball.traveller(), 1.0);
+        return search.find(link.moving_body(), ball.moving_body(), 1.0);
     };
     EXPECT_EQ(time(0.29, 0.0).kind, TimeOfImpact::Kind::none);
     const TimeOfImpact hit = time(0.31, 0.0);

@@ -24,11 +24,11 @@ struct Polygon {
           origin(random.vector(1000.0)) {}
     void add(double x, double y) { corners.push_back(origin + x * first + y * second); }
     Manifold manifold() const {
-        std::vector<ContactPoint> points, left_out;
+        std::vector<ContactPoint> points, reduced;
         for (std::size_t i = 0; i < corners.size(); ++i) points.push_back({corners[i], 0.0, i});
         Manifold m;
         m.normal = normal;
-        keep_best_points(points, m, left_out);
+        keep_best_points(points, m, reduced);
         return m;
     }
 };

@@ -98,11 +98,11 @@ TEST(CarryOver, ByFeatureThenByPlace) {
     before.tangent = Vec3::UnitX();
     before.friction[0] = 1.0;
     before.friction[1] = 2.0;
-    before.twist = 3.0;
+    before.torsion = 3.0;
     now.points[0].position = Vec3(1.0, 0.0, 0.0);  // the old place of feature 6: its own feature counts all the same
     now.points[2].position = Vec3(2.1, 0.0, 0.0);
     now.points[3].position = Vec3(1.0, 0.0, 0.6);
-    carry_over(before, 0.5, now);
+    match_impulses(before, 0.5, now);
     EXPECT_EQ(now.points[0].impulse, 13.0 + 11.0);  // and that of feature 6, which is gone
     EXPECT_EQ(now.points[1].impulse, 10.0);
     EXPECT_EQ(now.points[2].impulse, 12.0);
@@ -110,13 +110,13 @@ TEST(CarryOver, ByFeatureThenByPlace) {
     EXPECT_EQ(now.tangent, Vec3::UnitX());
     EXPECT_EQ(now.friction[0], 1.0);
     EXPECT_EQ(now.friction[1], 2.0);
-    EXPECT_EQ(now.twist, 3.0);
+    EXPECT_EQ(now.torsion, 3.0);
 
     // Another side of the body carries the load: the old impulses do not apply to it.
     Manifold turned = manifold(0, 1, 0, {5, 99});
     turned.normal = before.normal.unitOrthogonal();
     turned.points[1].position = Vec3(9.0, 0.0, 0.0);
-    carry_over(before, 0.5, turned);
+    match_impulses(before, 0.5, turned);
     EXPECT_EQ(turned.points[0].impulse, 10.0);
     EXPECT_EQ(turned.points[1].impulse, 0.0);
 }
@@ -134,7 +134,7 @@ TEST(CarryOver, MatchesLikeBruteForce) {
         };
         Manifold before = random_manifold(), now = random_manifold();
         for (int i = 0; i < before.count; ++i) before.points[std::size_t(i)].impulse = random(0.1, 1.0);
-        carry_over(before, 0.0, now);
+        match_impulses(before, 0.0, now);
         double carried = 0.0, built = 0.0;
         for (int i = 0; i < before.count; ++i) built += before.points[std::size_t(i)].impulse;
         for (int i = 0; i < now.count; ++i) {

@@ -29,10 +29,10 @@ std::vector<ContactPoint> octagon(double tilt) { return polygon(8, tilt); }
 struct Found {
     explicit Found(const std::vector<ContactPoint>& points) {
         first.normal = Vec3::UnitY();
-        keep_best_points(points, first, left_out);
+        keep_best_points(points, first, reduced);
     }
     Manifold first;
-    std::vector<ContactPoint> left_out;
+    std::vector<ContactPoint> reduced;
 };
 
 /// The largest angle between neighboring points, seen from the middle, rad.
@@ -52,12 +52,12 @@ double largest_gap(const std::vector<Manifold>& manifolds) {
 // On one half of its corners, and then tilted towards a reduced one: it is added, and none is removed.
 TEST(Growth, AddsPointsThatSank) {
     const Found level(octagon(0.0));
-    ASSERT_EQ(level.left_out.size(), 4u);
-    for (const ContactPoint& missed : level.left_out) {
+    ASSERT_EQ(level.reduced.size(), 4u);
+    for (const ContactPoint& missed : level.reduced) {
         std::vector<ContactPoint> points = octagon(0.0);
         for (ContactPoint& p : points) p.separation -= 5e-4 * p.position.dot(missed.position);
         Found tilted(points);
-        const Manifold more = grow(std::span(&level.first, 1), 1.0, tilted.first, tilted.left_out);
+        const Manifold more = grow(std::span(&level.first, 1), 1.0, tilted.first, tilted.reduced);
         ASSERT_EQ(tilted.first.count, 4);
         for (int i = 0; i < 4; ++i) EXPECT_TRUE(level.first.has(tilted.first.points[std::size_t(i)].feature));
         ASSERT_EQ(more.count, 1);
@@ -71,11 +71,11 @@ TEST(Growth, RemovesNoPoint) {
     const Found level(octagon(0.0));
     Found tilted(octagon(5e-4));
     std::vector<Manifold> both(2);
-    both[1] = grow(std::span(&level.first, 1), 1.0, tilted.first, tilted.left_out);
+    both[1] = grow(std::span(&level.first, 1), 1.0, tilted.first, tilted.reduced);
     both[0] = tilted.first;
     for (const double tilt : {0.0, -2e-5, 3e-4}) {
         Found now(octagon(tilt));
-        const Manifold more = grow(both, 1.0, now.first, now.left_out);
+        const Manifold more = grow(both, 1.0, now.first, now.reduced);
         ASSERT_EQ(now.first.count, both[0].count);
         ASSERT_EQ(more.count, both[1].count) << tilt;
         for (int i = 0; i < now.first.count; ++i) EXPECT_TRUE(both[0].has(now.first.points[std::size_t(i)].feature));
@@ -99,7 +99,7 @@ TEST(Growth, IsNeverWithoutAFirstManifold) {
     extra.separation = 0.01;
     points.push_back(extra);
     Found now(points);
-    const Manifold more = grow(both, 1.0, now.first, now.left_out);
+    const Manifold more = grow(both, 1.0, now.first, now.reduced);
     EXPECT_EQ(now.first.count + more.count, 4 + int(now.first.has(extra.feature) || more.has(extra.feature)));
     EXPECT_GT(now.first.count, 0);
 }
@@ -117,7 +117,7 @@ TEST(Growth, ReplacesANeighborWhereThereIsNoRoom) {
     points[5].separation = -2e-3;
     points[12].separation = 1e-3;
     Found now(points);
-    const Manifold more = grow(both, 1.0, now.first, now.left_out);
+    const Manifold more = grow(both, 1.0, now.first, now.reduced);
     EXPECT_EQ(now.first.count + more.count, 8);
     EXPECT_TRUE(now.first.has(5) || more.has(5));
     both = {now.first, more};
@@ -135,7 +135,7 @@ TEST(Growth, PointsDoNotGatherOnOneSide) {
     std::vector<Manifold> both{Found(polygon(64, 0.0)).first};
     for (int k = 0; k < 100; ++k) {
         Found now(tilted(0.7 * k));
-        const Manifold more = grow(both, 1.0, now.first, now.left_out);
+        const Manifold more = grow(both, 1.0, now.first, now.reduced);
         both.assign(1, now.first);
         if (more.count > 0) both.push_back(more);
         EXPECT_LT(largest_gap(both), 2.0) << k;
@@ -150,7 +150,7 @@ TEST(Growth, IsNeededWhereReducedPointsSank) {
         const Vec3 to = held ? level.first.points[0].position : Vec3(std::cos(0.8), 0.0, std::sin(0.8));
         for (ContactPoint& p : points) p.separation -= 1e-2 * p.position.dot(to);
         const Found tilted(points);
-        EXPECT_EQ(missed(std::span(&level.first, 1), tilted.first, tilted.left_out, 1.0), !held);
+        EXPECT_EQ(missed(std::span(&level.first, 1), tilted.first, tilted.reduced, 1.0), !held);
     }
 }
 
@@ -160,7 +160,7 @@ TEST(Growth, OtherFacesStartAnew) {
     for (ContactPoint& p : points) p.feature += std::uint64_t(1) << 42;
     Found now(points);
     const Manifold before = now.first;
-    EXPECT_EQ(grow(std::span(&level.first, 1), 1.0, now.first, now.left_out).count, 0);
+    EXPECT_EQ(grow(std::span(&level.first, 1), 1.0, now.first, now.reduced).count, 0);
     for (int i = 0; i < 4; ++i)
         EXPECT_EQ(now.first.points[std::size_t(i)].feature, before.points[std::size_t(i)].feature);
 }

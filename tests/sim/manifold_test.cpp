@@ -52,8 +52,8 @@ TEST(Manifold, ADiscStandsAroundItsMiddle) {
         }
         Manifold m;
         m.normal = Vec3::UnitY();
-        std::vector<ContactPoint> left_out;
-        keep_best_points(points, m, left_out);
+        std::vector<ContactPoint> reduced;
+        keep_best_points(points, m, reduced);
         ASSERT_EQ(m.count, 4);
         for (int k = 0; k < 64;
              ++k) {  // in every direction a point extends farther than cos 72 degrees: a corner of a pentagon
@@ -83,11 +83,11 @@ TEST(Manifold, LoadedPointsAreKept) {
             std::swap(points[i - 1], points[std::size_t(random.below(int(i)))]);
         Manifold m;
         m.normal = Vec3::UnitY();
-        std::vector<ContactPoint> left_out;
-        keep_best_points(points, m, left_out);
+        std::vector<ContactPoint> reduced;
+        keep_best_points(points, m, reduced);
         ASSERT_EQ(m.count, 4);
-        ASSERT_EQ(int(left_out.size()), corners - 4);
-        for (const ContactPoint& p : left_out) EXPECT_FALSE(m.has(p.feature)) << trial;
+        ASSERT_EQ(int(reduced.size()), corners - 4);
+        for (const ContactPoint& p : reduced) EXPECT_FALSE(m.has(p.feature)) << trial;
         int kept = 0;
         for (int i = 0; i < 4; ++i) kept += m.points[std::size_t(i)].separation < 0.0;
         EXPECT_EQ(kept, bearing) << trial;

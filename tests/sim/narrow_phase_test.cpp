@@ -53,7 +53,7 @@ void mark(Manifold& m) {
     m.tangent = Vec3::UnitX();
     m.friction[0] = 10.0;
     m.friction[1] = 11.0;
-    m.twist = 12.0;
+    m.torsion = 12.0;
 }
 
 }  // namespace
@@ -80,7 +80,7 @@ TEST(NarrowPhaseManifold, KeepsItsImpulses) {
         EXPECT_EQ(m.tangent, Vec3::UnitX());
         EXPECT_EQ(m.friction[0], 10.0);
         EXPECT_EQ(m.friction[1], 11.0);
-        EXPECT_EQ(m.twist, 12.0);
+        EXPECT_EQ(m.torsion, 12.0);
     }
 }
 
@@ -93,7 +93,7 @@ TEST(NarrowPhaseManifold, StartsAnewAfterParting) {
     const Manifold& m = scene.find()[0];
     EXPECT_EQ(m.tangent, Vec3::Zero());
     EXPECT_EQ(m.friction[0], 0.0);
-    EXPECT_EQ(m.twist, 0.0);
+    EXPECT_EQ(m.torsion, 0.0);
     for (int i = 0; i < m.count; ++i) EXPECT_EQ(m.points[std::size_t(i)].impulse, 0.0);
 }
 
@@ -264,7 +264,7 @@ TEST(PairMemory, SurvivesSleep) {
     const auto& found = scene.narrow_phase.find({{0, 1}}, scene.bodies, h, scene.pool);
     ASSERT_EQ(found.size(), 1u);
     EXPECT_EQ(found[0].points[3].impulse, 4.0);
-    EXPECT_EQ(found[0].twist, 12.0);
+    EXPECT_EQ(found[0].torsion, 12.0);
 }
 
 // A pair that was excluded for a while is searched again, though nothing has moved.

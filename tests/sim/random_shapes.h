@@ -79,7 +79,7 @@ inline PolyhedronRef random_hull(Random& random, int points, const Vec3& stretch
 }
 
 inline std::shared_ptr<const CollisionMesh> surface_of(const TriangleMesh& mesh, const Vec3& origin = Vec3::Zero()) {
-    return std::make_shared<const CollisionMesh>(make_surface(mesh, origin));
+    return std::make_shared<const CollisionMesh>(make_collision_mesh(mesh, origin));
 }
 
 inline std::vector<Manifold> collide_all(const CollisionShape& a, const Pose& pose_a, const CollisionShape& b,

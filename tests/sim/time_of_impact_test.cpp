@@ -22,7 +22,7 @@ struct Flying {
     Trajectory path;
     explicit Flying(const Body& b, const Vec3& acceleration = gravity)
         : body(b), path(Trajectory::flight(b, acceleration)) {}
-    Traveller traveller(double since = 0.0) const { return {&body, &path, since}; }
+    MovingBody moving_body(double since = 0.0) const { return {&body, &path, since}; }
 };
 
 const Polyhedron& shape_of(const Body& body) { return *std::get<std::shared_ptr<const Polyhedron>>(body.collider); }
@@ -53,7 +53,7 @@ struct Ground {
         body.radius = std::numeric_limits<double>::infinity();
         path = Trajectory::uniform(body, Vec3::Zero(), Vec3::Zero());
     }
-    Traveller traveller() const { return {&body, &path, 0.0}; }
+    MovingBody moving_body() const { return {&body, &path, 0.0}; }
 };
 
 }  // namespace
@@ -65,7 +65,7 @@ TEST(TimeOfImpact, BallOnPlaneIsTheQuadratic) {
     for (int trial = 0; trial < 1000; ++trial) {
         const double r = random(0.01, 1.0), height = r + random(0.0, 10.0), v = random(-10.0, 10.0);
         const Flying ball(free_ball(r, 1.0, {0.0, height, 0.0}, {1.0, v, 0.0}));
-        const TimeOfImpact found = search.find(ground.traveller(), ball.traveller(), 100.0);
+        const TimeOfImpact found = search.find(ground.moving_body(), ball.moving_body(), 100.0);
         ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
         const double exact = (v + std::sqrt(v * v + 2.0 * 9.81 * (height - r))) / 9.81;
         EXPECT_NEAR(found.time, exact, 1e-14 * (1.0 + exact));
@@ -81,7 +81,7 @@ TEST(TimeOfImpact, BallsMeetWhereTheirCentersAreARadiusSumApart) {
         const Vec3 from = random.direction();
         const Flying b(free_ball(random(0.1, 0.5), 1.0, random(1.0, 3.0) * from, random.vector(2.0) - 2.0 * from));
         const double reach = a.body.radius + b.body.radius;
-        const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 5.0);
+        const TimeOfImpact found = search.find(a.moving_body(), b.moving_body(), 5.0);
         const auto distance = [&](double t) { return (b.path.position(t) - a.path.position(t)).norm() - reach; };
         const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 5.0;
         for (int k = 0; k < 100; ++k) EXPECT_GT(distance(end * k / 100.0), -1e-12);
@@ -101,7 +101,7 @@ TEST(TimeOfImpact, TumblingBoxOnPlane) {
         for (int trial = 0; trial < 100; ++trial) {
             const Flying box(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, random(1.0, 2.0), 0.0}, random.vector(3.0),
                                       random.turn(), random.vector(spin)));
-            const TimeOfImpact found = search.find(ground.traveller(), box.traveller(), 5.0);
+            const TimeOfImpact found = search.find(ground.moving_body(), box.moving_body(), 5.0);
             ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
             EXPECT_NEAR(lowest(box, found.time), 0.0, 1e-12);
             EXPECT_LT(lowest(box, found.time + 1e-9), 0.0);
@@ -121,7 +121,7 @@ TEST(TimeOfImpact, TumblingBoxes) {
             const Vec3 from = Vec3(random(-1, 1), random(-1, 1), random(-0.4, 0.4)).normalized();
             const Flying b(free_box({0.6, 0.6, 0.6}, 1.0, 2.0 * from, random.vector(0.6) - 4.0 * from, random.turn(),
                                     random.vector(spin)));
-            const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 1.0);
+            const TimeOfImpact found = search.find(a.moving_body(), b.moving_body(), 1.0);
             ASSERT_NE(found.kind, TimeOfImpact::Kind::check);
             const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 1.0;
             for (int k = 0; k < 300; ++k) ASSERT_GT(gap(a, b, end * (k + 0.5) / 300.0), -1e-10) << spin << " " << trial;
@@ -146,7 +146,7 @@ TEST(TimeOfImpact, TumblingHulls) {
         const Flying a(free_hull(points_a, 1.0, Vec3::Zero(), Vec3::Zero(), random.vector(10.0)));
         const Flying b(free_hull(points_b, 1.0, {2.0, random(-0.5, 0.5), random(-0.5, 0.5)}, {-4.0, 0.0, 0.0},
                                  random.vector(10.0)));
-        const TimeOfImpact found = search.find(a.traveller(), b.traveller(), 1.0);
+        const TimeOfImpact found = search.find(a.moving_body(), b.moving_body(), 1.0);
         ASSERT_NE(found.kind, TimeOfImpact::Kind::check);
         const double end = found.kind == TimeOfImpact::Kind::impact ? found.time : 1.0;
         for (int k = 0; k < 50; ++k) ASSERT_GT(gap(a, b, end * (k + 0.5) / 50.0), -1e-10) << trial;
@@ -168,7 +168,7 @@ TEST(TimeOfImpact, GrazingIsDecidedToTheLastDigits) {
     const auto touches = [&](double height) {
         const Flying f = box(height);
         return lowest(f, 0.0) <= 0.0 ||
-               search.find(ground.traveller(), f.traveller(), 0.4).kind == TimeOfImpact::Kind::impact;
+               search.find(ground.moving_body(), f.moving_body(), 0.4).kind == TimeOfImpact::Kind::impact;
     };
     double low = 0.2, high = 1.5;
     for (int i = 0; i < 80; ++i) (touches(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
@@ -183,27 +183,27 @@ TEST(TimeOfImpact, TouchingAtTheStart) {
     ImpactSearch search;
     // Parting: the impact is the next one. Flat, upwards at 3 m/s: back after 2 v / g.
     const Flying up(free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 0.3, 0.0}, {0.0, 3.0, 0.0}, Quat::Identity(), Vec3::Zero()));
-    TimeOfImpact found = search.find(ground.traveller(), up.traveller(), 5.0);
+    TimeOfImpact found = search.find(ground.moving_body(), up.moving_body(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_NEAR(found.time, 6.0 / 9.81, 1e-13);
     // Approaching: at once.
     const Flying down(
         free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 0.3, 0.0}, {0.0, -1e-6, 0.0}, Quat::Identity(), Vec3::Zero()));
-    found = search.find(ground.traveller(), down.traveller(), 5.0);
+    found = search.find(ground.moving_body(), down.moving_body(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_EQ(found.time, 0.0);
     // At rest against each other without forces: never.
     const Flying left(free_box({1, 1, 1}, 1.0, Vec3::Zero(), Vec3::Zero(), Quat::Identity(), Vec3::Zero()),
                       Vec3::Zero());
     const Flying right(free_box({1, 1, 1}, 1.0, {1, 0, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()), Vec3::Zero());
-    EXPECT_EQ(search.find(left.traveller(), right.traveller(), 5.0).kind, TimeOfImpact::Kind::none);
+    EXPECT_EQ(search.find(left.moving_body(), right.moving_body(), 5.0).kind, TimeOfImpact::Kind::none);
     // At rest, exactly, and about to fall: as soon as the fall exceeds rounding.
     const Flying rests(free_box({1, 1, 1}, 1.0, {0, 1, 0}, Vec3::Zero(), Quat::Identity(), Vec3::Zero()));
-    found = search.find(left.traveller(), rests.traveller(), 5.0);
+    found = search.find(left.moving_body(), rests.moving_body(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_LT(found.time, 1e-5);
     const Flying ball(free_ball(0.5, 1.0, {0, 0.5, 0}, Vec3::Zero()));
-    found = search.find(ground.traveller(), ball.traveller(), 5.0);
+    found = search.find(ground.moving_body(), ball.moving_body(), 5.0);
     ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
     EXPECT_LT(found.time, 1e-5);
 }
@@ -221,9 +221,9 @@ TEST(TimeOfImpact, TouchingBodiesMayOverlapMore) {
         };
         const Vec3 from = 2.5 * random.direction();
         const Flying a = box(Vec3::Zero(), Vec3::Zero()), b = box(from, random.vector(0.6) - from);
-        const TimeOfImpact touch = search.find(a.traveller(), b.traveller(), 1.0);
+        const TimeOfImpact touch = search.find(a.moving_body(), b.moving_body(), 1.0);
         if (touch.kind != TimeOfImpact::Kind::impact) continue;
-        const TimeOfImpact deeper = search.find(a.traveller(touch.time), b.traveller(touch.time), 0.5, 0.002);
+        const TimeOfImpact deeper = search.find(a.moving_body(touch.time), b.moving_body(touch.time), 0.5, 0.002);
         ++hits;
         // No point approaches faster than 2.5 m/s plus twice 5 rad/s about 0.9 m.
         if (deeper.kind != TimeOfImpact::Kind::none) {
@@ -247,7 +247,7 @@ TEST(TimeOfImpact, TheHarmlessTimeIsHarmless) {
         body.momentum = -body.mass * body.angular_velocity.cross(arm);
         body.derive();
         const Flying flying(body);
-        const double t = harmless_time(ground.traveller(), flying.traveller()),
+        const double t = harmless_time(ground.moving_body(), flying.moving_body()),
                      most = tuning::impact_harmless * body.radius;
         for (const double part : {0.3, 1.0}) {
             const double way = (flying.path.at(part * t).to_world(corner) - arm).norm();
@@ -265,7 +265,7 @@ TEST(TimeOfImpact, HugeAndTinySpeeds) {
         const Flying box(free_box({0.1, 0.1, 0.1}, 1.0, {0.0, 1.0, 0.0}, {0.0, -v, 0.0},
                                   Quat(1.0, 0.1, 0.2, 0.3).normalized(), Vec3::Zero()),
                          Vec3::Zero());
-        const TimeOfImpact found = search.find(ground.traveller(), box.traveller(), 1e10);
+        const TimeOfImpact found = search.find(ground.moving_body(), box.moving_body(), 1e10);
         ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact) << v;
         EXPECT_NEAR(found.time * v, lowest(box, 0.0), 1e-12) << v;
     }
@@ -279,11 +279,11 @@ TEST(TimeOfImpact, DoesNotDependOnTheOrderOrTheOrigin) {
         const Flying a(free_box({1.0, 0.6, 0.2}, 1.0, Vec3::Zero(), Vec3::Zero(), random.turn(), random.vector(5.0)));
         const Flying b(
             free_box({0.6, 0.6, 0.6}, 1.0, {2.0, 0.0, 0.0}, {-4.0, 0.0, 0.0}, random.turn(), random.vector(5.0)));
-        const TimeOfImpact first = search.find(a.traveller(), b.traveller(), 1.0),
-                           second = search.find(b.traveller(), a.traveller(), 1.0);
+        const TimeOfImpact first = search.find(a.moving_body(), b.moving_body(), 1.0),
+                           second = search.find(b.moving_body(), a.moving_body(), 1.0);
         ASSERT_EQ(first.kind, second.kind);
         EXPECT_NEAR(first.time, second.time, 1e-12);
-        const TimeOfImpact later = search.find(a.traveller(0.1), b.traveller(0.1), 1.0);
+        const TimeOfImpact later = search.find(a.moving_body(0.1), b.moving_body(0.1), 1.0);
         if (first.kind == TimeOfImpact::Kind::impact && first.time > 0.1) {
             EXPECT_NEAR(later.time + 0.1, first.time, 1e-12);
         }
@@ -297,7 +297,7 @@ TEST(TimeOfImpact, OneSearchDoesNotAffectTheNext) {
     mesh.triangles = {{0, 2, 1}, {0, 3, 2}};
     Body sheet;
     sheet.type = BodyType::fixed;
-    sheet.collider = std::make_shared<const CollisionMesh>(make_surface(mesh, Vec3::Zero()));
+    sheet.collider = std::make_shared<const CollisionMesh>(make_collision_mesh(mesh, Vec3::Zero()));
     sheet.radius = bounding_radius(sheet.collider);
     const Trajectory still = Trajectory::uniform(sheet, Vec3::Zero(), Vec3::Zero());
     const Flying ball(free_ball(0.25, 1.0, {0.3, 0.25 + 1e-6, 0.2}, {0.0, 0.01, 0.0}));
@@ -305,12 +305,12 @@ TEST(TimeOfImpact, OneSearchDoesNotAffectTheNext) {
     const double exact = (0.01 + std::sqrt(1e-4 + 2.0 * 9.81 * 1e-6)) / 9.81;
     ImpactSearch search;
     for (int turn = 0; turn < 2; ++turn) {
-        const TimeOfImpact found = search.find(ball.traveller(), {&sheet, &still, 0.0}, 1.0);
+        const TimeOfImpact found = search.find(ball.moving_body(), {&sheet, &still, 0.0}, 1.0);
         ASSERT_EQ(found.kind, TimeOfImpact::Kind::impact);
         EXPECT_NEAR(found.time, exact, 1e-12);
         const Flying box(
             free_box({1.0, 0.6, 0.2}, 1.0, {0.0, 5.0, 0.0}, {0.0, -50.0, 0.0}, Quat::Identity(), {3.0, 7.0, 2.0}));
-        search.find(box.traveller(), fast.traveller(), 1.0);
+        search.find(box.moving_body(), fast.moving_body(), 1.0);
     }
 }
 

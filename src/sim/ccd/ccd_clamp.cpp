@@ -15,7 +15,7 @@ double depth(const Body& body) { return depth(body.collider); }
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
 
-bool surface(const Body& body) { return std::holds_alternative<std::shared_ptr<const CollisionMesh>>(body.collider); }
+bool mesh(const Body& body) { return std::holds_alternative<std::shared_ptr<const CollisionMesh>>(body.collider); }
 
 // Only the center of a ball counts; the arm of a body that cannot rotate may be infinite.
 double turning(double arm, const BodyVelocity& motion) {
@@ -51,20 +51,19 @@ double CcdClamp::first_touch(const FastPair& pair, const std::vector<Body>& bodi
     if (found.kind != TimeOfImpact::Kind::none) return found.time;
     const double rest = std::max(end_a, end_b) - both;
     if (!(rest > 0.0)) return h;
-    const Traveller going_a = end_a > both ? Traveller{&a, &paths_[i], both} : Traveller{&a, &still_[i], 0.0};
-    const Traveller going_b = end_b > both ? Traveller{&b, &paths_[j], both} : Traveller{&b, &still_[j], 0.0};
+    const MovingBody going_a = end_a > both ? MovingBody{&a, &paths_[i], both} : MovingBody{&a, &still_[i], 0.0};
+    const MovingBody going_b = end_b > both ? MovingBody{&b, &paths_[j], both} : MovingBody{&b, &still_[j], 0.0};
     found = search_.find(going_a, going_b, rest, pair.overlap);
     return found.kind != TimeOfImpact::Kind::none ? both + found.time : h;
 }
 
 CcdClamp::CcdClamp(const std::vector<Body>& bodies)
     : limits_(bodies.size()), least_thin_(std::numeric_limits<double>::infinity()) {
-    const bool surfaces = std::any_of(bodies.begin(), bodies.end(), surface);
+    const bool meshes = std::any_of(bodies.begin(), bodies.end(), mesh);
     for (const Body& body : bodies) {
         arm_.push_back(ball(body) ? 0.0 : body.radius);
         const double of_body = depth_.emplace_back(std::isinf(body.radius) ? body.radius : depth(body));
-        least_thin_ =
-            std::min(least_thin_, thin(of_body, surfaces ? std::numeric_limits<double>::infinity() : of_body));
+        least_thin_ = std::min(least_thin_, thin(of_body, meshes ? std::numeric_limits<double>::infinity() : of_body));
     }
 }
 
@@ -135,7 +134,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const CcdStep& step, const Find
             still_[k] = paths_[k];
         }
     }
-    for (int round = 0; round < tuning::motion_limit_rounds; ++round) {
+    for (int round = 0; round < tuning::ccd_rounds; ++round) {
         bool shorter = false;
         for (FastPair& pair : fast_) {
             double first = first_touch(pair, bodies, h);

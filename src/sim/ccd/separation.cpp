@@ -90,10 +90,10 @@ Vec3 nearest(Simplex& s) {
     }
 }
 
-const Vec3& farthest(const SupportPoints& cloud, const Vec3& direction) {
-    const Vec3* best = &cloud.arms[0];
+const Vec3& farthest(const SupportPoints& points, const Vec3& direction) {
+    const Vec3* best = &points.arms[0];
     double most = direction.dot(*best);
-    for (const Vec3& arm : cloud.arms) {
+    for (const Vec3& arm : points.arms) {
         const double d = direction.dot(arm);
         if (d > most) {
             most = d;
@@ -109,15 +109,15 @@ struct Feature {
     int size = 0;
 };
 
-Feature feature_along(const SupportPoints& cloud, const Vec3& direction, double tolerance) {
-    const double most = direction.dot(farthest(cloud, direction)) - tolerance;
+Feature feature_along(const SupportPoints& points, const Vec3& direction, double tolerance) {
+    const double most = direction.dot(farthest(points, direction)) - tolerance;
     Feature feature;
-    for (const Vec3& arm : cloud.arms)
+    for (const Vec3& arm : points.arms)
         if (direction.dot(arm) >= most && feature.size < 3) feature.arms[std::size_t(feature.size++)] = arm;
     return feature;
 }
 
-Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
+Vec3 perpendicular(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
 // n ~ the component of w = q - p across the edge e (unit, rotating at omega): n' = (u' - n (n.u')) / |u|.
 Vec3 rate_from_edge(const Vec3& normal, const Vec3& edge, const Vec3& omega, const Vec3& w, const Vec3& w_rate) {
@@ -126,7 +126,7 @@ Vec3 rate_from_edge(const Vec3& normal, const Vec3& edge, const Vec3& omega, con
     if (length == 0.0) return Vec3::Zero();
     const Vec3 edge_rate = omega.cross(edge);
     const Vec3 u_rate = w_rate - (w_rate.dot(edge) + w.dot(edge_rate)) * edge - w.dot(edge) * edge_rate;
-    return across(u_rate, normal) / length;
+    return perpendicular(u_rate, normal) / length;
 }
 
 }  // namespace
@@ -170,7 +170,7 @@ Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& n
         if (length < 1e-6) return {normal, omega_a.cross(normal)};  // parallel edges: any axis that rotates with one
         const Vec3 c_rate = omega_a.cross(ea).cross(eb) + ea.cross(omega_b.cross(eb));
         const double sign = c.dot(normal) < 0.0 ? -1.0 : 1.0;
-        return {normal, across(sign / length * c_rate, normal)};
+        return {normal, perpendicular(sign / length * c_rate, normal)};
     }
     const Vec3 &p = fa.arms[0], &q = fb.arms[0];
     const Vec3 w = d + q - p, w_rate = v + omega_b.cross(q) - omega_a.cross(p);
@@ -178,7 +178,7 @@ Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& n
     if (w.norm() <= tolerance) return {normal, Vec3::Zero()};
     if (fa.size == 2) return {normal, rate_from_edge(normal, (fa.arms[1] - p).normalized(), omega_a, w, w_rate)};
     if (fb.size == 2) return {normal, rate_from_edge(normal, (fb.arms[1] - q).normalized(), omega_b, w, w_rate)};
-    return {normal, across(w_rate, normal) / w.norm()};
+    return {normal, perpendicular(w_rate, normal) / w.norm()};
 }
 
 namespace {
@@ -197,8 +197,8 @@ struct Height {
     double at(double s) const { return value + s * rate; }
 };
 
-Height height(const SupportPoints& cloud, std::size_t i, const Axis& axis) {
-    return {axis.normal.dot(cloud.arms[i]), axis.rate.dot(cloud.arms[i]) + axis.normal.dot(cloud.arm_velocity(i))};
+Height height(const SupportPoints& points, std::size_t i, const Axis& axis) {
+    return {axis.normal.dot(points.arms[i]), axis.rate.dot(points.arms[i]) + axis.normal.dot(points.arm_velocity(i))};
 }
 
 // The lowest of B's points and the highest of A's at time s, as one line; at equal heights the faster closing one.

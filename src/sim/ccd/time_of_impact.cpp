@@ -13,13 +13,13 @@ namespace tumble {
 namespace {
 
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
-using SurfaceRef = std::shared_ptr<const CollisionMesh>;
+using MeshRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
 // Shape that is searched: that of the whole body, or one part of a compound, at its place in the body.
-const CollisionShape& collider_of(const Traveller& t) { return t.part ? t.part->collider : t.body->collider; }
-double size_of(const Traveller& t) { return t.part ? t.part->reach : t.body->radius; }
-Pose pose_of(const Traveller& t, const Motion& motion) {
+const CollisionShape& collider_of(const MovingBody& t) { return t.part ? t.part->collider : t.body->collider; }
+double size_of(const MovingBody& t) { return t.part ? t.part->reach : t.body->radius; }
+Pose pose_of(const MovingBody& t, const Motion& motion) {
     const Pose body{motion.position, motion.rotation};
     return t.part ? part_pose(body, *t.part) : body;
 }
@@ -30,8 +30,8 @@ struct Scale {
     double speed;  // m/s: rates below are rounding
 };
 
-Scale scale_of(const Traveller& a, const Traveller& b) {
-    const auto of = [](const Traveller& t) {
+Scale scale_of(const MovingBody& a, const MovingBody& b) {
+    const auto of = [](const MovingBody& t) {
         const double size = std::isfinite(t.body->radius) ? t.body->radius : 0.0;
         return std::pair{gap_rounding(*t.body, t.path->position(t.since)),
                          t.path->velocity(t.since).cwiseAbs().maxCoeff() + t.path->spin_bound() * size};
@@ -58,7 +58,7 @@ double fall_time(double h, double v, double a, const Scale& scale) {
 
 // First time at which two points in uniform relative motion (d + v t) come within r of each other; infinity if there is
 // none up to the horizon.
-double approach_time(const Vec3& d, const Vec3& v, double r, double horizon, const Traveller& a, const Traveller& b) {
+double approach_time(const Vec3& d, const Vec3& v, double r, double horizon, const MovingBody& a, const MovingBody& b) {
     const double closing = -d.dot(v), square = d.squaredNorm();
     if (!(closing > 0.0)) return infinity;
     if (square - r * r > 2.0 * closing * horizon) return infinity;  // most pairs: too far apart to meet in time
@@ -83,38 +83,38 @@ double rounding_of(const CollisionShape& collider) {
 }
 
 // Sets the constant data of the support points.
-void prepare(SupportPoints& cloud, const Traveller& t, double horizon) {
-    cloud.spin_bound = t.path->spin_bound();
-    cloud.turning_bound = t.path->turning_bound();
-    cloud.radius = rounding_of(collider_of(t));
-    cloud.reach = t.part ? t.part->place.position.norm() : 0.0;
-    cloud.arms.assign(1, Vec3::Zero());
+void prepare(SupportPoints& points, const MovingBody& t, double horizon) {
+    points.spin_bound = t.path->spin_bound();
+    points.turning_bound = t.path->turning_bound();
+    points.radius = rounding_of(collider_of(t));
+    points.reach = t.part ? t.part->place.position.norm() : 0.0;
+    points.arms.assign(1, Vec3::Zero());
     if (const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t))) {
-        cloud.reach += (*hull)->radius;
-        cloud.arms.resize((*hull)->vertices.size());
+        points.reach += (*hull)->radius;
+        points.arms.resize((*hull)->vertices.size());
     }
-    cloud.acceleration_change =
+    points.acceleration_change =
         t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
 }
 
-void pose(SupportPoints& cloud, const Traveller& t, double time, const Motion& motion) {
-    cloud.center = motion.position;
-    cloud.velocity = motion.velocity;
-    cloud.acceleration = t.path->acceleration(t.since + time);
-    cloud.angular_velocity = motion.angular_velocity;
+void pose(SupportPoints& points, const MovingBody& t, double time, const Motion& motion) {
+    points.center = motion.position;
+    points.velocity = motion.velocity;
+    points.acceleration = t.path->acceleration(t.since + time);
+    points.angular_velocity = motion.angular_velocity;
     const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t));
     if (t.part) {  // arms start at the body's center of mass here too: the points move as the body does
         const Vec3 place = motion.rotation * t.part->place.position;
         const Mat3 turn = motion.rotation * t.part->place.rotation;
-        for (std::size_t i = 0; i < cloud.arms.size(); ++i)
-            cloud.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
+        for (std::size_t i = 0; i < points.arms.size(); ++i)
+            points.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
     } else if (hull) {
-        for (std::size_t i = 0; i < cloud.arms.size(); ++i) cloud.arms[i] = motion.rotation * (*hull)->vertices[i];
+        for (std::size_t i = 0; i < points.arms.size(); ++i) points.arms[i] = motion.rotation * (*hull)->vertices[i];
     }
 }
 
 // A ball does not need its orientation.
-Motion motion_of(const Traveller& t, double time) {
+Motion motion_of(const MovingBody& t, double time) {
     const double at = t.since + time;
     if (!std::holds_alternative<Ball>(t.body->collider)) return t.path->at(at);
     Motion motion;
@@ -124,13 +124,13 @@ Motion motion_of(const Traveller& t, double time) {
 }
 
 // A bounding ball of the searched shape, with bounds of its motion.
-struct Ballpark {
-    Traveller traveller;
+struct BoundingBall {
+    MovingBody moving_body;
     Vec3 center, velocity, acceleration;
     double acceleration_change, turning_speed, radius;
 };
 
-Ballpark ballpark_of(const Traveller& t, const Motion& motion, double horizon) {
+BoundingBall bounding_ball_of(const MovingBody& t, const Motion& motion, double horizon) {
     const Vec3 acceleration = t.path->acceleration(t.since);
     const double change = t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - acceleration).norm();
     const double arm = t.part ? t.part->place.position.norm() : 0.0;
@@ -139,7 +139,7 @@ Ballpark ballpark_of(const Traveller& t, const Motion& motion, double horizon) {
 }
 
 // Least time for closing a gap in any direction.
-double least_time(double gap, const Ballpark& a, const Ballpark& b) {
+double least_time(double gap, const BoundingBall& a, const BoundingBall& b) {
     if (!(gap > 0.0)) return 0.0;
     const double speed = (b.velocity - a.velocity).norm() + a.turning_speed + b.turning_speed;
     const double acceleration =
@@ -149,24 +149,24 @@ double least_time(double gap, const Ballpark& a, const Ballpark& b) {
 }
 
 // The parts of a compound, one search each; other shapes unchanged.
-std::vector<Ballpark> parts_of(const Traveller& whole, double horizon) {
+std::vector<BoundingBall> parts_of(const MovingBody& whole, double horizon) {
     const Motion motion = motion_of(whole, 0.0);
-    std::vector<Ballpark> parts;
+    std::vector<BoundingBall> parts;
     if (const auto* compound = std::get_if<CompoundRef>(&whole.body->collider))
         for (const Compound::Part& part : (*compound)->parts)
-            parts.push_back(ballpark_of({whole.body, whole.path, whole.since, &part}, motion, horizon));
+            parts.push_back(bounding_ball_of({whole.body, whole.path, whole.since, &part}, motion, horizon));
     else
-        parts.push_back(ballpark_of(whole, motion, horizon));
+        parts.push_back(bounding_ball_of(whole, motion, horizon));
     return parts;
 }
 
 // The half-space as the point of its plane below the other's center.
-void pose_half_space(SupportPoints& cloud, const HalfSpace& space, const Motion& motion, const Vec3& other) {
+void pose_half_space(SupportPoints& points, const HalfSpace& space, const Motion& motion, const Vec3& other) {
     const Vec3 normal = motion.rotation * space.normal;
     const Vec3 foot = other - (normal.dot(other - motion.position) - space.offset) * normal;
-    cloud.velocity = motion.point_velocity(foot - motion.position);
-    cloud.acceleration_change += cloud.turning_bound * (foot - motion.position).norm();
-    cloud.center = foot;
+    points.velocity = motion.point_velocity(foot - motion.position);
+    points.acceleration_change += points.turning_bound * (foot - motion.position).norm();
+    points.center = foot;
 }
 
 }  // namespace
@@ -177,16 +177,16 @@ double gap_rounding(const Body& body, const Vec3& position) {
 }
 
 struct ImpactSearch::Pair {
-    Traveller a, b;
+    MovingBody a, b;
     Scale scale;
-    double size;                             // m, of the smaller body
-    double overlap;                          // m, allowed
-    const HalfSpace* plane = nullptr;        // of A
-    const CollisionMesh* surface = nullptr;  // of A, if A is a mesh
-    std::uint32_t triangle = 0;              // index of one of its triangles
+    double size;                          // m, of the smaller body
+    double overlap;                       // m, allowed
+    const HalfSpace* plane = nullptr;     // of A
+    const CollisionMesh* mesh = nullptr;  // of A, if A is a mesh
+    std::uint32_t triangle = 0;           // index of one of its triangles
 };
 
-TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double horizon, double overlap) {
+TimeOfImpact ImpactSearch::find(const MovingBody& a, const MovingBody& b, double horizon, double overlap) {
     const CollisionShape &shape_a = a.body->collider, &shape_b = b.body->collider;
     const auto *ball_a = std::get_if<Ball>(&shape_a), *ball_b = std::get_if<Ball>(&shape_b);
     const bool parabolic = a.path->parabolic() && b.path->parabolic();
@@ -198,13 +198,13 @@ TimeOfImpact ImpactSearch::find(const Traveller& a, const Traveller& b, double h
                       horizon);
     }
     // Half-spaces and meshes come first; the search is symmetric otherwise.
-    if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<SurfaceRef>(shape_b)) {
-        if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<SurfaceRef>(shape_a)) return {};
+    if (std::holds_alternative<HalfSpace>(shape_b) || std::holds_alternative<MeshRef>(shape_b)) {
+        if (std::holds_alternative<HalfSpace>(shape_a) || std::holds_alternative<MeshRef>(shape_a)) return {};
         return find(b, a, horizon, overlap);
     }
     if (std::holds_alternative<CompoundRef>(shape_a) || std::holds_alternative<CompoundRef>(shape_b))
         return search_parts(a, b, horizon, overlap);
-    if (std::holds_alternative<SurfaceRef>(shape_a)) return search_surface(a, b, horizon, overlap);
+    if (std::holds_alternative<MeshRef>(shape_a)) return search_mesh(a, b, horizon, overlap);
 
     Pair pair{
         a,       b, scale_of(a, b), std::min(a.body->radius, b.body->radius), overlap, std::get_if<HalfSpace>(&shape_a),
@@ -240,16 +240,16 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         if (!(t < horizon)) return {};
         const Motion motion_a = motion_of(pair.a, t), motion_b = motion_of(pair.b, t);
         pose(b_, pair.b, t, motion_b);
-        if (pair.surface) {
-            const auto& corners = pair.surface->triangles[pair.triangle].vertices;
-            a_.center = motion_a.to_world(pair.surface->vertices[corners[0]]);
+        if (pair.mesh) {
+            const auto& corners = pair.mesh->triangles[pair.triangle].vertices;
+            a_.center = motion_a.to_world(pair.mesh->vertices[corners[0]]);
             a_.velocity.setZero();  // meshes are fixed
             a_.acceleration.setZero();
             a_.angular_velocity.setZero();
             a_.arms.resize(3);
             a_.reach = 0.0;
             for (std::size_t i = 0; i < 3; ++i) {
-                a_.arms[i] = motion_a.to_world(pair.surface->vertices[corners[i]]) - a_.center;
+                a_.arms[i] = motion_a.to_world(pair.mesh->vertices[corners[i]]) - a_.center;
                 a_.reach = std::max(a_.reach, a_.arms[i].norm());
             }
         } else {
@@ -305,12 +305,12 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
         return;
     }
     // At so small a gap only the features themselves give the axis to the last digit.
-    if (pair.surface) {
+    if (pair.mesh) {
         if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b)))
             propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);
     } else {
         manifolds_.clear();
-        scratch_.left_out.clear();
+        scratch_.reduced.clear();
         const Pose pose_a = pose_of(pair.a, a), pose_b = pose_of(pair.b, b);
         collide(collider_of(pair.a), collider_of(pair.b), {pose_a, pose_b, 16.0 * near, scratch_, manifolds_});
         for (const Manifold& m : manifolds_) normals_.push_back(m.normal);
@@ -359,24 +359,25 @@ void ImpactSearch::propose_triangle_axes(const Polyhedron& shape, const Mat3& ro
 }
 
 // Part by part, those with the earliest possible impact first: the first impact found ends the search for later parts.
-TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, double horizon, double overlap) {
+TimeOfImpact ImpactSearch::search_parts(const MovingBody& a, const MovingBody& b, double horizon, double overlap) {
     const auto* plane = std::get_if<HalfSpace>(&a.body->collider);
-    const bool surface = std::holds_alternative<SurfaceRef>(a.body->collider);
+    const bool mesh = std::holds_alternative<MeshRef>(a.body->collider);
     const Vec3 normal = plane ? Vec3(a.path->orientation(a.since) * plane->normal) : Vec3(Vec3::Zero());
-    const auto time = [&](const Ballpark& ball_a, const Ballpark& ball_b) {
+    const auto time = [&](const BoundingBall& ball_a, const BoundingBall& ball_b) {
         if (plane && a.path->turns()) return 0.0;
         const Vec3 d = ball_b.center - ball_a.center;
         return least_time((plane ? normal.dot(d) - plane->offset : d.norm() - ball_a.radius) - ball_b.radius, ball_a,
                           ball_b);
     };
-    if (!(time(ballpark_of(a, motion_of(a, 0.0), horizon), ballpark_of(b, motion_of(b, 0.0), horizon)) < horizon))
+    if (!(time(bounding_ball_of(a, motion_of(a, 0.0), horizon), bounding_ball_of(b, motion_of(b, 0.0), horizon)) <
+          horizon))
         return {};
-    const std::vector<Ballpark> parts_a = parts_of(a, horizon), parts_b = parts_of(b, horizon);
+    const std::vector<BoundingBall> parts_a = parts_of(a, horizon), parts_b = parts_of(b, horizon);
     part_pairs_.clear();
-    for (const Ballpark& part_a : parts_a) {
-        for (const Ballpark& part_b : parts_b) {
+    for (const BoundingBall& part_a : parts_a) {
+        for (const BoundingBall& part_b : parts_b) {
             const double from = time(part_a, part_b);
-            if (from < horizon) part_pairs_.push_back({from, part_a.traveller, part_b.traveller});
+            if (from < horizon) part_pairs_.push_back({from, part_a.moving_body, part_b.moving_body});
         }
     }
     std::stable_sort(part_pairs_.begin(), part_pairs_.end(),
@@ -385,7 +386,7 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
     for (const PartPair& p : part_pairs_) {
         if (!(p.from < horizon)) break;
         const Pair pair{p.a, p.b, scale_of(p.a, p.b), std::min(size_of(p.a), size_of(p.b)), overlap, plane, nullptr, 0};
-        const TimeOfImpact found = surface ? search_surface(p.a, p.b, horizon, overlap) : search(pair, p.from, horizon);
+        const TimeOfImpact found = mesh ? search_mesh(p.a, p.b, horizon, overlap) : search(pair, p.from, horizon);
         if (found.kind == TimeOfImpact::Kind::none) continue;
         first = found;
         horizon = found.time;
@@ -393,27 +394,26 @@ TimeOfImpact ImpactSearch::search_parts(const Traveller& a, const Traveller& b, 
     return first;
 }
 
-TimeOfImpact ImpactSearch::search_surface(const Traveller& surface, const Traveller& other, double horizon,
-                                          double overlap) {
-    const CollisionMesh& triangles = *std::get<SurfaceRef>(surface.body->collider);
+TimeOfImpact ImpactSearch::search_mesh(const MovingBody& mesh, const MovingBody& other, double horizon,
+                                       double overlap) {
+    const CollisionMesh& triangles = *std::get<MeshRef>(mesh.body->collider);
     // The triangles that the other shape can reach, in the frame of the mesh; meshes are fixed.
-    const Motion frame = surface.path->at(surface.since);
+    const Motion frame = mesh.path->at(mesh.since);
     const Bounds world = other.path->swept(other.since, other.since + horizon).grown(other.body->radius);
     const Vec3 center = frame.rotation.transpose() * (world.center() - frame.position);
     const Vec3 half = frame.rotation.transpose().cwiseAbs() * (0.5 * world.extent());
     candidates_.clear();
     triangles.tree.query({center - half, center + half}, [&](std::uint32_t i) { candidates_.push_back(i); });
     std::sort(candidates_.begin(), candidates_.end());
-    const Ballpark still = ballpark_of(surface, frame, horizon),
-                   ball = ballpark_of(other, motion_of(other, 0.0), horizon);
+    const BoundingBall still = bounding_ball_of(mesh, frame, horizon),
+                       ball = bounding_ball_of(other, motion_of(other, 0.0), horizon);
     const Vec3 middle = frame.rotation.transpose() * (ball.center - frame.position);
     TimeOfImpact first;
     for (const std::uint32_t triangle : candidates_) {
         const Bounds& box = triangles.tree.item(triangle);
         const double gap = (middle - middle.cwiseMax(box.min).cwiseMin(box.max)).norm() - ball.radius;
         if (other.part && !(least_time(gap, still, ball) < horizon)) continue;
-        const Pair pair{surface,    other,   scale_of(surface, other), size_of(other), overlap, nullptr,
-                        &triangles, triangle};
+        const Pair pair{mesh, other, scale_of(mesh, other), size_of(other), overlap, nullptr, &triangles, triangle};
         const TimeOfImpact found = search(pair, 0.0, first.kind == TimeOfImpact::Kind::none ? horizon : first.time);
         if (found.kind != TimeOfImpact::Kind::none) first = found;
     }

@@ -13,7 +13,7 @@
 namespace tumble {
 
 /// A body in motion: its trajectory, and the time since its start when the search begins.
-struct Traveller {
+struct MovingBody {
     const Body* body = nullptr;
     const Trajectory* path = nullptr;
     double since = 0.0;                    // s
@@ -39,13 +39,13 @@ public:
 
     /// Bodies that touch at the start and part, or rest against each other, have no impact there. `overlap` (m):
     /// allowed overlap before an impact counts.
-    TimeOfImpact find(const Traveller& a, const Traveller& b, double horizon, double overlap = 0.0);
+    TimeOfImpact find(const MovingBody& a, const MovingBody& b, double horizon, double overlap = 0.0);
 
 private:
     struct Pair;
     TimeOfImpact search(const Pair& pair, double from, double horizon);
-    TimeOfImpact search_parts(const Traveller& a, const Traveller& b, double horizon, double overlap);
-    TimeOfImpact search_surface(const Traveller& surface, const Traveller& other, double horizon, double overlap);
+    TimeOfImpact search_parts(const MovingBody& a, const MovingBody& b, double horizon, double overlap);
+    TimeOfImpact search_mesh(const MovingBody& mesh, const MovingBody& other, double horizon, double overlap);
     void propose(const Pair& pair, const Motion& a, const Motion& b, double near);
     void propose_triangle_axes(const Polyhedron& shape, const Mat3& rotation);
 
@@ -57,7 +57,7 @@ private:
     std::vector<std::uint32_t> candidates_;  // triangle indices
     struct PartPair {
         double from;  // s, before which they certainly stay apart
-        Traveller a, b;
+        MovingBody a, b;
     };
     std::vector<PartPair> part_pairs_;
 };

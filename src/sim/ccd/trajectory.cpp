@@ -104,9 +104,9 @@ Trajectory Trajectory::towards(const Body& body, const Motion& end, double span,
     Trajectory path;
     path.start_ = body.position;
     path.velocity_ = body.velocity;
-    const Vec3 way = (end.position - body.position) / span;
-    path.acceleration_ = (6.0 * way - 4.0 * body.velocity - 2.0 * end.velocity) / span;
-    path.jerk_ = (6.0 * (body.velocity + end.velocity) - 12.0 * way) / (span * span);
+    const Vec3 mean_velocity = (end.position - body.position) / span;
+    path.acceleration_ = (6.0 * mean_velocity - 4.0 * body.velocity - 2.0 * end.velocity) / span;
+    path.jerk_ = (6.0 * (body.velocity + end.velocity) - 12.0 * mean_velocity) / (span * span);
     if (torque_free)
         path.turn_freely(body);
     else

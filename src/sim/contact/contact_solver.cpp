@@ -18,7 +18,7 @@ ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
       soft_(bodies) {}
 
 void ContactSolver::look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
-    const double most = tuning::direct_turn / problem.patches.h;
+    const double most = tuning::direct_turn / problem.settings.h;
     pool.for_bodies(islands.bodies(), tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = problem.bodies[i];
         gains_[i] = (body.velocity - problem.before[i].velocity).squaredNorm() / (body.radius * body.radius);
@@ -87,7 +87,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             softly_.push_back(k);
             continue;
         }
-        const bool free = islands.floats(k);
+        const bool free = islands.is_free(k);
         const bool alone = bodies.size() == 1;
         if (!free && turns_fast(bodies) && !(alone && rolls(problem, manifolds))) {
             softly_.push_back(k);
@@ -105,7 +105,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
                 memory.work = memory.solver->factor_work(problem, bodies, manifolds);
                 if (memory.work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
-                    const std::size_t expected = memory.work * std::size_t(1 + memory.factorisations);
+                    const std::size_t expected = memory.work * std::size_t(1 + memory.factorizations);
                     candidates_.push_back({k, ratio / (needed / enough), memory.direct ? expected / 2 : expected});
                     continue;
                 }
@@ -125,7 +125,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         } else {
             softly_.push_back(c.island);
             // One expensive step must not exclude the island permanently.
-            int& expected = memory_[islands.bodies(c.island)[0]].factorisations;
+            int& expected = memory_[islands.bodies(c.island)[0]].factorizations;
             expected -= expected / 4;
         }
     }
@@ -134,9 +134,10 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 
 // Substep multiplier that an island needs: high piles of soft contacts would buckle, and small bodies would sink in by
 // their own weight, because the sag of a spring is the same for any size.
-int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
+int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
+                                      std::size_t island) {
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
-    const double h = problem.patches.h, n = substeps_of(h);
+    const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
     for (const std::uint32_t i : islands.bodies(island)) square = std::max(square, gains_[i]);
     const double sag = h / (n * n) * std::sqrt(square);
@@ -146,33 +147,33 @@ int ContactSolver::finer(const ContactProblem& problem, const ContactIslands& is
 
 // Batches soft islands by equal substep multiplier, each batch no larger than a cache, or one large island. Returns
 // whether the batches are those of the last step.
-bool ContactSolver::deal(const ContactIslands& islands, const ContactProblem& problem) {
+bool ContactSolver::make_batches(const ContactIslands& islands, const ContactProblem& problem) {
     std::sort(softly_.begin(), softly_.end());
-    fineness_.clear();
-    for (const std::size_t k : softly_) fineness_.push_back(finer(problem, islands, k));
-    Deal now{islands.changes(), softly_, fineness_};
-    if (now == dealt_) return true;
-    dealt_ = std::move(now);
-    parts_used_ = 0;
+    substep_multipliers_.clear();
+    for (const std::size_t k : softly_) substep_multipliers_.push_back(substep_multiplier(problem, islands, k));
+    BatchInput now{islands.changes(), softly_, substep_multipliers_};
+    if (now == batched_) return true;
+    batched_ = std::move(now);
+    batches_used_ = 0;
     for (const int wanted : {1, 2, 4}) {
-        SoftSolver::Part* part = nullptr;
+        SoftSolver::Batch* batch = nullptr;
         for (std::size_t s = 0; s < softly_.size(); ++s) {
-            if (fineness_[s] != wanted) continue;
+            if (substep_multipliers_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);
             const auto manifolds = islands.manifolds(softly_[s]);
-            if (!part || part->manifolds.size() + manifolds.size() > tuning::soft_part_manifolds) {
-                if (parts_used_ == parts_.size()) parts_.emplace_back();
-                part = &parts_[parts_used_++];
-                part->bodies.clear();
-                part->manifolds.clear();
-                part->pairs.clear();
-                part->island_ends.clear();
-                part->finer = wanted;
+            if (!batch || batch->manifolds.size() + manifolds.size() > tuning::soft_batch_manifolds) {
+                if (batches_used_ == batches_.size()) batches_.emplace_back();
+                batch = &batches_[batches_used_++];
+                batch->bodies.clear();
+                batch->manifolds.clear();
+                batch->pairs.clear();
+                batch->island_ends.clear();
+                batch->substep_multiplier = wanted;
             }
-            part->bodies.insert(part->bodies.end(), bodies.begin(), bodies.end());
-            part->manifolds.insert(part->manifolds.end(), manifolds.begin(), manifolds.end());
-            part->pairs.insert(part->pairs.end(), islands.pairs(softly_[s]).begin(), islands.pairs(softly_[s]).end());
-            part->island_ends.push_back(part->bodies.size());
+            batch->bodies.insert(batch->bodies.end(), bodies.begin(), bodies.end());
+            batch->manifolds.insert(batch->manifolds.end(), manifolds.begin(), manifolds.end());
+            batch->pairs.insert(batch->pairs.end(), islands.pairs(softly_[s]).begin(), islands.pairs(softly_[s]).end());
+            batch->island_ends.push_back(batch->bodies.size());
         }
     }
     return false;
@@ -187,7 +188,7 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         Memory& memory = memory_[bodies[0]];
         if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
         failed_[k] = !memory.solver->solve(problem, bodies, islands.manifolds(direct_[k]));
-        memory.factorisations = memory.solver->factorisations();
+        memory.factorizations = memory.solver->factorizations();
     });
     for (const std::size_t k : softly_) memory_[islands.bodies(k)[0]].direct = false;
     for (std::size_t k = 0; k < direct_.size(); ++k) {
@@ -195,26 +196,26 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         for (const std::uint32_t m : islands.manifolds(direct_[k])) problem.manifolds[m].solved_directly = true;
         // The first solve after a landing may be expensive. An island that is expensive again, or always, is left to
         // the soft solver.
-        const bool hard = memory.work * std::size_t(1 + memory.factorisations) > 2 * tuning::direct_budget;
+        const bool hard = memory.work * std::size_t(1 + memory.factorizations) > 2 * tuning::direct_budget;
         const bool first = !memory.direct && memory.failures == 0;
         memory.direct = failed_[k] == 0;
-        if (hard && first) memory.factorisations = 1;
+        if (hard && first) memory.factorizations = 1;
         if (failed_[k] || (hard && !first)) {
             memory.wait = tuning::direct_wait << memory.failures;
             memory.failures = std::min(memory.failures + 1, tuning::direct_most_failures);
-            memory.factorisations = 1;
+            memory.factorizations = 1;
         } else if (!hard) {
             memory.failures = 0;
         }
         if (failed_[k]) softly_.push_back(direct_[k]);
     }
     if (!softly_.empty()) {
-        const bool same = deal(islands, problem);
-        soft_.solve(problem, std::span(parts_).first(parts_used_), same, pool);
+        const bool same = make_batches(islands, problem);
+        soft_.solve(problem, std::span(batches_).first(batches_used_), same, pool);
     }
     for (std::size_t k = 0; k < islands.size(); ++k)
-        if (islands.floats(k) && islands.bodies(k).size() > 1)
-            keep_angular_momentum(islands.bodies(k), problem.bodies, problem.patches.h);
+        if (islands.is_free(k) && islands.bodies(k).size() > 1)
+            keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h);
 }
 
 }  // namespace tumble

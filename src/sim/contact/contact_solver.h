@@ -34,7 +34,7 @@ private:
     struct Memory {  // state of an island, kept with its lowest body
         std::unique_ptr<DirectSolver> solver;
         int wait = 0, failures = 0;  // steps until the next trial; consecutive failures
-        int factorisations = 2;      // of the last solve: bound for the next one
+        int factorizations = 2;      // of the last solve: bound for the next one
         std::size_t work = 0;        // block operations of one factorization
         bool direct = false;         // solved directly in the last step
         LoadEstimate load;           // of the last evaluation
@@ -51,8 +51,8 @@ private:
     bool rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const;
     LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                       double enough);
-    int finer(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
-    bool deal(const ContactIslands& islands, const ContactProblem& problem);
+    int substep_multiplier(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
+    bool make_batches(const ContactIslands& islands, const ContactProblem& problem);
 
     Choice choice_;
     Effort effort_;
@@ -67,16 +67,16 @@ private:
     bool few_ = false;                          // few pairs in all: every island may be solved directly
     std::vector<std::size_t> direct_, softly_;  // indices of islands
     std::vector<char> failed_;                  // by entry of direct_
-    std::vector<int> fineness_;                 // substep multiplier, by entry of softly_
-    struct Deal {
+    std::vector<int> substep_multipliers_;      // substep multiplier, by entry of softly_
+    struct BatchInput {
         std::uint64_t islands = 0;  // ContactIslands::changes() of the batches
         std::vector<std::size_t> softly;
-        std::vector<int> fineness;
-        bool operator==(const Deal&) const = default;
+        std::vector<int> substep_multipliers;
+        bool operator==(const BatchInput&) const = default;
     };
-    Deal dealt_;  // inputs from which the batches were made
-    std::vector<SoftSolver::Part> parts_;
-    std::size_t parts_used_ = 0;
+    BatchInput batched_;  // inputs from which the batches were made
+    std::vector<SoftSolver::Batch> batches_;
+    std::size_t batches_used_ = 0;
 };
 
 }  // namespace tumble

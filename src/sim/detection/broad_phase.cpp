@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-double turning_way(const Body& body, double h) { return h * body.angular_velocity.norm() * body.radius; }
+double turning_displacement(const Body& body, double h) { return h * body.angular_velocity.norm() * body.radius; }
 
 bool inside(const Bounds& inner, const Bounds& outer) {
     for (int k = 0; k < 3; ++k)
@@ -22,9 +22,9 @@ double room(const Bounds& inner, const Bounds& outer) {
     return std::min((inner.min - outer.min).minCoeff(), (outer.max - inner.max).minCoeff());
 }
 
-Bounds carried(Bounds bounds, const Vec3& way) {
-    bounds.min += way.cwiseMin(0.0);
-    bounds.max += way.cwiseMax(0.0);
+Bounds carried(Bounds bounds, const Vec3& displacement) {
+    bounds.min += displacement.cwiseMin(0.0);
+    bounds.max += displacement.cwiseMax(0.0);
     return bounds;
 }
 
@@ -33,7 +33,7 @@ Bounds carried(Bounds bounds, const Vec3& way) {
 Bounds bounds_of_step(const Body& body, double h) {
     const Bounds bounds = world_bounds(body.collider, body.pose());
     if (!body.moves()) return bounds;
-    return carried(bounds.grown(tuning::speculative * body.radius + turning_way(body, h)), h * body.velocity);
+    return carried(bounds.grown(tuning::speculative * body.radius + turning_displacement(body, h)), h * body.velocity);
 }
 
 const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>& bodies, double h, ThreadPool* pool) {
@@ -95,13 +95,15 @@ bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) {
     State& state = states_[i];
     if (active(body) != state.active) return false;
     if (!state.active) return resting_tree_.holds(i);
-    const double way = h * body.velocity.norm(), margin = tuning::speculative * body.radius + turning_way(body, h);
-    if (state.way > tuning::fat_steps * way + tuning::fat_bounds * body.radius) return false;  // it was faster
+    const double displacement = h * body.velocity.norm(),
+                 margin = tuning::speculative * body.radius + turning_displacement(body, h);
+    if (state.displacement > tuning::fat_steps * displacement + tuning::fat_bounds * body.radius)
+        return false;  // it was faster
     // A body has usually hardly moved since its bounds were computed: no point of it by more than this (chord between
     // quaternions: narrow_phase.h).
     const double moved = (body.position - state.position).norm() +
                          2.0 * (body.orientation.coeffs() - state.orientation.coeffs()).norm() * body.radius;
-    if (moved + margin + way <= state.room) return true;
+    if (moved + margin + displacement <= state.room) return true;
     const Bounds bounds = world_bounds(body.collider, body.pose()), &fat = active_tree_.box(i);
     if (!inside(carried(bounds.grown(margin), h * body.velocity), fat)) return false;
     state.position = body.position;
@@ -137,7 +139,7 @@ void BroadPhase::visit(std::uint32_t i, const Body& body, double h) {
     const Vec3 further = (tuning::fat_steps - 1.0) * h * body.velocity;
     DynamicTree& tree = state.active ? active_tree_ : resting_tree_;
     tree.set(i, carried(bounds_of_step(body, h).grown(tuning::fat_bounds * body.radius), further));
-    state.way = tuning::fat_steps * h * body.velocity.norm();
+    state.displacement = tuning::fat_steps * h * body.velocity.norm();
     state.room = -1.0;
     state.moved = true;
     moved_.push_back(i);

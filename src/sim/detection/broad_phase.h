@@ -59,9 +59,9 @@ private:
     BoundsTree fixed_tree_;
     DynamicTree active_tree_, resting_tree_;  // each body is in one of them, according to its state
     struct State {
-        bool active = false;  // awake and not ballistic
-        bool moved = false;   // left its bounds in this update: its pairs are searched anew
-        double way = 0.0;     // m, lookahead of its fat bounds
+        bool active = false;        // awake and not ballistic
+        bool moved = false;         // left its bounds in this update: its pairs are searched anew
+        double displacement = 0.0;  // m, lookahead of its fat bounds
         // Pose of the last computation of its bounds, and their distance (m) inside the fat ones.
         Vec3 position = Vec3::Zero();
         Quat orientation = Quat::Identity();

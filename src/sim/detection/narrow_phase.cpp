@@ -47,8 +47,8 @@ struct Run {
     std::uint32_t from = 0, to = 0, count = 0;
 };
 
-std::span<const ContactPoint> left_out(const Manifold& m, const CollisionScratch& scratch) {
-    return std::span(scratch.left_out).subspan(m.first_left_out, m.left_out);
+std::span<const ContactPoint> reduced(const Manifold& m, const CollisionScratch& scratch) {
+    return std::span(scratch.reduced).subspan(m.first_reduced, m.reduced);
 }
 
 }  // namespace
@@ -96,7 +96,7 @@ std::vector<Manifold>& NarrowPhase::find(const std::vector<BroadPhase::Pair>& pa
     seen_.resize(bodies.size(), 0);
     each_share(pool, [&](Found& found) {
         found.manifolds.clear();
-        found.anchors.clear();
+        found.persistent.clear();
         found.changes.clear();
         if (!shares_stand) take_share(pool, found);
         for (const std::uint32_t i : found.bodies) view(views_[i], bodies[i]);
@@ -169,7 +169,7 @@ void NarrowPhase::park(const Entry& entry) {
     Parked& parked = parked_[entry.pair];
     parked.search = searches_[entry.search];
     parked.manifolds.assign(manifolds_.begin() + entry.first, manifolds_.begin() + entry.first + entry.count);
-    parked.anchors.assign(anchors_.begin() + entry.first, anchors_.begin() + entry.first + entry.count);
+    parked.persistent.assign(persistent_.begin() + entry.first, persistent_.begin() + entry.first + entry.count);
 }
 
 void NarrowPhase::unpark(Entry& entry) {
@@ -180,7 +180,7 @@ void NarrowPhase::unpark(Entry& entry) {
     entry.first = std::uint32_t(manifolds_.size());
     entry.count = std::uint32_t(parked.manifolds.size());
     manifolds_.insert(manifolds_.end(), parked.manifolds.begin(), parked.manifolds.end());
-    anchors_.insert(anchors_.end(), parked.anchors.begin(), parked.anchors.end());
+    persistent_.insert(persistent_.end(), parked.persistent.begin(), parked.persistent.end());
     moved_ = true;
     parked_.erase(found);
 }
@@ -269,14 +269,14 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
     double deepest = 0.0, spare = 0.0;  // of a pair of faces, in one manifold or two
     for (std::uint32_t k = entry.first; k < entry.first + entry.count; ++k) {
         Manifold& m = manifolds_[k];
-        follow(anchors_[k], a.pose, b.pose, m);
+        refresh(persistent_[k], a.pose, b.pose, m);
         double nearest = reach;
         for (int i = 0; i < m.count; ++i) {
             stands = stands && m.points[std::size_t(i)].separation <= reach;
             nearest = std::min(nearest, m.points[std::size_t(i)].separation);
         }
         deepest = m.more ? std::min(deepest, nearest) : nearest;
-        if (!m.more) spare = deepest_spare(anchors_[k], a.pose, b.pose, m);
+        if (!m.more) spare = deepest_reduced_point(persistent_[k], a.pose, b.pose, m);
         const bool last_of_faces = k + 1 == entry.first + entry.count || !manifolds_[k + 1].more;
         missed = missed || (last_of_faces && sank(spare, deepest, radius));
         // Whether it touches is known to less than the error of refreshed manifolds on edges and balls.
@@ -294,9 +294,9 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
     found.scratch.axis = last.axis;
     found.scratch.gap = 0.0;
     found.scratch.on_ball = false;
-    found.scratch.left_out.clear();
+    found.scratch.reduced.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
-    found.scratch.way = h * (b.velocity - a.velocity);
+    found.scratch.displacement = h * (b.velocity - a.velocity);
     found.scratch.turning =
         h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
     collide(*a.collider, *b.collider, {a.pose, b.pose, reach, found.scratch, found.manifolds});
@@ -304,10 +304,10 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
     last.gap = rounded_down(found.scratch.gap);
     for (std::size_t k = begin; k < found.manifolds.size(); ++k) {
         const Manifold& m = found.manifolds[k];
-        if (!remembers_ || m.count + m.left_out <= 2 * Manifold::capacity) continue;
+        if (!remembers_ || m.count + m.reduced <= 2 * Manifold::capacity) continue;
         last.sank = moved < tuning::missed_motion * radius &&
                     (last.sank || missed(std::span(manifolds_).subspan(entry.first, entry.count), m,
-                                         left_out(m, found.scratch), radius));
+                                         reduced(m, found.scratch), radius));
     }
     last.sank = last.sank && entry.count > 0;
     if (last.sank) add_more(entry, radius, begin, found);
@@ -334,31 +334,31 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
         const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;  // without a second manifold
         const auto bring = [&] {  // moves the old points to their present places on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
-                manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(anchors_[old].on_a()[i])
-                                                                          : b.pose.to_world(anchors_[old].on_b()[i]);
+                manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(persistent_[old].on_a()[i])
+                                                                          : b.pose.to_world(persistent_[old].on_b()[i]);
         };
         while (old < old_end && earlier(manifolds_[old], *m)) ++old;
         if (old < old_end && !earlier(*m, manifolds_[old])) {
             bring();
-            carry_over(manifolds_[old++], tuning::carry_reach * radius, *m);
+            match_impulses(manifolds_[old++], tuning::matching_distance * radius, *m);
             if (old < old_end && manifolds_[old].part == m->part && alone) {
                 bring();
-                hand_over(manifolds_[old], *m);
+                transfer_impulses(manifolds_[old], *m);
             }
         }
-        PersistentManifold& anchors =
-            found.anchors.emplace_back(make_anchors(*m, a.pose, b.pose, m->on_b() != swapped));
+        PersistentManifold& persistent =
+            found.persistent.emplace_back(make_persistent_manifold(*m, a.pose, b.pose, m->on_b() != swapped));
         if (m->more) continue;
-        keep_spares(left_out(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, anchors);
+        keep_reduced_points(reduced(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, persistent);
     }
     if (count != entry.count) {
         found.changes.push_back({index, begin, count});
         return;
     }
     std::copy(first, found.manifolds.end(), manifolds_.begin() + entry.first);
-    std::copy(found.anchors.begin() + begin, found.anchors.end(), anchors_.begin() + entry.first);
+    std::copy(found.persistent.begin() + begin, found.persistent.end(), persistent_.begin() + entry.first);
     found.manifolds.resize(begin);
-    found.anchors.resize(begin);
+    found.persistent.resize(begin);
 }
 
 // Adds second manifolds where reduced points are needed; found after all others.
@@ -370,7 +370,7 @@ void NarrowPhase::add_more(const Entry& entry, double radius, std::size_t begin,
         const auto first = std::find_if(old.begin(), old.end(), of_part);
         const auto last = std::find_if_not(first, old.end(), of_part);
         if (first == last) continue;
-        const Manifold more = grow({first, last}, radius, found.manifolds[k], found.scratch.left_out);
+        const Manifold more = grow({first, last}, radius, found.manifolds[k], found.scratch.reduced);
         if (more.count > 0) found.manifolds.push_back(more);
     }
 }
@@ -391,19 +391,19 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
         all += new_count_[i];
     }
     spare_manifolds_.resize(all);
-    spare_anchors_.resize(all);
+    spare_persistent_.resize(all);
     each_share(pool, [&](const Found& found) {
         // Unchanged manifolds are mostly adjacent: they are copied in one piece.
         Run run;
         const auto flush = [&] {
             copy_plain(manifolds_, run.from, run.count, spare_manifolds_, run.to);
-            copy_plain(anchors_, run.from, run.count, spare_anchors_, run.to);
+            copy_plain(persistent_, run.from, run.count, spare_persistent_, run.to);
         };
         auto change = found.changes.begin();
         for (const std::uint32_t i : found.entries) {
             if (change != found.changes.end() && change->entry == i) {
                 copy_plain(found.manifolds, change->first, change->count, spare_manifolds_, new_first_[i]);
-                copy_plain(found.anchors, change->first, change->count, spare_anchors_, new_first_[i]);
+                copy_plain(found.persistent, change->first, change->count, spare_persistent_, new_first_[i]);
                 ++change;
                 continue;
             }
@@ -425,7 +425,7 @@ void NarrowPhase::put_in_order(ThreadPool& pool) {
     }
     ++changes_;
     manifolds_.swap(spare_manifolds_);
-    anchors_.swap(spare_anchors_);
+    persistent_.swap(spare_persistent_);
     moved_ = false;
 }
 

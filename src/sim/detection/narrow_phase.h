@@ -85,14 +85,14 @@ private:
     struct Found {  // results of one thread
         CollisionScratch scratch;
         std::vector<Manifold> manifolds;
-        std::vector<PersistentManifold> anchors;
+        std::vector<PersistentManifold> persistent;
         std::vector<Change> changes;                 // ascending by entry
         std::vector<std::uint32_t> bodies, entries;  // its own, of this call
     };
     struct Parked {
         Search search;
         std::vector<Manifold> manifolds;
-        std::vector<PersistentManifold> anchors;
+        std::vector<PersistentManifold> persistent;
     };
 
     bool match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
@@ -129,7 +129,7 @@ private:
     std::vector<BodyPair> touching_;
     std::uint64_t changes_ = 0;
     std::vector<Manifold> manifolds_, spare_manifolds_;
-    std::vector<PersistentManifold> anchors_, spare_anchors_;
+    std::vector<PersistentManifold> persistent_, spare_persistent_;
 };
 
 }  // namespace tumble

@@ -55,11 +55,12 @@ void set_motion(Body& body, const BodyDescription& d) {
 
 }  // namespace
 
-CollisionShape BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin) {
+CollisionShape BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_triangles, const Vec3& origin) {
     Mesh& made = meshes_[&asset];
     try {
-        if (as_surface) {
-            if (!made.surface) made.surface = std::make_shared<CollisionMesh>(make_surface(asset.mesh, origin));
+        if (as_triangles) {
+            if (!made.surface)
+                made.surface = std::make_shared<CollisionMesh>(make_collision_mesh(asset.mesh, origin));
             return made.surface;
         }
         if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.mesh.vertices, origin));
@@ -70,7 +71,7 @@ CollisionShape BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_surfac
     }
 }
 
-CollisionShape BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin) {
+CollisionShape BodyBuilder::collider(const Shape& shape, bool meshes_as_triangles, const Vec3& origin) {
     if (const auto* plane = std::get_if<PlaneShape>(&shape)) return HalfSpace{plane->normal, plane->offset};
     if (const auto* sphere = std::get_if<SphereShape>(&shape)) return Ball{sphere->radius};
     if (const auto* box = std::get_if<BoxShape>(&shape)) {
@@ -78,7 +79,7 @@ CollisionShape BodyBuilder::collider(const Shape& shape, bool meshes_as_surfaces
         if (!made) made = std::make_shared<const Polyhedron>(make_box(box->size));
         return made;
     }
-    return mesh_collider(*std::get<MeshShape>(shape).asset, meshes_as_surfaces, origin);
+    return mesh_collider(*std::get<MeshShape>(shape).asset, meshes_as_triangles, origin);
 }
 
 CollisionShape BodyBuilder::compound_collider(const CompoundShape& shape, double density, const Vec3& origin) {

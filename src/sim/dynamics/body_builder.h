@@ -22,8 +22,8 @@ private:
         std::shared_ptr<const Polyhedron> hull;
         std::shared_ptr<const CollisionMesh> surface;
     };
-    CollisionShape mesh_collider(const MeshAsset& asset, bool as_surface, const Vec3& origin);
-    CollisionShape collider(const Shape& shape, bool meshes_as_surfaces, const Vec3& origin);
+    CollisionShape mesh_collider(const MeshAsset& asset, bool as_triangles, const Vec3& origin);
+    CollisionShape collider(const Shape& shape, bool meshes_as_triangles, const Vec3& origin);
     CollisionShape compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
     std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>>

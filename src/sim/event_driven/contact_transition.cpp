@@ -98,9 +98,9 @@ bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double accel
     return v * v < -2.0 * acceleration * (gap_rounding(a, a.position) + gap_rounding(b, b.position));
 }
 
-double harmless_time(const Traveller& a, const Traveller& b) {
+double harmless_time(const MovingBody& a, const MovingBody& b) {
     double size = std::numeric_limits<double>::infinity(), most = 0.0;
-    for (const Traveller* t : {&a, &b}) {
+    for (const MovingBody* t : {&a, &b}) {
         if (!t->body->moves()) continue;
         size = std::min(size, t->body->radius);
         most += t->path->acceleration(t->since).norm() + t->path->turning_bound() * t->body->radius;

@@ -27,6 +27,6 @@ void mark_held(const std::vector<Contact>& contacts, const std::vector<Body>& bo
 
 /// Time (s) in which the overlap of two touching bodies that do not approach stays below tuning::impact_harmless of the
 /// smaller: with Q the largest relative acceleration of their points, the overlap is at most Q t^2 / 2.
-double harmless_time(const Traveller& a, const Traveller& b);
+double harmless_time(const MovingBody& a, const MovingBody& b);
 
 }  // namespace tumble

@@ -27,7 +27,7 @@ bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vect
     bool any = false;
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || held_[i]) continue;
-        fliers_[i].pushed = false;
+        events_[i].pushed = false;
         fly(i, bodies, forces, {step, 0.0});
         taken_off_.push_back(i);
         any = true;
@@ -46,7 +46,7 @@ void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const 
         velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
     }
     start(i, Trajectory::uniform(body, velocity, limit.share * motion.angular_velocity), now, {now.step + 1, 0.0});
-    fliers_[i].spin = spin(body);
+    events_[i].spin = spin(body);
 }
 
 void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
@@ -57,16 +57,16 @@ void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<
     taken_off_.clear();
     for (const std::uint32_t i : movers_) {
         const Body& body = bodies[i];
-        fliers_[i].pushed = !body.flying && !body.asleep;
+        events_[i].pushed = !body.flying && !body.asleep;
         if (body.flying) {
-            if (!fliers_[i].driven || fliers_[i].start == now) continue;
+            if (!events_[i].driven || events_[i].start == now) continue;
             bring(i, bodies, now);
             fly(i, bodies, forces, now);
         } else if (body.asleep) {
             continue;
         } else {
             hold(i, motions[i], limits[i], bodies, now);
-            fliers_[i].meetings = 0;
+            events_[i].meetings = 0;
         }
         changed_.push_back(i);
     }
@@ -76,23 +76,23 @@ void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<
 void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t step) {
     const EventTime now{step, 0.0};
     for (const std::uint32_t i : movers_) {
-        if (!bodies[i].asleep || fliers_[i].until == never) continue;
+        if (!bodies[i].asleep || events_[i].until == never) continue;
         start(i, Trajectory::uniform(bodies[i], Vec3::Zero(), Vec3::Zero()), now, never);
-        fliers_[i].meetings = 0;
+        events_[i].meetings = 0;
         changed_.push_back(i);
     }
     predict_changed(bodies, now);
 }
 
 // Bodies in contact that the impact released are ballistic from now on, not from the next step.
-void EventDrivenMotion::release_struck(std::vector<Body>& bodies) {
-    const auto& struck = cluster_.struck();
-    if (std::none_of(struck.begin(), struck.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
+void EventDrivenMotion::release_receivers(std::vector<Body>& bodies) {
+    const auto& receivers = cluster_.impulse_receivers();
+    if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
     held_.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
-    for (const std::uint32_t k : struck) held_[k] = false;
+    for (const std::uint32_t k : receivers) held_[k] = false;
     mark_held(cluster_.contacts(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_, held_);
-    for (const std::uint32_t k : struck)
+    for (const std::uint32_t k : receivers)
         if (held(bodies[k]) && !held_[k]) bodies[k].flying = true;
 }
 
@@ -108,66 +108,66 @@ void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMo
 
 // Bodies of the cluster whose hops are now below the Zeno limit switch to contact: the rest of the step is solved for
 // them as a step of its own.
-void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
-    std::vector<std::uint32_t> landed;
-    std::vector<std::uint32_t> landing;
+void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
+    std::vector<std::uint32_t> switched;
+    std::vector<std::uint32_t> switching;
     do {  // in rounds: the result must not depend on the contacts' order
-        landing.clear();
+        switching.clear();
         for (const Contact& c : cluster_.contacts()) {
             const Body &a = bodies[c.a], &b = bodies[c.b];
             if (!a.flying && !b.flying) continue;
             const double acceleration = pressing_acceleration(c, a, b, settings_.gravity, !a.flying, !b.flying);
-            const double time = std::max(a.flying ? landing_time(c.a) : 0.0, b.flying ? landing_time(c.b) : 0.0);
+            const double time = std::max(a.flying ? zeno_limit(c.a) : 0.0, b.flying ? zeno_limit(c.b) : 0.0);
             const double speed = std::abs(relative_velocity(c, a, b));
-            const bool stutter =
-                (a.flying && stutters(c.a, bodies, speed)) || (b.flying && stutters(c.b, bodies, speed));
-            if (!stutter && !hop_is_shorter(c, a, b, acceleration, time)) continue;
+            const bool below_limit = (a.flying && below_zeno_limit(c.a, bodies, speed)) ||
+                                     (b.flying && below_zeno_limit(c.b, bodies, speed));
+            if (!below_limit && !hop_is_shorter(c, a, b, acceleration, time)) continue;
             for (const std::uint32_t k : {c.a, c.b})
-                if (bodies[k].flying) landing.push_back(k);
+                if (bodies[k].flying) switching.push_back(k);
         }
-        sort_unique(landing);
-        for (const std::uint32_t k : landing) bodies[k].flying = false;
-        landed.insert(landed.end(), landing.begin(), landing.end());
-    } while (!landing.empty());
-    if (landed.empty()) return;
+        sort_unique(switching);
+        for (const std::uint32_t k : switching) bodies[k].flying = false;
+        switched.insert(switched.end(), switching.begin(), switching.end());
+    } while (!switching.empty());
+    if (switched.empty()) return;
     until_ = std::min(until_, now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     if (!(rest > 0.0)) return;
-    landing_manifolds_.clear();
+    contact_manifolds_.clear();
     std::vector<std::uint32_t> touched;
     for (const Manifold& m : cluster_.manifolds()) {  // including those of supporting bodies, which may lean on others
         if (bodies[m.a].flying || bodies[m.b].flying) continue;
-        landing_manifolds_.push_back(m);  // its small remaining bounce is lost
+        contact_manifolds_.push_back(m);  // its small remaining bounce is lost
         for (const std::uint32_t k : {m.a, m.b})
             if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
     }
     sort_unique(touched);
     for (const std::uint32_t k : touched) {
         velocities_before_[k] = {bodies[k].velocity, bodies[k].angular_velocity};
-        fliers_[k].spin = unknown;
+        events_[k].spin = unknown;
     }
-    for (const std::uint32_t k : landed) {
+    for (const std::uint32_t k : switched) {
         Body& body = bodies[k];
         const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
-        const bool pushed = fliers_[k].pushed;
+        const bool pushed = events_[k].pushed;
         const Wrench wrench = pushed ? forces.fields(body) : forces.throughout(k, body, from, to);
-        const Impulse blow = pushed ? Impulse{} : forces.brief(k, body, from, to);
+        const Impulse brief_impulse = pushed ? Impulse{} : forces.brief(k, body, from, to);
         advance_momenta(body, wrench.force, wrench.torque, rest);
-        advance_momenta(body, blow);
+        advance_momenta(body, brief_impulse);
         body.derive();
         if (log_) {
             const Impulse rest_of_step{rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque};
-            log_->add_external(k, rest_of_step + blow, {body.velocity, body.angular_velocity});
+            log_->add_external(k, rest_of_step + brief_impulse, {body.velocity, body.angular_velocity});
         }
-        fliers_[k].pushed = true;
+        events_[k].pushed = true;
     }
-    islands_.find(body_pairs(landing_manifolds_), bodies, touched);
+    islands_.find(body_pairs(contact_manifolds_), bodies, touched);
     const ContactProblem problem{bodies,
-                                 landing_manifolds_,
+                                 contact_manifolds_,
                                  velocities_before_,
                                  {rest, std::numeric_limits<double>::infinity()},
                                  log_ ? &totals_ : nullptr};
-    if (log_) totals_.assign(landing_manifolds_.size(), {});
+    if (log_) totals_.assign(contact_manifolds_.size(), {});
     contact_solver_.solve(problem, islands_, alone_);
     if (log_)
         for (std::size_t k = 0; k < islands_.size(); ++k) log_->add_contacts(islands_.manifolds(k), problem, totals_);
@@ -176,7 +176,7 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
         bodies[k].push_angular_velocity.setZero();
         changed_.push_back(k);
     }
-    for (const std::uint32_t k : landed) changed_.push_back(k);
+    for (const std::uint32_t k : switched) changed_.push_back(k);
 }
 
 // Bodies in contact meet fixed bodies, and each other, by steps. Exceptions:
@@ -185,7 +185,7 @@ void EventDrivenMotion::land(std::vector<Body>& bodies, const ForceField& forces
 // - After a few such meetings in a step they stop there.
 // - But two touching bodies that are free to move continue, because stopping would lose their common motion, and are
 //   left to the contact of the next step.
-void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
+void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> going, near;
     for (const std::uint32_t k : changed_)
         if (held(bodies[k])) going.push_back(k);
@@ -207,11 +207,11 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
                 const auto [a, b] = std::minmax(k, other);
                 const bool both = bodies[a].dynamic() && bodies[b].dynamic();
                 const bool often =
-                    both && std::max(fliers_[a].meetings, fliers_[b].meetings) >= tuning::meetings_in_step;
+                    both && std::max(events_[a].meetings, events_[b].meetings) >= tuning::meetings_in_step;
                 if (!often || !depth(a, b)) pairs.push_back({a, b});
             };
-            for (const std::uint32_t other : neighbourhood_.fixed(k)) add(other);
-            for (const std::uint32_t other : neighbourhood_.moving(k)) {
+            for (const std::uint32_t other : neighbor_boxes_.fixed(k)) add(other);
+            for (const std::uint32_t other : neighbor_boxes_.moving(k)) {
                 if (bodies[other].flying) continue;
                 near.push_back(other);
                 add(other);
@@ -222,13 +222,13 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
         for (const std::uint32_t k : near) {
             if (goes(k)) continue;
             bring(k, bodies, now);
-            const Motion motion = fliers_[k].path.at(clock_.between(fliers_[k].start, now));
+            const Motion motion = events_[k].path.at(clock_.between(events_[k].start, now));
             motions_[k] = {motion.velocity, motion.angular_velocity};
         }
         const auto find_pairs = [&]() -> const std::vector<BroadPhase::Pair>& { return pairs; };
         const bool any_fast = std::any_of(near.begin(), near.end(),
-                                          [&](std::uint32_t k) { return motion_limit_.fast(k, motions_[k], rest); });
-        limits = &motion_limit_.limits({bodies, motions_, rest, any_fast}, find_pairs, depth);
+                                          [&](std::uint32_t k) { return ccd_clamp_.fast(k, motions_[k], rest); });
+        limits = &ccd_clamp_.limits({bodies, motions_, rest, any_fast}, find_pairs, depth);
         std::vector<std::uint32_t> stopped;
         for (const std::uint32_t k : near)
             if (!goes(k) && held(bodies[k]) && (*limits)[k].share < 1.0) stopped.push_back(k);
@@ -238,10 +238,10 @@ void EventDrivenMotion::hold_struck(std::vector<Body>& bodies, const ForceField&
     for (const std::uint32_t k : going) {
         const CcdFraction& limit = (*limits)[k];
         changed_.push_back(k);
-        if (limit.met != CcdFraction::none && fliers_[k].meetings < tuning::meetings_in_step) {
+        if (limit.met != CcdFraction::none && events_[k].meetings < tuning::meetings_in_step) {
             hold(k, motions_[k], {}, bodies, now);
-            fliers_[k].until = later(now, limit.share * rest);
-            fliers_[k].met = limit.met;
+            events_[k].until = later(now, limit.share * rest);
+            events_[k].met = limit.met;
             continue;
         }
         if (limit.share < 1.0) {

@@ -23,12 +23,12 @@ EventDrivenMotion::EventDrivenMotion(const std::vector<Body>& bodies, const Simu
     : settings_(settings),
       clock_{fps, settings.steps_per_frame},
       h_(clock_.seconds(1)),
-      fliers_(bodies.size()),
+      events_(bodies.size()),
       balls_(bodies.size()),
-      grounds_(bodies.size()),
-      neighbourhood_(bodies),
+      half_spaces_(bodies.size()),
+      neighbor_boxes_(bodies),
       queue_(bodies.size()),
-      motion_limit_(bodies),
+      ccd_clamp_(bodies),
       islands_(bodies.size()),
       contact_solver_(bodies.size(), settings.contact_solver, ContactSolver::Effort::precisely),
       velocities_before_(bodies.size()) {
@@ -39,7 +39,7 @@ EventDrivenMotion::EventDrivenMotion(const std::vector<Body>& bodies, const Simu
             movers_.push_back(i);
         } else if (const auto* space = std::get_if<HalfSpace>(&bodies[i].collider)) {
             const Vec3 normal = bodies[i].rotation * space->normal;
-            grounds_[i] = {normal, space->offset + normal.dot(bodies[i].position), true};
+            half_spaces_[i] = {normal, space->offset + normal.dot(bodies[i].position), true};
         }
     }
 }
@@ -52,7 +52,7 @@ EventTime EventDrivenMotion::later(const EventTime& now, double seconds) const {
 }
 
 void EventDrivenMotion::start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until) {
-    BodyEvent& f = fliers_[i];
+    BodyEvent& f = events_[i];
     f.path = path;
     f.start = now;
     f.until = until;
@@ -86,7 +86,7 @@ void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const Fo
         return;
     }
     // Under other forces, step by step; the end of the step is as accurate as double precision allows.
-    const bool pushed = fliers_[i].pushed;
+    const bool pushed = events_[i].pushed;
     const EventTime end = pushed ? EventTime{now.step + 1, 0.0} : drive_end(i, forces, now);
     const double from = clock_.seconds(now), to = clock_.seconds(end), span = clock_.between(now, end);
     const RigidState there = advance_exactly(body, pushed ? forces.without_points() : forces, i, from, to);
@@ -96,25 +96,26 @@ void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const Fo
     motion.orientation = there.orientation;
     const bool torque_free = there.angular_momentum == body.angular_momentum;
     start(i, Trajectory::towards(body, motion, span, torque_free), now, end);
-    fliers_[i].driven = true;
-    fliers_[i].turn_from = body.angular_momentum;
-    fliers_[i].turn_to = there.angular_momentum;
+    events_[i].driven = true;
+    events_[i].turn_from = body.angular_momentum;
+    events_[i].turn_to = there.angular_momentum;
 }
 
-Traveller EventDrivenMotion::traveller(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) const {
-    return {&bodies[i], &fliers_[i].path, clock_.between(fliers_[i].start, now)};
+MovingBody EventDrivenMotion::moving_body(std::uint32_t i, const std::vector<Body>& bodies,
+                                          const EventTime& now) const {
+    return {&bodies[i], &events_[i].path, clock_.between(events_[i].start, now)};
 }
 
 void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     show(i, bodies, now);
-    if (bodies[i].flying && !fliers_[i].driven) bodies[i].derive();  // the others are derived already
+    if (bodies[i].flying && !events_[i].driven) bodies[i].derive();  // the others are derived already
 }
 
 // The body's state and velocities, without the data that only contacts need.
 void EventDrivenMotion::show(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     Body& body = bodies[i];
     if (!body.moves() || body.asleep) return;
-    const BodyEvent& f = fliers_[i];
+    const BodyEvent& f = events_[i];
     const double t = clock_.between(f.start, now);
     const Motion motion = f.path.at(t);
     body.position = motion.position;
@@ -143,7 +144,7 @@ void EventDrivenMotion::place(std::vector<Body>& bodies, std::int64_t step) cons
 bool EventDrivenMotion::stepping(const std::vector<Body>& bodies) const {
     return std::any_of(movers_.begin(), movers_.end(), [&](std::uint32_t i) {
         const Body& body = bodies[i];
-        return body.flying ? fliers_[i].driven : !body.asleep;
+        return body.flying ? events_[i].driven : !body.asleep;
     });
 }
 
@@ -156,16 +157,16 @@ void EventDrivenMotion::predict_changed(const std::vector<Body>& bodies, const E
 
 // A box that contains the body for about the time that it takes to leave its own place; at least for the step.
 void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
-    BodyEvent& f = fliers_[i];
+    BodyEvent& f = events_[i];
     f.boxed_until = never;
-    if (!neighbourhood_.crowded()) {
-        if (!neighbourhood_.known(i)) neighbourhood_.enclose(i, Bounds{Vec3::Zero(), Vec3::Zero()});
+    if (!neighbor_boxes_.crowded()) {
+        if (!neighbor_boxes_.known(i)) neighbor_boxes_.enclose(i, Bounds{Vec3::Zero(), Vec3::Zero()});
         return;
     }
     const double r = bodies[i].radius, t = clock_.between(f.start, now);
     const double v = f.path.velocity(t).norm(), a = f.path.acceleration(t).norm();
-    const double way = f.box_way * r;
-    double time = v > 0.0 || a > 0.0 ? 2.0 * way / (v + std::sqrt(v * v + 2.0 * a * way))
+    const double displacement = f.box_displacement * r;
+    double time = v > 0.0 || a > 0.0 ? 2.0 * displacement / (v + std::sqrt(v * v + 2.0 * a * displacement))
                                      : std::numeric_limits<double>::infinity();
     time = std::min(std::max(time, h_), clock_.between(now, f.until));
     if (!std::isfinite(time) || time > 1e9 * h_)
@@ -176,42 +177,43 @@ void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, co
     // of a step: repeated parts of the remainder never reach its end.
     for (const double part : {1.0, 0.5, 0.25}) {
         if (part < 1.0 && part * time < 0.25 * h_) break;
-        if (!neighbourhood_.encloses(i, f.path.swept(t, t + part * time).grown(r))) continue;
+        if (!neighbor_boxes_.encloses(i, f.path.swept(t, t + part * time).grown(r))) continue;
         if (part < 1.0) f.boxed_until = later(now, part * time);
         return;
     }
-    neighbourhood_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
+    neighbor_boxes_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
     // Larger boxes last longer but have more neighbors.
-    const std::size_t neighbours = neighbourhood_.moving(i).size();
-    if (neighbours < tuning::few_neighbours)
-        f.box_way = std::min(1.5 * f.box_way, tuning::longest_box_way);
-    else if (neighbours > 3 * tuning::few_neighbours)
-        f.box_way = std::max(f.box_way / 1.5, tuning::shortest_box_way);
+    const std::size_t neighbors = neighbor_boxes_.moving(i).size();
+    if (neighbors < tuning::few_neighbors)
+        f.box_displacement = std::min(1.5 * f.box_displacement, tuning::longest_box_displacement);
+    else if (neighbors > 3 * tuning::few_neighbors)
+        f.box_displacement = std::max(f.box_displacement / 1.5, tuning::shortest_box_displacement);
 }
 
 void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
-    BodyEvent& f = fliers_[i];
+    BodyEvent& f = events_[i];
     const bool flying = bodies[i].flying;
     f.event = BodyEvent::Event::leaves_box;
     EventTime next = std::min(f.boxed_until, f.until);
     double horizon = clock_.between(now, next);
-    const Traveller self = traveller(i, bodies, now);
+    const MovingBody self = moving_body(i, bodies, now);
     const auto look = [&](std::uint32_t j) {
-        const double limit = std::min(horizon, clock_.between(now, fliers_[j].until));
-        const TimeOfImpact found = search_.find(self, traveller(j, bodies, now), limit);
+        const double limit = std::min(horizon, clock_.between(now, events_[j].until));
+        const TimeOfImpact found = search_.find(self, moving_body(j, bodies, now), limit);
         if (found.kind == TimeOfImpact::Kind::none || !(found.time < horizon)) return;
         horizon = found.time;
         next = later(now, found.time);
-        f.event = found.kind == TimeOfImpact::Kind::impact ? BodyEvent::Event::impact : BodyEvent::Event::looks_again;
+        f.event = found.kind == TimeOfImpact::Kind::impact ? BodyEvent::Event::impact : BodyEvent::Event::recheck;
         f.partner = j;
-        f.partner_version = fliers_[j].version;
+        f.partner_version = events_[j].version;
     };
     if (flying)
-        for (const std::uint32_t j : neighbourhood_.fixed(i))
-            if (!grounds_[j].valid || !grounds_[j].stays_below(f.path, bodies[i].radius, self.since, horizon)) look(j);
+        for (const std::uint32_t j : neighbor_boxes_.fixed(i))
+            if (!half_spaces_[j].valid || !half_spaces_[j].stays_below(f.path, bodies[i].radius, self.since, horizon))
+                look(j);
     const Ballistic& ball = balls_[i];
     const Vec3 at = f.path.position(self.since), velocity = f.path.velocity(self.since);
-    for (const std::uint32_t j : neighbourhood_.moving(i)) {
+    for (const std::uint32_t j : neighbor_boxes_.moving(i)) {
         const Ballistic& other = balls_[j];
         if (ball.valid && other.valid) {
             // Both fall alike: d(t) = d + v t, touching when d(t)^2 = (r + r')^2. Pairs too far apart or parting are
@@ -226,7 +228,7 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     if (f.event == BodyEvent::Event::leaves_box && f.met != CcdFraction::none && f.until <= f.boxed_until) {
         f.event = BodyEvent::Event::impact;
         f.partner = f.met;
-        f.partner_version = fliers_[f.met].version;
+        f.partner_version = events_[f.met].version;
         next = f.until;
     }
     // No event within the trajectory: World continues it at the end of the step, this class where a force begins or
@@ -247,14 +249,14 @@ std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sle
     while (!queue_.empty() && queue_.first_moment() < EventTime{until_, 0.0}) {
         const std::uint32_t i = queue_.first();
         const EventTime now = queue_.first_moment();
-        const BodyEvent& f = fliers_[i];
+        const BodyEvent& f = events_[i];
         if (f.event == BodyEvent::Event::leaves_box) box(i, bodies, now);
         if (f.event == BodyEvent::Event::drives_on) {
             bring(i, bodies, now);
             fly(i, bodies, forces, now);
             changed_.push_back(i);
             predict_changed(bodies, now);
-        } else if (f.event == BodyEvent::Event::impact && fliers_[f.partner].version == f.partner_version) {
+        } else if (f.event == BodyEvent::Event::impact && events_[f.partner].version == f.partner_version) {
             collide(i, f.partner, bodies, sleep, forces, now);
         } else {
             predict(i, bodies, now);
@@ -265,10 +267,10 @@ std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sle
 
 // Counts the body's impacts in quick succession; a run longer than any motion has is an error.
 void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
-    BodyEvent& f = fliers_[i];
+    BodyEvent& f = events_[i];
     f.since_impact = f.impacts_in_row > 0 ? clock_.between(f.last_impact, now) : h_;
     f.last_impact = now;
-    f.impacts_in_row = f.since_impact < tuning::in_a_row ? f.impacts_in_row + 1 : 1;
+    f.impacts_in_row = f.since_impact < tuning::impact_row_interval ? f.impacts_in_row + 1 : 1;
     const std::int64_t frame = now.step / settings_.steps_per_frame;
     if (frame != frame_) {
         frame_ = frame;
@@ -283,16 +285,16 @@ void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& b
 }
 
 // Zeno limit: hops are followed down to a fixed duration; in a long run of impacts the limit increases, up to the step.
-double EventDrivenMotion::landing_time(std::uint32_t i) const {
-    const int excess = std::max(0, fliers_[i].impacts_in_row - tuning::impacts_before_landing) / 8;
+double EventDrivenMotion::zeno_limit(std::uint32_t i) const {
+    const int excess = std::max(0, events_[i].impacts_in_row - tuning::impacts_before_zeno_growth) / 8;
     return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
 }
 
 // Whether the body's last hop was below the Zeno limit, for any cause of its return. Measured, because the formula of a
 // contact's acceleration does not include edges that rotate against each other.
-bool EventDrivenMotion::stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
-    const BodyEvent& f = fliers_[i];
-    return f.impacts_in_row > tuning::impacts_before_stutter && f.since_impact < landing_time(i) &&
+bool EventDrivenMotion::below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
+    const BodyEvent& f = events_[i];
+    return f.impacts_in_row > tuning::impacts_before_zeno_check && f.since_impact < zeno_limit(i) &&
            speed * f.since_impact < tuning::impact_touch * bodies[i].radius;
 }
 
@@ -303,18 +305,18 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     const Body &a = bodies[i], &b = bodies[j];
     const auto* ball = std::get_if<Ball>(&a.collider);
     const auto* other_ball = std::get_if<Ball>(&b.collider);
-    const HalfSpaceFilter* plane = grounds_[j].valid ? &grounds_[j] : nullptr;
-    if (!ball || !a.flying || fliers_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
-    if (!plane && !(other_ball && b.flying && !fliers_[j].driven)) return false;
-    const double ta = clock_.between(fliers_[i].start, now), tb = clock_.between(fliers_[j].start, now);
-    const Vec3 at = fliers_[i].path.position(ta), va = fliers_[i].path.velocity(ta);
-    const Vec3 vb = other_ball ? fliers_[j].path.velocity(tb) : Vec3(Vec3::Zero());
-    const Vec3 n = other_ball ? Vec3((fliers_[j].path.position(tb) - at).normalized()) : Vec3(-plane->normal);
+    const HalfSpaceFilter* plane = half_spaces_[j].valid ? &half_spaces_[j] : nullptr;
+    if (!ball || !a.flying || events_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
+    if (!plane && !(other_ball && b.flying && !events_[j].driven)) return false;
+    const double ta = clock_.between(events_[i].start, now), tb = clock_.between(events_[j].start, now);
+    const Vec3 at = events_[i].path.position(ta), va = events_[i].path.velocity(ta);
+    const Vec3 vb = other_ball ? events_[j].path.velocity(tb) : Vec3(Vec3::Zero());
+    const Vec3 n = other_ball ? Vec3((events_[j].path.position(tb) - at).normalized()) : Vec3(-plane->normal);
     const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
     if (!(v < 0.0)) return false;
     const double press = plane ? -n.dot(settings_.gravity) : 0.0;
-    if (press < 0.0 && -2.0 * e * v < -press * landing_time(i)) return false;  // this one switches to contact
-    if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, fliers_[j].path.position(tb), bodies, now)))
+    if (press < 0.0 && -2.0 * e * v < -press * zeno_limit(i)) return false;  // this one switches to contact
+    if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, events_[j].path.position(tb), bodies, now)))
         return false;
     const double impulse = -(1.0 + e) * v / (a.inverse_mass + b.inverse_mass);
     if (log_) {
@@ -328,10 +330,10 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
         log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies,
                         {clock_.seconds(now), now.step / settings_.steps_per_frame, true});
     }
-    start(i, fliers_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
+    start(i, events_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
     changed_.push_back(i);
     if (other_ball) {
-        start(j, fliers_[j].path.deflected(tb, vb + (b.inverse_mass * impulse) * n), now, never);
+        start(j, events_[j].path.deflected(tb, vb + (b.inverse_mass * impulse) * n), now, never);
         changed_.push_back(j);
     }
     predict_changed(bodies, now);
@@ -342,19 +344,19 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
 bool EventDrivenMotion::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies,
                               const EventTime& now) const {
     const double r = bodies[i].radius * (1.0 + tuning::touch);
-    for (const std::uint32_t k : neighbourhood_.moving(i)) {
+    for (const std::uint32_t k : neighbor_boxes_.moving(i)) {
         if (k == but) continue;
         const double reach = r + bodies[k].radius * (1.0 + tuning::touch);
         const Ballistic& ball = balls_[k];
         const Vec3 there = ball.valid ? position(ball, roughly(ball.start, now))
-                                      : fliers_[k].path.position(clock_.between(fliers_[k].start, now));
+                                      : events_[k].path.position(clock_.between(events_[k].start, now));
         if ((there - at).squaredNorm() <= reach * reach) return false;
     }
-    for (const std::uint32_t k : neighbourhood_.fixed(i)) {
+    for (const std::uint32_t k : neighbor_boxes_.fixed(i)) {
         if (k == but) continue;
         const Body& body = bodies[k];
-        if (grounds_[k].valid) {
-            if (grounds_[k].normal.dot(at) - grounds_[k].offset <= r) return false;
+        if (half_spaces_[k].valid) {
+            if (half_spaces_[k].normal.dot(at) - half_spaces_[k].offset <= r) return false;
         } else if ((body.position - at).norm() <= r + body.radius) {
             return false;
         }
@@ -371,44 +373,44 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     // Where bodies in contact meet, slow approaches do not bounce, as at a step.
     const bool meeting = meets(i, j, now);
     if (meeting)
-        for (const std::uint32_t k : {i, j}) fliers_[k].meetings += bodies[k].dynamic();
+        for (const std::uint32_t k : {i, j}) events_[k].meetings += bodies[k].dynamic();
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
     const bool changed = cluster_.resolve(
-        i, j, bodies, neighbourhood_, bring_body,
+        i, j, bodies, neighbor_boxes_, bring_body,
         {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true},
         log_ ? &trace_ : nullptr);
     if (log_ && changed)
         log_->add_impact(trace_, cluster_.contacts(), bodies,
                          {clock_.seconds(now), now.step / settings_.steps_per_frame, true});
     if (!changed && meeting) {  // no more of these in this step
-        fliers_[i].meetings = tuning::meetings_in_step;
+        events_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);
-        hold_struck(bodies, forces, now);
+        hold_receivers(bodies, forces, now);
         predict_changed(bodies, now);
         return;
     }
     if (!changed) {
         // Touching without approaching, by rounding: checked again after a while, which grows each time, but before a
         // harmful overlap is possible.
-        BodyEvent& f = fliers_[i];
-        f.event = BodyEvent::Event::looks_again;
-        const double harmless = harmless_time(traveller(i, bodies, now), traveller(j, bodies, now));
+        BodyEvent& f = events_[i];
+        f.event = BodyEvent::Event::recheck;
+        const double harmless = harmless_time(moving_body(i, bodies, now), moving_body(j, bodies, now));
         queue_.set(
             i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
         return;
     }
-    for (const std::uint32_t k : cluster_.struck()) {
+    for (const std::uint32_t k : cluster_.impulse_receivers()) {
         if (bodies[k].asleep) wake(k, bodies, sleep, now);
-        fliers_[k].spin = unknown;
+        events_[k].spin = unknown;
         changed_.push_back(k);
     }
     if (meeting) changed_.push_back(i);  // its trajectory ends here, whether or not the impulse has reached it
-    release_struck(bodies);
-    land(bodies, forces, now);
+    release_receivers(bodies);
+    switch_to_contact(bodies, forces, now);
     sort_unique(changed_);
     for (const std::uint32_t k : changed_)
         if (bodies[k].flying) fly(k, bodies, forces, now);
-    hold_struck(bodies, forces, now);
+    hold_receivers(bodies, forces, now);
     predict_changed(bodies, now);
 }
 

@@ -74,10 +74,10 @@ private:
         bool driven = false;        // without contact, but under varying forces
         bool pushed = false;        // this step's forces at points are applied already, up to its end
         Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();  // L at the trajectory's ends, of a driven body
-        EventTime boxed_until;                      // time until which the body stays in its box of NeighborBoxes
-        double box_way = tuning::shortest_box_way;  // in radii, length of trajectory in the next box
+        EventTime boxed_until;  // time until which the body stays in its box of NeighborBoxes
+        double box_displacement = tuning::shortest_box_displacement;  // in radii, length of trajectory in the next box
         // The next event.
-        enum class Event { leaves_box, looks_again, impact, drives_on } event = Event::leaves_box;
+        enum class Event { leaves_box, recheck, impact, drives_on } event = Event::leaves_box;
         std::uint32_t partner = 0, partner_version = 0;
         EventTime last_impact;
         double since_impact = 0.0;  // s, between the last two impacts
@@ -97,12 +97,12 @@ private:
     void box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict_changed(const std::vector<Body>& bodies, const EventTime& now);
-    void release_struck(std::vector<Body>& bodies);
-    void land(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
-    void hold_struck(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    void release_receivers(std::vector<Body>& bodies);
+    void switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    void hold_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     /// Whether the body's trajectory ends now, at the other body.
     bool meets(std::uint32_t i, std::uint32_t other, const EventTime& now) const {
-        return fliers_[i].met == other && fliers_[i].until <= now;
+        return events_[i].met == other && events_[i].until <= now;
     }
     void hold(std::uint32_t i, const BodyVelocity& motion, const CcdFraction& limit, const std::vector<Body>& bodies,
               const EventTime& now);
@@ -113,10 +113,10 @@ private:
     bool alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies,
                const EventTime& now) const;
     void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
-    bool stutters(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
-    double landing_time(std::uint32_t i) const;
+    bool below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
+    double zeno_limit(std::uint32_t i) const;
     EventTime later(const EventTime& now, double seconds) const;
-    Traveller traveller(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) const;
+    MovingBody moving_body(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) const;
 
     // Data of a ball under gravity alone that its neighbors need, close together in memory: with many balls they
     // dominate the cost of the search.
@@ -137,23 +137,23 @@ private:
     SimulationSettings settings_;
     StepClock clock_;
     double h_;
-    std::vector<BodyEvent> fliers_;
-    std::vector<Ballistic> balls_;          // by body
-    std::vector<HalfSpaceFilter> grounds_;  // by body: fixed half-spaces, world frame
-    std::vector<std::uint32_t> movers_;     // dynamic bodies and moving kinematic ones
-    NeighborBoxes neighbourhood_;
+    std::vector<BodyEvent> events_;
+    std::vector<Ballistic> balls_;              // by body
+    std::vector<HalfSpaceFilter> half_spaces_;  // by body: fixed half-spaces, world frame
+    std::vector<std::uint32_t> movers_;         // dynamic bodies and moving kinematic ones
+    NeighborBoxes neighbor_boxes_;
     EventQueue queue_;
     ImpactSearch search_;
     ImpactCluster cluster_;
     ContactLog* log_ = nullptr;
     ImpactTrace trace_;                    // of the last impact, for the log
     std::vector<ManifoldImpulse> totals_;  // of a landing, for the log
-    CcdClamp motion_limit_;              // for bodies after a switch to contact or an impact, to the end of their step
-    std::vector<BodyVelocity> motions_;  // by body, for motion_limit_; zero in between
+    CcdClamp ccd_clamp_;                 // for bodies after a switch to contact or an impact, to the end of their step
+    std::vector<BodyVelocity> motions_;  // by body, for ccd_clamp_; zero in between
     ContactIslands islands_;
     ContactSolver contact_solver_;
     ThreadPool alone_{1};
-    std::vector<Manifold> landing_manifolds_;
+    std::vector<Manifold> contact_manifolds_;
     std::vector<BodyVelocity> velocities_before_;
     std::int64_t impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;                                       // of the current run

@@ -50,7 +50,7 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     const double reach = a.radius + b.radius + margin;
     if ((b.position - a.position).squaredNorm() > reach * reach && std::isfinite(reach)) return;
     const std::size_t first = manifolds_.size();
-    scratch_.left_out.clear();
+    scratch_.reduced.clear();
     tumble::collide(a.collider, b.collider, {a.pose(), b.pose(), margin, scratch_, manifolds_});
     // Faces that meet at a negligible angle meet at once: otherwise, corner after corner, that angle alone would decide
     // their motion.
@@ -66,13 +66,13 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
     }
 }
 
-void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
+void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                            const Bring& bring) {
     expanded_.push_back(body);
     if (add_once(brought_, body)) bring(body);
     if (!bodies[body].dynamic()) return;
-    for (const std::uint32_t other : neighbourhood.moving(body)) touch(body, other, bodies, bring);
-    for (const std::uint32_t other : neighbourhood.fixed(body)) touch(body, other, bodies, bring);
+    for (const std::uint32_t other : neighbor_boxes.moving(body)) touch(body, other, bodies, bring);
+    for (const std::uint32_t other : neighbor_boxes.fixed(body)) touch(body, other, bodies, bring);
 }
 
 void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
@@ -81,17 +81,17 @@ void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
         const Contact& c = contacts_[i];
         const Body &a = bodies[c.a], &b = bodies[c.b];
         const double least = rounding(c, a, b);
-        const bool struck =
-            c.impact > 0.0 || before_[i]<-least, moved = std::abs(relative_velocity(c, a, b) - before_[i])> least;
-        reach_.push_back(struck ? Reach::blow : moved ? Reach::motion : Reach::none);
+        const bool by_impulse = c.impact > 0.0 || before_[i] < -least;
+        const bool by_motion = std::abs(relative_velocity(c, a, b) - before_[i]) > least;
+        reach_.push_back(by_impulse ? Reach::impulse : by_motion ? Reach::motion : Reach::none);
     }
 }
 
 // Whether the body has an approaching contact now: then it takes part.
-bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
-                            const Bring& bring) {
+bool ImpactCluster::approaches(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
+                               const Bring& bring) {
     const std::size_t pairs = pairs_.size(), first = manifolds_.size(), expanded = expanded_.size();
-    expand(body, bodies, neighbourhood, bring);
+    expand(body, bodies, neighbor_boxes, bring);
     own_.clear();
     for (std::size_t m = first; m < manifolds_.size(); ++m) add_contacts(manifolds_[m], bodies, own_);
     for (const Contact& c : own_)
@@ -105,14 +105,14 @@ bool ImpactCluster::strikes(std::uint32_t body, std::vector<Body>& bodies, const
 // Adds all contacts of a body if
 // - the body got an impulse or had an impact, even if others took all of the impulse in the end; or
 // - the body is ballistic, has another impact at this time, and a body that it touches has changed its velocity.
-bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring) {
+bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes, const Bring& bring) {
     bool grown = false;
     for (std::size_t i = 0; i < contacts_.size(); ++i)
         for (const std::uint32_t k : {contacts_[i].a, contacts_[i].b}) {
             if (reach_[i] == Reach::none || !bodies[k].dynamic() || contains(expanded_, k)) continue;
-            if (reach_[i] == Reach::blow)
-                expand(k, bodies, neighbourhood, bring);
-            else if (!bodies[k].flying || !add_once(looked_at_, k) || !strikes(k, bodies, neighbourhood, bring))
+            if (reach_[i] == Reach::impulse)
+                expand(k, bodies, neighbor_boxes, bring);
+            else if (!bodies[k].flying || !add_once(looked_at_, k) || !approaches(k, bodies, neighbor_boxes, bring))
                 continue;
             grown = true;
         }
@@ -120,18 +120,18 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbo
 }
 
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
-                            const NeighborBoxes& neighbourhood, const Bring& bring, const ImpactSettings& settings,
+                            const NeighborBoxes& neighbor_boxes, const Bring& bring, const ImpactSettings& settings,
                             ImpactTrace* trace) {
-    struck_.clear();
+    receivers_.clear();
     // If the manifold misses the contact that the search found, a wider margin finds it.
-    for (widening_ = 1.0; widening_ <= 1e4 && struck_.empty(); widening_ *= 1e2) {
+    for (widening_ = 1.0; widening_ <= 1e4 && receivers_.empty(); widening_ *= 1e2) {
         brought_.clear();
         expanded_.clear();
         looked_at_.clear();
         pairs_.clear();
         manifolds_.clear();
-        expand(a, bodies, neighbourhood, bring);
-        expand(b, bodies, neighbourhood, bring);
+        expand(a, bodies, neighbor_boxes, bring);
+        expand(b, bodies, neighbor_boxes, bring);
         for (bool grown = true; grown;) {
             std::sort(manifolds_.begin(), manifolds_.end(), [](const Manifold& l, const Manifold& r) {
                 return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
@@ -149,19 +149,19 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             resolve_impacts(island, contacts_, bodies, settings, trace);
             note_reach(bodies);
             for (const std::uint32_t k : island.bodies) bodies[k].derive();  // the velocities before the impact
-            grown = grow(bodies, neighbourhood, bring);
+            grown = grow(bodies, neighbor_boxes, bring);
         }
         for (const Contact& c : contacts_) {
             if (c.impact <= 0.0) continue;
             add_impact(c, bodies[c.a], bodies[c.b]);
             for (const std::uint32_t k : {c.a, c.b})
-                if (bodies[k].dynamic()) add_once(struck_, k);
+                if (bodies[k].dynamic()) add_once(receivers_, k);
         }
     }
-    std::sort(struck_.begin(), struck_.end());
+    std::sort(receivers_.begin(), receivers_.end());
     for (const std::uint32_t k : brought_)
         if (bodies[k].dynamic()) bodies[k].derive();
-    return !struck_.empty();
+    return !receivers_.empty();
 }
 
 }  // namespace tumble

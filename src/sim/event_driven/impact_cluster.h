@@ -21,25 +21,26 @@ public:
 
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
     /// whether anything changed. `trace`: gets the impulses on contacts(), or null.
-    bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood,
+    bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                  const Bring& bring, const ImpactSettings& settings, ImpactTrace* trace = nullptr);
 
     /// Of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
-    const std::vector<std::uint32_t>& struck() const { return struck_; }
+    const std::vector<std::uint32_t>& impulse_receivers() const { return receivers_; }
 
 private:
-    void expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring);
+    void expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes, const Bring& bring);
     void note_reach(const std::vector<Body>& bodies);
-    bool grow(std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring);
-    bool strikes(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbourhood, const Bring& bring);
+    bool grow(std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes, const Bring& bring);
+    bool approaches(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
+                    const Bring& bring);
     void touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, const Bring& bring);
 
-    std::vector<std::uint32_t> brought_, expanded_, looked_at_, struck_;
+    std::vector<std::uint32_t> brought_, expanded_, looked_at_, receivers_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<Manifold> manifolds_;
-    enum class Reach : char { none, motion, blow };  // effect of an impact on the two bodies of a contact
+    enum class Reach : char { none, motion, impulse };  // effect of an impact on the two bodies of a contact
     std::vector<Contact> contacts_, own_;
     std::vector<double> before_;  // by contact: v_rel before the impact
     std::vector<Reach> reach_;    // by contact

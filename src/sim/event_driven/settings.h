@@ -7,36 +7,41 @@
 namespace tumble::tuning {
 
 /// A touching contact that does not approach is no event while its overlap is below this share of the smaller body.
+/// Not fitted: a tenth of the tolerance of resting contact. Tests: those of tests/sim/time_of_impact_test.cpp.
 inline constexpr double impact_harmless = 1e-7;
 
-/// Hops shorter than this, s, are not followed (Zeno limit): the contact closes. A bouncing ball comes to rest within this over 1 - e of its
-/// closed-form time; its remaining speed is below g times this.
+/// Hops shorter than this, s, are not followed (Zeno limit): the contact closes. A bouncing ball comes to rest
+/// within this over 1 - e of its closed-form time; its remaining speed is below g times this. Related test:
+/// SettlingBall.RestsAtItsTimeAtAnyStep and bench_accuracy "ball coming to rest".
 inline constexpr double shortest_hop = 1e-7;
 
-/// Impacts at intervals below this, s, are in a row. After `impacts_before_landing` of them a body is coming to rest: the shortest hop that is
-/// followed doubles with every eight impacts. e = 0.9 needs about 90 from a millisecond down.
-inline constexpr double in_a_row = 1e-3;
-inline constexpr int impacts_before_landing = 128;
+/// Impacts at intervals below this, s, are in a row. After `impacts_before_zeno_growth` of them a body is coming to
+/// rest: the shortest hop that is followed doubles with every eight impacts. e = 0.9 needs about 90 from a
+/// millisecond down. Related tests: Zeno.TiltedBoxesComeToRestOnAFace and Zeno.FlatBoxRestsWhenABallDoes.
+inline constexpr double impact_row_interval = 1e-3;
+inline constexpr int impacts_before_zeno_growth = 128;
 
-/// Impacts in a row from which on hops of invisible size count as contact.
-inline constexpr int impacts_before_stutter = 16;
+/// Impacts in a row from which on hops of invisible size count as contact. Related: the same tests.
+inline constexpr int impacts_before_zeno_check = 16;
 
-/// Impacts of a resting body with others within a step at their own times, once it was hit. A body that turns about a contact closes it
-/// repeatedly, by less each time.
+/// Impacts of a resting body with others within a step at their own times, once it was hit. A body that turns about
+/// a contact closes it repeatedly, by less each time. Not fitted: a bound of the cost. Related test:
+/// BothRegimes.SeeSawGainsNothing.
 inline constexpr int meetings_in_step = 8;
 
-/// Largest number of impacts in a frame per body: far beyond any clip (a million hits of each body per second).
+/// Largest number of impacts in a frame per body: far beyond any clip (a million hits of each body per second). Not
+/// fitted.
 inline constexpr std::int64_t impacts_in_frame = 20000;
 
-/// Relative accelerations of touching points below this share of their terms are rounding.
+/// Relative accelerations of touching points below this share of their terms are rounding. Not fitted: rounding.
 inline constexpr double pressing_rounding = 1e-12;
 
 /// The box of a ballistic body in the neighbor search covers a displacement between these bounds, radii,
-inline constexpr double shortest_box_way = 0.75;
-inline constexpr double longest_box_way = 40.0;
+inline constexpr double shortest_box_displacement = 0.75;
+inline constexpr double longest_box_displacement = 40.0;
 
 /// according to the number of neighbors that it then has,
-inline constexpr std::size_t few_neighbours = 6;
+inline constexpr std::size_t few_neighbors = 6;
 
 /// and this margin, radii. Measured on 216 balls, crowded and scattered (bench_accuracy "crowds").
 inline constexpr double box_margin = 0.3;

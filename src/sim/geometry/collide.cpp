@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
-using SurfaceRef = std::shared_ptr<const CollisionMesh>;
+using MeshRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
 // Shape pairs that have a routine, in the order of its arguments.
@@ -22,13 +22,13 @@ struct Pair {
     void operator()(const Ball& a, const Ball& b) const { collide_balls(a, b, query); }
     void operator()(const PolyhedronRef& a, const Ball& b) const { collide_polyhedron_ball(*a, b, query); }
     void operator()(const PolyhedronRef& a, const PolyhedronRef& b) const { collide_polyhedra(*a, *b, query); }
-    void operator()(const SurfaceRef& a, const Ball& b) const { collide_surface_ball(*a, b, query); }
-    void operator()(const SurfaceRef& a, const PolyhedronRef& b) const { collide_surface_polyhedron(*a, *b, query); }
+    void operator()(const MeshRef& a, const Ball& b) const { collide_mesh_ball(*a, b, query); }
+    void operator()(const MeshRef& a, const PolyhedronRef& b) const { collide_mesh_polyhedron(*a, *b, query); }
 };
 
 // Pairs of shapes that are both fixed.
 template <class T>
-constexpr bool immovable = std::is_same_v<T, HalfSpace> || std::is_same_v<T, SurfaceRef>;
+constexpr bool immovable = std::is_same_v<T, HalfSpace> || std::is_same_v<T, MeshRef>;
 // Compounds are split into parts earlier.
 template <class T>
 constexpr bool compound = std::is_same_v<T, CompoundRef>;
@@ -36,7 +36,7 @@ constexpr bool compound = std::is_same_v<T, CompoundRef>;
 // Number of values of Manifold::part that this collider contributes to a pair. Precondition: below 2^32 for two
 // colliders together; limits::parts and limits::mesh_triangles ensure it.
 std::uint32_t part_count(const CollisionShape& collider) {
-    if (const auto* surface = std::get_if<SurfaceRef>(&collider)) return std::uint32_t((*surface)->triangles.size());
+    if (const auto* mesh = std::get_if<MeshRef>(&collider)) return std::uint32_t((*mesh)->triangles.size());
     if (const auto* compound = std::get_if<CompoundRef>(&collider)) return std::uint32_t((*compound)->parts.size());
     return 1;
 }

@@ -30,7 +30,7 @@ struct CollisionScratch {
     std::uint32_t axis = 0;
     double gap = 0.0;
     // m, world: displacement of B relative to A in the coming step; selects one of two faces that the shapes slide over
-    Vec3 way = Vec3::Zero();
+    Vec3 displacement = Vec3::Zero();
     bool turning = false;  // whether one of the bodies rotates fast (tuning::rolling_turn)
     bool on_ball = false;  // whether a manifold found lies on a ball. Cleared by the caller, as is gap
     // The pair's manifolds of the last step, and the part index of the present one (Manifold::part): a manifold on B's
@@ -39,18 +39,18 @@ struct CollisionScratch {
     std::uint32_t part = 0;
     bool was_on_b() const;
     std::vector<ContactPoint> points;
-    // reduced points of all manifolds found, in order: Manifold::first_left_out. Cleared by the caller
-    std::vector<ContactPoint> left_out;
+    // reduced points of all manifolds found, in order: Manifold::first_reduced. Cleared by the caller
+    std::vector<ContactPoint> reduced;
     std::vector<ClipVertex> polygon, spare;
     std::vector<Vec3> reference, incident;
     std::vector<std::uint32_t> labels, vertices, edges_a, edges_b;
-    struct SurfaceHit {
+    struct MeshHit {
         double distance;
         std::uint32_t triangle;
         int feature;  // 0 face, 1 to 3 edge, 4 to 6 vertex
         Vec3 point;
     };
-    std::vector<SurfaceHit> hits;
+    std::vector<MeshHit> hits;
     SideScratch sides;
     std::vector<std::pair<std::uint32_t, double>> at_edges, at_vertices;
     std::vector<std::uint32_t> used_vertices, used_edges;
@@ -81,7 +81,7 @@ void collide_polyhedra(const Polyhedron& a, const Polyhedron& b, const Collision
 /// Precondition: both are boxes (Polyhedron::is_box). Gives the result of the general routine in a fraction of the
 /// time.
 void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
-void collide_surface_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query);
-void collide_surface_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query);
+void collide_mesh_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query);
+void collide_mesh_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query);
 
 }  // namespace tumble

@@ -141,7 +141,7 @@ void collide_half_space_polyhedron(const HalfSpace& a, const Polyhedron& b, cons
     Manifold m;
     m.normal = normal;
     m.corners = Corners::of_b;
-    keep_best_points(scratch.points, m, scratch.left_out);
+    keep_best_points(scratch.points, m, scratch.reduced);
     if (m.count > 1) {
         // All corners lie over the plane: the corners of the face along the plane bound the contact area.
         scratch.incident.clear();

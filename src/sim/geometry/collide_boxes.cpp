@@ -97,20 +97,18 @@ private:
     Lanes row_[3], size_[3];  // rows of r; absolute values of r
 };
 
-constexpr double lowest = BoxAxes::lowest;
-
-struct FaceAxis {
+struct BoxFaceAxis {
     int axis = 0;
-    double separation = lowest;
+    double separation = BoxAxes::lowest;
 };
 
 // The face of largest separation. In a tie, the face with the other's center highest above it wins, as in
 // separating_axis.cpp.
-FaceAxis best_face(const Vec3& center, const Vec3& half, const BoxAxes::Lanes& separation) {
+BoxFaceAxis best_box_face(const Vec3& center, const Vec3& half, const BoxAxes::Lanes& separation) {
     int first = 0;
     for (int k = 1; k < 3; ++k)
         if (std::abs(center[k]) - half[k] > std::abs(center[first]) - half[first]) first = k;
-    FaceAxis best{first, separation[first]};
+    BoxFaceAxis best{first, separation[first]};
     for (int k = 0; k < 3; ++k)
         if (separation[k] > best.separation) best = {k, separation[k]};
     return best;
@@ -266,7 +264,7 @@ void add_face(const BoxFacing& facing, bool must_touch, const ManifoldSink& sink
     Manifold& m = sink.out.emplace_back();
     m.normal = (facing.on_b ? -sign : sign) * sink.frame.rotation.col(axis);
     m.corners = facing.on_b ? Corners::of_a : Corners::of_b;
-    keep_best_points(scratch.points, m, scratch.left_out);
+    keep_best_points(scratch.points, m, scratch.reduced);
     spread_pressure(contact_area(scratch.points, m.normal), m);
 }
 
@@ -285,9 +283,9 @@ void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuer
     };
     if (scratch.axis < 15 && apart(scratch.axis, axes.along(scratch.axis))) return;
     const BoxAxes::Lanes faces_a = axes.faces_a(), faces_b = axes.faces_b();
-    const FaceAxis face_a = best_face(t, a.half_extent, faces_a);
+    const BoxFaceAxis face_a = best_box_face(t, a.half_extent, faces_a);
     if (apart(std::uint32_t(face_a.axis), face_a.separation)) return;
-    const FaceAxis face_b = best_face(t_in_b, b.half_extent, faces_b);
+    const BoxFaceAxis face_b = best_box_face(t_in_b, b.half_extent, faces_b);
     if (apart(std::uint32_t(3 + face_b.axis), face_b.separation)) return;
 
     const double smaller = std::min(a.radius, b.radius);
@@ -322,32 +320,33 @@ void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuer
     const SeparatingAxis best_of_faces{.separation = of_b ? face_b.separation : face_a.separation,
                                        .normal = normal_of(of_b, face)};
     SeparatingAxis by_edges{.separation = best};
-    bool speak = edge_i >= 0, given_up = false;  // whether an edge contact is used; whether it was rejected for a face
-    if (speak) {
+    bool uses_edges = edge_i >= 0,
+         rejected_edges = false;  // whether an edge contact is used; whether it was rejected for a face
+    if (uses_edges) {
         by_edges.normal = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
         if (flip) by_edges.normal = -by_edges.normal;
-        given_up = edges_along_face(by_edges, best_of_faces, smaller, scratch.choice);
-        speak = !given_up;
+        rejected_edges = edges_along_face(by_edges, best_of_faces, smaller, scratch.choice);
+        uses_edges = !rejected_edges;
     }
-    const SeparatingAxis& axis = speak ? by_edges : best_of_faces;
-    bool must_touch = axis.separation < 0.0 && !given_up;
-    if (may_slide_past(axis.separation, scratch.way, smaller)) {
-        Vec3 way = Vec3::Zero();  // computed only where both faces graze
-        if (axis.separation < preference) way = query.pose_a.rotation.transpose() * scratch.way;
+    const SeparatingAxis& axis = uses_edges ? by_edges : best_of_faces;
+    bool must_touch = axis.separation < 0.0 && !rejected_edges;
+    if (may_slide_past(axis.separation, scratch.displacement, smaller)) {
+        Vec3 displacement = Vec3::Zero();  // computed only where both faces graze
+        if (axis.separation < preference) displacement = query.pose_a.rotation.transpose() * scratch.displacement;
         double most = -preference;  // lower separations are not grazing
         for (const bool on_b : {false, true})
             for (int k = 0; k < 3; ++k) {
                 const double s = (on_b ? faces_b : faces_a)[k];
-                if (s <= most ||
-                    !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, way, smaller, scratch.choice))
+                if (s <= most || !slides_past(axis, {.separation = s, .normal = normal_of(on_b, k)}, displacement,
+                                              smaller, scratch.choice))
                     continue;
                 most = s;
-                speak = given_up = must_touch = false;
+                uses_edges = rejected_edges = must_touch = false;
                 of_b = on_b;
                 face = k;
             }
     }
-    if (!speak) {
+    if (!uses_edges) {
         const std::size_t first = query.out.size();
         if (of_b) {
             // In B's frame A's center lies at -t_in_b, and A's axes are the rows of r.
@@ -358,8 +357,8 @@ void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuer
             add_face({a, b, t, r, face, t[face] < 0.0 ? -1.0 : 1.0, false}, must_touch,
                      {query.pose_a, query.margin, scratch, query.out});
         }
-        speak = given_up && misses_edges(std::span(query.out).subspan(first), by_edges.separation, smaller);
-        if (!speak) return;
+        uses_edges = rejected_edges && misses_edges(std::span(query.out).subspan(first), by_edges.separation, smaller);
+        if (!uses_edges) return;
         query.out.resize(first);
     }
     static const BoxEdges edges;

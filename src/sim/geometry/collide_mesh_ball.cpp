@@ -16,7 +16,7 @@ bool listed(const std::vector<T>& list, T value) {
 
 }  // namespace
 
-void collide_surface_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query) {
+void collide_mesh_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     const Vec3 center = query.pose_a.to_body(query.pose_b.position);
     const double reach = b.radius + query.margin;

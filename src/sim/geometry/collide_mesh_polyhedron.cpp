@@ -125,7 +125,7 @@ bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose
 
 }  // namespace
 
-void collide_surface_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query) {
+void collide_mesh_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     // In the body's frame, because hulls are larger than triangles.
     const Pose a_in_b = seen_from(query.pose_b, query.pose_a);

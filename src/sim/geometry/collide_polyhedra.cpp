@@ -78,7 +78,8 @@ void collide_polyhedra(const Polyhedron& a, const Polyhedron& b, const Collision
     const auto add = [&](EdgeSearch search) {  // returns whether the shapes seem to overlap
         SeparatingAxis edges;
         const SeparatingAxis axis = find_separating_axis(
-            {a, b, b_in_a, query.margin, search, query.pose_a.rotation.transpose() * scratch.way}, scratch, &edges);
+            {a, b, b_in_a, query.margin, search, query.pose_a.rotation.transpose() * scratch.displacement}, scratch,
+            &edges);
         const bool preferred = edges.kind == SeparatingAxis::Kind::edges,
                    overlapping = axis.separation < 0.0 && !axis.grazed;
         add_manifold(a, b, b_in_a, axis, overlapping && !preferred, sink);

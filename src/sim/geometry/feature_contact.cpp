@@ -66,7 +66,7 @@ void add_face_manifold(const ReferenceFace& reference, bool must_touch, const Ma
     Manifold m;
     m.normal = sink.frame.rotation * (reference.on_b ? Vec3(-normal) : normal);
     m.corners = reference.on_b ? Corners::of_a : Corners::of_b;
-    keep_best_points(scratch.points, m, scratch.left_out);
+    keep_best_points(scratch.points, m, scratch.reduced);
     spread_pressure(contact_area(scratch.points, m.normal), m);
     sink.out.push_back(m);
 }

@@ -12,7 +12,7 @@ constexpr double clearly = 1.02;
 // Points within this fraction of the manifold's size from touching carry the load or soon will: they are preferred to
 // points farther off, the deepest first (compared with the second constant, also a fraction of the size). If a
 // load-carrying point is dropped, the body sinks there until the point is restored, and is then kicked out.
-constexpr double near = 1e-3;
+constexpr double near_touching = 1e-3;
 constexpr double deeper = 1e-5;
 // A gain below this fraction of the size, or of its square, counts as none.
 constexpr double negligible_size = 1e-6;
@@ -54,7 +54,7 @@ std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
 }
 
 void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold,
-                      std::vector<ContactPoint>& left_out) {
+                      std::vector<ContactPoint>& reduced) {
     if (candidates.size() <= Manifold::capacity) {
         manifold.count = std::int16_t(candidates.size());
         std::copy(candidates.begin(), candidates.end(), manifold.points.begin());
@@ -67,7 +67,7 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
     std::size_t deepest = 0;
     for (std::size_t i = 1; i < candidates.size(); ++i)
         if (candidates[i].separation < candidates[deepest].separation - deeper * size) deepest = i;
-    const double touching = std::max(0.0, candidates[deepest].separation) + near * size;
+    const double touching = std::max(0.0, candidates[deepest].separation) + near_touching * size;
     manifold.count = 1;
     manifold.points[0] = candidates[deepest];
     for (const bool far : {false, true}) {
@@ -94,10 +94,10 @@ void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& man
             if (across(manifold.normal, lower.position - upper.position).norm() < steep * nearer) upper = lower;
         }
     }
-    manifold.first_left_out = std::uint32_t(left_out.size());
+    manifold.first_reduced = std::uint32_t(reduced.size());
     for (const ContactPoint& p : candidates)
-        if (!manifold.has(p.feature)) left_out.push_back(p);
-    manifold.left_out = std::uint16_t(left_out.size() - manifold.first_left_out);
+        if (!manifold.has(p.feature)) reduced.push_back(p);
+    manifold.reduced = std::uint16_t(reduced.size() - manifold.first_reduced);
 }
 
 }  // namespace tumble

@@ -58,8 +58,8 @@ struct Manifold {
     bool more = false;             // those of the same two faces' points that the first manifold has no room for
     bool solved_directly = false;  // whether the direct solver solved it in the last step
     Corners corners = Corners::neither;
-    std::uint16_t left_out = 0;  // number of its candidates in CollisionScratch::left_out, for a manifold just found
-    std::uint32_t first_left_out = 0;
+    std::uint16_t reduced = 0;  // number of its candidates in CollisionScratch::reduced, for a manifold just found
+    std::uint32_t first_reduced = 0;
     Vec3 normal = Vec3::Zero();
     std::array<ContactPoint, capacity> points;
 
@@ -72,7 +72,7 @@ struct Manifold {
     // about the normal. Kept from step to step.
     Vec3 tangent = Vec3::Zero();      // unit, world; zero before the first solve
     double friction[2] = {0.0, 0.0};  // N s on B, along the two tangents
-    double twist = 0.0;               // N m s on B, about the normal
+    double torsion = 0.0;             // N m s on B, about the normal
 
     bool has(std::uint64_t feature) const {
         for (int i = 0; i < count; ++i)
@@ -95,8 +95,8 @@ struct Manifold {
 std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds);
 
 /// Fills `manifold.points` with the candidates. Of more than four it keeps the deepest and three that span a large area
-/// with it, points that touch first. The rest is appended to `left_out`.
+/// with it, points that touch first. The rest is appended to `reduced`.
 void keep_best_points(const std::vector<ContactPoint>& candidates, Manifold& manifold,
-                      std::vector<ContactPoint>& left_out);
+                      std::vector<ContactPoint>& reduced);
 
 }  // namespace tumble

@@ -43,12 +43,12 @@ void add(const ContactPoint& p, Manifold& first, Manifold& more) {
 
 }  // namespace
 
-bool sank(double left_out, double deepest, double radius) {
+bool sank(double reduced, double deepest, double radius) {
     const double overlap = tuning::sunk_overlap * radius;
-    return left_out < -overlap && left_out < deepest - std::max(overlap, tuning::sunk_share * std::abs(deepest));
+    return reduced < -overlap && reduced < deepest - std::max(overlap, tuning::sunk_share * std::abs(deepest));
 }
 
-bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out,
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> reduced,
             double radius) {
     double deepest = std::numeric_limits<double>::infinity(), deepest_known = deepest;
     const auto look_at = [&](const ContactPoint& p) {
@@ -57,18 +57,18 @@ bool missed(std::span<const Manifold> before, const Manifold& found, std::span<c
             if (m.part == found.part && m.has(p.feature)) deepest_known = std::min(deepest_known, p.separation);
     };
     std::for_each(found.points.begin(), found.points.begin() + found.count, look_at);
-    std::for_each(left_out.begin(), left_out.end(), look_at);
+    std::for_each(reduced.begin(), reduced.end(), look_at);
     return std::isfinite(deepest_known) && sank(deepest, deepest_known, radius);
 }
 
-Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& left_out) {
+Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& reduced) {
     Manifold first = found, more = found;
     first.count = more.count = 0;
     more.more = true;
-    if (found.left_out == 0 || faces_of(found) != faces_of(before[0])) return more;
+    if (found.reduced == 0 || faces_of(found) != faces_of(before[0])) return more;
     std::vector<ContactPoint> candidates(found.points.begin(), found.points.begin() + found.count);
-    candidates.insert(candidates.end(), left_out.begin() + found.first_left_out,
-                      left_out.begin() + found.first_left_out + found.left_out);
+    candidates.insert(candidates.end(), reduced.begin() + found.first_reduced,
+                      reduced.begin() + found.first_reduced + found.reduced);
     double deepest = std::numeric_limits<double>::infinity();
     for (const ContactPoint& p : candidates)
         for (std::size_t k = 0; k < std::min<std::size_t>(before.size(), 2); ++k) {
@@ -90,9 +90,9 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
         std::swap(first.count, more.count);
     }
     std::erase_if(candidates, kept);
-    first.first_left_out = std::uint32_t(left_out.size());
-    first.left_out = std::uint32_t(candidates.size());
-    left_out.insert(left_out.end(), candidates.begin(), candidates.end());
+    first.first_reduced = std::uint32_t(reduced.size());
+    first.reduced = std::uint32_t(candidates.size());
+    reduced.insert(reduced.end(), candidates.begin(), candidates.end());
     const ContactArea area = contact_area(found);
     spread_pressure(area, first);
     spread_pressure(area, more);

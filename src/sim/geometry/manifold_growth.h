@@ -14,17 +14,17 @@ namespace tumble {
 
 /// Whether a reduced point has sunk below all points of a pair of faces, by enough to be needed. Separations in m,
 /// `radius` that of the smaller body.
-bool sank(double left_out, double deepest, double radius);
+bool sank(double reduced, double deepest, double radius);
 
 /// The same for a pair searched anew, because its bodies have moved too far to refresh the points: whether the points
 /// of `before` were insufficient. Precondition: a shape with more corners than two manifolds have room for. In heaps of
 /// boxes it would add a third more manifolds.
-bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> left_out,
+bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> reduced,
             double radius);
 
 /// Chooses again among the points of `found` and the reduced points: all points of the manifolds of `before` (one or
 /// two), points that sank, and others while there is room. Returns the second manifold, without points where one is
-/// enough; reduced points are appended to `left_out`. Where other faces meet than before, `found` stays unchanged.
-Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& left_out);
+/// enough; reduced points are appended to `reduced`. Where other faces meet than before, `found` stays unchanged.
+Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, std::vector<ContactPoint>& reduced);
 
 }  // namespace tumble

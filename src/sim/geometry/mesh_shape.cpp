@@ -33,7 +33,7 @@ void turn_to_sheets(std::vector<CollisionMesh::Triangle>& triangles) {
 
 }  // namespace
 
-CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin) {
+CollisionMesh make_collision_mesh(const TriangleMesh& mesh, const Vec3& origin) {
     CollisionMesh s;
     s.closed = closedness(mesh).closed();
     for (const Vec3& v : mesh.vertices) {
@@ -96,8 +96,8 @@ CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin) {
 bool CollisionMesh::owns_normal(const Triangle& triangle, const Vec3& normal) const {
     constexpr double slack = 1e-9;  // sine of the angle allowed for rounding
     const auto farther = [&](std::uint32_t to, std::uint32_t from) {
-        const Vec3 way = vertices[to] - vertices[from];
-        return normal.dot(way) > slack * way.norm();
+        const Vec3 edge = vertices[to] - vertices[from];
+        return normal.dot(edge) > slack * edge.norm();
     };
     const auto& v = triangle.vertices;
     std::size_t top = 0;

@@ -46,7 +46,7 @@ struct CollisionMesh {
 };
 
 /// Throws InputError when no triangle has an area.
-CollisionMesh make_surface(const TriangleMesh& mesh, const Vec3& origin);
+CollisionMesh make_collision_mesh(const TriangleMesh& mesh, const Vec3& origin);
 
 struct NearestOnTriangle {
     Vec3 point;

@@ -109,15 +109,15 @@ void find_pieces(const CollisionMesh& s, std::span<const std::uint32_t> triangle
 
 }  // namespace
 
-void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> triangles, const Vec3& point,
+void find_sides(const CollisionMesh& mesh, std::span<const std::uint32_t> triangles, const Vec3& point,
                 SideScratch& scratch) {
     auto& behind = scratch.behind;
     behind.clear();
-    for (const std::uint32_t t : triangles) behind.push_back(plane_behind(surface, t, point));
+    for (const std::uint32_t t : triangles) behind.push_back(plane_behind(mesh, t, point));
     // The triangle of the nearest place is among them and right: if all agree, all are right. Most searches end here.
     const bool mixed = std::adjacent_find(behind.begin(), behind.end(), std::not_equal_to{}) != behind.end();
-    if (!mixed || surface.closed) return;
-    find_pieces(surface, triangles, scratch);
+    if (!mixed || mesh.closed) return;
+    find_pieces(mesh, triangles, scratch);
     const auto& piece = scratch.piece;
     auto& pieces = scratch.pieces;
     pieces.assign(triangles.size(), {});
@@ -126,14 +126,14 @@ void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> tri
     for (std::size_t k = 0; k < triangles.size(); ++k) {
         SideScratch::Piece& whole = pieces[piece[k]];
         if (!whole.mixed) continue;
-        const double square = (point - nearest(surface, triangles[k], point).point).squaredNorm();
+        const double square = (point - nearest(mesh, triangles[k], point).point).squaredNorm();
         if (whole.nearest != no_triangle && square >= whole.square) continue;
         whole.square = square;
         whole.nearest = triangles[k];
     }
     for (SideScratch::Piece& whole : pieces)
-        if (whole.mixed && surface.triangles[whole.nearest].sheet != no_triangle)
-            whole.behind = sheet_behind(surface, whole.nearest, point);
+        if (whole.mixed && mesh.triangles[whole.nearest].sheet != no_triangle)
+            whole.behind = sheet_behind(mesh, whole.nearest, point);
     for (std::size_t k = 0; k < triangles.size(); ++k)
         if (const auto side = pieces[piece[k]].behind) behind[k] = *side;
 }

@@ -28,7 +28,7 @@ struct SideScratch {
 /// Fills `behind` for each of `triangles`, which are those near the point. Triangles connected by edges have it on the
 /// same side, unless the nearest place is on the border; there each triangle's plane decides, as for a rod that leans
 /// out of a bowl.
-void find_sides(const CollisionMesh& surface, std::span<const std::uint32_t> triangles, const Vec3& point,
+void find_sides(const CollisionMesh& mesh, std::span<const std::uint32_t> triangles, const Vec3& point,
                 SideScratch& scratch);
 
 }  // namespace tumble

@@ -20,65 +20,67 @@ Ends ends_of(const ContactPoint& p, const Vec3& normal, const Pose& pose_a, cons
 
 }  // namespace
 
-PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b) {
-    PersistentManifold anchors;
-    anchors.normal_of_b = normal_of_b;
-    anchors.normal = (normal_of_b ? pose_b : pose_a).rotation.transpose() * m.normal;
+PersistentManifold make_persistent_manifold(const Manifold& m, const Pose& pose_a, const Pose& pose_b,
+                                            bool normal_of_b) {
+    PersistentManifold persistent;
+    persistent.normal_of_b = normal_of_b;
+    persistent.normal = (normal_of_b ? pose_b : pose_a).rotation.transpose() * m.normal;
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
         const Ends ends = ends_of(m.points[i], m.normal, pose_a, pose_b);
-        anchors.feet.set(i, normal_of_b ? ends.on_b : ends.on_a);
-        anchors.corners.set(i, normal_of_b ? ends.on_a : ends.on_b);
+        persistent.feet.set(i, normal_of_b ? ends.on_b : ends.on_a);
+        persistent.corners.set(i, normal_of_b ? ends.on_a : ends.on_b);
     }
-    return anchors;
+    return persistent;
 }
 
-void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a,
-                 const Pose& pose_b, PersistentManifold& anchors) {
-    const auto add = [&, of_b = anchors.normal_of_b](const ContactPoint& p) {
+void keep_reduced_points(std::span<const ContactPoint> reduced, std::span<const Manifold> kept, const Pose& pose_a,
+                         const Pose& pose_b, PersistentManifold& persistent) {
+    const auto add = [&, of_b = persistent.normal_of_b](const ContactPoint& p) {
         const auto [on_a, on_b] = ends_of(p, kept[0].normal, pose_a, pose_b);
         const Vec3 point = of_b ? on_a : on_b;
-        anchors.spare[std::size_t(anchors.spares++)] = {{float(point.x()), float(point.y()), float(point.z())},
-                                                        float(anchors.normal.dot(of_b ? on_b : on_a))};
+        persistent.reduced[std::size_t(persistent.reduced_count++)] = {
+            {float(point.x()), float(point.y()), float(point.z())}, float(persistent.normal.dot(of_b ? on_b : on_a))};
     };
-    if (left_out.size() <= PersistentManifold::spare_capacity) {
-        std::for_each(left_out.begin(), left_out.end(), add);
+    if (reduced.size() <= PersistentManifold::reduced_capacity) {
+        std::for_each(reduced.begin(), reduced.end(), add);
         return;
     }
     std::vector<double> farness;  // squared distance from the nearest point that is kept or chosen
-    for (const ContactPoint& p : left_out) {
+    for (const ContactPoint& p : reduced) {
         double nearest = std::numeric_limits<double>::infinity();
         for (const Manifold& m : kept)
             for (int i = 0; i < m.count; ++i)
                 nearest = std::min(nearest, (m.points[std::size_t(i)].position - p.position).squaredNorm());
         farness.push_back(nearest);
     }
-    while (anchors.spares < int(PersistentManifold::spare_capacity)) {
+    while (persistent.reduced_count < int(PersistentManifold::reduced_capacity)) {
         const auto next = std::size_t(std::max_element(farness.begin(), farness.end()) - farness.begin());
-        add(left_out[next]);
-        for (std::size_t i = 0; i < left_out.size(); ++i)
-            farness[i] = std::min(farness[i], (left_out[i].position - left_out[next].position).squaredNorm());
+        add(reduced[next]);
+        for (std::size_t i = 0; i < reduced.size(); ++i)
+            farness[i] = std::min(farness[i], (reduced[i].position - reduced[next].position).squaredNorm());
     }
 }
 
-double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m) {
+double deepest_reduced_point(const PersistentManifold& persistent, const Pose& pose_a, const Pose& pose_b,
+                             const Manifold& m) {
     double deepest = std::numeric_limits<double>::infinity();
-    if (anchors.spares == 0) return deepest;  // the most frequent case
+    if (persistent.reduced_count == 0) return deepest;  // the most frequent case
     const double between = m.normal.dot(pose_b.position - pose_a.position);
-    const Vec3 n = (anchors.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
-    for (std::size_t i = 0; i < std::size_t(anchors.spares); ++i) {
-        const PersistentManifold::Spare& spare = anchors.spare[i];
-        const double height = n.dot(Vec3(spare.point[0], spare.point[1], spare.point[2])), face = spare.face;
-        deepest = std::min(deepest, between + (anchors.normal_of_b ? face - height : height - face));
+    const Vec3 n = (persistent.normal_of_b ? pose_a : pose_b).rotation.transpose() * m.normal;
+    for (std::size_t i = 0; i < std::size_t(persistent.reduced_count); ++i) {
+        const PersistentManifold::ReducedPoint& reduced = persistent.reduced[i];
+        const double height = n.dot(Vec3(reduced.point[0], reduced.point[1], reduced.point[2])), face = reduced.face;
+        deepest = std::min(deepest, between + (persistent.normal_of_b ? face - height : height - face));
     }
     return deepest;
 }
 
 // All slots are computed side by side, unused ones too: loops of fixed length become vector code.
-void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
-    const Pose &of_face = anchors.normal_of_b ? pose_b : pose_a, &other = anchors.normal_of_b ? pose_a : pose_b;
+void refresh(const PersistentManifold& persistent, const Pose& pose_a, const Pose& pose_b, Manifold& m) {
+    const Pose &of_face = persistent.normal_of_b ? pose_b : pose_a, &other = persistent.normal_of_b ? pose_a : pose_b;
     const Vec3 between = other.position - of_face.position;  // the difference first: digits far from the origin
-    const Vec3 n = of_face.rotation * anchors.normal;
-    const auto &foot = anchors.feet.coordinate, &corner = anchors.corners.coordinate;
+    const Vec3 n = of_face.rotation * persistent.normal;
+    const auto &foot = persistent.feet.coordinate, &corner = persistent.corners.coordinate;
     constexpr int points = Manifold::capacity;
     double arm[3][points], height[points];  // m, of the corners, from the center of the face's body and over the feet
     for (int k = 0; k < 3; ++k) {
@@ -87,13 +89,14 @@ void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& p
             arm[k][i] = between[k] + (r0 * corner[0][i] + r1 * corner[1][i] + r2 * corner[2][i]);
     }
     for (int i = 0; i < points; ++i)
-        height[i] = (n[0] * arm[0][i] + n[1] * arm[1][i] + n[2] * arm[2][i]) -
-                    (anchors.normal[0] * foot[0][i] + anchors.normal[1] * foot[1][i] + anchors.normal[2] * foot[2][i]);
+        height[i] =
+            (n[0] * arm[0][i] + n[1] * arm[1][i] + n[2] * arm[2][i]) -
+            (persistent.normal[0] * foot[0][i] + persistent.normal[1] * foot[1][i] + persistent.normal[2] * foot[2][i]);
     // The corner slides over the face, and lever arms follow it.
     for (int k = 0; k < 3; ++k)
         for (int i = 0; i < points; ++i) arm[k][i] = of_face.position[k] + (arm[k][i] - 0.5 * height[i] * n[k]);
     m.normal = n;
-    const double sign = anchors.normal_of_b ? -1.0 : 1.0;  // the normal points from A to B
+    const double sign = persistent.normal_of_b ? -1.0 : 1.0;  // the normal points from A to B
     for (std::size_t i = 0; i < std::size_t(m.count); ++i) {
         m.points[i].separation = sign * height[i];
         m.points[i].position = {arm[0][i], arm[1][i], arm[2][i]};
@@ -105,7 +108,7 @@ namespace {
 constexpr double same_side = 0.9;  // cosine of the angle between the normals of two steps: 26 degrees
 
 // The load must not be lost where the points have changed: remaining impulses go to the nearest points.
-void hand_over(const Manifold& old, const bool (&taken)[Manifold::capacity], Manifold& m) {
+void transfer_impulses(const Manifold& old, const bool (&taken)[Manifold::capacity], Manifold& m) {
     if (old.normal.dot(m.normal) < same_side) return;
     for (int k = 0; k < old.count; ++k) {
         const ContactPoint& before = old.points[std::size_t(k)];
@@ -120,10 +123,10 @@ void hand_over(const Manifold& old, const bool (&taken)[Manifold::capacity], Man
 
 }  // namespace
 
-void carry_over(const Manifold& old, double reach, Manifold& m) {
+void match_impulses(const Manifold& old, double reach, Manifold& m) {
     m.tangent = old.tangent;
     std::copy_n(old.friction, 2, m.friction);
-    m.twist = old.twist;
+    m.torsion = old.torsion;
     m.solved_directly = old.solved_directly;
     bool taken[Manifold::capacity] = {}, found[Manifold::capacity] = {};
     for (int i = 0; i < m.count; ++i) {
@@ -151,9 +154,9 @@ void carry_over(const Manifold& old, double reach, Manifold& m) {
         point.impulse = old.points[std::size_t(best)].impulse;
         taken[best] = true;
     }
-    hand_over(old, taken, m);
+    transfer_impulses(old, taken, m);
 }
 
-void hand_over(const Manifold& old, Manifold& m) { hand_over(old, {}, m); }
+void transfer_impulses(const Manifold& old, Manifold& m) { transfer_impulses(old, {}, m); }
 
 }  // namespace tumble

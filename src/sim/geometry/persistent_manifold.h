@@ -33,28 +33,30 @@ struct PersistentManifold {
     // Reduced points of the same two faces, stored with the first manifold: the end on the body that the normal does
     // not belong to, and the height of the face there along the normal (m, in the frame of the face's body). Single
     // precision: they only detect whether a point has sunk by more than a fraction of its size.
-    struct Spare {
+    struct ReducedPoint {
         float point[3];
         float face;
     };
-    static constexpr std::size_t spare_capacity = 4;  // with the manifold's four, all of two quadrilaterals
-    int spares = 0;
-    std::array<Spare, spare_capacity> spare;
+    static constexpr std::size_t reduced_capacity = 4;  // with the manifold's four, all of two quadrilaterals
+    int reduced_count = 0;
+    std::array<ReducedPoint, reduced_capacity> reduced;
 };
 
 /// `normal_of_b`: the normal is that of a face of B.
-PersistentManifold make_anchors(const Manifold& m, const Pose& pose_a, const Pose& pose_b, bool normal_of_b);
+PersistentManifold make_persistent_manifold(const Manifold& m, const Pose& pose_a, const Pose& pose_b,
+                                            bool normal_of_b);
 
 /// Adds reduced points: of many, those farthest from the kept ones and from each other.
 /// `kept`: the manifold, and its second one where there is one.
-void keep_spares(std::span<const ContactPoint> left_out, std::span<const Manifold> kept, const Pose& pose_a,
-                 const Pose& pose_b, PersistentManifold& anchors);
+void keep_reduced_points(std::span<const ContactPoint> reduced, std::span<const Manifold> kept, const Pose& pose_a,
+                         const Pose& pose_b, PersistentManifold& persistent);
 
-/// Separation (m) of the deepest spare, for a refreshed `m`; infinity without spares.
-double deepest_spare(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, const Manifold& m);
+/// Separation (m) of the deepest reduced point, for a refreshed `m`; infinity without any.
+double deepest_reduced_point(const PersistentManifold& persistent, const Pose& pose_a, const Pose& pose_b,
+                             const Manifold& m);
 
 /// Refreshes normal, positions and separations of `m` for new poses.
-void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& pose_b, Manifold& m);
+void refresh(const PersistentManifold& persistent, const Pose& pose_a, const Pose& pose_b, Manifold& m);
 
 // Impulse matching: transfers the impulses of the last step to new manifolds, as warm start for the solver.
 
@@ -63,9 +65,9 @@ void follow(const PersistentManifold& anchors, const Pose& pose_a, const Pose& p
 /// - without such a point, that of the nearest old point not yet taken, if nearer than `reach` (m);
 /// - remaining impulses go to the nearest points while the normals agree: a load must not be lost where points change.
 /// Friction, its tangent and the torsional friction are transferred too.
-void carry_over(const Manifold& old, double reach, Manifold& m);
+void match_impulses(const Manifold& old, double reach, Manifold& m);
 
 /// Adds the normal impulses of a removed second manifold to the nearest points of the remaining one.
-void hand_over(const Manifold& old, Manifold& m);
+void transfer_impulses(const Manifold& old, Manifold& m);
 
 }  // namespace tumble

@@ -50,14 +50,14 @@ void Polyhedron::complete() {
     }
     edge_tree = BoundsTree(std::move(edge_bounds));
 
-    first_neighbour.assign(vertices.size() + 1, 0);
-    for (const Edge& e : edges) ++first_neighbour[e.tail + 1], ++first_neighbour[e.head + 1];
-    for (std::size_t i = 1; i < first_neighbour.size(); ++i) first_neighbour[i] += first_neighbour[i - 1];
-    neighbours.resize(2 * edges.size());
-    std::vector<std::uint32_t> next(first_neighbour.begin(), first_neighbour.end() - 1);
+    first_neighbor.assign(vertices.size() + 1, 0);
+    for (const Edge& e : edges) ++first_neighbor[e.tail + 1], ++first_neighbor[e.head + 1];
+    for (std::size_t i = 1; i < first_neighbor.size(); ++i) first_neighbor[i] += first_neighbor[i - 1];
+    neighbors.resize(2 * edges.size());
+    std::vector<std::uint32_t> next(first_neighbor.begin(), first_neighbor.end() - 1);
     for (const Edge& e : edges) {
-        neighbours[next[e.tail]++] = e.head;
-        neighbours[next[e.head]++] = e.tail;
+        neighbors[next[e.tail]++] = e.head;
+        neighbors[next[e.head]++] = e.tail;
     }
 }
 
@@ -66,11 +66,11 @@ std::uint32_t Polyhedron::support(const Vec3& direction, std::uint32_t start) co
     double farthest = direction.dot(vertices[best]);
     while (true) {
         const std::uint32_t from = best;
-        for (std::uint32_t k = first_neighbour[from]; k < first_neighbour[from + 1]; ++k) {
-            const double d = direction.dot(vertices[neighbours[k]]);
+        for (std::uint32_t k = first_neighbor[from]; k < first_neighbor[from + 1]; ++k) {
+            const double d = direction.dot(vertices[neighbors[k]]);
             if (d > farthest) {
                 farthest = d;
-                best = neighbours[k];
+                best = neighbors[k];
             }
         }
         if (best == from) return best;

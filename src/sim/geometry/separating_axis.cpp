@@ -72,14 +72,14 @@ void edges_in(const Polyhedron& shape, const Region& region, std::vector<std::ui
 }
 
 // In `shape`'s frame. Its best face f: the other lies above f's plane lowered by the overlap. The other's best face g:
-// this shape's part of the contact lies below g's plane. Each within `way`.
+// this shape's part of the contact lies below g's plane. Each within `reach`.
 Region contact_region(const Polyhedron& shape, const FaceAxis& f, const Polyhedron& other, const FaceAxis& g,
-                      const Pose& other_pose, double way) {
+                      const Pose& other_pose, double reach) {
     const Polyhedron::Face &own = shape.faces[f.face], &theirs = other.faces[g.face];
     const Vec3 into = -(other_pose.rotation * theirs.normal);
-    return {posed_bounds(other.bounds, other_pose).grown(way),
+    return {posed_bounds(other.bounds, other_pose).grown(reach),
             {own.normal, into},
-            {own.offset + std::min(0.0, f.separation) - way, into.dot(other_pose.position) - theirs.offset - way}};
+            {own.offset + std::min(0.0, f.separation) - reach, into.dot(other_pose.position) - theirs.offset - reach}};
 }
 
 // Whether the two edges form a face of the Minkowski difference: their arcs on the Gauss map cross (Gregorius 2013). a,
@@ -94,9 +94,9 @@ void search_edges(const AxisQuery& query, const FaceAxis& face_a, const FaceAxis
                   double& best, SeparatingAxis& axis) {
     const Polyhedron &a = query.a, &b = query.b;
     const Pose& b_in_a = query.b_in_a;
-    const double way = edge_reach(query.edges, query.margin, axis.separation);
-    edges_in(a, contact_region(a, face_a, b, face_b, b_in_a, way), scratch.edges_a);
-    edges_in(b, contact_region(b, face_b, a, face_a, inverse(b_in_a), way), scratch.edges_b);
+    const double reach = edge_reach(query.edges, query.margin, axis.separation);
+    edges_in(a, contact_region(a, face_a, b, face_b, b_in_a, reach), scratch.edges_a);
+    edges_in(b, contact_region(b, face_b, a, face_a, inverse(b_in_a), reach), scratch.edges_b);
     for (const std::uint32_t ib : scratch.edges_b) {
         const Polyhedron::Edge& eb = b.edges[ib];
         const Vec3 tail_b = b_in_a.to_world(b.vertices[eb.tail]);
@@ -141,7 +141,7 @@ SeparatingAxis grazed_face(const AxisQuery& query, const SeparatingAxis& axis, d
                                      .feature_b = of_b ? f : 0,
                                      .normal = of_b ? Vec3(-(b_in_a.rotation * face.normal)) : face.normal,
                                      .grazed = true};
-            if (slides_past(axis, candidate, query.way, smaller_radius, choice) &&
+            if (slides_past(axis, candidate, query.displacement, smaller_radius, choice) &&
                 (!grazed.grazed || candidate.separation > grazed.separation))
                 grazed = candidate;
         }
@@ -177,22 +177,23 @@ bool misses_edges(std::span<const Manifold> of_face, double edges_separation, do
     });
 }
 
-bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius,
-                 AxisChoice choice) {
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& displacement,
+                 double smaller_radius, AxisChoice choice) {
     const double grazing = axis_preference(smaller_radius);
     if (choice != AxisChoice::steady || apart.separation < -grazing || face.separation <= -grazing) return false;
     if (std::abs(face.normal.dot(apart.normal)) >= across_face) return false;
     if (apart.separation < grazing) {
-        const double along_apart = std::abs(way.dot(apart.normal)), along_face = std::abs(way.dot(face.normal));
+        const double along_apart = std::abs(displacement.dot(apart.normal)),
+                     along_face = std::abs(displacement.dot(face.normal));
         if (along_apart > grazing && along_face < 0.5 * along_apart) return true;
         if (along_face > grazing && along_apart < 0.5 * along_face) return false;
     }
     return apart.separation > 0.0 && face.separation < apart.separation;
 }
 
-bool may_slide_past(double separation, const Vec3& way, double smaller_radius) {
+bool may_slide_past(double separation, const Vec3& displacement, double smaller_radius) {
     const double grazing = axis_preference(smaller_radius);
-    return separation > 0.0 || (separation > -grazing && way.squaredNorm() > grazing * grazing);
+    return separation > 0.0 || (separation > -grazing && displacement.squaredNorm() > grazing * grazing);
 }
 
 bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
@@ -200,7 +201,7 @@ bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
                        [&](const Polyhedron::Face& f) { return f.normal.dot(point) <= f.offset + slack; });
 }
 
-SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& scratch, SeparatingAxis* given_up) {
+SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& scratch, SeparatingAxis* rejected_edges) {
     const Polyhedron &a = query.a, &b = query.b;
     const Pose& b_in_a = query.b_in_a;
     const double margin = query.margin;
@@ -231,11 +232,11 @@ SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& sc
     const bool prefers_face =
         edges.kind == SeparatingAxis::Kind::edges && edges_along_face(edges, face, smaller, scratch.choice);
     if (prefers_face) axis = face;
-    if (may_slide_past(axis.separation, query.way, smaller)) {
+    if (may_slide_past(axis.separation, query.displacement, smaller)) {
         const SeparatingAxis grazed = grazed_face(query, axis, smaller, scratch.choice);
         if (grazed.grazed) return grazed;
     }
-    if (prefers_face && given_up) *given_up = edges;
+    if (prefers_face && rejected_edges) *rejected_edges = edges;
     return axis;
 }
 

@@ -34,12 +34,12 @@ struct AxisQuery {
     const Pose& b_in_a;  // B's pose in A's frame
     double margin;       // m
     EdgeSearch edges;
-    Vec3 way;  // m, displacement of B relative to A in the coming step, in A's frame
+    Vec3 displacement;  // m, displacement of B relative to A in the coming step, in A's frame
 };
 
-/// given_up: the edges that were rejected in favor of a face (edges_along_face); unchanged where there were none.
+/// rejected_edges: the edges that were rejected in favor of a face (edges_along_face); unchanged where there were none.
 SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& scratch,
-                                    SeparatingAxis* given_up = nullptr);
+                                    SeparatingAxis* rejected_edges = nullptr);
 
 /// Separation (m) by which an edge pair must exceed a face to be chosen, and B's face A's, for shapes of this size.
 double axis_preference(double smaller_radius, AxisChoice choice = AxisChoice::steady);
@@ -62,11 +62,11 @@ bool misses_edges(std::span<const Manifold> of_face, double edges_separation, do
 /// tile does not run into the next tile's side. `face`: separation and normal. Where they graze along both, the
 /// displacement (m) of the step selects the face that they slide over, if it is longer than the grazing tolerance. Not
 /// for AxisChoice::nearest.
-bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& way, double smaller_radius,
-                 AxisChoice choice);
+bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& displacement,
+                 double smaller_radius, AxisChoice choice);
 
 /// Whether slides_past is possible for a best axis of this separation (m): most pairs are excluded by it.
-bool may_slide_past(double separation, const Vec3& way, double smaller_radius);
+bool may_slide_past(double separation, const Vec3& displacement, double smaller_radius);
 
 /// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);

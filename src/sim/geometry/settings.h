@@ -3,31 +3,39 @@
 
 namespace tumble::tuning {
 
-/// Two surfaces touch at gaps below this share of the smaller body's radius: far above rounding, far below visible size.
+/// Two surfaces touch at gaps below this share of the smaller body's radius: far above rounding, far below visible
+/// size. Not fitted. Tests: those of the narrow phase and of landing.
 inline constexpr double touch = 1e-6;
 
-/// Two edges nearer to parallel than this (squared sine of their angle) give no separating axis; a face normal covers the case.
+/// Two edges nearer to parallel than this (squared sine of their angle) give no separating axis; a face normal
+/// covers the case. Related test: ContactHardInput.ParallelAndCrossingEdges.
 inline constexpr double parallel_edges = 1e-8;
 
-/// Turn of a body in a step, rad, above which several corners of a cylinder of 200 corners may reach the other surface in the step.
-inline constexpr double swing_turn = 0.03;
+/// Turn of a body in a step, rad, above which several corners of a cylinder of 200 corners may reach the other
+/// surface in the step. Related test: Rolling.WheelsOfCornersStayOnTheGround.
+inline constexpr double fast_rotation_turn = 0.03;
 
 /// The same for a cylinder of 64 corners. Above it, the points of a body on a plane are those that it rolls on.
+/// Related: the same test.
 inline constexpr double rolling_turn = 0.1;
 
-/// A point that the reduction of a manifold to four points left out counts as missed under two conditions: it overlaps by more than
-/// `sunk_overlap` (share of the smaller radius), and it lies deeper than the deepest kept point by more than `sunk_overlap` plus
-/// `sunk_share` of that point's depth. Smaller values give heaps of aligned boxes a third more manifolds; with larger ones boxes rock
-/// before the point is added (bench_contact "pile of 1000").
+/// A point that the reduction of a manifold to four points left out counts as missed under two conditions: it
+/// overlaps by more than `sunk_overlap` (share of the smaller radius), and it lies deeper than the deepest kept
+/// point by more than `sunk_overlap` plus `sunk_share` of that point's depth. Smaller values give heaps of aligned
+/// boxes a third more manifolds; with larger ones boxes rock before the point is added (bench_contact "pile of
+/// 1000"). Test: PairMemory.NoReducedPointSinksUndetected.
 inline constexpr double sunk_overlap = 1e-5;
 inline constexpr double sunk_share = 0.1;
 
-/// A contact of a part of a compound lies on an internal seam where all points at `seam_probe` (share of the part's size) along its normal
-/// lie in other parts, or outside them by at most `seam_tolerance` (same share): far above rounding, below any real edge.
+/// A contact of a part of a compound lies on an internal seam where all points at `seam_probe` (share of the part's
+/// size) along its normal lie in other parts, or outside them by at most `seam_tolerance` (same share): far above
+/// rounding, below any real edge. Not fitted. Related tests: PairMemory.InternalEdgesAreFlat and
+/// Compound.InternalEdgesBetweenPartsAreSmooth.
 inline constexpr double seam_probe = 1e-3;
 inline constexpr double seam_tolerance = 1e-5;
 
-/// Contacts at gaps below this share of the smaller body take part in one event-driven impact, with the touching contacts of the same faces.
+/// Contacts at gaps below this share of the smaller body take part in one event-driven impact, with the touching
+/// contacts of the same faces. Not fitted: far above rounding, and below the tolerance of resting contact.
 inline constexpr double impact_touch = 1e-9;
 
 }  // namespace tumble::tuning

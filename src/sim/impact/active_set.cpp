@@ -38,16 +38,17 @@ bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& m
                       const VelocityBound& bound) {
     bound_ = bound;
     work_ = 0.0;
-    if (bound.velocity) return solve_part(demands, multipliers);  // the bound is on all velocities together
-    find_parts(demands);
-    if (part_count_ == 1) return solve_part(demands, multipliers);
+    if (bound.velocity) return solve_component(demands, multipliers);  // the bound is on all velocities together
+    find_components(demands);
+    if (component_count_ == 1) return solve_component(demands, multipliers);
     bool met = true;
     multipliers.assign(demands.size(), 0.0);
-    for (std::size_t k = 0; k < part_count_; ++k) {
-        part_demands_.clear();
-        for (const std::uint32_t i : parts_[k]) part_demands_.push_back(demands[i]);
-        met = solve_part(part_demands_, part_multipliers_) && met;
-        for (std::size_t i = 0; i < parts_[k].size(); ++i) multipliers[parts_[k][i]] = part_multipliers_[i];
+    for (std::size_t k = 0; k < component_count_; ++k) {
+        component_demands_.clear();
+        for (const std::uint32_t i : components_[k]) component_demands_.push_back(demands[i]);
+        met = solve_component(component_demands_, component_multipliers_) && met;
+        for (std::size_t i = 0; i < components_[k].size(); ++i)
+            multipliers[components_[k][i]] = component_multipliers_[i];
     }
     return met;
 }
@@ -58,7 +59,7 @@ std::uint32_t ActiveSet::root(std::uint32_t body) {
 }
 
 // In the order of their first demands.
-void ActiveSet::find_parts(const std::vector<Demand>& demands) {
+void ActiveSet::find_components(const std::vector<Demand>& demands) {
     const auto bodies_of = [&](const Demand& d) { return std::array{rows_[d.row].a, rows_[d.row].b}; };
     for (const Demand& d : demands)
         for (const std::uint32_t body : bodies_of(d))
@@ -68,23 +69,23 @@ void ActiveSet::find_parts(const std::vector<Demand>& demands) {
         if (a != VelocityRow::none && b != VelocityRow::none)
             parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
     }
-    part_count_ = 0;
+    component_count_ = 0;
     for (std::uint32_t i = 0; i < demands.size(); ++i) {
         const auto [a, b] = bodies_of(demands[i]);
         std::uint32_t& part = place_[root(a != VelocityRow::none ? a : b)];
         if (part == VelocityRow::none) {
-            part = std::uint32_t(part_count_++);
-            if (parts_.size() < part_count_) parts_.emplace_back();
-            parts_[part].clear();
+            part = std::uint32_t(component_count_++);
+            if (components_.size() < component_count_) components_.emplace_back();
+            components_[part].clear();
         }
-        parts_[part].push_back(i);
+        components_[part].push_back(i);
     }
     for (const Demand& d : demands)
         for (const std::uint32_t body : bodies_of(d))
             if (body != VelocityRow::none) place_[body] = VelocityRow::none;
 }
 
-bool ActiveSet::solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
+bool ActiveSet::solve_component(const std::vector<Demand>& demands, std::vector<double>& multipliers) {
     demands_ = &demands;
     multipliers_ = &multipliers;
     multipliers.assign(demands.size(), 0.0);
@@ -186,7 +187,7 @@ bool ActiveSet::take_in(std::size_t i) {
             return true;
         }
         lambda[held_[blocking]] = 0.0;
-        let_go(blocking);
+        release_row(blocking);
     }
 }
 
@@ -242,7 +243,7 @@ void ActiveSet::hold(std::size_t i) {
 
 // Removes column k of R; each later column moves up one place and its entry below the diagonal is rotated away
 // (Givens).
-void ActiveSet::let_go(std::size_t k) {
+void ActiveSet::release_row(std::size_t k) {
     out_[held_[k]] = 0;
     sines_.clear();
     cosines_.clear();

@@ -52,9 +52,9 @@ public:
 private:
     using Index = Eigen::Index;
 
-    void find_parts(const std::vector<Demand>& demands);
+    void find_components(const std::vector<Demand>& demands);
     std::uint32_t root(std::uint32_t body);
-    bool solve_part(const std::vector<Demand>& demands, std::vector<double>& multipliers);
+    bool solve_component(const std::vector<Demand>& demands, std::vector<double>& multipliers);
     void place_bodies();
     bool active_set();
     bool sweeps();
@@ -63,7 +63,7 @@ private:
     void back_substitute();
     void forward_substitute(std::vector<double>& v) const;
     void hold(std::size_t i);
-    void let_go(std::size_t k);
+    void release_row(std::size_t k);
     void spread();
     void refine();
     double value(std::size_t i) const { return (*demands_)[i].value + local_[i].dot(change_); }
@@ -76,10 +76,10 @@ private:
     double work_ = 0.0;
     std::vector<std::uint32_t> parent_;  // by body of the cluster: union-find over the demands
     std::vector<std::vector<std::uint32_t>>
-        parts_;  // demands of the components; the first part_count_ of them are in use
-    std::size_t part_count_ = 0;
-    std::vector<Demand> part_demands_;
-    std::vector<double> part_multipliers_;
+        components_;  // demands of the components; the first component_count_ of them are in use
+    std::size_t component_count_ = 0;
+    std::vector<Demand> component_demands_;
+    std::vector<double> component_multipliers_;
     std::vector<std::uint32_t> place_;  // index of a cluster body in the component
     const std::vector<Demand>* demands_ = nullptr;
     std::vector<double>* multipliers_ = nullptr;

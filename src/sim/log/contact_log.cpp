@@ -136,8 +136,8 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
             point.normal += share(i) * normal;
             point.impulse += share(i) * total.on_b;
             point.torsion += share(i) * torsion;
-            point.span += problem.patches.h;
-            point.stick_speed = stick_share * gravity_.norm() * problem.patches.h;
+            point.span += problem.settings.h;
+            point.stick_speed = stick_share * gravity_.norm() * problem.settings.h;
             ContactRecord& r = point.last;
             r.a = m.a;
             r.b = m.b;

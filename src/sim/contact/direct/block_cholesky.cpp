@@ -37,7 +37,7 @@ std::uint32_t BlockCholesky::find_block(std::uint32_t row, std::uint32_t column)
     return std::uint32_t(std::lower_bound(begin, end, column) - column_.begin());
 }
 
-void BlockCholesky::analyse(std::size_t bodies, const std::vector<Pair>& pairs) {
+void BlockCholesky::analyze(std::size_t bodies, const std::vector<Pair>& pairs) {
     if (bodies == bodies_ && pairs == pairs_) return;
     bodies_ = bodies;
     pairs_ = pairs;

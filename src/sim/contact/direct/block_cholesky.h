@@ -23,7 +23,7 @@ public:
     };
 
     /// Bodies 0 to bodies-1; pairs may come in any order and more than once, i != j.
-    void analyse(std::size_t bodies, const std::vector<Pair>& pairs);
+    void analyze(std::size_t bodies, const std::vector<Pair>& pairs);
     /// Block multiplications per factorization.
     std::size_t work() const { return work_; }
 

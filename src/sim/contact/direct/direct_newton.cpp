@@ -20,46 +20,47 @@ void add_outer(BlockCholesky::Block& block, const double* left, const BlockChole
 }  // namespace
 
 // Sets friction limits from the normal impulses of the last round.
-void DirectSolver::set_limits(Patch& patch) {
+void DirectSolver::set_limits(ConstraintRows& constraint) {
     double load = 0.0, levers = 0.0;
     Vec3 aside = Vec3::Zero();
-    for (int i = 0; i < patch.count; ++i) {
-        const double impulse = patch.normal[i].estimate;
+    for (int i = 0; i < constraint.count; ++i) {
+        const double impulse = constraint.normal[i].estimate;
         load += impulse;
-        levers += impulse * patch.lever[i];
-        aside += impulse * (patch.geometry.points[std::size_t(i)].arm_a - patch.geometry.friction_arm_a);
+        levers += impulse * constraint.lever[i];
+        aside += impulse * (constraint.geometry.points[std::size_t(i)].arm_a - constraint.geometry.friction_arm_a);
     }
-    levers += (1.0 - patch.geometry.spread) * aside.norm();
-    patch.limit = patch.coefficient * load;
-    patch.twist_limit = patch.coefficient * levers;
-    patch.spins = patch.twist_limit > 0.0 && patch.twist_mass * patch.free_spin > patch.twist_limit &&
-                  levers * patch.free_spin > tuning::spin_share * load * patch.free_slip;
-    if (!patch.spins) return;
-    const double distance = levers / load, spin = distance * patch.free_spin;
-    const spin_friction::Limit shared = spin_friction::limit(patch.free_slip * patch.free_slip, spin * spin);
-    patch.limit *= shared.load;
-    patch.spin_lever = distance * shared.lever;
+    levers += (1.0 - constraint.geometry.spread) * aside.norm();
+    constraint.limit = constraint.coefficient * load;
+    constraint.torsion_limit = constraint.coefficient * levers;
+    constraint.spins = constraint.torsion_limit > 0.0 &&
+                       constraint.torsion_mass * constraint.free_spin > constraint.torsion_limit &&
+                       levers * constraint.free_spin > tuning::spin_share * load * constraint.free_slip;
+    if (!constraint.spins) return;
+    const double distance = levers / load, spin = distance * constraint.free_spin;
+    const spin_friction::Limit shared = spin_friction::limit(constraint.free_slip * constraint.free_slip, spin * spin);
+    constraint.limit *= shared.load;
+    constraint.spin_lever = distance * shared.lever;
 }
 
 void DirectSolver::evaluate_speeds() {
-    for (Patch& patch : patches_)
-        each_row(patch, [&](Row& row) { row.speed = row.offset + dot(patch, row, velocity_); });
+    for (ConstraintRows& constraint : constraints_)
+        each_row(constraint, [&](Row& row) { row.speed = row.offset + dot(constraint, row, velocity_); });
 }
 
 // Impulses for velocities at a fraction of the Newton step, and the weights of the rows in the second derivatives.
-void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const {
+void DirectSolver::evaluate(ConstraintRows& constraint, double along, Weights* weights) const {
     const double tie = -tuning::direct_tie * speed_scale_ / compliance_;
-    for (int i = 0; i < patch.count; ++i) {
-        Row& row = patch.normal[i];
+    for (int i = 0; i < constraint.count; ++i) {
+        Row& row = constraint.normal[i];
         const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
         row.impulse = std::max(0.0, y);
         if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;  // an untouched stack has only ties
     }
     // Both friction directions and, where they share the limit, the torsional friction over its lever: a ball
     // (spin_friction.h).
-    Row* const rows[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
-    const double levers[3] = {1.0, 1.0, patch.spin_lever};
-    const int count = patch.spins ? 3 : 2;
+    Row* const rows[3] = {&constraint.friction[0], &constraint.friction[1], &constraint.torsion};
+    const double levers[3] = {1.0, 1.0, constraint.spin_lever};
+    const int count = constraint.spins ? 3 : 2;
     double y[3] = {}, square = 0.0;
     for (int i = 0; i < count; ++i) {
         const Row& row = *rows[i];
@@ -67,8 +68,8 @@ void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const 
         square += y[i] * y[i];
     }
     const double size = std::sqrt(square);
-    const bool slides = size > patch.limit;
-    const double scale = slides ? patch.limit / size : 1.0;
+    const bool slides = size > constraint.limit;
+    const double scale = slides ? constraint.limit / size : 1.0;
     for (int i = 0; i < count; ++i) {
         rows[i]->impulse = levers[i] * scale * y[i];
         for (int k = 0; weights && k < count; ++k) {
@@ -76,23 +77,24 @@ void DirectSolver::evaluate(Patch& patch, double along, Weights* weights) const 
             weights->friction[i][k] = levers[i] * levers[k] * scale / friction_compliance_ * ((i == k) - along_it);
         }
     }
-    if (patch.count < 2 || patch.spins) return;
-    const double turning = patch.twist.estimate -
-                           (patch.twist.speed + along * patch.twist.change) * length_ * length_ / friction_compliance_;
-    patch.twist.impulse = std::clamp(turning, -patch.twist_limit, patch.twist_limit);
+    if (constraint.count < 2 || constraint.spins) return;
+    const double turning =
+        constraint.torsion.estimate -
+        (constraint.torsion.speed + along * constraint.torsion.change) * length_ * length_ / friction_compliance_;
+    constraint.torsion.impulse = std::clamp(turning, -constraint.torsion_limit, constraint.torsion_limit);
     if (weights)
         weights->friction[2][2] =
-            std::abs(turning) <= patch.twist_limit ? length_ * length_ / friction_compliance_ : 0.0;
+            std::abs(turning) <= constraint.torsion_limit ? length_ * length_ / friction_compliance_ : 0.0;
 }
 
 // M (u - u*) - J^T f; returns its size as an energy: sum g^2 / m.
 double DirectSolver::gradient(std::vector<double>& g) {
     for (std::size_t k = 0; k < velocity_.size(); ++k) scratch_[k] = velocity_[k] - free_[k];
     mass_times(scratch_, g);
-    for (Patch& patch : patches_) {
-        evaluate(patch, 0.0, nullptr);
-        each_row(patch, [&](Row& row) {
-            if (row.impulse != 0.0) add(patch, row, -row.impulse, g);
+    for (ConstraintRows& constraint : constraints_) {
+        evaluate(constraint, 0.0, nullptr);
+        each_row(constraint, [&](Row& row) {
+            if (row.impulse != 0.0) add(constraint, row, -row.impulse, g);
         });
     }
     double sum = 0.0;
@@ -105,7 +107,7 @@ double DirectSolver::gradient(std::vector<double>& g) {
 }
 
 bool DirectSolver::factor(bool pushing) {
-    ++factorisations_;
+    ++factorizations_;
     matrix_.set_zero();
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         BlockCholesky::Block& block = matrix_.diagonal(i);
@@ -115,28 +117,30 @@ bool DirectSolver::factor(bool pushing) {
         }
     }
     std::size_t pair = 0;
-    for (Patch& patch : patches_) {
+    for (ConstraintRows& constraint : constraints_) {
         Weights w;
         if (pushing) {
             const double stiffness = total_mass_ / tuning::direct_push_compliance;
             bool active = false;
-            for (int i = 0; i < patch.count; ++i) {
-                const bool on = patch.normal[i].impulse > 0.0 || patch.overlap[i] > tuning::direct_slop * patch.size;
+            for (int i = 0; i < constraint.count; ++i) {
+                const bool on =
+                    constraint.normal[i].impulse > 0.0 || constraint.overlap[i] > tuning::direct_slop * constraint.size;
                 active = active || on;
                 w.normal[i] = on ? stiffness : 0.0;
             }
             // Pushed apart, not sideways.
             const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
             w.friction[0][0] = w.friction[1][1] = aside;
-            w.friction[2][2] = patch.count > 1 ? aside * length_ * length_ : 0.0;
+            w.friction[2][2] = constraint.count > 1 ? aside * length_ * length_ : 0.0;
         } else {
-            evaluate(patch, 0.0, &w);
+            evaluate(constraint, 0.0, &w);
         }
-        const bool both = patch.a != none && patch.b != none;
+        const bool both = constraint.a != none && constraint.b != none;
         BlockCholesky::Block* across = nullptr;
         bool transposed = false;
         if (both) {
-            while (!(pairs_[pair].i == std::uint32_t(patch.a) && pairs_[pair].j == std::uint32_t(patch.b))) ++pair;
+            while (!(pairs_[pair].i == std::uint32_t(constraint.a) && pairs_[pair].j == std::uint32_t(constraint.b)))
+                ++pair;
             across = &matrix_.coupling(pair);
             transposed = matrix_.transposed(pair);
         }
@@ -148,16 +152,16 @@ bool DirectSolver::factor(bool pushing) {
             const BlockCholesky::Row rb =
                 weight * BlockCholesky::Row{right.on_b[0], right.on_b[1], right.on_b[2], right.on_b[3],
                                             right.on_b[4], right.on_b[5], 0.0,           0.0};
-            if (patch.a != none) add_outer(matrix_.diagonal(std::size_t(patch.a)), left.on_a, ra);
-            if (patch.b != none) add_outer(matrix_.diagonal(std::size_t(patch.b)), left.on_b, rb);
+            if (constraint.a != none) add_outer(matrix_.diagonal(std::size_t(constraint.a)), left.on_a, ra);
+            if (constraint.b != none) add_outer(matrix_.diagonal(std::size_t(constraint.b)), left.on_b, rb);
             if (!both) return;
             if (transposed)
                 add_outer(*across, left.on_b, ra);
             else
                 add_outer(*across, left.on_a, rb);
         };
-        for (int i = 0; i < patch.count; ++i) add_row(patch.normal[i], patch.normal[i], w.normal[i]);
-        const Row* const friction[3] = {&patch.friction[0], &patch.friction[1], &patch.twist};
+        for (int i = 0; i < constraint.count; ++i) add_row(constraint.normal[i], constraint.normal[i], w.normal[i]);
+        const Row* const friction[3] = {&constraint.friction[0], &constraint.friction[1], &constraint.torsion};
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
     }
@@ -167,9 +171,9 @@ bool DirectSolver::factor(bool pushing) {
 // Slope of the minimized function along the step.
 double DirectSolver::slope(double along, double mass_slope, double mass_curvature) {
     double sum = mass_slope + along * mass_curvature;
-    for (Patch& patch : patches_) {
-        evaluate(patch, along, nullptr);
-        each_row(patch, [&](Row& row) { sum -= row.impulse * row.change; });
+    for (ConstraintRows& constraint : constraints_) {
+        evaluate(constraint, along, nullptr);
+        each_row(constraint, [&](Row& row) { sum -= row.impulse * row.change; });
     }
     return sum;
 }
@@ -198,7 +202,7 @@ double DirectSolver::line_search(double slope_0, double mass_slope, double mass_
     return x;
 }
 
-bool DirectSolver::minimise(int most_steps) {
+bool DirectSolver::minimize(int most_steps) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
     const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
     const double tolerance = total_mass_ * speed * speed;
@@ -215,10 +219,11 @@ bool DirectSolver::minimise(int most_steps) {
             mass_slope += push_[i] * (velocity_[i] - free_[i]);
             mass_curvature += push_[i] * step_[i];
         }
-        for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.change = dot(patch, row, step_); });
+        for (ConstraintRows& constraint : constraints_)
+            each_row(constraint, [&](Row& row) { row.change = dot(constraint, row, step_); });
         const double along = line_search(slope_0, mass_slope, mass_curvature);
         for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
-        for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.change = 0.0; });
+        for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.change = 0.0; });
         if (-slope_0 < 1e-30 * energy) return true;  // the remainder is rounding
     }
     return false;
@@ -228,10 +233,10 @@ bool DirectSolver::minimise(int most_steps) {
 double DirectSolver::objective(const std::vector<double>& u) {
     for (std::size_t k = 0; k < u.size(); ++k) scratch_[k] = u[k] - free_[k];
     double sum = kinetic_energy(scratch_);
-    for (Patch& patch : patches_) {
-        for (int i = 0; i < patch.count; ++i) {
-            const Row& row = patch.normal[i];
-            const double y = row.estimate + (row.target - row.offset - dot(patch, row, u)) / compliance_;
+    for (ConstraintRows& constraint : constraints_) {
+        for (int i = 0; i < constraint.count; ++i) {
+            const Row& row = constraint.normal[i];
+            const double y = row.estimate + (row.target - row.offset - dot(constraint, row, u)) / compliance_;
             if (y > 0.0) sum += 0.5 * compliance_ * y * y;
         }
         // Friction matters for the choice only where it is small compared with the normal terms.
@@ -242,10 +247,10 @@ double DirectSolver::objective(const std::vector<double>& u) {
 // Starts from the last step's impulses where they are better than none.
 void DirectSolver::start() {
     std::fill(gradient_.begin(), gradient_.end(), 0.0);
-    for (Patch& patch : patches_) {
-        set_limits(patch);
-        each_row(patch, [&](Row& row) {
-            if (row.estimate != 0.0) add(patch, row, row.estimate, gradient_);
+    for (ConstraintRows& constraint : constraints_) {
+        set_limits(constraint);
+        each_row(constraint, [&](Row& row) {
+            if (row.estimate != 0.0) add(constraint, row, row.estimate, gradient_);
         });
     }
     for (std::size_t i = 0; i < masses_.size(); ++i) {
@@ -265,21 +270,22 @@ bool DirectSolver::solve_rounds() {
     bool found = false;
     for (int round = 0; round < tuning::direct_rounds; ++round) {
         if (found) kept_ = velocity_;
-        if (!minimise(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
+        if (!minimize(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
             if (!found) return false;
             velocity_ = kept_;
-            for (Patch& patch : patches_) each_row(patch, [](Row& row) { row.impulse = row.estimate; });
+            for (ConstraintRows& constraint : constraints_)
+                each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
             break;
         }
         found = true;
         double change = 0.0, largest = 0.0;
-        for (Patch& patch : patches_) {
-            each_row(patch, [&](Row& row) {
+        for (ConstraintRows& constraint : constraints_) {
+            each_row(constraint, [&](Row& row) {
                 change = std::max(change, std::abs(row.impulse - row.estimate));
                 largest = std::max(largest, std::abs(row.impulse));
                 row.estimate = row.impulse;
             });
-            set_limits(patch);
+            set_limits(constraint);
         }
         if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,

@@ -38,60 +38,62 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
     }
 }
 
-void DirectSolver::load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                                std::span<const std::uint32_t> manifolds) {
-    patches_.clear();
+void DirectSolver::load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                    std::span<const std::uint32_t> manifolds) {
+    constraints_.clear();
     driven_ = false;
-    const double h = problem.patches.h;
+    const double h = problem.settings.h;
     for (const std::uint32_t k : manifolds) {
         const Manifold& m = problem.manifolds[k];
         const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-        Patch patch;
+        ConstraintRows constraint;
         const BodiesInStep both{a, b, problem.before[m.a], problem.before[m.b]};
-        patch.geometry = make_constraint(m, both, problem.patches);
-        const ContactConstraint& geometry = patch.geometry;
+        constraint.geometry = make_constraint(m, both, problem.settings);
+        const ContactConstraint& geometry = constraint.geometry;
         if (geometry.count == 0) continue;
-        patch.a = place_of(bodies, m.a);
-        patch.b = place_of(bodies, m.b);
-        patch.count = geometry.count;
-        const RowBodies row_bodies{patch, a, b, length_};
-        patch.manifold = k;
-        patch.coefficient = geometry.friction;
-        patch.size = geometry.size;
+        constraint.a = place_of(bodies, m.a);
+        constraint.b = place_of(bodies, m.b);
+        constraint.count = geometry.count;
+        const RowBodies row_bodies{constraint, a, b, length_};
+        constraint.manifold = k;
+        constraint.coefficient = geometry.friction;
+        constraint.size = geometry.size;
         const Vec3 round = arc_velocity(m, both, h);
-        driven_ = driven_ || (patch.a == none && a.moves()) || (patch.b == none && b.moves()) || !round.isZero(0.0);
-        for (int i = 0; i < patch.count; ++i) {
+        driven_ =
+            driven_ || (constraint.a == none && a.moves()) || (constraint.b == none && b.moves()) || !round.isZero(0.0);
+        for (int i = 0; i < constraint.count; ++i) {
             const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
-            Row& row = patch.normal[i];
+            Row& row = constraint.normal[i];
             set_row(row, geometry.normal, p.arm_a, p.arm_b, row_bodies);
             row.offset += round.dot(geometry.normal);
             row.estimate = p.impulse;
             row.target = std::min(0.0, -p.separation / h);
-            patch.lever[i] = p.lever;
-            patch.overlap[i] = -p.separation;
-            speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(patch, row, free_));
+            constraint.lever[i] = p.lever;
+            constraint.overlap[i] = -p.separation;
+            speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(constraint, row, free_));
         }
         const Vec3 &arm_a = geometry.friction_arm_a, &arm_b = geometry.friction_arm_b;
-        set_row(patch.friction[0], geometry.tangent_1, arm_a, arm_b, row_bodies);
-        set_row(patch.friction[1], geometry.tangent_2, arm_a, arm_b, row_bodies);
+        set_row(constraint.friction[0], geometry.tangent_1, arm_a, arm_b, row_bodies);
+        set_row(constraint.friction[1], geometry.tangent_2, arm_a, arm_b, row_bodies);
         Vec3 turn = Vec3::Zero();
         const Vec3 motion = problem.before[m.b].velocity - problem.before[m.a].velocity;
-        if (patch.a == none && a.moves()) turn = turn_of_carrier(a, motion, geometry.normal);
-        if (patch.b == none && b.moves()) turn = -turn_of_carrier(b, -motion, geometry.normal);
-        patch.friction[0].offset += (round - 0.5 * h * turn).dot(geometry.tangent_1);
-        patch.friction[1].offset += (round - 0.5 * h * turn).dot(geometry.tangent_2);
-        set_twist(patch.twist, geometry.normal, row_bodies);
-        patch.friction[0].estimate = m.friction[0];
-        patch.friction[1].estimate = m.friction[1];
-        patch.twist.estimate = m.twist;
+        if (constraint.a == none && a.moves()) turn = turn_of_carrier(a, motion, geometry.normal);
+        if (constraint.b == none && b.moves()) turn = -turn_of_carrier(b, -motion, geometry.normal);
+        constraint.friction[0].offset += (round - 0.5 * h * turn).dot(geometry.tangent_1);
+        constraint.friction[1].offset += (round - 0.5 * h * turn).dot(geometry.tangent_2);
+        set_torsion(constraint.torsion, geometry.normal, row_bodies);
+        constraint.friction[0].estimate = m.friction[0];
+        constraint.friction[1].estimate = m.friction[1];
+        constraint.torsion.estimate = m.torsion;
         const Vec3& n = geometry.normal;
         const double gives =
             n.dot((a.inverse_inertia + b.inverse_inertia) * n);  // zero for bodies that no impulse moves
-        patch.free_slip = std::hypot(patch.friction[0].offset + dot(patch, patch.friction[0], free_),
-                                     patch.friction[1].offset + dot(patch, patch.friction[1], free_));
-        patch.free_spin = std::abs(patch.twist.offset + dot(patch, patch.twist, free_));
-        patch.twist_mass = 1.0 / gives;
-        patches_.push_back(patch);
+        constraint.free_slip =
+            std::hypot(constraint.friction[0].offset + dot(constraint, constraint.friction[0], free_),
+                       constraint.friction[1].offset + dot(constraint, constraint.friction[1], free_));
+        constraint.free_spin = std::abs(constraint.torsion.offset + dot(constraint, constraint.torsion, free_));
+        constraint.torsion_mass = 1.0 / gives;
+        constraints_.push_back(constraint);
     }
 }
 
@@ -104,7 +106,7 @@ void DirectSolver::structure(const ContactProblem& problem, std::span<const std:
         const int a = place_of(bodies, m.a), b = place_of(bodies, m.b);
         if (a != none && b != none) pairs_.push_back({std::uint32_t(a), std::uint32_t(b)});
     }
-    matrix_.analyse(bodies.size(), pairs_);
+    matrix_.analyze(bodies.size(), pairs_);
 }
 
 std::size_t DirectSolver::factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
@@ -135,50 +137,51 @@ bool DirectSolver::admissible() const {
     const double scale = total_mass_ * speed_scale_ * speed_scale_;
     if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
     const double closing = tuning::direct_closing * speed_scale_ + tuning::direct_rounding * fastest_;
-    for (const Patch& patch : patches_) {
+    for (const ConstraintRows& constraint : constraints_) {
         double load = 0.0;
-        for (int i = 0; i < patch.count; ++i) {
-            const Row& row = patch.normal[i];
+        for (int i = 0; i < constraint.count; ++i) {
+            const Row& row = constraint.normal[i];
             load += row.impulse;
             // A body squeezed between walls has no solution.
-            if (row.offset + dot(patch, row, velocity_) < row.target - closing) return false;
+            if (row.offset + dot(constraint, row, velocity_) < row.target - closing) return false;
         }
-        const double friction = std::hypot(patch.friction[0].impulse, patch.friction[1].impulse);
-        if (friction > tuning::direct_cone * patch.coefficient * load + 1e-6 * total_mass_ * speed_scale_) return false;
+        const double friction = std::hypot(constraint.friction[0].impulse, constraint.friction[1].impulse);
+        if (friction > tuning::direct_cone * constraint.coefficient * load + 1e-6 * total_mass_ * speed_scale_)
+            return false;
     }
     return true;
 }
 
 void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
     std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
-    for (const Patch& patch : patches_) {
-        Manifold& m = problem.manifolds[patch.manifold];
+    for (const ConstraintRows& constraint : constraints_) {
+        Manifold& m = problem.manifolds[constraint.manifold];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-        const ContactConstraint& geometry = patch.geometry;
+        const ContactConstraint& geometry = constraint.geometry;
         release(m);
-        m.friction[0] = patch.friction[0].impulse;
-        m.friction[1] = patch.friction[1].impulse;
-        m.twist = patch.count > 1 ? patch.twist.impulse : 0.0;
+        m.friction[0] = constraint.friction[0].impulse;
+        m.friction[1] = constraint.friction[1].impulse;
+        m.torsion = constraint.count > 1 ? constraint.torsion.impulse : 0.0;
         m.tangent = geometry.tangent_1;
         const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
         Vec3 force = friction,
-             moment = geometry.friction_arm_a.cross(friction) + m.twist * geometry.normal;  // about A's center
-        for (int i = 0; i < patch.count; ++i) {
+             moment = geometry.friction_arm_a.cross(friction) + m.torsion * geometry.normal;  // about A's center
+        for (int i = 0; i < constraint.count; ++i) {
             const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
-            m.points[std::size_t(p.source)].impulse = patch.normal[i].impulse;
-            const Vec3 j = patch.normal[i].impulse * geometry.normal;
+            m.points[std::size_t(p.source)].impulse = constraint.normal[i].impulse;
+            const Vec3 j = constraint.normal[i].impulse * geometry.normal;
             force += j;
             moment += p.arm_a.cross(j);
         }
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
-        if (problem.totals) (*problem.totals)[patch.manifold].add(force, moment, a, b);
-        if (patch.a != none) {
-            reached[std::size_t(patch.a)] = true;
+        if (problem.totals) (*problem.totals)[constraint.manifold].add(force, moment, a, b);
+        if (constraint.a != none) {
+            reached[std::size_t(constraint.a)] = true;
             a.momentum -= force;
             a.angular_momentum -= moment;
         }
-        if (patch.b != none) {
-            reached[std::size_t(patch.b)] = true;
+        if (constraint.b != none) {
+            reached[std::size_t(constraint.b)] = true;
             b.momentum += force;
             b.angular_momentum += moment + (a.position - b.position).cross(force);
         }
@@ -187,93 +190,93 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         if (!reached[k]) continue;
         Body& body = problem.bodies[bodies[k]];
         body.derive_velocities();
-        if (!pushed && way_.empty()) continue;
+        if (!pushed && displacement_.empty()) continue;
         body.push_velocity = Vec3::Map(push_.data() + 6 * k);
         body.push_angular_velocity = Vec3::Map(push_.data() + 6 * k + 3) / length_;
-        if (way_.empty()) continue;
-        const double rate = 1.0 / problem.patches.h;
-        body.push_velocity += rate * Vec3::Map(way_.data() + 6 * k) - body.velocity;
+        if (displacement_.empty()) continue;
+        const double rate = 1.0 / problem.settings.h;
+        body.push_velocity += rate * Vec3::Map(displacement_.data() + 6 * k) - body.velocity;
         body.push_angular_velocity +=
-            rate / length_ * Vec3::Map(way_.data() + 6 * k + 3) - body.angular_velocity - body.gyration;
+            rate / length_ * Vec3::Map(displacement_.data() + 6 * k + 3) - body.angular_velocity - body.gyration;
     }
 }
 
-// Landings of a body that already stands on something, as of a rocking block on its other edge: solved in parts of the
-// step.
+// Landings of a body that already stands on something, as of a rocking block on its other edge: solved in substeps.
 //
 // A contact row closes a gap at constant speed from the start of the step, as if the corner had landed then and the
 // other corner no longer carried the body. At 60 steps per second a rocking block so loses a tenth of its energy in
-// each landing, beyond the loss of the landing itself. In n parts, each as long as the soft solver's substep, it is an
+// each landing, beyond the loss of the landing itself. In n substeps, each as long as the soft solver's substep, it is an
 // n-th of that.
-int DirectSolver::landing_parts(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const {
+int DirectSolver::landing_substeps(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const {
     if (bodies.size() != 1) return 1;
     bool lands = false, stands = false;
-    for (const Patch& patch : patches_)
-        for (int i = 0; i < patch.count; ++i) {
-            const Row& row = patch.normal[i];
-            const double closing = -(row.offset + dot(patch, row, free_)), even = -row.target;
+    for (const ConstraintRows& constraint : constraints_)
+        for (int i = 0; i < constraint.count; ++i) {
+            const Row& row = constraint.normal[i];
+            const double closing = -(row.offset + dot(constraint, row, free_)), even = -row.target;
             lands = lands || (even > tuning::direct_landing * closing && closing > even);
-            stands = stands || -patch.overlap[i] < tuning::friction_near * patch.size;
+            stands = stands || -constraint.overlap[i] < tuning::friction_near * constraint.size;
         }
-    return lands && stands ? int(std::lround(problem.patches.h / tuning::soft_substep)) : 1;
+    return lands && stands ? int(std::lround(problem.settings.h / tuning::soft_substep)) : 1;
 }
 
-bool DirectSolver::solve_in_parts(const ContactProblem& problem, std::uint32_t index, int parts) {
+bool DirectSolver::solve_in_substeps(const ContactProblem& problem, std::uint32_t index, int substeps) {
     const BodyVelocity& before = problem.before[index];
     const Body& body = problem.bodies[index];
-    const double d = problem.patches.h / parts;
+    const double d = problem.settings.h / substeps;
     std::vector<double> faster(6), velocity(6), sums;
     put(velocity.data(), before.velocity, length_ * (before.angular_velocity + body.gyration));
-    for (std::size_t k = 0; k < 6; ++k) faster[k] = (free_[k] - velocity[k]) / parts;
-    way_.assign(6, 0.0);
-    for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.estimate /= parts; });
-    for (int part = 0; part < parts; ++part) {
+    for (std::size_t k = 0; k < 6; ++k) faster[k] = (free_[k] - velocity[k]) / substeps;
+    displacement_.assign(6, 0.0);
+    for (ConstraintRows& constraint : constraints_) each_row(constraint, [&](Row& row) { row.estimate /= substeps; });
+    for (int substep = 0; substep < substeps; ++substep) {
         for (std::size_t k = 0; k < 6; ++k) free_[k] = velocity[k] + faster[k];
-        for (Patch& patch : patches_)
-            for (int i = 0; i < patch.count; ++i) {
-                Row& row = patch.normal[i];
-                const double gap = -patch.overlap[i] + dot(patch, row, way_) + part * d * row.offset;
+        for (ConstraintRows& constraint : constraints_)
+            for (int i = 0; i < constraint.count; ++i) {
+                Row& row = constraint.normal[i];
+                const double gap =
+                    -constraint.overlap[i] + dot(constraint, row, displacement_) + substep * d * row.offset;
                 row.target = std::min(0.0, -gap / d);
             }
         friction_compliance_ = tuning::direct_friction_soft * compliance_;
         if (!solve_rounds() || !admissible()) return false;
         velocity = velocity_;
-        for (std::size_t k = 0; k < 6; ++k) way_[k] += d * velocity[k];
+        for (std::size_t k = 0; k < 6; ++k) displacement_[k] += d * velocity[k];
         std::size_t next = 0;
-        for (Patch& patch : patches_)
-            each_row(patch, [&](Row& row) {
-                if (part == 0) sums.push_back(0.0);
+        for (ConstraintRows& constraint : constraints_)
+            each_row(constraint, [&](Row& row) {
+                if (substep == 0) sums.push_back(0.0);
                 sums[next++] += row.impulse;
             });
     }
     std::size_t next = 0;
-    for (Patch& patch : patches_) each_row(patch, [&](Row& row) { row.impulse = sums[next++]; });
+    for (ConstraintRows& constraint : constraints_) each_row(constraint, [&](Row& row) { row.impulse = sums[next++]; });
     std::fill(push_.begin(), push_.end(), 0.0);
     return true;
 }
 
 bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                          std::span<const std::uint32_t> manifolds) {
-    factorisations_ = 0;
-    way_.clear();
+    factorizations_ = 0;
+    displacement_.clear();
     load_bodies(problem, bodies);
-    load_patches(problem, bodies, manifolds);
-    if (patches_.empty()) return true;
+    load_constraints(problem, bodies, manifolds);
+    if (constraints_.empty()) return true;
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
     // nothing approaches, without gravity: overlaps are pushed apart all the same
     if (speed_scale_ <= tuning::direct_rounding * fastest_) {
         velocity_ = free_;
-        store(problem, bodies, push_out(problem.patches.h));
+        store(problem, bodies, push_out(problem.settings.h));
         return true;
     }
 
-    if (const int parts = landing_parts(problem, bodies); parts > 1) {
-        if (!solve_in_parts(problem, bodies[0], parts)) return false;
+    if (const int substeps = landing_substeps(problem, bodies); substeps > 1) {
+        if (!solve_in_substeps(problem, bodies[0], substeps)) return false;
     } else {
         if (!solve_rounds() || !admissible()) return false;
     }
-    const bool pushed = push_out(problem.patches.h);
+    const bool pushed = push_out(problem.settings.h);
     store(problem, bodies, pushed);
     return true;
 }
@@ -284,18 +287,19 @@ bool DirectSolver::push_out(double h) {
     std::fill(push_.begin(), push_.end(), 0.0);
     const double stiffness = total_mass_ / tuning::direct_push_compliance;
     bool any = false;
-    for (Patch& patch : patches_) {
-        for (int i = 0; i < patch.count; ++i) {
+    for (ConstraintRows& constraint : constraints_) {
+        for (int i = 0; i < constraint.count; ++i) {
             // A bouncing contact separates by its own speed and is pushed only by the difference: a push moves bodies
             // past their momenta.
-            const Row& row = patch.normal[i];
-            const double parting = std::max(0.0, row.offset + dot(patch, row, velocity_));
-            const double beyond = patch.overlap[i] - tuning::direct_slop * patch.size;
-            const double speed = std::min(tuning::push_share * beyond / h, tuning::push_limit * patch.size) - parting;
-            patch.overlap[i] -= h * parting;
+            const Row& row = constraint.normal[i];
+            const double parting = std::max(0.0, row.offset + dot(constraint, row, velocity_));
+            const double beyond = constraint.overlap[i] - tuning::direct_slop * constraint.size;
+            const double speed =
+                std::min(tuning::push_share * beyond / h, tuning::push_limit * constraint.size) - parting;
+            constraint.overlap[i] -= h * parting;
             if (!(speed > 0.0)) continue;
             any = true;
-            add(patch, patch.normal[i], stiffness * speed, push_);
+            add(constraint, constraint.normal[i], stiffness * speed, push_);
         }
     }
     if (!any || !factor(true)) return false;

@@ -34,33 +34,33 @@ public:
     std::size_t factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                             std::span<const std::uint32_t> manifolds);
     /// Factorizations of the last solve.
-    int factorisations() const { return factorisations_; }
+    int factorizations() const { return factorizations_; }
 
 private:
     static constexpr int none = contact_rows::none;
     using Row = contact_rows::Row;
-    using Patch = contact_rows::Patch;
+    using ConstraintRows = contact_rows::ConstraintRows;
     struct Weights {                                 // second derivatives of a constraint's terms
         double normal[4] = {}, friction[3][3] = {};  // friction: both directions and the torsional row
     };
 
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
-    void load_patches(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                      std::span<const std::uint32_t> manifolds);
+    void load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                          std::span<const std::uint32_t> manifolds);
     void structure(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                    std::span<const std::uint32_t> manifolds);
     void start();
-    void set_limits(Patch& patch);
-    bool minimise(int most_steps);
+    void set_limits(ConstraintRows& constraint);
+    bool minimize(int most_steps);
     void evaluate_speeds();
-    void evaluate(Patch& patch, double along, Weights* weights) const;
+    void evaluate(ConstraintRows& constraint, double along, Weights* weights) const;
     double gradient(std::vector<double>& g);
     double slope(double along, double mass_slope, double mass_curvature);
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
     bool solve_rounds();
-    int landing_parts(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const;
-    bool solve_in_parts(const ContactProblem& problem, std::uint32_t body, int parts);
+    int landing_substeps(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const;
+    bool solve_in_substeps(const ContactProblem& problem, std::uint32_t body, int substeps);
     double objective(const std::vector<double>& u);
     double kinetic_energy(const std::vector<double>& u) const;
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
@@ -75,12 +75,12 @@ private:
     double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;  // m, kg, m/s, m/s
     double compliance_ = 0.0, friction_compliance_ = 0.0;                         // 1/kg: R
     bool driven_ = false;  // touches a prescribed motion: energy may enter
-    int factorisations_ = 0;
+    int factorizations_ = 0;
     std::vector<Mass> masses_;
     std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_,
-        kept_;                 // u*, u, du, ...; six numbers per body
-    std::vector<double> way_;  // m, displacement in the step of a body that is solved in parts
-    std::vector<Patch> patches_;
+        kept_;                          // u*, u, du, ...; six numbers per body
+    std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
+    std::vector<ConstraintRows> constraints_;
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };

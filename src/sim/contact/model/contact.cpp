@@ -77,7 +77,7 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
         const ContactPoint& p = m.points[std::size_t(i)];
         c.feature = p.feature;
         c.separation = p.separation;
-        const Vec3 place = acting_place(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
+        const Vec3 place = acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
         c.arm_a = place - a.position;
         c.arm_b = place - b.position;
         if (!gap && !ball) {

@@ -23,7 +23,7 @@ Vec3 tangent_of(const Manifold& m) {
 
 void release(Manifold& manifold) {
     for (ContactPoint& p : manifold.points) p.impulse = 0.0;
-    manifold.friction[0] = manifold.friction[1] = manifold.twist = 0.0;
+    manifold.friction[0] = manifold.friction[1] = manifold.torsion = 0.0;
 }
 
 double normal_impulse(const Manifold& manifold) {
@@ -36,7 +36,7 @@ void scale_impulses(Manifold& manifold, double share) {
     for (ContactPoint& p : manifold.points) p.impulse *= share;
     manifold.friction[0] *= share;
     manifold.friction[1] *= share;
-    manifold.twist *= share;
+    manifold.torsion *= share;
 }
 
 double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
@@ -71,7 +71,7 @@ ContactConstraint make_constraint(const Manifold& m, const BodiesInStep& bodies,
         const ContactPoint& from = m.points[std::size_t(i)];
         const PredictedGap seen = predicted_gap(m, i, bodies, settings.h);
         if (will_bounce(from, m.normal, a, b, seen.slower, settings)) continue;
-        const Vec3 place = acting_place(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
+        const Vec3 place = acting_point(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
         const Vec3 arm_a = place - a.position, arm_b = place - b.position;
         ContactConstraint::Point& to = constraint.points[std::size_t(constraint.count++)];
         to.arm_a = arm_a;

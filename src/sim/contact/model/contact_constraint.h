@@ -55,7 +55,7 @@ struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
     const std::vector<BodyVelocity>& before;  // by body
-    ConstraintSettings patches;
+    ConstraintSettings settings;
     std::vector<ManifoldImpulse>* totals = nullptr;  // by manifold, set by the solvers; null: not asked for
 };
 
@@ -63,10 +63,9 @@ struct ContactProblem {
 /// surfaces, so that they keep their angular momentum. Else: on the surface of the body that impulses move. So a ball
 /// found somewhat inside or above the floor still has its radius as lever, and keeps its angular momentum about the
 /// place where it lands.
-inline Vec3 acting_place(const Vec3& position, double separation, const Vec3& normal, bool a_gives_way,
-                         bool b_gives_way) {
-    if (a_gives_way == b_gives_way) return position;
-    return position + (a_gives_way ? -0.5 : 0.5) * separation * normal;
+inline Vec3 acting_point(const Vec3& position, double separation, const Vec3& normal, bool a_movable, bool b_movable) {
+    if (a_movable == b_movable) return position;
+    return position + (a_movable ? -0.5 : 0.5) * separation * normal;
 }
 
 /// v_rel of a manifold's point, m/s; negative: approaching.

@@ -71,7 +71,7 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
         if (members_[i].touched) bodies_[next_body[members_[i].island]++] = i;
     pairs_.resize(manifolds_.size());
     touching_pairs_.assign(size(), 0);
-    floats_.assign(size(), 1);
+    free_.assign(size(), 1);
     for (std::uint32_t k = 0; k < touching.size(); ++k) {
         const std::uint32_t number = island_of(k);
         if (number == no_island) continue;
@@ -80,7 +80,7 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
         pairs_[place] = touching[k];
         if (place == first_manifold_[number] || pairs_[place - 1] != touching[k]) ++touching_pairs_[number];
         if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still)
-            floats_[number] = 0;
+            free_[number] = 0;
     }
 }
 

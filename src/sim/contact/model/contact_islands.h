@@ -44,7 +44,7 @@ public:
     /// Number of body pairs that touch; a pair of compounds or meshes may have many manifolds.
     std::size_t touching_pairs(std::size_t island) const { return touching_pairs_[island]; }
     /// Whether the island touches only its own bodies.
-    bool floats(std::size_t island) const { return floats_[island] != 0; }
+    bool is_free(std::size_t island) const { return free_[island] != 0; }
 
 private:
     // still: not moved by contacts. aside: asleep or ballistic, not affected by the contacts of this step.
@@ -65,7 +65,7 @@ private:
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
     std::vector<BodyPair> pairs_;                // in the order of manifolds_
     std::vector<std::uint32_t> touching_pairs_;  // by island
-    std::vector<std::uint8_t> floats_;
+    std::vector<std::uint8_t> free_;
 };
 
 }  // namespace tumble

@@ -13,8 +13,8 @@ LoadEstimate LoadEstimates::find(const std::vector<Body>& bodies, const std::vec
     for (const std::uint32_t k : island_manifolds) {
         const Manifold& m = manifolds[k];
         if (both(m)) {
-            ++nodes_[m.a].neighbours;
-            ++nodes_[m.b].neighbours;
+            ++nodes_[m.a].neighbors;
+            ++nodes_[m.b].neighbors;
             continue;
         }
         const std::uint32_t i = bodies[m.a].dynamic() ? m.a : m.b;
@@ -25,24 +25,24 @@ LoadEstimate LoadEstimates::find(const std::vector<Body>& bodies, const std::vec
     std::uint32_t next = 0;
     for (const std::uint32_t i : island_bodies) {
         nodes_[i].first = next;
-        next += std::uint32_t(nodes_[i].neighbours);
-        nodes_[i].neighbours = 0;
+        next += std::uint32_t(nodes_[i].neighbors);
+        nodes_[i].neighbors = 0;
     }
-    neighbours_.resize(next);
+    neighbors_.resize(next);
     for (const std::uint32_t k : island_manifolds) {
         const Manifold& m = manifolds[k];
         if (!both(m)) continue;
-        neighbours_[nodes_[m.a].first + std::uint32_t(nodes_[m.a].neighbours++)] = m.b;
-        neighbours_[nodes_[m.b].first + std::uint32_t(nodes_[m.b].neighbours++)] = m.a;
+        neighbors_[nodes_[m.a].first + std::uint32_t(nodes_[m.a].neighbors++)] = m.b;
+        neighbors_[nodes_[m.b].first + std::uint32_t(nodes_[m.b].neighbors++)] = m.a;
     }
-    const auto each_neighbour = [&](std::uint32_t i, auto&& visit) {
-        for (int n = 0; n < nodes_[i].neighbours; ++n)
-            visit(nodes_[neighbours_[nodes_[i].first + std::uint32_t(n)]],
-                  neighbours_[nodes_[i].first + std::uint32_t(n)]);
+    const auto each_neighbor = [&](std::uint32_t i, auto&& visit) {
+        for (int n = 0; n < nodes_[i].neighbors; ++n)
+            visit(nodes_[neighbors_[nodes_[i].first + std::uint32_t(n)]],
+                  neighbors_[nodes_[i].first + std::uint32_t(n)]);
     };
     for (std::size_t k = 0; k < order_.size(); ++k) {
         const std::uint32_t i = order_[k];
-        each_neighbour(i, [&](Node& node, std::uint32_t j) {
+        each_neighbor(i, [&](Node& node, std::uint32_t j) {
             if (node.level >= 0) return;
             node.level = nodes_[i].level + 1;
             order_.push_back(j);
@@ -54,8 +54,8 @@ LoadEstimate LoadEstimates::find(const std::vector<Body>& bodies, const std::vec
         pile.ratio = std::max(pile.ratio, node.load / bodies[order_[k]].mass);
         pile.levels = std::max(pile.levels, node.level + 1);
         int lower = 0;
-        each_neighbour(order_[k], [&](Node& other, std::uint32_t) { lower += other.level < node.level; });
-        each_neighbour(order_[k], [&](Node& other, std::uint32_t) {
+        each_neighbor(order_[k], [&](Node& other, std::uint32_t) { lower += other.level < node.level; });
+        each_neighbor(order_[k], [&](Node& other, std::uint32_t) {
             if (other.level < node.level) other.load += node.load / lower;
         });
     }

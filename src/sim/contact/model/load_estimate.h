@@ -28,12 +28,12 @@ public:
 
 private:
     struct Node {
-        int level = -1, neighbours = 0;
+        int level = -1, neighbors = 0;
         std::uint32_t first = 0;  // index of the first neighbor
         double load = 0.0;        // kg
     };
     std::vector<Node> nodes_;  // by body; valid for the island's bodies
-    std::vector<std::uint32_t> neighbours_, order_;
+    std::vector<std::uint32_t> neighbors_, order_;
 };
 
 }  // namespace tumble

@@ -68,7 +68,7 @@ RotatingPointGap::RotatingPointGap(const Vec3& corner, double gap, const Vec3& n
 }
 
 bool RotatingPointGap::matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h) {
-    const double least = tuning::swing_turn * tuning::swing_turn / (h * h);
+    const double least = tuning::fast_rotation_turn * tuning::fast_rotation_turn / (h * h);
     return of_corner.angular_velocity.cross(normal).squaredNorm() > least &&
            of_face.angular_velocity.cross(normal).squaredNorm() < least;
 }
@@ -112,8 +112,9 @@ double gap_of_curve(const Manifold& m, const CurvedGap& curve, const BodiesInSte
     if (!(closing * h > gap)) return gap;
     const double t = std::min(h, d * closing / square);
     const double nearest = std::sqrt(std::max(0.0, d * d - 2.0 * d * closing * t + square * t * t)) - (d - gap);
-    return nearest < -tuning::passing_overlap * std::min(a.radius, b.radius) ? gap
-                                                                             : std::max(gap, nearest + h * closing);
+    return nearest < -tuning::predicted_gap_overlap * std::min(a.radius, b.radius)
+               ? gap
+               : std::max(gap, nearest + h * closing);
 }
 
 RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
@@ -130,7 +131,7 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
     if (const auto* curve = std::get_if<CurvedGap>(&m.geometry))
         return {p.position, gap_of_curve(m, *curve, bodies, h), 0.0};
     if (m.corners == Corners::neither) return as_it_is;
-    const double least = tuning::swing_turn * tuning::swing_turn, square = h * h;
+    const double least = tuning::fast_rotation_turn * tuning::fast_rotation_turn, square = h * h;
     if (square * before_a.angular_velocity.squaredNorm() < least &&
         square * before_b.angular_velocity.squaredNorm() < least)
         return as_it_is;
@@ -149,7 +150,7 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
     // Height of the path half a step before its bottom: a body that rolls over more than one corner per step may pass
     // by that much below the deepest point. Deeper is an impact.
     const double passed =
-        std::min(tuning::passing_overlap * std::min(a.radius, b.radius), 0.125 * h * h * gap.bend(bottom));
+        std::min(tuning::predicted_gap_overlap * std::min(a.radius, b.radius), 0.125 * h * h * gap.bend(bottom));
     if (reach < deepest - passed) return as_it_is;
     const double then = std::max(0.0, gap.closing_by_turn(bottom));
     return {gap.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom),
@@ -169,7 +170,7 @@ Vec3 arc_velocity(const Manifold& m, const BodiesInStep& bodies, double h) {
     const Vec3 arm = ball->center - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
-    if (face.moves() && h * face_turn.norm() > tuning::swing_turn)
+    if (face.moves() && h * face_turn.norm() > tuning::fast_rotation_turn)
         return Vec3::Zero();  // the face's rotation matters too
     const Vec3 axis = turn / w, beside = axis.cross(arm), across = arm - axis.dot(arm) * axis;
     const auto [sine, cosine] = sincos(w * h);

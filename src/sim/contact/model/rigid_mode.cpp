@@ -45,13 +45,14 @@ BodyVelocity RigidMode::at(const Vec3& position, const Vec3& origin) const {
 
 void RigidMode::scale_rest(double scale, const Vec3& origin, Body& body) const {
     const BodyVelocity common = at(body.position, origin);
-    const Vec3 way = body.velocity + body.push_velocity, turn = body.angular_velocity + body.push_angular_velocity;
+    const Vec3 linear = body.velocity + body.push_velocity,
+               angular = body.angular_velocity + body.push_angular_velocity;
     const Vec3 common_spin = inertia_of(body) * common.angular_velocity;
     body.momentum = body.mass * common.velocity + scale * (body.momentum - body.mass * common.velocity);
     body.angular_momentum = common_spin + scale * (body.angular_momentum - common_spin);
     body.derive_velocities();
-    body.push_velocity = way - body.velocity;
-    body.push_angular_velocity = turn - body.angular_velocity;
+    body.push_velocity = linear - body.velocity;
+    body.push_angular_velocity = angular - body.angular_velocity;
 }
 
 void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h) {

@@ -62,7 +62,7 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
 // Whether the body has been at rest for one of the spans.
 bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     bool rests = false;
-    const double least = (tuning::sleep_looks + 1) * h;  // steps may be as long as a span: its trend must be known
+    const double least = (tuning::sleep_samples + 1) * h;  // steps may be as long as a span: its trend must be known
     for (std::size_t k = 0; k < spans.size(); ++k) {
         Span& span = spans[k];
         const double time = tuning::sleep_times[k], most = tuning::sleep_drift(time) * body.radius;
@@ -81,7 +81,7 @@ bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
 // Whether the body's velocity changes steadily.
 bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
     trend.since += h;
-    if (trend.since >= tuning::sleep_look) {
+    if (trend.since >= tuning::sleep_sample_interval) {
         Trend::Velocity velocity;
         velocity << body.velocity, body.radius * body.angular_velocity;
         const Trend::Velocity change = velocity - trend.velocity;
@@ -90,13 +90,13 @@ bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed
         const bool any = change.norm() > tuning::sleep_rounding * speed_change;
         trend = {velocity, change, 0.0, any && (grew || same) ? trend.steady + 1 : 0};
     }
-    return trend.steady >= tuning::sleep_looks;
+    return trend.steady >= tuning::sleep_samples;
 }
 
 void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds,
                            std::vector<Body>& bodies, double h, double speed_change) {
     for (std::size_t island = 0; island < islands.size(); ++island) {
-        bool still = true, leans = false;
+        bool still = true, supported = false;
         for (const std::uint32_t i : islands.bodies(island)) {
             // in each step, whatever the other bodies do
             const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);
@@ -107,9 +107,9 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
         for (const std::uint32_t k : islands.manifolds(island)) {
             const Manifold& m = manifolds[k];
             if (!stands(bodies[m.a]) && !stands(bodies[m.b])) continue;
-            for (int i = 0; i < m.count; ++i) leans = leans || m.points[std::size_t(i)].impulse > 0.0;
+            for (int i = 0; i < m.count; ++i) supported = supported || m.points[std::size_t(i)].impulse > 0.0;
         }
-        if (!leans) continue;
+        if (!supported) continue;
         ++changes_;
         sleepers_ += islands.bodies(island).size();
         const auto members = islands.bodies(island);

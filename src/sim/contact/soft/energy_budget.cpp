@@ -57,13 +57,13 @@ double EnergyBudget::excess(bool lifted_free) const {
     return now > most && gains > 0.0 ? std::min(1.0, (now - most) / gains) : 0.0;
 }
 
-double EnergyBudget::affordable_way() const { return start + work < 0.0 ? start / -work : 1.0; }
+double EnergyBudget::affordable_displacement() const { return start + work < 0.0 ? start / -work : 1.0; }
 
-void take_back(const ForceAccount& forces, double share, double way, Body& body) {
+void take_back(const ForceAccount& forces, double share, double displacement, Body& body) {
     const double taken = share * forces.gain;
-    if (taken == 0.0 && way == 1.0) return;
-    const Vec3 velocity = way * (body.velocity + body.push_velocity);
-    const Vec3 angular_velocity = way * (body.angular_velocity + body.push_angular_velocity);
+    if (taken == 0.0 && displacement == 1.0) return;
+    const Vec3 velocity = displacement * (body.velocity + body.push_velocity);
+    const Vec3 angular_velocity = displacement * (body.angular_velocity + body.push_angular_velocity);
     if (taken > 0.0) {
         const double scale = std::sqrt(1.0 - taken / body.kinetic_energy());
         body.momentum *= scale;
@@ -101,7 +101,7 @@ void IslandEnergies::open(const SoftLayout& layout, const std::vector<Body>& bod
         islands_.push_back({.first_account = first_account,
                             .end_account = accounts_.size(),
                             .origin = bodies[blocks.order()[island.first]].position,
-                            .leans = island.leans != 0,
+                            .touches_static = island.touches_static != 0,
                             .driven = island.driven != 0});
         for (std::size_t k = first_account; k < accounts_.size(); ++k)
             account_of_.resize(accounts_[k].end, std::uint32_t(k));
@@ -111,7 +111,7 @@ void IslandEnergies::open(const SoftLayout& layout, const std::vector<Body>& bod
 }
 
 // Written only where it changes: all threads read its neighborhood.
-void IslandEnergies::lies_deep(std::size_t place) {
+void IslandEnergies::mark_deep(std::size_t place) {
     const std::atomic_ref deep(island(place).deep);
     if (deep.load(std::memory_order_relaxed) == 0) deep.store(1, std::memory_order_relaxed);
 }
@@ -120,7 +120,7 @@ void IslandEnergies::end(std::size_t place, const Body& body) {
     Account& account = accounts_[account_of_[place]];
     reached_[place] = 1;
     account.energy.add(forces_[place], body);
-    if (!islands_[account.island].leans) account.motion.add(body, islands_[account.island].origin);
+    if (!islands_[account.island].touches_static) account.motion.add(body, islands_[account.island].origin);
 }
 
 void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size_t last, std::vector<Body>& bodies,
@@ -132,24 +132,24 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
         if (island.driven) continue;
         EnergyBudget sum;
         for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
-        const double excess = sum.excess(island.deep || !island.leans);
+        const double excess = sum.excess(island.deep || !island.touches_static);
         if (excess == 0.0) continue;
-        if (!island.leans) {
-            hold_floating(*account, sum, blocks, bodies);
+        if (!island.touches_static) {
+            limit_free_island(*account, sum, blocks, bodies);
             continue;
         }
         const std::size_t begin = accounts_[island.first_account].first, end = accounts_[island.end_account - 1].end;
         const bool pays =
             !island.deep && may_spin_up(std::span(blocks.order()).subspan(begin, end - begin), bodies, before, h);
-        const double way = pays ? sum.affordable_way() : 1.0;
+        const double displacement = pays ? sum.affordable_displacement() : 1.0;
         for (std::size_t k = account->first; k < account->end; ++k)
-            if (reached_[k]) take_back(forces_[k], excess, way, bodies[blocks.order()[k]]);
+            if (reached_[k]) take_back(forces_[k], excess, displacement, bodies[blocks.order()[k]]);
     }
 }
 
 // A free island keeps its momentum: only motion outside its rigid-body mode can exceed the budget.
-void IslandEnergies::hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
-                                   std::vector<Body>& bodies) const {
+void IslandEnergies::limit_free_island(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
+                                       std::vector<Body>& bodies) const {
     const Island& island = islands_[account.island];
     RigidMode motion;
     for (std::size_t k = island.first_account; k < island.end_account; ++k) motion.add(accounts_[k].motion);

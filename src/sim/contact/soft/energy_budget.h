@@ -38,11 +38,11 @@ struct EnergyBudget {
     /// Fraction of each body's gain above the budget. `lifted_free`: lifting costs nothing.
     double excess(bool lifted_free) const;
     /// Fraction of the displacement that the island's budget allows.
-    double affordable_way() const;
+    double affordable_displacement() const;
 };
 
-/// Takes a fraction of its gain from a body that has gained. Its displacement in the step is scaled by `way`.
-void take_back(const ForceAccount& forces, double share, double way, Body& body);
+/// Takes a fraction of its gain from a body that has gained. Its displacement in the step is scaled by `displacement`.
+void take_back(const ForceAccount& forces, double share, double displacement, Body& body);
 
 /// Whether soft contacts may spin up a body of this island; its displacement is then limited by the budget. In other
 /// islands, resting bodies may be pushed out of an overlap at no cost.
@@ -60,7 +60,7 @@ public:
     void open(const SoftLayout& layout, const std::vector<Body>& bodies);
 
     /// Marks the island of the body at this position as having deep overlaps. May be called by any thread.
-    void lies_deep(std::size_t place);
+    void mark_deep(std::size_t place);
 
     /// Called before the solve, and after it if contacts have reached the body; each position by one thread.
     void begin(std::size_t place, const Body& body, const BodyVelocity& before) {
@@ -82,13 +82,13 @@ private:
     };
     struct Island {
         std::size_t first_account, end_account;
-        Vec3 origin;         // m, one of its bodies
-        bool leans, driven;  // touches a static body; touches a moving kinematic one, which may add energy
+        Vec3 origin;                  // m, one of its bodies
+        bool touches_static, driven;  // touches a static body; touches a moving kinematic one, which may add energy
         std::uint8_t deep = 0;
     };
     Island& island(std::size_t place) { return islands_[accounts_[account_of_[place]].island]; }
-    void hold_floating(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
-                       std::vector<Body>& bodies) const;
+    void limit_free_island(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
+                           std::vector<Body>& bodies) const;
 
     std::vector<Island> islands_;
     std::vector<Account> accounts_;          // ascending by position

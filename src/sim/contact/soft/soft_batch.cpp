@@ -27,7 +27,7 @@ void put_all(float* row, const std::array<double, 8>& values) {
 
 // An impulse that the direct solver holds between masses of 1 : 1e6 would be a violent kick in soft contacts: the warm
 // start is limited to a few times the weight of the lighter body.
-void temper(Manifold& m, const ContactProblem& problem) {
+void limit_warm_start(Manifold& m, const ContactProblem& problem) {
     if (!m.solved_directly) return;
     m.solved_directly = false;
     double mass = std::numeric_limits<double>::infinity(), speed = 0.0;
@@ -76,17 +76,18 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
     return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
 
-void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit) {
+void SoftBatch::prepare(const ContactProblem& problem, int substep_multiplier, const SoftLayout& layout,
+                        double mass_unit) {
     layout_ = &layout;
     mass_unit_ = mass_unit;
-    substeps_ = substeps_of(problem.patches.h) * finer;
-    d_ = problem.patches.h / substeps_;
+    substeps_ = substeps_of(problem.settings.h) * substep_multiplier;
+    d_ = problem.settings.h / substeps_;
     substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_),
                 softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_)};
     energies_.open(layout, problem.bodies);
     const std::size_t dynamic = 1 + layout.blocks().order().size();  // number of slots
-    places_.resize(dynamic);
+    packed_.resize(dynamic);
     reached_.assign(dynamic, 0);
     slots_ = dynamic + layout.movers().size();
     state_.resize(slots_ * soft::body_floats);
@@ -101,12 +102,12 @@ void SoftBatch::prepare(const ContactProblem& problem, int finer, const SoftLayo
 
 // For the positions first to last in the blocks' order.
 void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last) {
-    const double share = 1.0 / substeps_, swinging = tuning::swing_turn / problem.patches.h;
+    const double share = 1.0 / substeps_, fast_rotation = tuning::fast_rotation_turn / problem.settings.h;
     for (std::size_t k = first; k < last; ++k) {
         const std::uint32_t i = layout_->blocks().order()[k];
         const Body& body = problem.bodies[i];
-        places_[k + 1] = place_of(body, std::uint32_t(k + 1));
-        places_[k + 1].swings = problem.before[i].angular_velocity.squaredNorm() > swinging * swinging;
+        packed_[k + 1] = packed(body, std::uint32_t(k + 1));
+        packed_[k + 1].rotates_fast = problem.before[i].angular_velocity.squaredNorm() > fast_rotation * fast_rotation;
         energies_.begin(k, body, problem.before[i]);
         const auto& [v, w] = problem.before[i];
         const Vec3 faster = share * (body.velocity - v), spun_up = share * (body.angular_velocity - w);
@@ -156,29 +157,30 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
 }
 
 // `made`: storage for a place that is not kept.
-const SoftBatch::Place& SoftBatch::find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
-                                              const std::vector<std::uint32_t>& slot, Place& made) const {
+const SoftBatch::PackedBody& SoftBatch::find_packed(std::uint32_t body, std::uint32_t manifold,
+                                                    const ContactProblem& problem,
+                                                    const std::vector<std::uint32_t>& slot, PackedBody& made) const {
     const Body& b = problem.bodies[body];
-    if (b.dynamic()) return places_[slot[body]];
-    if (b.type != BodyType::kinematic) return made = place_of(b, 0);
+    if (b.dynamic()) return packed_[slot[body]];
+    if (b.type != BodyType::kinematic) return made = packed(b, 0);
     const auto place = std::lower_bound(layout_->movers().begin(), layout_->movers().end(),
                                         SoftLayout::mover(problem.bodies, body, manifold)) -
                        layout_->movers().begin();
-    return made = place_of(b, std::uint32_t(slots_ - layout_->movers().size() + std::size_t(place)));
+    return made = packed(b, std::uint32_t(slots_ - layout_->movers().size() + std::size_t(place)));
 }
 
 // Lane l of group g.
 void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t g, std::size_t l,
                           const std::vector<std::uint32_t>& slot) {
     Manifold& m = problem.manifolds[manifold];
-    temper(m, problem);
-    Place made_a, made_b;
-    const Place &first = find_place(m.a, manifold, problem, slot, made_a),
-                &second = find_place(m.b, manifold, problem, slot, made_b);
+    limit_warm_start(m, problem);
+    PackedBody made_a, made_b;
+    const PackedBody &first = find_packed(m.a, manifold, problem, slot, made_a),
+                     &second = find_packed(m.b, manifold, problem, slot, made_b);
     // Arms start at the body that moves, of two at the smaller one: from the other's center single precision may be too
     // coarse.
     const bool swapped = !first.dynamic || (second.dynamic && second.radius < first.radius);
-    const Place &a = swapped ? second : first, &b = swapped ? first : second;
+    const PackedBody &a = swapped ? second : first, &b = swapped ? first : second;
     const std::size_t lanes = std::size_t(kernel_.lanes);
     lane_bodies_[2 * lanes * g + l] = std::uint32_t(soft::body_floats) * a.slot;
     lane_bodies_[2 * lanes * g + lanes + l] = std::uint32_t(soft::body_floats) * b.slot;
@@ -192,19 +194,19 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     std::size_t count = 0;
     const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
     const BodiesInStep bodies{body_a, body_b, problem.before[m.a], problem.before[m.b]};
-    const bool curves = a.swings || b.swings || std::holds_alternative<CurvedGap>(m.geometry);
+    const bool predicts_gaps = a.rotates_fast || b.rotates_fast || std::holds_alternative<CurvedGap>(m.geometry);
     const auto order = deepest_last(m);
     for (int k = 0; k < m.count; ++k) {
         const int i = order[std::size_t(k)];
         const ContactPoint& p = m.points[std::size_t(i)];
         PredictedGap seen{p.position, p.separation, 0.0};
         // For one substep more than the step: the last sweep looks that far ahead.
-        if (curves) seen = predicted_gap(m, i, bodies, problem.patches.h + d_);
-        if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.patches)) continue;
+        if (predicts_gaps) seen = predicted_gap(m, i, bodies, problem.settings.h + d_);
+        if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings)) continue;
         const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);
-        if (p.separation < -tuning::soft_energy_deep * size) energies_.lies_deep(a.slot - 1);
-        const Vec3 place = acting_place(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
+        if (p.separation < -tuning::soft_energy_deep * size) energies_.mark_deep(a.slot - 1);
+        const Vec3 place = acting_point(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
         point.set(&Point::arm, place - a.position);
         point[&Point::present] = 1.0f;
         point[&Point::load_share] = m.share[std::size_t(i)];
@@ -223,7 +225,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane[&Rows::size] = float(size);
     lane[&Rows::spread] = m.spread;
     // Seen from the other body the second tangent is reversed too, and so is an impulse along the first.
-    lane.set(&Rows::friction, Vec3((swapped ? -share : share) * m.friction[0], share * m.friction[1], share * m.twist));
+    lane.set(&Rows::friction,
+             Vec3((swapped ? -share : share) * m.friction[0], share * m.friction[1], share * m.torsion));
 }
 
 void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot) {
@@ -309,7 +312,7 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     });
     hand_back(problem, first_body, end_body);
     meet();
-    energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.patches.h);
+    energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.settings.h);
 }
 
 // Transfers impulses to the manifolds and to the momenta of their bodies.
@@ -327,7 +330,7 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         const Vec3 friction = to_double(lane.vector(&Rows::friction));
         m.friction[0] = (source.swapped ? -all : all) * friction.x();
         m.friction[1] = all * friction.y();
-        m.twist = all * friction.z();
+        m.torsion = all * friction.z();
         m.tangent = to_double(lane.vector(&Rows::tangent));
         const auto total = lane.total_impulse();
         const Vec3 force = mass_unit_ * to_double(total.linear),
@@ -357,7 +360,7 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
 }
 
 void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std::size_t last) {
-    const double rate = 1.0 / problem.patches.h;
+    const double rate = 1.0 / problem.settings.h;
     for (std::size_t k = first; k < last; ++k) {
         if (!reached_[k + 1]) continue;
         Body& body = problem.bodies[layout_->blocks().order()[k]];

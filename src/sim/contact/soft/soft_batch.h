@@ -23,9 +23,9 @@ public:
     /// prepare() is called by one thread, the following functions by all threads of a team.
     /// - `layout`: closed, and valid until then.
     /// - slot: as in the layout.
-    /// - `finer`: substep multiplier.
+    /// - `substep_multiplier`: factor of the number of substeps.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
-    void prepare(const ContactProblem& problem, int finer, const SoftLayout& layout, double mass_unit);
+    void prepare(const ContactProblem& problem, int substep_multiplier, const SoftLayout& layout, double mass_unit);
     void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread,
              std::size_t team, SpinBarrier& barrier);
 
@@ -41,12 +41,12 @@ private:
         float* data_ = nullptr;
     };
     // Data of a body needed for packing, close together in memory.
-    struct Place {
+    struct PackedBody {
         Vec3 position = Vec3::Zero();
         double radius = 0.0, friction = 0.0, restitution = 0.0;
         std::uint32_t slot = 0;
         bool dynamic = false;
-        bool swings = false;  // rotates so fast that its corners approach along curves
+        bool rotates_fast = false;  // rotates so fast that its corners approach along curves
     };
     // The manifold points that the points of a lane stand for.
     struct Source {
@@ -56,13 +56,13 @@ private:
     };
 
     static soft::Softness softness(double frequency, double d);
-    static Place place_of(const Body& body, std::uint32_t slot) {
+    static PackedBody packed(const Body& body, std::uint32_t slot) {
         return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
     }
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
     void pack_movers(const ContactProblem& problem);
-    const Place& find_place(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
-                            const std::vector<std::uint32_t>& slot, Place& made) const;
+    const PackedBody& find_packed(std::uint32_t body, std::uint32_t manifold, const ContactProblem& problem,
+                                  const std::vector<std::uint32_t>& slot, PackedBody& made) const;
     void pack_lane(const ContactProblem& problem, std::uint32_t manifold, std::size_t group, std::size_t l,
                    const std::vector<std::uint32_t>& slot);
     void pack(const ContactProblem& problem, std::size_t group, const std::vector<std::uint32_t>& slot);
@@ -80,7 +80,7 @@ private:
     Floats state_, inertia_, before_, forces_, rows_;  // before_, forces_: 8 floats per slot
     const SoftLayout* layout_ = nullptr;  // slot k + 1 is the k-th body of its blocks' order; the movers follow
     std::size_t slots_ = 0;
-    std::vector<Place> places_;  // by slot
+    std::vector<PackedBody> packed_;  // by slot
     IslandEnergies energies_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;

@@ -62,16 +62,16 @@ struct ManifoldRows {
         Symmetric3<Real> inverse_inertia_a;  // from prepare() to sum()
         TotalImpulse<Real> total_impulse;    // set by sum()
     };
-    Symmetric3<Real> inverse_inertia_b;  // set by prepare(), like the following masses, in kg or kg m^2
+    Symmetric3<Real> inverse_inertia_b;  // set by prepare(), like the following masses
     struct {
         Real xx, xy, yy;
-    } sticking_mass;    // inverse of the compliance along the two tangents
-    Real sliding_mass;  // of the direction with the largest compliance
-    Real torsional_mass;
+    } sticking_mass;      // kg, inverse of the compliance along the two tangents
+    Real sliding_mass;    // kg, of the direction with the largest compliance
+    Real torsional_mass;  // kg m^2
     Real friction_coefficient;
-    Real size;  // m, the smaller body's radius
-    Vector3<Real> friction, friction_sum;
-    Real spread;       // Manifold::spread
+    Real size;                             // m, the smaller body's radius
+    Vector3<Real> friction, friction_sum;  // impulses, and their sums over the substeps
+    Real spread;                           // Manifold::spread
     Real coupling[6];  // 1/kg, change of speed at one point per normal impulse at another: 01, 02, 12, 03, 13, 23
     PointRows<Real> point[4];
 };

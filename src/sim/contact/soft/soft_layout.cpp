@@ -30,19 +30,19 @@ SoftLayout::Mover SoftLayout::mover(const std::vector<Body>& bodies, std::uint32
     return {body, bodies[body].angular_velocity.isZero(0.0) ? none : manifold};
 }
 
-void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot,
+void SoftLayout::open(const IslandBatch& batch, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot,
                       std::size_t team) {
     blocks_.clear();
     islands_.clear();
-    const std::size_t dynamic = 1 + part.bodies.size();  // number of slots
+    const std::size_t dynamic = 1 + batch.bodies.size();  // number of slots
     block_of_.resize(dynamic);
     island_of_.resize(dynamic);
     lasts_ = true;
     steps_ = 0;
     std::size_t first = 0;
-    for (const std::size_t end : part.island_ends) {
+    for (const std::size_t end : batch.island_ends) {
         const std::size_t first_block = blocks_.size();
-        blocks_.add(std::span(part.bodies).subspan(first, end - first), bodies);
+        blocks_.add(std::span(batch.bodies).subspan(first, end - first), bodies);
         std::fill(island_of_.begin() + std::ptrdiff_t(first + 1), island_of_.begin() + std::ptrdiff_t(end + 1),
                   std::uint32_t(islands_.size()));
         islands_.push_back({.first = first, .end = end, .first_block = first_block, .end_block = blocks_.size()});
@@ -56,28 +56,29 @@ void SoftLayout::open(const SoftPart& part, const std::vector<Body>& bodies, std
         }
     taken_.assign(dynamic, {});
     class_size_.assign((blocks_.size() + 1) * colors * costs, 0);
-    class_.resize(part.manifolds.size());
+    class_.resize(batch.manifolds.size());
     found_movers_.assign(team, {});
 }
 
 // Greedy coloring in the manifolds' order: the lowest color that neither body has, inside the blocks and between them.
 // The colors of a body depend on its island alone. Each thread colors its own blocks, whose manifolds its core's cache
 // holds, and one thread the manifolds between blocks.
-void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
-                       const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team) {
+void SoftLayout::color(const IslandBatch& batch, const std::vector<Body>& bodies,
+                       const std::vector<Manifold>& manifolds, const std::vector<std::uint32_t>& slot,
+                       std::size_t thread, std::size_t team) {
     const Share own = blocks_of(thread, team);
     const std::size_t across = blocks_.size();
-    for (std::size_t k = 0; k < part.pairs.size(); ++k) {
-        const std::uint32_t a = slot[part.pairs[k].a], b = slot[part.pairs[k].b];  // 0: not dynamic
+    for (std::size_t k = 0; k < batch.pairs.size(); ++k) {
+        const std::uint32_t a = slot[batch.pairs[k].a], b = slot[batch.pairs[k].b];  // 0: not dynamic
         const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
         const std::size_t home = inside ? block_of_[a != 0 ? a : b] : across;
         if (inside ? home < own.begin || home >= own.end : thread + 1 < team) continue;
         if (a == 0 || b == 0) {
             Island& island = islands_[island_of_[a != 0 ? a : b]];
-            const std::uint32_t other = a != 0 ? part.pairs[k].b : part.pairs[k].a;
-            set(bodies[other].moves() ? island.driven : island.leans);
+            const std::uint32_t other = a != 0 ? batch.pairs[k].b : batch.pairs[k].a;
+            set(bodies[other].moves() ? island.driven : island.touches_static);
             if (bodies[other].type == BodyType::kinematic)
-                found_movers_[thread].push_back(mover(bodies, other, part.manifolds[k]));
+                found_movers_[thread].push_back(mover(bodies, other, batch.manifolds[k]));
         }
         std::uint64_t fixed = 0;
         std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
@@ -90,12 +91,12 @@ void SoftLayout::color(const SoftPart& part, const std::vector<Body>& bodies, co
         const std::uint64_t bit = std::uint64_t(1) << c;
         of_a |= bit;
         of_b |= bit;
-        class_[k] = std::uint32_t((home * colors + c) * costs + cost_class(manifolds[part.manifolds[k]]));
+        class_[k] = std::uint32_t((home * colors + c) * costs + cost_class(manifolds[batch.manifolds[k]]));
         ++class_size_[class_[k]];
     }
 }
 
-void SoftLayout::close(const SoftPart& part, std::size_t lanes) {
+void SoftLayout::close(const IslandBatch& batch, std::size_t lanes) {
     movers_.clear();
     for (const std::vector<Mover>& found : found_movers_) movers_.insert(movers_.end(), found.begin(), found.end());
     std::sort(movers_.begin(), movers_.end());
@@ -129,9 +130,9 @@ void SoftLayout::close(const SoftPart& part, std::size_t lanes) {
     lane_manifolds_.assign(groups * lanes, none);
     std::size_t alone = groups * lanes;
     for (std::size_t i = class_.size(); i-- > 0;)
-        if (class_[i] == none) lane_manifolds_[alone -= lanes] = part.manifolds[i];
+        if (class_[i] == none) lane_manifolds_[alone -= lanes] = batch.manifolds[i];
     for (std::size_t i = 0; i < class_.size(); ++i)
-        if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = part.manifolds[i];
+        if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = batch.manifolds[i];
 }
 
 void BodyBlocks::clear() {

@@ -46,11 +46,11 @@ private:
 };
 
 /// A batch: manifolds (ascending) and dynamic bodies of one island or several, solved together.
-struct SoftPart {
+struct IslandBatch {
     std::vector<std::uint32_t> bodies, manifolds;
     std::vector<BodyPair> pairs;           // body pairs of the manifolds, in their order
     std::vector<std::size_t> island_ends;  // positions in `bodies`
-    int finer = 1;                         // substep multiplier
+    int substep_multiplier = 1;            // substep multiplier
 };
 
 class SoftLayout {
@@ -68,7 +68,7 @@ public:
     struct Island {
         std::size_t first, end;              // positions in the blocks' order
         std::size_t first_block, end_block;  // of a large island, its own blocks
-        std::uint8_t leans = 0;              // touches a body that stands
+        std::uint8_t touches_static = 0;     // touches a body that stands
         std::uint8_t driven = 0;             // touches a moving kinematic body
     };
     struct Share {
@@ -78,11 +78,11 @@ public:
     /// Called in this order: open() by one thread; the next by each thread of a team; close() by one. slot: by body,
     /// set for the batch's own bodies to the position in the blocks' order plus one; 0 for touching bodies that do not
     /// move.
-    void open(const SoftPart& part, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot,
+    void open(const IslandBatch& batch, const std::vector<Body>& bodies, std::vector<std::uint32_t>& slot,
               std::size_t team);
-    void color(const SoftPart& part, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
+    void color(const IslandBatch& batch, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team);
-    void close(const SoftPart& part, std::size_t lanes);
+    void close(const IslandBatch& batch, std::size_t lanes);
 
     /// Whether the layout is valid for one more step with the same pairs: the cuts of large islands depend on the
     /// bodies' positions, and the costs of manifolds change slowly.

@@ -49,36 +49,36 @@ int substeps_of(double h) {
 SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
 SoftSolver::~SoftSolver() = default;
 
-void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> parts, bool same, ThreadPool& pool) {
+void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> batches, bool same, ThreadPool& pool) {
     if (mass_unit_ == 0.0) mass_unit_ = mass_unit(problem.bodies);
     const auto threads = std::size_t(pool.size());
     const auto lanes = std::size_t(kernel_.lanes);
-    while (batches_.size() < threads) batches_.push_back(std::make_unique<SoftBatch>(kernel_));
-    if (layouts_.size() < parts.size()) layouts_.resize(parts.size());
+    while (workers_.size() < threads) workers_.push_back(std::make_unique<SoftBatch>(kernel_));
+    if (layouts_.size() < batches.size()) layouts_.resize(batches.size());
     small_.clear();
     std::size_t all_small = 0;
-    for (std::size_t k = 0; k < parts.size(); ++k) {
-        const Part& part = parts[k];
-        const bool one_large = part.island_ends.size() == 1 && part.manifolds.size() >= tuning::soft_team_manifolds;
+    for (std::size_t k = 0; k < batches.size(); ++k) {
+        const Batch& batch = batches[k];
+        const bool one_large = batch.island_ends.size() == 1 && batch.manifolds.size() >= tuning::soft_team_manifolds;
         if (threads == 1 || !one_large) {
             small_.push_back(k);
-            all_small += part.manifolds.size();
+            all_small += batch.manifolds.size();
             continue;
         }
         SoftLayout& layout = layouts_[k];
-        layout.open(part, problem.bodies, slot_, threads);
+        layout.open(batch, problem.bodies, slot_, threads);
         for (std::size_t thread = 0; thread < threads; ++thread)
             for (const std::uint32_t i : layout.bodies_of(thread, threads)) pool.give(i, thread);
         SpinBarrier barrier(threads);
         pool.together([&](std::size_t thread) {
-            layout.color(part, problem.bodies, problem.manifolds, slot_, thread, threads);
+            layout.color(batch, problem.bodies, problem.manifolds, slot_, thread, threads);
             barrier.wait();
             if (thread == 0) {
-                layout.close(part, lanes);
-                batches_[0]->prepare(problem, part.finer, layout, mass_unit_);
+                layout.close(batch, lanes);
+                workers_[0]->prepare(problem, batch.substep_multiplier, layout, mass_unit_);
             }
             barrier.wait();
-            batches_[0]->run(problem, slot_, thread, threads, barrier);
+            workers_[0]->run(problem, slot_, thread, threads, barrier);
         });
     }
     // Neighbors in the list, and the same ones from step to step.
@@ -90,19 +90,19 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Part> part
         each_of(thread, team, [&](std::size_t k) {
             SoftLayout& layout = layouts_[k];
             if (!same || !layout.lasts()) {
-                layout.open(parts[k], problem.bodies, slot_, 1);
-                layout.color(parts[k], problem.bodies, problem.manifolds, slot_, 0, 1);
-                layout.close(parts[k], lanes);
+                layout.open(batches[k], problem.bodies, slot_, 1);
+                layout.color(batches[k], problem.bodies, problem.manifolds, slot_, 0, 1);
+                layout.close(batches[k], lanes);
             }
             SpinBarrier alone(1);
-            batches_[thread]->prepare(problem, parts[k].finer, layout, mass_unit_);
-            batches_[thread]->run(problem, slot_, 0, 1, alone);
+            workers_[thread]->prepare(problem, batches[k].substep_multiplier, layout, mass_unit_);
+            workers_[thread]->run(problem, slot_, 0, 1, alone);
         });
     };
     if (threads == 1 || small_.size() < 2 || all_small < tuning::parallel_grain) return run(0, 1);
     for (std::size_t thread = 0; thread < threads; ++thread)
         each_of(thread, threads, [&](std::size_t k) {
-            for (const std::uint32_t i : parts[k].bodies) pool.give(i, thread);
+            for (const std::uint32_t i : batches[k].bodies) pool.give(i, thread);
         });
     pool.together([&](std::size_t thread) { run(thread, threads); });
 }

@@ -38,17 +38,17 @@ public:
     explicit SoftSolver(std::size_t bodies, const soft::Kernel& kernel = soft::best_kernel());
     ~SoftSolver();
 
-    /// `parts`: batches of manifolds (ascending) and dynamic bodies of one island or several; batches share no dynamic
+    /// `batches`: batches of manifolds (ascending) and dynamic bodies of one island or several; batches share no dynamic
     /// body.
     /// `same`: as in the last call, down to the manifolds' pairs. The result depends neither on the batching nor on the
     /// number of threads.
-    using Part = SoftPart;
-    void solve(const ContactProblem& problem, std::span<const Part> parts, bool same, ThreadPool& pool);
+    using Batch = IslandBatch;
+    void solve(const ContactProblem& problem, std::span<const Batch> batches, bool same, ThreadPool& pool);
 
 private:
     const soft::Kernel& kernel_;
     std::vector<std::uint32_t> slot_;                  // by body
-    std::vector<std::unique_ptr<SoftBatch>> batches_;  // one per thread
+    std::vector<std::unique_ptr<SoftBatch>> workers_;  // one per thread
     std::vector<SoftLayout> layouts_;                  // one per batch
     std::vector<std::size_t> small_;                   // batches that one thread solves
     double mass_unit_ = 0.0;                           // kg; of the scene's bodies, which do not change

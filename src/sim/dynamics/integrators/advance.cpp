@@ -18,7 +18,7 @@ namespace {
 
 /// Calls part(start, end, law) for the parts of [from, to] within which no force begins or ends.
 template <class Part>
-void for_each_part(const Body& body, const ForceField& forces, std::size_t index, double from, double to,
+void for_each_span(const Body& body, const ForceField& forces, std::size_t index, double from, double to,
                    const Part& part) {
     while (from < to) {
         const double end = std::min(to, forces.next_change(index, from));
@@ -82,7 +82,7 @@ void advance_one_step(Body& body, IntegratorKind kind, const ForceField& forces,
                       double to) {
     RigidState state = state_of(body);
     const RigidMass mass = mass_of(body);
-    for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
+    for_each_span(body, forces, index, from, to, [&](double start, double end, const auto& law) {
         if (kind == IntegratorKind::splitting)
             splitting_step(state, mass, ForceLaw(law), end - start);
         else
@@ -95,7 +95,7 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
     RigidState state = state_of(body);
     const RigidMass mass = mass_of(body);
     const Drag drag{forces.drag_rate(body), forces.wind()};
-    for_each_part(body, forces, index, from, to, [&](double start, double end, const auto& law) {
+    for_each_span(body, forces, index, from, to, [&](double start, double end, const auto& law) {
         const double span = end - start;
         const bool turns = !forces.torque_free(index, 0.5 * (start + end));
         const FreeRotation rotation(mass.principal_inertia, mass.principal_axes, state.orientation,
