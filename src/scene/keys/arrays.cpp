@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <unordered_map>
+#include <utility>
 
 namespace tumble {
 namespace {
