@@ -72,16 +72,15 @@ void measure_cost(const Arguments& a) {
     options.full_redraw = a.full;
     if (a.stages) options.times = &times;
     Renderer renderer(scene, options);
-    Image frame;
     std::vector<double> costs;
     double pixels = 0.0, rectangles = 0.0;
     PassTimes sum_of_times;
     for (int round = 0; round < a.rounds; ++round) {
-        renderer.render(clip.front(), frame);  // excludes the initial work, and the jump back to the start
+        renderer.render(clip.front());  // excludes the initial work, and the jump back to the start
         times = {};
         for (std::size_t i = 1; i < clip.size(); ++i) {
             const double start = cpu_seconds();
-            renderer.render(clip[i], frame);
+            renderer.render(clip[i]);
             costs.push_back(1e3 * (cpu_seconds() - start));
             rectangles += double(renderer.changed().size());
             for (const Rectangle& r : renderer.changed()) pixels += double(r.width) * r.height;
@@ -110,10 +109,7 @@ Image picture(const SceneDescription& scene, const Snapshot& snapshot, int sampl
     options.multisample = multisample;
     options.shift_x = shift_x;
     options.shift_y = shift_y;
-    Renderer renderer(sampled, options);
-    Image image;
-    renderer.render(snapshot, image);
-    return image;
+    return Renderer(sampled, options).render(snapshot);
 }
 
 // Against the mean of 64 images of one sample with subpixel shifts.

@@ -48,8 +48,6 @@ Camera first_view(const SceneDescription& scene, const RenderScene& looks, const
         .with_distances(viewing, fog_distance(scene, looks, viewing));
 }
 
-std::vector<Rectangle> whole_picture(const Camera& view) { return {{0, 0, view.width(), view.height()}}; }
-
 }  // namespace
 
 struct Renderer::State {
@@ -67,6 +65,7 @@ struct Renderer::State {
           last_marks(view),
           details(looks),
           edges(looks, view, details),
+          image(scene.output.width, scene.output.height),
           drawn_image(scene.output.width, scene.output.height),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
@@ -158,7 +157,9 @@ struct Renderer::State {
     DirtyTiles last_marks;
     MeshLods details;
     EdgeFinder edges;
-    Image drawn_image;  // as drawn, with surface ids in alpha
+    Image image;         // the result
+    bool whole = false;  // `image` shows the previous frame; false before the first one and after an exception
+    Image drawn_image;   // as drawn, with surface ids in alpha
     std::unique_ptr<GlContext> context;
     GlFunctions gl;
     // False in scenes with cords, which can be thinner than a pixel and need several samples.
@@ -185,16 +186,17 @@ Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) 
 
 Renderer::~Renderer() = default;
 
-void Renderer::render(const Snapshot& whole, Image& frame) {
+const Image& Renderer::render(const Snapshot& whole) {
     State& s = *state_;
     s.context->make_current();  // another renderer may have been used in this thread
     PassTimer clock(s.gl, s.times);
     const Snapshot& snapshot = s.drawn.snapshot(whole);
     const bool camera_moved = s.move_camera(whole);
-    const bool follows = frame.width == s.view.width() && frame.height == s.view.height();
-    if (follows && !s.full_redraw && s.changes.unmoved(snapshot)) {
+    if (!std::exchange(s.whole, false)) s.changes.forget();
+    if (!s.full_redraw && s.changes.unmoved(snapshot)) {
         s.changed.clear();
-        return;
+        s.whole = true;
+        return s.image;
     }
     FrameState state{snapshot,
                      make_drawn_items(s.scene, s.looks, snapshot, s.view),
@@ -269,24 +271,17 @@ void Renderer::render(const Snapshot& whole, Image& frame) {
     s.framebuffer.resolve(s.changed);
     s.framebuffer.read(s.changed, s.drawn_image);
     clock.ends(Pass::read);
-    std::vector<Rectangle> written = s.changed;
-    if (!follows) {
-        frame = Image(s.view.width(), s.view.height());
-        written = whole_picture(s.view);
-        if (!marks.all()) {
-            marks.mark_all();
-            wanted.assign(wanted.size(), 1);
-        }
-    }
-    copy_opaque(s.drawn_image, written, frame);
+    copy_opaque(s.drawn_image, s.changed, s.image);
     // Hidden items have no edges, drawn or not: surfaces share ids, and one might be mistaken for the surface in front
     // of it.
     if (s.smooth_edges) {
-        blend_analytic_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, frame);
-        blend_rods(s.drawn_image, s.edges.rods(), marks, frame);
+        blend_analytic_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, s.image);
+        blend_rods(s.drawn_image, s.edges.rods(), marks, s.image);
     }
     clock.ends(Pass::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
+    s.whole = true;
+    return s.image;
 }
 
 const std::vector<Rectangle>& Renderer::changed() const { return state_->changed; }

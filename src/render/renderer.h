@@ -35,15 +35,13 @@ public:
     Renderer(const SceneDescription& scene, const RenderOptions& options);
     ~Renderer();
 
-    /// Draws the snapshot at the scene's output size, with the camera at the snapshot's time. Only regions that changed
-    /// since the previous render() are drawn and written. Precondition: a `frame` of the right size holds the image of
-    /// the previous render() (or a copy of it); a frame of another size, such as an empty one, is replaced completely.
-    /// Resting bodies are cheap only if their poses are the same to the bit, which PoseFilter provides. A camera
-    /// movement redraws everything.
-    void render(const Snapshot& snapshot, Image& frame);
+    /// Draws the snapshot at the scene's output size, with the camera at the snapshot's time. The image is valid until
+    /// the next call. Only regions that changed since the previous call are drawn. Resting bodies are cheap only if
+    /// their poses are the same to the bit, which PoseFilter provides. A camera movement redraws everything.
+    const Image& render(const Snapshot& snapshot);
 
-    /// Regions in which the current frame may differ from the previous one: rectangles that do not overlap. The whole
-    /// frame after the first render() and with full_redraw; empty if nothing moved.
+    /// Regions in which the current image may differ from the previous one: rectangles that do not overlap. The whole
+    /// image after the first render() and with full_redraw; empty if nothing moved.
     const std::vector<Rectangle>& changed() const;
 
     /// The OpenGL renderer and version, as the driver names itself.

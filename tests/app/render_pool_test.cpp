@@ -257,8 +257,7 @@ TEST(RenderPool, AllOutputsShowTheRenderersPicture) {
         Renderer renderer(scene, options);
         PngEncoder png;
         for (const Seen& s : seen) {
-            Image image;
-            renderer.render(at_frame(s.number), image);
+            const Image& image = renderer.render(at_frame(s.number));
             const Rectangle whole{0, 0, image.width, image.height};
             VideoPixels pixels(PixelForm::yuv420, image.width, image.height);
             pixels.update(image, {&whole, 1});
@@ -286,11 +285,8 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
         PngEncoder png;
         for (const Seen& s : first) {
             ImageMean mean;
-            Image image, expected;
-            for (const Snapshot& moment : blurred(s.number).moments) {
-                renderer.render(moment, image);
-                mean.add(image);
-            }
+            Image expected;
+            for (const Snapshot& moment : blurred(s.number).moments) mean.add(renderer.render(moment));
             mean.take(expected);
             if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
         }

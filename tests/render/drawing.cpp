@@ -9,10 +9,7 @@
 
 namespace tumble {
 Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderOptions& options) {
-    Renderer renderer(scene, options);
-    Image image;
-    renderer.render(snapshot, image);
-    return image;
+    return Renderer(scene, options).render(snapshot);
 }
 
 Image drawn(const SceneDescription& scene, const RenderOptions& options) {

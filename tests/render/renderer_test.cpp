@@ -31,10 +31,8 @@ TEST(Renderer, DrawsTheSameBytesTwice) {
     const SceneDescription scene = mixed_scene();
     const Snapshot snapshot = first_snapshot(scene);
     Renderer first(scene, {});
-    Image once, again;
-    first.render(snapshot, once);
-    first.render(snapshot, again);
-    EXPECT_EQ(once, again) << "a frame depends on the one before";
+    const Image once = first.render(snapshot);
+    EXPECT_EQ(first.render(snapshot), once) << "a frame depends on the one before";
     EXPECT_EQ(once, drawn(scene)) << "a renderer depends on the one before";
 }
 
@@ -43,10 +41,8 @@ TEST(Renderer, DoesNotRememberOtherFrames) {
     Snapshot away = first_snapshot(scene);
     for (std::size_t i = 1; i < away.bodies.size(); ++i) away.bodies[i].origin += Vec3(3.0, 40.0, 2.0) * double(i);
     Renderer renderer(scene, {});
-    Image image;
-    renderer.render(away, image);
-    renderer.render(first_snapshot(scene), image);
-    EXPECT_EQ(image, drawn(scene));
+    renderer.render(away);
+    EXPECT_EQ(renderer.render(first_snapshot(scene)), drawn(scene));
 }
 
 TEST(Renderer, TwoInOneThreadKeepApart) {
@@ -54,12 +50,9 @@ TEST(Renderer, TwoInOneThreadKeepApart) {
     const Image alone = drawn(scene);
     auto first = std::make_unique<Renderer>(scene, RenderOptions{});
     Renderer second(scene, {});
-    Image image;
-    first->render(first_snapshot(scene), image);
-    EXPECT_EQ(image, alone) << "the first, after the second was made";
+    EXPECT_EQ(first->render(first_snapshot(scene)), alone) << "the first, after the second was made";
     first.reset();
-    second.render(first_snapshot(scene), image);
-    EXPECT_EQ(image, alone) << "the second, after the first was destroyed";
+    EXPECT_EQ(second.render(first_snapshot(scene)), alone) << "the second, after the first was destroyed";
 }
 
 TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
@@ -73,8 +66,7 @@ TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
             GTEST_SKIP() << "no EGL here: " << failure.what();
         }
         if (egl->driver().find("llvmpipe") == std::string::npos) GTEST_SKIP() << "EGL draws with " << egl->driver();
-        Image image;
-        egl->render(first_snapshot(scene), image);
+        const Image image = egl->render(first_snapshot(scene));
         egl.reset();
         EXPECT_EQ(image, drawn(scene)) << samples << " samples";
     }

@@ -97,9 +97,9 @@ private:
     void make_picture(const Job& job, DrawnFrame& drawn) {
         drawn.drawing = timed([&] { expose(job); });
         const bool partly = !blurred_before_ && job.moments == 1;  // otherwise the previous picture was a different one
+        const Image& picture = job.moments == 1 ? *drawn_ : blurred_;
         const std::vector<Rectangle> changed =
-            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
-        const Image& picture = job.moments == 1 ? image_ : blurred_;
+            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, picture.width, picture.height}};
         blurred_before_ = job.moments > 1;
         drawn.unchanged = changed.empty();
         if (video_)
@@ -118,8 +118,8 @@ private:
     void expose(const Job& job) {
         for (std::size_t i = 0; i < job.moments; ++i) {
             memory_.read_poses(i, snapshot_);
-            renderer_->render(snapshot_, image_);
-            if (job.moments > 1) mean_.add(image_);
+            drawn_ = &renderer_->render(snapshot_);
+            if (job.moments > 1) mean_.add(*drawn_);
         }
         if (job.moments > 1) mean_.take(blurred_);
     }
@@ -127,7 +127,7 @@ private:
     SharedFrames& memory_;
     std::optional<Renderer> renderer_;
     Snapshot snapshot_;
-    Image image_;  // the last moment that was drawn
+    const Image* drawn_ = nullptr;  // the last moment that was drawn; the renderer owns it
     ImageMean mean_;
     Image blurred_;
     bool blurred_before_ = false;
