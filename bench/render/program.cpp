@@ -85,7 +85,7 @@ void measure_cost(const Arguments& a) {
             rectangles += double(renderer.changed().size());
             for (const Rectangle& r : renderer.changed()) pixels += double(r.width) * r.height;
         }
-        for (std::size_t i = 0; i < render_stages; ++i) sum_of_times.seconds[i] += times.seconds[i];
+        for (std::size_t i = 0; i < pass_count; ++i) sum_of_times.seconds[i] += times.seconds[i];
     }
     double sum = 0.0;
     for (const double cost : costs) sum += cost;
@@ -97,8 +97,8 @@ void measure_cost(const Arguments& a) {
         costs[costs.size() / 2], sum / frames, costs[costs.size() / 10], costs[costs.size() * 9 / 10],
         pixels / frames / (double(scene.output.width) * scene.output.height), rectangles / frames);
     if (!a.stages) return;
-    for (std::size_t i = 0; i < render_stages; ++i)
-        fmt::print("  {:<12} {:6.2f}\n", render_stage_names[i], 1e3 * sum_of_times.seconds[i] / frames);
+    for (std::size_t i = 0; i < pass_count; ++i)
+        fmt::print("  {:<12} {:6.2f}\n", pass_names[i], 1e3 * sum_of_times.seconds[i] / frames);
 }
 
 Image picture(const SceneDescription& scene, const Snapshot& snapshot, int samples, bool multisample,

@@ -37,50 +37,52 @@ namespace tumble {
 namespace {
 
 // A string of the driver; null would mean that no context is current.
-std::string words(const GlFunctions& gl, GLenum name) {
+std::string driver_string(const GlFunctions& gl, GLenum name) {
     const GLubyte* text = gl.GetString(name);
     return text != nullptr ? reinterpret_cast<const char*>(text) : "unknown";
 }
 
-Camera first_view(const SceneDescription& scene, const RenderScene& looks, const RenderOptions& options) {
-    const double viewing = viewing_distance(scene, looks);
-    return Camera(scene.camera, scene.output.width, scene.output.height, {options.shift_x, options.shift_y})
-        .with_distances(viewing, fog_distance(scene, looks, viewing));
+Camera first_view(const SceneDescription& description, const RenderScene& scene, const RenderOptions& options) {
+    const double viewing = viewing_distance(description, scene);
+    return Camera(description.camera, description.output.width, description.output.height,
+                  {options.shift_x, options.shift_y})
+        .with_distances(viewing, fog_distance(description, scene, viewing));
 }
 
 }  // namespace
 
 struct Renderer::State {
-    State(const SceneDescription& description, const RenderOptions& options, const std::filesystem::path& shaders)
-        : drawn(description),
-          scene(drawn.scene()),
-          looks(make_render_scene(scene)),
-          sun_up(sun_is_up(scene)),
+    State(const SceneDescription& given, const RenderOptions& options, const std::filesystem::path& shaders)
+        : drawn(given),
+          description(drawn.scene()),
+          scene(make_render_scene(description)),
+          sun_up(sun_is_up(description)),
           path(description.camera),
-          camera(scene.camera),
-          view(first_view(scene, looks, options)),
-          stage(scene, looks, view, shadow_map_texels),
-          occlusion(looks, view.eye()),
-          changes(scene, looks, view),
-          last_marks(view),
-          details(looks),
-          edges(looks, view, details),
-          image(scene.output.width, scene.output.height),
-          drawn_image(scene.output.width, scene.output.height),
+          camera(description.camera),
+          view(first_view(description, scene, options)),
+          stage(description, scene, view, shadow_map_texels),
+          occlusion(scene, view.eye()),
+          changes(description, scene, view),
+          previous_dirty(view),
+          details(scene),
+          edges(scene, view, details),
+          image(description.output.width, description.output.height),
+          drawn_image(description.output.width, description.output.height),
           context(make_gl_context(options.backend)),
           gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })),
-          smooth_edges(scene.output.samples > 1 && scene.cords.empty() && !options.multisample),
-          framebuffer(gl, scene.output.width, scene.output.height, smooth_edges ? 1 : scene.output.samples),
+          smooth_edges(description.output.samples > 1 && description.cords.empty() && !options.multisample),
+          framebuffer(gl, description.output.width, description.output.height,
+                      smooth_edges ? 1 : description.output.samples),
           uniforms(gl, GlKind::buffer),
-          meshes(gl, looks),
+          meshes(gl, scene),
           occlusion_texture(gl),
           shadow_map(gl, shaders, frame_block),
-          programs(gl, shaders, looks, !scene.cords.empty(), scene.light.shadows, stage.filter()),
-          planes(gl, shaders, looks, scene.light.shadows, stage.filter()),
+          programs(gl, shaders, scene, !description.cords.empty(), description.light.shadows, stage.filter()),
+          planes(gl, shaders, scene, description.light.shadows, stage.filter()),
           full_redraw(options.full_redraw),
           draw_hidden(options.draw_hidden),
           times(options.times),
-          turns(options.turns) {
+          compile_schedule(options.compile_schedule) {
         drawn.forget_bodies();
         gl.FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
         gl.Enable(GL_DEPTH_TEST);
@@ -108,15 +110,15 @@ struct Renderer::State {
 
     // Draws with all output masked. The slowest shaders come first: see ShaderCompileSchedule.
     void compile_shaders(const DrawList& list) {
-        if (turns == nullptr) return;
+        if (compile_schedule == nullptr) return;
         bind_textures();
         framebuffer.begin_whole();
         gl.Enable(GL_SCISSOR_TEST);
         gl.Scissor(0, 0, 0, 0);
         std::vector<std::function<void()>> all = programs.compilations(meshes, list.visible);
         for (auto& one : planes.compilations()) all.push_back(std::move(one));
-        if (scene.light.shadows) all.emplace_back([&] { shadow_map.compile(meshes, list.casters); });
-        std::exchange(turns, nullptr)->run(all);
+        if (description.light.shadows) all.emplace_back([&] { shadow_map.compile(meshes, list.casters); });
+        std::exchange(compile_schedule, nullptr)->run(all);
         gl.Disable(GL_SCISSOR_TEST);
     }
 
@@ -138,15 +140,15 @@ struct Renderer::State {
         if (!background_kept) {
             framebuffer.begin_background();
             planes.draw_sky(patches, view);
-            planes.draw_open(patches, looks);
+            planes.draw_background(patches, scene);
             background_kept = true;
         }
-        framebuffer.begin(changed, closing);
+        framebuffer.begin(changed, previous_damage);
     }
 
     CompoundExpansion drawn;
-    const SceneDescription& scene;
-    RenderScene looks;
+    const SceneDescription& description;
+    RenderScene scene;
     bool sun_up;
     CameraAnimation path;
     CameraDescription camera;  // of the previous frame
@@ -154,7 +156,7 @@ struct Renderer::State {
     CascadeFitter stage;
     AmbientOcclusion occlusion;
     DamageTracker changes;
-    DirtyTiles last_marks;
+    DirtyTiles previous_dirty;
     MeshLods details;
     EdgeFinder edges;
     Image image;         // the result
@@ -173,15 +175,15 @@ struct Renderer::State {
     PlanePass planes;
     bool background_kept = false;
     std::vector<Rectangle> changed,
-        closing;  // redrawn regions; regions drawn in the previous frame and not in this one
+        previous_damage;  // redrawn regions; regions drawn in the previous frame and not in this one
     bool full_redraw, draw_hidden;
     PassTimes* times;
-    ShaderCompileSchedule* turns;  // until its shaders are compiled
+    ShaderCompileSchedule* compile_schedule;  // until its shaders are compiled
 };
 
-Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options) {
+Renderer::Renderer(const SceneDescription& description, const RenderOptions& options) {
     const std::filesystem::path shaders = options.shader_folder.empty() ? find_shader_folder() : options.shader_folder;
-    state_ = std::make_unique<State>(scene, options, shaders);
+    state_ = std::make_unique<State>(description, options, shaders);
 }
 
 Renderer::~Renderer() = default;
@@ -199,52 +201,52 @@ const Image& Renderer::render(const Snapshot& whole) {
         return s.image;
     }
     FrameState state{snapshot,
-                     make_drawn_items(s.scene, s.looks, snapshot, s.view),
-                     near_distance_for(s.looks, snapshot, s.view),
-                     s.stage.fit(s.looks, snapshot, s.view, s.path.carried(whole)),
+                     make_drawn_items(s.description, s.scene, snapshot, s.view),
+                     near_distance_for(s.scene, snapshot, s.view),
+                     s.stage.fit(s.scene, snapshot, s.view, s.path.carried(whole)),
                      {},
                      s.framebuffer.samples() <= 1};
-    state.planes = make_plane_patches(s.looks, snapshot, s.view, state.near_distance);
+    state.planes = make_plane_patches(s.scene, snapshot, s.view, state.near_distance);
     const std::vector<PlanePatch>& planes = state.planes;
     const std::vector<DrawableBounds>& items = state.items;
     const double near_distance = state.near_distance;
     const ShadowCascades& shadows = state.shadows;
-    const Visibility seen = find_visible(s.looks, snapshot, s.view, s.framebuffer.samples() <= 1);
+    const Visibility seen = find_visible(s.scene, snapshot, s.view, s.framebuffer.samples() <= 1);
     std::optional<Visibility> everything;
-    const Visibility& visibility = s.draw_hidden ? everything.emplace(everything_visible(s.looks, s.view)) : seen;
+    const Visibility& visibility = s.draw_hidden ? everything.emplace(everything_visible(s.scene, s.view)) : seen;
     // Of visible bodies only: the place of a tile in the atlas may change the last digit of a color.
-    const OcclusionChanges& darkening = s.occlusion.update(snapshot, s.view, seen);
-    DirtyTiles marks = s.changes.find(state, darkening, visibility);
-    if (s.full_redraw) marks.mark_all();
-    s.changed = marks.rectangles();
-    s.closing = s.last_marks.rectangles_outside(marks);
-    s.last_marks = marks;
+    const OcclusionChanges& occlusion = s.occlusion.update(snapshot, s.view, seen);
+    DirtyTiles dirty = s.changes.find(state, occlusion, visibility);
+    if (s.full_redraw) dirty.mark_all();
+    s.changed = dirty.rectangles();
+    s.previous_damage = s.previous_dirty.rectangles_outside(dirty);
+    s.previous_dirty = dirty;
 
-    ShadowDirtyTiles shadow_marks = s.changes.shadow_marks();
-    if (s.full_redraw) shadow_marks.mark_all();
-    const bool all_shadows = shadow_marks.all();
-    const Vec3 light = s.scene.light.direction.normalized();
-    std::vector<char> wanted, casting;
+    ShadowDirtyTiles shadow_damage = s.changes.shadow_damage();
+    if (s.full_redraw) shadow_damage.mark_all();
+    const bool all_shadows = shadow_damage.all();
+    const Vec3 light = s.description.light.direction.normalized();
+    std::vector<char> draw_mask, caster_mask;
     for (const DrawableBounds& item : items) {
-        wanted.push_back(item.exists() && (marks.all() || marks.touched_by(item.corners())) ? 1 : 0);
-        casting.push_back(item.exists() && (all_shadows || shadow_marks.touched_by(item)) &&
-                                  s.view.sees_swept(item.center, item.radius, light)
-                              ? 1
-                              : 0);
+        draw_mask.push_back(item.exists() && (dirty.all() || dirty.touched_by(item.corners())) ? 1 : 0);
+        caster_mask.push_back(item.exists() && (all_shadows || shadow_damage.touched_by(item)) &&
+                                      s.view.sees_swept(item.center, item.radius, light)
+                                  ? 1
+                                  : 0);
     }
-    if (s.scene.light.shadows && !s.draw_hidden) drop_hidden_casters(s.looks, items, shadows, casting);
+    if (s.description.light.shadows && !s.draw_hidden) drop_hidden_casters(s.scene, items, shadows, caster_mask);
     const OcclusionAtlas& atlas = s.occlusion.atlas();
     const DrawList list =
-        make_draw_list(s.scene, s.looks, snapshot, s.view, visibility, atlas, shadows, wanted, casting);
-    std::vector<std::vector<Rectangle>> touched;
+        make_draw_list(s.description, s.scene, snapshot, s.view, visibility, atlas, shadows, draw_mask, caster_mask);
+    std::vector<std::vector<Rectangle>> occluded;
     for (const PlanePatch& plane : planes)
-        touched.push_back(find_touched_areas(plane, s.scene, s.looks, items, s.view, shadows, visibility.cover, atlas,
-                                             snapshot, marks));
+        occluded.push_back(find_dirty_regions(plane, s.description, s.scene, items, s.view, shadows, visibility.cover,
+                                              atlas, snapshot, dirty));
     clock.ends(Pass::preparation);
 
-    s.occlusion_texture.upload(atlas, darkening.first_row, darkening.end_row);
+    s.occlusion_texture.upload(atlas, occlusion.first_row, occlusion.end_row);
     s.meshes.upload(list, s.details);
-    const FrameUniforms uniforms = make_frame_uniforms(s.scene.light, s.sun_up, s.view, near_distance, shadows,
+    const FrameUniforms uniforms = make_frame_uniforms(s.description.light, s.sun_up, s.view, near_distance, shadows,
                                                        s.occlusion_texture.height(), s.smooth_edges);
     s.gl.BindBuffer(GL_UNIFORM_BUFFER, s.uniforms.name());
     s.gl.BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
@@ -252,8 +254,8 @@ const Image& Renderer::render(const Snapshot& whole) {
     clock.ends(Pass::upload);
     s.compile_shaders(list);
 
-    if (s.scene.light.shadows && !shadow_marks.none())
-        s.shadow_map.draw(s.meshes, list.casters, shadow_marks.rectangles(), shadows.has_far);
+    if (s.description.light.shadows && !shadow_damage.none())
+        s.shadow_map.draw(s.meshes, list.casters, shadow_damage.rectangles(), shadows.has_far);
     clock.ends(Pass::shadow);
 
     s.begin_picture(planes, camera_moved);
@@ -262,10 +264,10 @@ const Image& Renderer::render(const Snapshot& whole) {
     s.bind_textures();
     s.programs.draw(s.meshes, list.visible);
     clock.ends(Pass::bodies);
-    s.planes.draw_touched(planes, touched, s.looks, atlas, snapshot, s.view, shadows.has_far);
+    s.planes.draw_regions(planes, occluded, s.scene, atlas, snapshot, s.view, shadows.has_far);
     clock.ends(Pass::planes);
     if (camera_moved)
-        s.planes.draw_open(planes, s.looks);  // last, so that pixels of bodies and their shadows are skipped
+        s.planes.draw_background(planes, s.scene);  // last, so that pixels of bodies and their shadows are skipped
     clock.ends(Pass::background);
 
     s.framebuffer.resolve(s.changed);
@@ -275,8 +277,8 @@ const Image& Renderer::render(const Snapshot& whole) {
     // Hidden items have no edges, drawn or not: surfaces share ids, and one might be mistaken for the surface in front
     // of it.
     if (s.smooth_edges) {
-        blend_analytic_edges(s.drawn_image, s.edges.find(snapshot, items, wanted, seen, planes), marks, s.image);
-        blend_rods(s.drawn_image, s.edges.rods(), marks, s.image);
+        blend_analytic_edges(s.drawn_image, s.edges.find(snapshot, items, draw_mask, seen, planes), dirty, s.image);
+        blend_rods(s.drawn_image, s.edges.rods(), dirty, s.image);
     }
     clock.ends(Pass::edges);
     TUMBLE_CHECK_EQ(s.gl.GetError(), GLenum(GL_NO_ERROR));
@@ -288,7 +290,7 @@ const std::vector<Rectangle>& Renderer::changed() const { return state_->changed
 
 std::string Renderer::driver() const {
     const GlFunctions& gl = state_->gl;
-    std::string text = fmt::format("{}, OpenGL {}", words(gl, GL_RENDERER), words(gl, GL_VERSION));
+    std::string text = fmt::format("{}, OpenGL {}", driver_string(gl, GL_RENDERER), driver_string(gl, GL_VERSION));
     if (text.find("softpipe") != std::string::npos) text += " (softpipe has no multisampling: edges will be jagged)";
     return text;
 }

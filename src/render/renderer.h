@@ -23,9 +23,9 @@ struct RenderOptions {
     bool full_redraw = false;  // redraw every frame completely, with the same bytes: for tests and comparisons
     bool draw_hidden = false;  // draw bodies behind boxes as well: for tests and comparisons
     bool multisample = false;  // several samples per pixel, as in scenes with cords: for comparisons
-    double shift_x = 0.0, shift_y = 0.0;     // displacement of the frame, below 1 pixel: for averages of many frames
-    PassTimes* times = nullptr;              // sums of the costs of passes; must outlive the renderer
-    ShaderCompileSchedule* turns = nullptr;  // shared with the other processes that draw this scene, or null
+    double shift_x = 0.0, shift_y = 0.0;  // displacement of the frame, below 1 pixel: for averages of many frames
+    PassTimes* times = nullptr;           // sums of the costs of passes; must outlive the renderer
+    ShaderCompileSchedule* compile_schedule = nullptr;  // shared with the other processes that draw this scene, or null
 };
 
 /// One OpenGL context and its resources. Use it in the thread that made it.

@@ -260,18 +260,18 @@ TEST(MovingCamera, StandsStillWithAJitteringBody) {
 TEST(FogReferenceDistance, IsTheDistanceOfTheBodiesInView) {
     SceneDescription scene = empty_scene();
     for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     scene.camera.eye = Vec3(0.0, 0.0, 10.0);
     const auto with_target = [&](double z) {
         scene.camera.target = Vec3(0.0, 0.0, z);
-        return viewing_distance(scene, looks);
+        return viewing_distance(scene, render_scene);
     };
     EXPECT_EQ(with_target(0.0), 10.0);
     EXPECT_EQ(with_target(3.0), 7.0);
     EXPECT_NEAR(with_target(9.9), 5.0, 0.1);
     EXPECT_NEAR(with_target(-1000.0), 20.0, 0.2);
     scene.camera.keyframes = {{0.0, {0, 0, 5}, {0, 0, 0}, 40.0}, {2.0, {0, 0, 30}, {0, 0, 0}, 10.0}};
-    EXPECT_EQ(viewing_distance(scene, looks), 30.0);
+    EXPECT_EQ(viewing_distance(scene, render_scene), 30.0);
     scene.bodies.clear();
     scene.camera.keyframes.clear();
     scene.camera.target = Vec3(0.0, 0.0, 6.0);

@@ -24,14 +24,14 @@ struct Cloud {
             const Vec3 size = random.vector(0.3) + Vec3::Constant(i % 10 == 0 ? 2.0 : 0.6);
             scene.bodies.push_back(box_body(random.vector(4.0, 4.0, 4.0), size, {200, 200, 200}, random.turn()));
         }
-        looks = make_render_scene(scene);
+        render_scene = make_render_scene(scene);
         snapshot = first_snapshot(scene);
-        items = make_drawn_items(scene, looks, snapshot, view);
-        fit = CascadeFitter(scene, looks, view, 768).fit(looks, snapshot, view);
+        items = make_drawn_items(scene, render_scene, snapshot, view);
+        fit = CascadeFitter(scene, render_scene, view, 768).fit(render_scene, snapshot, view);
     }
 
     SceneDescription scene = empty_scene();
-    RenderScene looks;
+    RenderScene render_scene;
     Camera view{scene.camera, 320, 180};
     Snapshot snapshot;
     std::vector<DrawableBounds> items;
@@ -41,7 +41,7 @@ struct Cloud {
 TEST(CasterCulling, CulledCastersAreInTheShadowOfOthers) {
     const Cloud cloud;
     std::vector<char> casting(cloud.items.size(), 1);
-    drop_hidden_casters(cloud.looks, cloud.items, cloud.fit, casting);
+    drop_hidden_casters(cloud.render_scene, cloud.items, cloud.fit, casting);
     const Vec3 to_sun = -cloud.scene.light.direction.normalized();
     int dropped = 0;
     for (std::size_t i = 0; i < cloud.items.size(); ++i) {
@@ -80,11 +80,11 @@ TEST(CasterCulling, HidesBodiesBehindABoxAndNoOthers) {
          {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
         scene.bodies.push_back(cube(front + away * down + beside * across, 0.5));
     scene.bodies.push_back(cube(front + 2.0 * down, 2.5));  // wider than the box in front of it
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     const Camera view(scene.camera, 320, 180);
     const Snapshot snapshot = first_snapshot(scene);
-    const std::vector<DrawableBounds> items = make_drawn_items(scene, looks, snapshot, view);
-    const ShadowCascades fit = CascadeFitter(scene, looks, view, 768).fit(looks, snapshot, view);
+    const std::vector<DrawableBounds> items = make_drawn_items(scene, render_scene, snapshot, view);
+    const ShadowCascades fit = CascadeFitter(scene, render_scene, view, 768).fit(render_scene, snapshot, view);
     CasterCulling cover(fit);
     cover.add(items[0]);
     std::vector<bool> hidden;

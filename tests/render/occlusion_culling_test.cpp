@@ -18,10 +18,10 @@ bool blocks(const BodyDescription& box, const Vec3& eye, const Vec3& point) {
 
 struct Heap {
     SceneDescription scene = heap_scene(150);
-    RenderScene looks = make_render_scene(scene);
+    RenderScene render_scene = make_render_scene(scene);
     Camera view{scene.camera, 1280, 720};
     Snapshot snapshot = first_snapshot(scene);
-    Visibility visibility = find_visible(looks, snapshot, view);
+    Visibility visibility = find_visible(render_scene, snapshot, view);
 
     bool in_picture(const Vec3& point) const {
         const Vec3 p = view.relative(point);
@@ -66,35 +66,35 @@ TEST(OcclusionCulling, CulledFacesAreHiddenOrTurnedAway) {
 
 TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnOnce) {
     const Heap heap;
-    const CascadeFitter stage(heap.scene, heap.looks, heap.view, 1024);
-    const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
+    const CascadeFitter stage(heap.scene, heap.render_scene, heap.view, 1024);
+    const std::vector<PlanePatch> planes = make_plane_patches(heap.render_scene, heap.snapshot, heap.view, 0.01);
     ASSERT_EQ(planes.size(), 1u);
-    AmbientOcclusion darkening(heap.looks, heap.view.eye());
-    darkening.update(heap.snapshot, heap.view, heap.visibility);
-    ASSERT_EQ(darkening.atlas().windows.size(), 1u);
-    const PlaneOcclusionTile& window = darkening.atlas().windows[0];
+    AmbientOcclusion occlusion(heap.render_scene, heap.view.eye());
+    occlusion.update(heap.snapshot, heap.view, heap.visibility);
+    ASSERT_EQ(occlusion.atlas().plane_tiles.size(), 1u);
+    const PlaneOcclusionTile& tile = occlusion.atlas().plane_tiles[0];
     const PlaneAxes axes = plane_axes(planes[0].normal);
     // The darkest of the four texels around a place.
     const auto least_open = [&](const Vec3& point) {
-        const Vec3 from_origin = point - heap.snapshot.bodies[window.body].origin;
-        const int i = int(std::floor(axes.u.dot(from_origin) / window.cell - window.low_a));
-        const int j = int(std::floor(axes.v.dot(from_origin) / window.cell - window.low_b));
+        const Vec3 from_origin = point - heap.snapshot.bodies[tile.body].origin;
+        const int i = int(std::floor(axes.u.dot(from_origin) / tile.cell - tile.low_a));
+        const int j = int(std::floor(axes.v.dot(from_origin) / tile.cell - tile.low_b));
         int least = 255;
         for (const int x : {i, i + 1})
             for (const int y : {j, j + 1})
-                if (x >= 0 && y >= 0 && x < window.width && y < window.height)
+                if (x >= 0 && y >= 0 && x < tile.width && y < tile.height)
                     least = std::min<int>(
-                        least,
-                        darkening.atlas()
-                            .texels[std::size_t(window.y + y) * OcclusionAtlas::width + std::size_t(window.x + x)]);
+                        least, occlusion.atlas()
+                                   .texels[std::size_t(tile.y + y) * OcclusionAtlas::width + std::size_t(tile.x + x)]);
         return least;
     };
     DirtyTiles everything(heap.view);
     everything.mark_all();
-    const std::vector<Rectangle> areas = find_touched_areas(
-        planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view),
-        heap.view, stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, darkening.atlas(),
-        heap.snapshot, everything);
+    const std::vector<Rectangle> areas =
+        find_dirty_regions(planes[0], heap.scene, heap.render_scene,
+                           make_drawn_items(heap.scene, heap.render_scene, heap.snapshot, heap.view), heap.view,
+                           stage.fit(heap.render_scene, heap.snapshot, heap.view), heap.visibility.cover,
+                           occlusion.atlas(), heap.snapshot, everything);
     std::vector<int> times(1280 * 720, 0);
     for (const Rectangle& area : areas)
         for (int y = area.y; y < area.y + area.height; ++y)
@@ -118,7 +118,7 @@ TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnO
                 EXPECT_FALSE(blocks(box, point - heap.scene.light.direction.normalized() * 100.0, point))
                     << "a shadow at " << x << ", " << y;
             }
-            EXPECT_EQ(least_open(point), 255) << "darkening at " << x << ", " << y;
+            EXPECT_EQ(least_open(point), 255) << "occlusion at " << x << ", " << y;
         }
     EXPECT_GT(left_out, 5000);
     EXPECT_GT(hidden, 500);

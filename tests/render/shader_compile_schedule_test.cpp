@@ -99,7 +99,7 @@ TEST_F(Turns, ThePictureIsTheSame) {
         const Image alone = drawn(scene);
         RenderOptions options;
         ShaderCompileSchedule turns;
-        options.turns = &turns;
+        options.compile_schedule = &turns;
         EXPECT_EQ(drawn(scene, options).pixels, alone.pixels);
     }
 }

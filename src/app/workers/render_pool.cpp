@@ -75,7 +75,7 @@ RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& optio
                        int workers, int most_moments)
     : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
     RenderOptions in_turns = options;
-    in_turns.turns = turns_.get();
+    in_turns.compile_schedule = turns_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
         workers_.push_back(

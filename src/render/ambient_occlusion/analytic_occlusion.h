@@ -26,22 +26,23 @@ struct SurfacePoints {
     void add(const SurfacePoints& others, std::size_t first, std::size_t count);
 };
 
-/// Multiplies each point's `open` by its visibility past one body. `reach`: AO radius of the receiving body, m; the
+/// Multiplies each point's `open` by its visibility past one body. `ao_radius`: AO radius of the receiving body, m; the
 /// smaller one of the two bodies counts.
-void darken(SurfacePoints& points, const Occluder& occluder, float reach);
+void occlude(SurfacePoints& points, const Occluder& occluder, float ao_radius);
 
 /// The same for a single point; returns the factor.
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach);
+float visibility_past(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder,
+                      float ao_radius);
 
 /// The same for a plane: points q with normal . q + height = 0.
-void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach);
+void occlude(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius);
 
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
-                 float plane_height, float reach);
+float visibility_past(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                      const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius);
 
 /// Share of a point's sky light that a closed gap takes, and the distance of the first sample in parts of the AO
 /// radius.
 inline constexpr float occlusion_strength = 0.72f;
-inline constexpr float near_probe = 0.22f;
+inline constexpr float near_sample = 0.22f;
 
 }  // namespace tumble

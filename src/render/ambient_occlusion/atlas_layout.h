@@ -7,6 +7,6 @@
 namespace tumble {
 
 /// Fills in the places of the atlas, and the height that they take.
-void lay_out_places(const RenderScene& looks, OcclusionAtlas& atlas);
+void lay_out_places(const RenderScene& scene, OcclusionAtlas& atlas);
 
 }  // namespace tumble

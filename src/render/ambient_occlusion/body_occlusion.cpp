@@ -28,16 +28,17 @@ void stretch(const std::vector<float>& values, int from, int to, std::vector<flo
 
 }  // namespace
 
-void BodyOcclusion::darken_points(const Surroundings& around, double reach) {
-    for (const std::size_t i : around.near) darken(points_, around.occluders[i], float(reach));
-    for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
+void BodyOcclusion::occlude_points(const Surroundings& around, double ao_radius) {
+    for (const std::size_t i : around.near) occlude(points_, around.occluders[i], float(ao_radius));
+    for (const PlaneInView& plane : around.planes) occlude(points_, plane.normal, plane.height, float(ao_radius));
 }
 
 // Like face_.darken(), but only for the texels within the occluder's AO radius: few of a large receiver.
-void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
-                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach) {
+void BodyOcclusion::occlude_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                                 const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size,
+                                 float ao_radius) {
     const Eigen::Vector3f from = occluder.center - corner;
-    const float far = occluder.bound_radius + std::min(reach, occluder.reach);
+    const float far = occluder.bound_radius + std::min(ao_radius, occluder.ao_radius);
     const auto range = [&](const Eigen::Vector3f& step, int& first, int& count) {
         const float length = step.norm(), at = from.dot(step) / length;  // m
         first = int(std::floor(std::clamp((at - far) / length, 0.0f, float(size))));
@@ -48,25 +49,26 @@ void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f&
     range(along, j0, rows);
     if (columns <= 0 || rows <= 0) return;
     part_.set(corner + across * float(i0) + along * float(j0), across, along, normal, columns, rows);
-    part_.darken(occluder, reach);
+    part_.occlude(occluder, ao_radius);
     const float* share = part_.open().data();
     for (int j = j0; j < j0 + rows; ++j)
         for (int i = i0; i < i0 + columns; ++i) face_.open()[std::size_t(j * size + i)] *= *share++;
 }
 
-std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                                     const Surroundings& around, std::uint8_t wanted, float detail,
+std::uint8_t BodyOcclusion::make_box(const RenderBody& proxy, const OcclusionPlace& place, const BodyPlace& body,
+                                     const Surroundings& around, std::uint8_t requested, float detail,
                                      const Store& store) {
     const int size = place.size;
     // A body on a large receiver occludes it as far as a plane, also where the receiver is thin.
-    const float own = float(look.reach), reach = look.ground ? std::numeric_limits<float>::infinity() : own;
+    const float own = float(proxy.ao_radius),
+                ao_radius = proxy.large_receiver ? std::numeric_limits<float>::infinity() : own;
     std::uint8_t faces = 0;
     for (int face = 0; face < 6; ++face) {
-        if ((wanted >> face & 1) == 0) continue;
+        if ((requested >> face & 1) == 0) continue;
         const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
         const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * body.axes.col(axis);
-        const Vec3 middle = body.center + normal * look.half_size[axis];
-        const Vec3 u = body.axes.col(a) * look.half_size[a], v = body.axes.col(b) * look.half_size[b];
+        const Vec3 middle = body.center + normal * proxy.half_size[axis];
+        const Vec3 u = body.axes.col(a) * proxy.half_size[a], v = body.axes.col(b) * proxy.half_size[b];
         const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
         const Eigen::Vector3f corner = (middle - u - v).cast<float>();
         const Eigen::Vector3f across = (2.0 * u / (size - 1)).cast<float>(),
@@ -74,18 +76,19 @@ std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlac
         face_.set(corner, across, along, outward, size, size);
         if (detail > 0.0f) {
             for (const std::size_t i : around.near) {
-                if (look.ground)
-                    darken_part(around.occluders[i], corner, across, along, outward, size, reach);
+                if (proxy.large_receiver)
+                    occlude_part(around.occluders[i], corner, across, along, outward, size, ao_radius);
                 else
-                    face_.darken(around.occluders[i], reach);
+                    face_.occlude(around.occluders[i], ao_radius);
             }
-            for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, own);
+            for (const PlaneInView& plane : around.planes) face_.occlude(plane.normal, plane.height, own);
         }
         if (detail < 1.0f) {
             float open = 1.0f;
-            for (const std::size_t i : around.near) open *= share_left(at, outward, around.occluders[i], reach);
+            for (const std::size_t i : around.near)
+                open *= visibility_past(at, outward, around.occluders[i], ao_radius);
             for (const PlaneInView& plane : around.planes)
-                open *= share_left(at, outward, plane.normal, plane.height, own);
+                open *= visibility_past(at, outward, plane.normal, plane.height, own);
             for (float& value : face_.open()) value = open + (value - open) * detail;
         }
         if (store(place.x + face * size, place.y, size, size, face_.open().data())) faces |= std::uint8_t(1u << face);
@@ -93,7 +96,7 @@ std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlac
     return faces;
 }
 
-bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
+bool BodyOcclusion::make_ball(const RenderBody& proxy, const OcclusionPlace& place, const BodyPlace& body,
                               const Surroundings& around, float detail, const Store& store) {
     const Eigen::Matrix3f axes = body.axes.cast<float>();
     const Eigen::Vector3f center = body.center.cast<float>();
@@ -103,9 +106,9 @@ bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& plac
             for (int i = 0; i < size; ++i) {
                 const float s = 2.0f * float(i) / float(size - 1) - 1.0f, t = 2.0f * float(j) / float(size - 1) - 1.0f;
                 const Eigen::Vector3f normal = axes * octahedral(s, t);
-                points_.add(center + normal * float(look.half_size.x()), normal);
+                points_.add(center + normal * float(proxy.half_size.x()), normal);
             }
-        darken_points(around, look.reach);
+        occlude_points(around, proxy.ao_radius);
     };
     if (detail < 1.0f) {
         make(coarse_ball_tile);
@@ -122,27 +125,27 @@ bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& plac
 }
 
 // A run of texels, row after row over the whole width of the atlas.
-bool BodyOcclusion::make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
+bool BodyOcclusion::make_mesh(const RenderBody& proxy, const OcclusionPlace& place, const BodyPlace& body,
                               const Surroundings& around, float detail, const Store& store) {
-    const RenderMesh& mesh = looks_->meshes[look.mesh];
-    const auto make = [&](const auto& probes) {
+    const RenderMesh& mesh = scene_->meshes[proxy.mesh];
+    const auto make = [&](const auto& vertex_samples) {
         points_.clear();
-        for (const VertexSample& probe : probes)
-            points_.add((body.origin + body.axes * probe.position).cast<float>(),
-                        (body.axes * probe.normal).cast<float>());
-        darken_points(around, look.reach);
+        for (const VertexSample& sample : vertex_samples)
+            points_.add((body.origin + body.axes * sample.position).cast<float>(),
+                        (body.axes * sample.normal).cast<float>());
+        occlude_points(around, proxy.ao_radius);
     };
     if (detail < 1.0f) {
-        make(mesh.coarse_probes);
+        make(mesh.coarse_samples);
         coarse_ = points_.open;
     }
     if (detail > 0.0f)
-        make(mesh.probes);
+        make(mesh.vertex_samples);
     else
-        points_.open.assign(mesh.probes.size(), 1.0f);
+        points_.open.assign(mesh.vertex_samples.size(), 1.0f);
     if (detail < 1.0f)
         for (std::size_t i = 0; i < points_.open.size(); ++i) {
-            const float open = coarse_[mesh.coarse_of_probe[i]];
+            const float open = coarse_[mesh.coarse_of_sample[i]];
             points_.open[i] = open + (points_.open[i] - open) * detail;
         }
     constexpr int width = OcclusionAtlas::width;

@@ -28,25 +28,25 @@ public:
     using Store = std::function<bool(int x, int y, int width, int height, const float* open)>;
 
     /// `detail`: 0 (one value per face, a few for a ball or mesh) to 1 (all texels).
-    explicit BodyOcclusion(const RenderScene& looks) : looks_(&looks) {}
+    explicit BodyOcclusion(const RenderScene& scene) : scene_(&scene) {}
 
     /// Updates the wanted faces (bits as in Visibility): tiles in the order of make_box()'s faces, with the center of a
     /// texel at each corner of a face. Returns the faces that changed.
-    std::uint8_t make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                          const Surroundings& around, std::uint8_t wanted, float detail, const Store& store);
+    std::uint8_t make_box(const RenderBody& proxy, const OcclusionPlace& place, const BodyPlace& body,
+                          const Surroundings& around, std::uint8_t requested, float detail, const Store& store);
 
     /// True if any texel changed.
-    bool make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
+    bool make_ball(const RenderBody& proxy, const OcclusionPlace& place, const BodyPlace& body,
                    const Surroundings& around, float detail, const Store& store);
-    bool make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
+    bool make_mesh(const RenderBody& proxy, const OcclusionPlace& place, const BodyPlace& body,
                    const Surroundings& around, float detail, const Store& store);
 
 private:
-    void darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
-                     const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach);
-    void darken_points(const Surroundings& around, double reach);
+    void occlude_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
+                      const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float ao_radius);
+    void occlude_points(const Surroundings& around, double ao_radius);
 
-    const RenderScene* looks_;
+    const RenderScene* scene_;
     TexelGrid face_, part_;
     SurfacePoints points_;
     std::vector<float> coarse_, stretched_;

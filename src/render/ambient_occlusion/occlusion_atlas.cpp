@@ -26,11 +26,11 @@ constexpr double most_moved = 0.25;
 int level(float open) { return int(255.0f * open + 0.5f); }
 
 // Texels per side of the parts in which changes of a large receiver's face are reported.
-constexpr int ground_part = 8;
+constexpr int receiver_part = 8;
 
 }  // namespace
 
-double darkening_detail(double pixels, double few, double all) {
+double occlusion_lod(double pixels, double few, double all) {
     const double t = std::clamp((pixels - few) / (all - few), 0.0, 1.0);
     return t * t * (3.0 - 2.0 * t);
 }
@@ -46,26 +46,26 @@ struct AmbientOcclusion::State {
         float detail = 0.0f;
     };
 
-    State(const RenderScene& l, const Vec3& r) : looks(l), reference(r), made(l.bodies.size()) {
-        lay_out_places(looks, atlas);
+    State(const RenderScene& l, const Vec3& r) : scene(l), reference(r), made(l.bodies.size()) {
+        lay_out_places(scene, atlas);
         body_rows = atlas.height;
         atlas.texels.resize(std::size_t(atlas.height) * OcclusionAtlas::width, 255);
-        fine.resize(looks.fine_surfaces.empty() ? 0 : looks.bodies.size());
+        lightmaps.resize(scene.lightmaps.empty() ? 0 : scene.bodies.size());
     }
 
     void follow(const Snapshot& snapshot);
     void find_planes(const Snapshot& snapshot, const Camera& view);
     void forget_touched(const Visibility& visibility, const OccluderFinder& movers);
-    void update_windows(const Snapshot& snapshot);
+    void update_plane_tiles(const Snapshot& snapshot);
     void update_body(std::size_t body, std::uint8_t visible, const Camera& view);
-    void update_fine(std::size_t body, const OccluderFinder& movers);
+    void update_lightmap(std::size_t body, const OccluderFinder& movers);
     bool store(int x, int y, int width, int height, int stride, const float* open);
-    void store_ground(std::size_t body, int x, int y, int size, const float* open);
+    void store_receiver_face(std::size_t body, int x, int y, int size, const float* open);
     Vec3 center_of(std::size_t body) const {  // of the bounding ball
-        return Vec3(poses[body].origin - reference) + poses[body].orientation * looks.bodies[body].bound_center;
+        return Vec3(poses[body].origin - reference) + poses[body].orientation * scene.bodies[body].bound_center;
     }
 
-    const RenderScene& looks;
+    const RenderScene& scene;
     const Vec3 reference;
     OcclusionAtlas atlas;
     int body_rows = 1;  // of the atlas; plane tiles are below them
@@ -78,15 +78,15 @@ struct AmbientOcclusion::State {
     bool moved_much = false;
     std::vector<Made> made;
     std::vector<PlaneInView> planes, near_planes;
-    PlaneOcclusion plane_darkening;
-    BodyOcclusion body_darkening{looks};
-    std::vector<std::size_t> found;                      // possible occluders of the current body
-    std::vector<std::optional<LightmapOcclusion>> fine;  // lightmaps, made when first visible
+    PlaneOcclusion plane_occlusion;
+    BodyOcclusion body_occlusion{scene};
+    std::vector<std::size_t> found;                           // possible occluders of the current body
+    std::vector<std::optional<LightmapOcclusion>> lightmaps;  // lightmaps, made when first visible
 };
 
 // Takes over the poses: rebuilds the occluders and finds those that moved.
 void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
-    const std::size_t bodies = looks.bodies.size();
+    const std::size_t bodies = scene.bodies.size();
     moved.clear();
     moved_much = false;
     if (poses.empty()) {
@@ -94,7 +94,7 @@ void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
             const BodyState& state = snapshot.bodies[i];
             poses.push_back({state.origin, state.orientation});
             first.push_back(std::uint32_t(occluders.size()));
-            add_occluders(looks, i, state, reference, occluders);
+            add_occluders(scene, i, state, reference, occluders);
         }
         first.push_back(std::uint32_t(occluders.size()));
         finder = OccluderFinder(occluders);
@@ -115,7 +115,7 @@ void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
         poses[i] = {state.origin, state.orientation};
         made[i].faces = 0;
         now.clear();
-        add_occluders(looks, i, state, reference, now);
+        add_occluders(scene, i, state, reference, now);
         const auto place = occluders.begin() + first[i];
         if (!moved_much) {
             moved.insert(moved.end(), place, place + std::ptrdiff_t(now.size()));
@@ -128,8 +128,8 @@ void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
 
 void AmbientOcclusion::State::find_planes(const Snapshot& snapshot, const Camera& view) {
     std::vector<PlaneInView> now;
-    for (const std::size_t i : looks.planes) {
-        const PlaneShape plane = plane_in_world(looks.bodies[i], snapshot.bodies[i]);
+    for (const std::size_t i : scene.planes) {
+        const PlaneShape plane = plane_in_world(scene.bodies[i], snapshot.bodies[i]);
         if (plane.normal.dot(view.eye()) - plane.offset > 0.0)
             now.push_back({i, plane.normal.cast<float>(), float(plane.normal.dot(reference) - plane.offset)});
     }
@@ -146,18 +146,18 @@ void AmbientOcclusion::State::forget_touched(const Visibility& visibility, const
     if (moved.empty()) return;
     for (std::size_t i = 0; i < made.size(); ++i)  // hidden bodies are updated when they become visible
         if (made[i].faces != 0 &&
-            (!visibility.bodies[i] || (looks.bodies[i].fine_surface < 0 &&
-                                       movers.any(center_of(i).cast<float>(), float(looks.bodies[i].bound_radius)))))
+            (!visibility.bodies[i] || (scene.bodies[i].lightmap < 0 &&
+                                       movers.any(center_of(i).cast<float>(), float(scene.bodies[i].bound_radius)))))
             made[i].faces = 0;
 }
 
-void AmbientOcclusion::State::update_windows(const Snapshot& snapshot) {
+void AmbientOcclusion::State::update_plane_tiles(const Snapshot& snapshot) {
     ShelfPacker shelves(body_rows, OcclusionAtlas::most_rows);
-    std::vector<PlaneOcclusionTile> windows;
+    std::vector<PlaneOcclusionTile> plane_tiles;
     for (const PlaneInView& plane : planes) {
-        const auto known = std::find_if(atlas.windows.begin(), atlas.windows.end(),
+        const auto known = std::find_if(atlas.plane_tiles.begin(), atlas.plane_tiles.end(),
                                         [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
-        PlaneOcclusionTile window;
+        PlaneOcclusionTile tile;
         const auto keep = [&](int x, int y, int width, int height, int stride, const float* open) {
             const int needed = y + height;
             if (needed > atlas.height) {
@@ -166,12 +166,12 @@ void AmbientOcclusion::State::update_windows(const Snapshot& snapshot) {
             }
             store(x, y, width, height, stride, open);
         };
-        if (plane_darkening.update(plane, looks, snapshot, reference, occluders, moved, anew || moved_much,
-                                   known == atlas.windows.end() ? nullptr : &*known, shelves, window, keep))
-            windows.push_back(window);
+        if (plane_occlusion.update(plane, scene, snapshot, reference, occluders, moved, anew || moved_much,
+                                   known == atlas.plane_tiles.end() ? nullptr : &*known, shelves, tile, keep))
+            plane_tiles.push_back(tile);
     }
-    changes.windows_moved = windows != atlas.windows;
-    atlas.windows = std::move(windows);
+    changes.plane_tiles_moved = plane_tiles != atlas.plane_tiles;
+    atlas.plane_tiles = std::move(plane_tiles);
 }
 
 // `stride`: distance between rows of the visibilities.
@@ -194,14 +194,14 @@ bool AmbientOcclusion::State::store(int x, int y, int width, int height, int str
 }
 
 // Stores a face of a box part by part.
-void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int size, const float* open) {
+void AmbientOcclusion::State::store_receiver_face(std::size_t body, int x, int y, int size, const float* open) {
     const int face = (x - atlas.places[body].x) / size;
     const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
-    for (int j = 0; j < size; j += ground_part)
-        for (int i = 0; i < size; i += ground_part) {
+    for (int j = 0; j < size; j += receiver_part)
+        for (int i = 0; i < size; i += receiver_part) {
             int i0 = size, i1 = -1, j0 = size, j1 = -1;  // bounds of the texels that change
-            for (int b = j; b < std::min(j + ground_part, size); ++b)
-                for (int a = i; a < std::min(i + ground_part, size); ++a)
+            for (int b = j; b < std::min(j + receiver_part, size); ++b)
+                for (int a = i; a < std::min(i + receiver_part, size); ++a)
                     if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] !=
                         level(open[b * size + a])) {
                         i0 = std::min(i0, a);
@@ -218,78 +218,79 @@ void AmbientOcclusion::State::store_ground(std::size_t body, int x, int y, int s
 }
 
 void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible, const Camera& view) {
-    const RenderBody& look = looks.bodies[body];
-    const Sizes& sizes = look.kind == DrawKind::box ? box_sizes : look.kind == DrawKind::ball ? ball_sizes : mesh_sizes;
+    const RenderBody& proxy = scene.bodies[body];
+    const Sizes& sizes = proxy.kind == DrawKind::box    ? box_sizes
+                         : proxy.kind == DrawKind::ball ? ball_sizes
+                                                        : mesh_sizes;
     const Vec3 middle = center_of(body);
-    const double size = 2.0 * (look.kind == DrawKind::mesh ? look.bound_radius : look.half_size.maxCoeff());
+    const double size = 2.0 * (proxy.kind == DrawKind::mesh ? proxy.bound_radius : proxy.half_size.maxCoeff());
     const double pixels = size / (std::max((middle + reference - view.eye()).norm(), 1e-30) * view.pixel_size());
-    const float detail = looks.bodies.size() < crowd ? 1.0f : float(darkening_detail(pixels, sizes.few, sizes.all));
+    const float detail = scene.bodies.size() < large_scene ? 1.0f : float(occlusion_lod(pixels, sizes.few, sizes.all));
     Made& known = made[body];
     if (known.detail != detail) known = {0, detail};
-    const std::uint8_t wanted = look.kind == DrawKind::box ? visible : std::uint8_t(1);
+    const std::uint8_t wanted = proxy.kind == DrawKind::box ? visible : std::uint8_t(1);
     const auto missing = std::uint8_t(wanted & ~known.faces);
     if (missing == 0) return;
     known.faces |= missing;
 
     const Eigen::Vector3f center = middle.cast<float>();
-    finder.find(center, float(look.bound_radius), found);
+    finder.find(center, float(proxy.bound_radius), found);
     std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // a body does not occlude itself
     near_planes.clear();
     for (const PlaneInView& plane : planes)
-        if (plane.normal.dot(center) + plane.height < look.bound_radius + 2.0 * look.reach)
+        if (plane.normal.dot(center) + plane.height < proxy.bound_radius + 2.0 * proxy.ao_radius)
             near_planes.push_back(plane);
     const BodyPlace place{poses[body].origin - reference, middle, poses[body].orientation.toRotationMatrix()};
     const Surroundings around{occluders, found, near_planes};
     const auto keep = [&](int x, int y, int width, int height, const float* open) {
         return store(x, y, width, height, width, open);
     };
-    const auto keep_ground = [&](int x, int y, int width, int, const float* open) {
-        store_ground(body, x, y, width, open);
+    const auto keep_receiver = [&](int x, int y, int width, int, const float* open) {
+        store_receiver_face(body, x, y, width, open);
         return false;  // already in the changes
     };
     std::uint8_t faces = 0;
     bool changed = false;
-    switch (look.kind) {
+    switch (proxy.kind) {
         case DrawKind::box:
-            faces =
-                body_darkening.make_box(look, atlas.places[body], place, around, missing, detail,
-                                        look.ground ? BodyOcclusion::Store(keep_ground) : BodyOcclusion::Store(keep));
+            faces = body_occlusion.make_box(
+                proxy, atlas.places[body], place, around, missing, detail,
+                proxy.large_receiver ? BodyOcclusion::Store(keep_receiver) : BodyOcclusion::Store(keep));
             changed = faces != 0;
             break;
         case DrawKind::ball:
-            changed = body_darkening.make_ball(look, atlas.places[body], place, around, detail, keep);
+            changed = body_occlusion.make_ball(proxy, atlas.places[body], place, around, detail, keep);
             break;
         default:
-            changed = body_darkening.make_mesh(look, atlas.places[body], place, around, detail, keep);
+            changed = body_occlusion.make_mesh(proxy, atlas.places[body], place, around, detail, keep);
     }
     if (changed) changes.bodies.push_back({body, faces});
 }
 
 // forget_touched() has marked the bodies near occluders that moved, or all if many moved.
-void AmbientOcclusion::State::update_fine(std::size_t body, const OccluderFinder& movers) {
-    const RenderBody& look = looks.bodies[body];
+void AmbientOcclusion::State::update_lightmap(std::size_t body, const OccluderFinder& movers) {
+    const RenderBody& proxy = scene.bodies[body];
     Made& known = made[body];
     if (known.faces != 0 && moved.empty()) return;
-    std::optional<LightmapOcclusion>& darkening = fine[body];
+    std::optional<LightmapOcclusion>& occlusion = lightmaps[body];
     const bool all = known.faces == 0;
-    if (!darkening || all) {
-        const LightmapBody place{body, &looks.fine_surfaces[std::size_t(look.fine_surface)],
-                                 poses[body].origin - reference, poses[body].orientation.toRotationMatrix(),
-                                 look.reach};
-        if (!darkening) darkening.emplace();
-        darkening->place(place);
+    if (!occlusion || all) {
+        const LightmapBody place{body, &scene.lightmaps[std::size_t(proxy.lightmap)], poses[body].origin - reference,
+                                 poses[body].orientation.toRotationMatrix(), proxy.ao_radius};
+        if (!occlusion) occlusion.emplace();
+        occlusion->place(place);
     }
     known.faces = 1;
     const OcclusionPlace& at = atlas.places[body];
-    darkening->update(occluders, finder, all ? nullptr : &movers, planes,
+    occlusion->update(occluders, finder, all ? nullptr : &movers, planes,
                       [&](const OcclusionLightmap::Block& block, const float* open) {
                           if (store(at.x + block.x, at.y + block.y, block.width, block.height, block.width, open))
                               changes.patches.push_back({body, block.bounds});
                       });
 }
 
-AmbientOcclusion::AmbientOcclusion(const RenderScene& looks, const Vec3& reference)
-    : state_(std::make_unique<State>(looks, reference)) {}
+AmbientOcclusion::AmbientOcclusion(const RenderScene& scene, const Vec3& reference)
+    : state_(std::make_unique<State>(scene, reference)) {}
 AmbientOcclusion::~AmbientOcclusion() = default;
 
 const OcclusionAtlas& AmbientOcclusion::atlas() const { return state_->atlas; }
@@ -303,11 +304,11 @@ const OcclusionChanges& AmbientOcclusion::update(const Snapshot& snapshot, const
     s.find_planes(snapshot, view);
     const OccluderFinder movers(s.moved);
     s.forget_touched(visibility, movers);
-    s.update_windows(snapshot);
+    s.update_plane_tiles(snapshot);
     for (std::size_t i = 0; i < s.made.size(); ++i) {
         if (!visibility.bodies[i] || s.atlas.places[i].size == 0) continue;
-        if (s.looks.bodies[i].fine_surface >= 0)
-            s.update_fine(i, movers);
+        if (s.scene.bodies[i].lightmap >= 0)
+            s.update_lightmap(i, movers);
         else
             s.update_body(i, visibility.faces[i], view);
     }

@@ -40,12 +40,12 @@ struct OcclusionAtlas {
     static constexpr int width = 2048;
     static constexpr int most_rows = 8192;           // OpenGL 4.1 guarantees 16384; 16 MiB here and as much on the GPU
     static constexpr int most_body_rows = 4096;      // the plane tiles need room as well
-    static constexpr int largest_window = 1024;      // texels; bodies beyond it do not occlude the plane
-    static constexpr double texels_per_reach = 4.0;  // sampling density of a body's occlusion
+    static constexpr int largest_plane_tile = 1024;  // texels; bodies beyond it do not occlude the plane
+    static constexpr double texels_per_ao_radius = 4.0;  // sampling density of a body's occlusion
     int height = 1;
     std::vector<std::uint8_t> texels;    // width * height; 255: unoccluded
     std::vector<OcclusionPlace> places;  // of each body
-    std::vector<PlaneOcclusionTile> windows;
+    std::vector<PlaneOcclusionTile> plane_tiles;
 };
 
 /// Changes by one update.
@@ -68,14 +68,14 @@ struct OcclusionChanges {
     std::vector<Body> bodies;        // without large receivers made of boxes and bodies with lightmaps
     std::vector<Part> parts;         // of large receivers
     std::vector<Patch> patches;      // of bodies with lightmaps
-    bool windows_moved = false;      // a plane tile moved, appeared or disappeared
+    bool plane_tiles_moved = false;  // a plane tile moved, appeared or disappeared
     int first_row = 0, end_row = 0;  // range of changed texel rows
 };
 
 class AmbientOcclusion {
 public:
     /// Assigns a place to each body. The scene must outlive it. `reference`: as in add_occluders().
-    AmbientOcclusion(const RenderScene& looks, const Vec3& reference);
+    AmbientOcclusion(const RenderScene& scene, const Vec3& reference);
     ~AmbientOcclusion();
 
     /// Updates the places of visible bodies and the plane tiles; other bodies keep their texels.
@@ -89,6 +89,6 @@ private:
 };
 
 /// Level of detail, 0 to 1, of a body that is `pixels` across; 0 below `few`, 1 above `all`.
-double darkening_detail(double pixels, double few, double all);
+double occlusion_lod(double pixels, double few, double all);
 
 }  // namespace tumble

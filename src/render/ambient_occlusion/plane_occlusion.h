@@ -29,9 +29,9 @@ public:
     /// moved since, at both poses; none for `everything`. `store` takes visibilities of the texels from (x, y) on, with
     /// rows `stride` apart. Returns false if no body is near the plane or there is no room.
     using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
-    bool update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot, const Vec3& reference,
+    bool update(const PlaneInView& plane, const RenderScene& scene, const Snapshot& snapshot, const Vec3& reference,
                 const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
-                const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& window, const Store& store);
+                const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& tile, const Store& store);
 
 private:
     struct Foot {
@@ -43,10 +43,10 @@ private:
         int i0, i1, j0, j1;  // texels of the tile, both ends included
         bool empty() const { return i0 > i1 || j0 > j1; }
     };
-    static Texels touched(const Foot& foot, const PlaneOcclusionTile& window);
-    bool place(PlaneOcclusionTile& window, ShelfPacker& shelves) const;
+    static Texels touched(const Foot& foot, const PlaneOcclusionTile& tile);
+    bool place(PlaneOcclusionTile& tile, ShelfPacker& shelves) const;
 
-    std::map<std::size_t, OverhangHeights> roofs_;  // by plane
+    std::map<std::size_t, OverhangHeights> overhangs_;  // by plane
     std::vector<Foot> feet_;
     std::vector<float> open_;
     std::vector<char> dirty_;  // blocks

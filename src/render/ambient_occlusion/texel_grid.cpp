@@ -19,7 +19,7 @@ struct Seen {
 };
 
 // For points in full groups.
-TUMBLE_WIDE void darken_points(const float* i, const float* j, std::size_t groups, const Seen& s, float* open) {
+TUMBLE_WIDE void occlude_points(const float* i, const float* j, std::size_t groups, const Seen& s, float* open) {
     const float nx = s.near[0], ny = s.near[1], nz = s.near[2], fx = s.far[0], fy = s.far[1], fz = s.far[2];
     const float ax = s.across[0], ay = s.across[1], az = s.across[2], bx = s.along[0], by = s.along[1], bz = s.along[2];
     const float hx = s.half[0], hy = s.half[1], hz = s.half[2], radius = s.radius;
@@ -70,8 +70,8 @@ void TexelGrid::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across
         }
 }
 
-void TexelGrid::darken(const Occluder& occluder, float reach) {
-    const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
+void TexelGrid::occlude(const Occluder& occluder, float ao_radius) {
+    const float far_step = std::min(ao_radius, occluder.ao_radius), near_step = near_sample * far_step;
     constexpr float spare = 1.0001f;  // for rounding: a skipped occluder would have multiplied by 1
     const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center),
                           outward = occluder.to_local * normal_;
@@ -90,18 +90,19 @@ void TexelGrid::darken(const Occluder& occluder, float reach) {
     if (clear_of(seen, seen.near, columns_, rows_, spare * (near_step + seen.radius)) &&
         clear_of(seen, seen.far, columns_, rows_, spare * (far_step + seen.radius)))
         return;
-    darken_points(i_.data(), j_.data(), open_.size() / group, seen, open_.data());
+    occlude_points(i_.data(), j_.data(), open_.size() / group, seen, open_.data());
 }
 
-void TexelGrid::darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach) {
-    const float near_step = near_probe * reach, rise = plane_normal.dot(normal_);
+void TexelGrid::occlude(const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius) {
+    const float near_step = near_sample * ao_radius, rise = plane_normal.dot(normal_);
     const float height = plane_normal.dot(corner_) + plane_height;
     const float across = plane_normal.dot(across_), along = plane_normal.dot(along_);
-    const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
+    const float near = 1.0f - (height + rise * near_step) / near_step,
+                far = 1.0f - (height + rise * ao_radius) / ao_radius;
     for (std::size_t k = 0; k < open_.size(); ++k) {
         const float higher = i_[k] * across + j_[k] * along;
         open_[k] *=
-            1.0f - occlusion_strength * 0.5f * (clamped(near - higher / near_step) + clamped(far - higher / reach));
+            1.0f - occlusion_strength * 0.5f * (clamped(near - higher / near_step) + clamped(far - higher / ao_radius));
     }
 }
 

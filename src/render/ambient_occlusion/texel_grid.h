@@ -16,11 +16,11 @@ public:
     void set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
              const Eigen::Vector3f& normal, int columns, int rows);
 
-    /// Multiplies each point's visibility by that past one body. `reach`: AO radius of the face, m.
-    void darken(const Occluder& occluder, float reach);
+    /// Multiplies each point's visibility by that past one body. `ao_radius`: AO radius of the face, m.
+    void occlude(const Occluder& occluder, float ao_radius);
 
     /// The same for a plane: points q with normal . q + height = 0.
-    void darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach);
+    void occlude(const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius);
 
     /// Sky visibility of the points.
     std::span<float> open() { return {open_.data(), std::size_t(columns_) * std::size_t(rows_)}; }

@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// Fills in the samples of look.asset and the sample of each vertex. At most about 2000 samples: vertices in one grid
+/// Fills in the samples of mesh.asset and the sample of each vertex. At most about 2000 samples: vertices in one grid
 /// cell with normals in one octant share one.
-void set_mesh_probes(RenderMesh& look);
+void set_vertex_samples(RenderMesh& mesh);
 
 }  // namespace tumble

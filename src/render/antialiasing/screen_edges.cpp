@@ -70,22 +70,22 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
     }
 }
 
-EdgeFinder::EdgeFinder(const RenderScene& looks, const Camera& view, MeshLods& details)
-    : looks_(&looks), view_(&view), details_(&details) {}
+EdgeFinder::EdgeFinder(const RenderScene& scene, const Camera& view, MeshLods& details)
+    : scene_(&scene), view_(&view), details_(&details) {}
 
 const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const std::vector<DrawableBounds>& items,
-                                                const std::vector<char>& wanted, const Visibility& visibility,
+                                                const std::vector<char>& draw_mask, const Visibility& visibility,
                                                 const std::vector<PlanePatch>& planes) {
     found_.clear();
     rods_.clear();
     for (std::size_t i = 0; i < planes.size(); ++i)
         for (std::size_t j = i + 1; j < planes.size(); ++j) add_corner(planes[i], planes[j]);
-    for (std::size_t i = 0; i < looks_->bodies.size(); ++i) {
-        if (wanted[i] == 0 || !visibility.bodies[i]) continue;
-        const RenderBody& look = looks_->bodies[i];
-        if (look.kind == DrawKind::box) add_box(i, items[i], visibility.faces[i]);
-        if (look.kind == DrawKind::ball) add_ball(i, items[i]);
-        if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], items[i]);
+    for (std::size_t i = 0; i < scene_->bodies.size(); ++i) {
+        if (draw_mask[i] == 0 || !visibility.bodies[i]) continue;
+        const RenderBody& proxy = scene_->bodies[i];
+        if (proxy.kind == DrawKind::box) add_box(i, items[i], visibility.faces[i]);
+        if (proxy.kind == DrawKind::ball) add_ball(i, items[i]);
+        if (proxy.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], items[i]);
     }
     return found_;
 }
@@ -98,11 +98,11 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
         before = before_eye(places[i], *view_);
         if (before) corners[i] = view_->pixel(places[i]);
     }
-    if (before && is_rod(looks_->bodies[body].half_size / (view_->pixel_size() * item.center.norm())))
+    if (before && is_rod(scene_->bodies[body].half_size / (view_->pixel_size() * item.center.norm())))
         return add_rod(body, item);
     const double depth = item.center.dot(view_->forward());
     const bool inner_edges =
-        2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
+        2.0 * scene_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
     std::array<bool, 6> front{};  // facing the eye, though perhaps hidden
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t bit = std::size_t(1) << (face / 2);
@@ -146,7 +146,7 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
 // Uses the longest axis, and at both ends the extent of the other axes perpendicular to it on the screen.
 void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
     Eigen::Index longest = 0;
-    looks_->bodies[body].half_size.maxCoeff(&longest);
+    scene_->bodies[body].half_size.maxCoeff(&longest);
     const Vec3 axis = item.half_axes.col(longest);
     std::array<ScreenPoint, 2> ends{view_->pixel(item.center - axis), view_->pixel(item.center + axis)};
     const ScreenPoint way = ends[1] - ends[0];
@@ -169,7 +169,7 @@ void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
 
 // The outline of a ball is a circle in space, where rays from the eye are tangent.
 void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
-    const double radius = looks_->bodies[body].half_size.x(), distance = item.center.norm();
+    const double radius = scene_->bodies[body].half_size.x(), distance = item.center.norm();
     if (distance < 1.001 * radius) return;
     const Vec3 axis = item.center / distance;
     const double share = radius / distance, circle = radius * std::sqrt(1.0 - share * share);
@@ -193,10 +193,10 @@ void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
 
 // Uses the level of detail that is drawn.
 void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawableBounds& item) {
-    const RenderBody& look = looks_->bodies[body];
-    const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
+    const RenderBody& proxy = scene_->bodies[body];
+    const std::size_t level = level_in_view(proxy, *scene_, item.center, *view_);
     const TriangleMesh& surface =
-        level == 0 ? looks_->meshes[look.mesh].asset->surface : details_->at(look.mesh, level).surface;
+        level == 0 ? scene_->meshes[proxy.mesh].asset->surface : details_->at(proxy.mesh, level).surface;
     const auto is_as_before = [&](const Seen& seen) {
         return seen.level == level && seen.origin == state.origin &&
                seen.orientation.coeffs() == state.orientation.coeffs() && seen.eye == view_->eye() &&
@@ -209,7 +209,7 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const Drawab
         return;
     }
     const std::size_t first = found_.size();
-    const std::pair key(look.mesh, level);
+    const std::pair key(proxy.mesh, level);
     auto edges = meshes_.find(key);
     if (edges == meshes_.end()) edges = meshes_.emplace(key, MeshEdges(surface)).first;
     add_outline(body, state, surface, edges->second);

@@ -37,11 +37,11 @@ struct MeshEdges {
 class EdgeFinder {
 public:
     /// All arguments must outlive it.
-    EdgeFinder(const RenderScene& looks, const Camera& view, MeshLods& details);
+    EdgeFinder(const RenderScene& scene, const Camera& view, MeshLods& details);
 
     /// Edges of the items in the draw mask, in scene order. Valid until the next call.
     const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawableBounds>& items,
-                                        const std::vector<char>& wanted, const Visibility& visibility,
+                                        const std::vector<char>& draw_mask, const Visibility& visibility,
                                         const std::vector<PlanePatch>& planes);
 
     /// Boxes among them that are thinner than a pixel, which have no edges. Valid as long.
@@ -58,7 +58,7 @@ private:
     /// is on the inner side.
     void add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer);
 
-    const RenderScene* looks_;
+    const RenderScene* scene_;
     const Camera* view_;
     MeshLods* details_;
     /// A mesh's edges on the screen, and the view that they were computed for.

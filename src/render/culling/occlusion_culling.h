@@ -49,10 +49,10 @@ struct Visibility {
 
 /// `one_sample`: the frame has one sample per pixel; many small boxes are then culled per pixel
 /// (software_depth_buffer.h).
-Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+Visibility find_visible(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
                         bool one_sample = false);
 
 /// Without culling.
-Visibility everything_visible(const RenderScene& looks, const Camera& view);
+Visibility everything_visible(const RenderScene& scene, const Camera& view);
 
 }  // namespace tumble

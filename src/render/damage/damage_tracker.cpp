@@ -30,8 +30,9 @@ public:
         const double depth = light_.direction.dot(receiver.center) + receiver.radius;
         bool found = false;
         // of the cascade that the receiver uses
-        const bool far = light_.fit.may_look_far(receiver.center, receiver.radius);
-        const double margin = light_.fit.filter.reach * (far ? light_.fit.far_texel : light_.fit.near_texel);
+        const bool far = light_.cascades.may_look_far(receiver.center, receiver.radius);
+        const double margin =
+            light_.cascades.filter.extent * (far ? light_.cascades.far_texel : light_.cascades.near_texel);
         visit(receiver, margin, [&](const double& cell) { found = found || cell < depth; });
         return found;
     }
@@ -41,9 +42,9 @@ private:
 
     template <class Visit>
     void visit(const DrawableBounds& item, double more, Visit see) {
-        const double radius = (item.radius + more) * length(light_.fit.x);
-        const auto [x0, x1] = range(light_.fit.x, item.center, radius);
-        const auto [y0, y1] = range(light_.fit.y, item.center, radius);
+        const double radius = (item.radius + more) * length(light_.cascades.x);
+        const auto [x0, x1] = range(light_.cascades.x, item.center, radius);
+        const auto [y0, y1] = range(light_.cascades.y, item.center, radius);
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x) see(depths_[std::size_t(y * count + x)]);
     }
@@ -62,8 +63,8 @@ private:
 
 }  // namespace
 
-DamageTracker::DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view)
-    : scene_(&scene), looks_(&looks), view_(&view) {}
+DamageTracker::DamageTracker(const SceneDescription& description, const RenderScene& scene, const Camera& view)
+    : description_(&description), scene_(&scene), view_(&view) {}
 
 bool DamageTracker::moved(const Snapshot& snapshot, std::size_t body) const {
     const BodyState& state = snapshot.bodies[body];
@@ -77,55 +78,55 @@ bool DamageTracker::unmoved(const Snapshot& snapshot) const {
 }
 
 DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility) {
-    DirtyTiles marks(*view_);
-    const std::size_t bodies = looks_->bodies.size();
+    DirtyTiles dirty(*view_);
+    const std::size_t bodies = scene_->bodies.size();
     background_changed_ = first_ || now.near_distance != near_distance_;
-    shadow_marks_ = ShadowDirtyTiles(now.shadows);
-    if (first_ || now.shadows != shadows_) shadow_marks_.mark_all();
+    shadow_damage_ = ShadowDirtyTiles(now.shadows);
+    if (first_ || now.shadows != shadows_) shadow_damage_.mark_all();
     if (first_) poses_.resize(bodies);
     std::vector<char> item_moved(now.items.size(), 0);
     for (std::size_t i = 0; i < now.items.size(); ++i) {
-        const std::size_t body = i < bodies ? i : scene_->cords[i - bodies].body;
+        const std::size_t body = i < bodies ? i : description_->cords[i - bodies].body;
         item_moved[i] = first_ || moved(now.snapshot, body) ? 1 : 0;
         if (item_moved[i] == 0) continue;
-        if (i < bodies && looks_->bodies[i].kind == DrawKind::plane) background_changed_ = true;
+        if (i < bodies && scene_->bodies[i].kind == DrawKind::plane) background_changed_ = true;
         if (!now.items[i].exists()) continue;
-        if (!first_) shadow_marks_.mark(items_[i]);
-        shadow_marks_.mark(now.items[i]);
+        if (!first_) shadow_damage_.mark(items_[i]);
+        shadow_damage_.mark(now.items[i]);
     }
-    shadow_marks_.settle();
+    shadow_damage_.settle();
     // If many bodies move, computing the damage would cost more than a full redraw.
     const bool many = std::count(item_moved.begin(), item_moved.end(), char(1)) > most_marked;
-    if (too_near(now) || many || background_changed_ || now.shadows != shadows_ || occlusion.windows_moved) {
-        marks.mark_all();
+    if (too_near(now) || many || background_changed_ || now.shadows != shadows_ || occlusion.plane_tiles_moved) {
+        dirty.mark_all();
     } else {
-        for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
+        for (std::size_t i = 0; i < now.items.size() && !dirty.all(); ++i) {
             if (item_moved[i] == 0 || !now.items[i].exists()) continue;
             for (const DrawableBounds* item : std::array<const DrawableBounds*, 2>{&items_[i], &now.items[i]}) {
-                marks.mark_hull(item->corners());
-                mark_on_planes(*item, i, now, marks);
+                dirty.mark_hull(item->corners());
+                mark_on_planes(*item, i, now, dirty);
             }
         }
-        if (scene_->light.shadows) mark_shadowed(item_moved, now, visibility, marks);
+        if (description_->light.shadows) mark_shadow_receivers(item_moved, now, visibility, dirty);
         for (const OcclusionChanges::Body& changed : occlusion.bodies) {
             const DrawableBounds& item = now.items[changed.body];
             if (item_moved[changed.body] != 0) continue;
-            if (changed.faces == 0) marks.mark_hull(item.corners());
+            if (changed.faces == 0) dirty.mark_hull(item.corners());
             for (int face = 0; face < 6; ++face)
-                if ((changed.faces >> face & 1) != 0) marks.mark_hull(face_part(item, face));
+                if ((changed.faces >> face & 1) != 0) dirty.mark_hull(face_part(item, face));
         }
         for (const OcclusionChanges::Part& part : occlusion.parts) {
             if (item_moved[part.body] != 0) continue;
             const DrawableBounds& item = now.items[part.body];
             // With several samples, the pixel center may be outside the face and use a texel at its border.
-            marks.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high)
+            dirty.mark_hull(now.one_sample ? face_part(item, part.face, part.low, part.high)
                                            : face_part(item, part.face));
         }
         for (const OcclusionChanges::Patch& patch : occlusion.patches) {
-            if (item_moved[patch.body] != 0 || marks.all()) continue;
+            if (item_moved[patch.body] != 0 || dirty.all()) continue;
             const BodyState& state = now.snapshot.bodies[patch.body];
             const Vec3 center = view_->relative(state.origin) + state.orientation * patch.bounds.center();
-            marks.mark_hull(now.one_sample
+            dirty.mark_hull(now.one_sample
                                 ? box_corners(center, state.orientation.toRotationMatrix(), 0.5 * patch.bounds.extent())
                                 : now.items[patch.body].corners());
         }
@@ -136,7 +137,7 @@ DirtyTiles DamageTracker::find(const FrameState& now, const OcclusionChanges& oc
     near_distance_ = now.near_distance;
     shadows_ = now.shadows;
     first_ = false;
-    return marks;
+    return dirty;
 }
 
 // Items in front of the near plane are clamped to the nearest depth, which closed tiles have as well.
@@ -144,7 +145,7 @@ bool DamageTracker::too_near(const FrameState& now) const {
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         const DrawableBounds& item = now.items[i];
         if (!item.exists() || !view_->sees(item.center, item.radius)) continue;
-        const double depth = i < looks_->bodies.size() ? least_depth(looks_->bodies[i], *looks_, now.snapshot.bodies[i],
+        const double depth = i < scene_->bodies.size() ? least_depth(scene_->bodies[i], *scene_, now.snapshot.bodies[i],
                                                                      {item.center, item.radius}, *view_)
                                                        : item.center.dot(view_->forward()) - item.radius;
         if (depth < 1.01 * now.near_distance) return true;
@@ -153,49 +154,49 @@ bool DamageTracker::too_near(const FrameState& now) const {
 }
 
 void DamageTracker::mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now,
-                                   DirtyTiles& marks) const {
-    const double reach = number < looks_->bodies.size() ? looks_->bodies[number].reach : 0.0;
-    const ShadowLight light(scene_->light, now.shadows);
-    const double blur = 1.5 * looks_->window_cell;
-    for (const PlanePatch& plane : now.planes) mark_on_plane(plane, item, reach, blur, light, *view_, marks);
+                                   DirtyTiles& dirty) const {
+    const double ao_radius = number < scene_->bodies.size() ? scene_->bodies[number].ao_radius : 0.0;
+    const ShadowLight light(description_->light, now.shadows);
+    const double blur = 1.5 * scene_->plane_cell;
+    for (const PlanePatch& plane : now.planes) mark_on_plane(plane, item, ao_radius, blur, light, *view_, dirty);
 }
 
 // Marks items that stand still behind one that moved, as seen from the sun.
-void DamageTracker::mark_shadowed(const std::vector<char>& item_moved, const FrameState& now,
-                                  const Visibility& visibility, DirtyTiles& marks) const {
-    const ShadowLight light(scene_->light, now.shadows);
+void DamageTracker::mark_shadow_receivers(const std::vector<char>& item_moved, const FrameState& now,
+                                          const Visibility& visibility, DirtyTiles& dirty) const {
+    const ShadowLight light(description_->light, now.shadows);
     LightCells cells{light};
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
         cells.add(items_[i]);
         cells.add(now.items[i]);
     }
-    std::vector<FaceDamage> grounds;
+    std::vector<FaceDamage> faces;
     std::vector<VolumeDamage> volumes;
     for (std::size_t i = 0; i < now.items.size(); ++i) {
         if (item_moved[i] != 0 || !now.items[i].exists()) continue;
         if (i < visibility.bodies.size() && !visibility.bodies[i]) continue;
         if (!cells.shadows(now.items[i])) continue;
-        const RenderBody* look = i < looks_->bodies.size() ? &looks_->bodies[i] : nullptr;
-        const bool large = look != nullptr && (look->ground || look->fine_surface >= 0) && now.one_sample &&
+        const RenderBody* proxy = i < scene_->bodies.size() ? &scene_->bodies[i] : nullptr;
+        const bool large = proxy != nullptr && (proxy->large_receiver || proxy->lightmap >= 0) && now.one_sample &&
                            FaceDamage::suits(now.items[i], now.shadows);
         if (!large)
-            marks.mark_hull(now.items[i].corners());
-        else if (look->kind == DrawKind::box)
-            grounds.emplace_back(now.items[i], visibility.faces[i], light, *view_);
+            dirty.mark_hull(now.items[i].corners());
+        else if (proxy->kind == DrawKind::box)
+            faces.emplace_back(now.items[i], visibility.faces[i], light, *view_);
         else
-            volumes.emplace_back(now.items[i], *look, *looks_, now.snapshot.bodies[i], light, *view_);
+            volumes.emplace_back(now.items[i], *proxy, *scene_, now.snapshot.bodies[i], light, *view_);
     }
-    if (grounds.empty() && volumes.empty()) return;
-    for (std::size_t i = 0; i < now.items.size() && !marks.all(); ++i) {
+    if (faces.empty() && volumes.empty()) return;
+    for (std::size_t i = 0; i < now.items.size() && !dirty.all(); ++i) {
         if (item_moved[i] == 0 || !now.items[i].exists()) continue;
-        for (const FaceDamage& ground : grounds) {
-            ground.mark_shadow(items_[i], marks);
-            ground.mark_shadow(now.items[i], marks);
+        for (const FaceDamage& box : faces) {
+            box.mark_shadow(items_[i], dirty);
+            box.mark_shadow(now.items[i], dirty);
         }
-        for (const VolumeDamage& ground : volumes) {
-            ground.mark_shadow(items_[i], marks);
-            ground.mark_shadow(now.items[i], marks);
+        for (const VolumeDamage& volume : volumes) {
+            volume.mark_shadow(items_[i], dirty);
+            volume.mark_shadow(now.items[i], dirty);
         }
     }
 }

@@ -32,7 +32,7 @@ struct FrameState {
 
 class DamageTracker {
 public:
-    DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view);
+    DamageTracker(const SceneDescription& description, const RenderScene& scene, const Camera& view);
 
     /// True if all poses equal those of the previous find(); the frame is then the same.
     bool unmoved(const Snapshot& snapshot) const;
@@ -44,7 +44,7 @@ public:
     DirtyTiles find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
 
     /// Parts of the shadow maps that changed in the previous find().
-    const ShadowDirtyTiles& shadow_marks() const { return shadow_marks_; }
+    const ShadowDirtyTiles& shadow_damage() const { return shadow_damage_; }
     /// True if the planes or the depth range changed.
     bool background_changed() const { return background_changed_; }
 
@@ -54,16 +54,16 @@ private:
         Quat orientation;
     };
     bool moved(const Snapshot& snapshot, std::size_t body) const;
-    void mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now, DirtyTiles& marks) const;
+    void mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now, DirtyTiles& dirty) const;
     bool too_near(const FrameState& now) const;
-    void mark_shadowed(const std::vector<char>& item_moved, const FrameState& now, const Visibility& visibility,
-                       DirtyTiles& marks) const;
+    void mark_shadow_receivers(const std::vector<char>& item_moved, const FrameState& now, const Visibility& visibility,
+                               DirtyTiles& dirty) const;
 
-    const SceneDescription* scene_;
-    const RenderScene* looks_;
+    const SceneDescription* description_;
+    const RenderScene* scene_;
     const Camera* view_;
     bool first_ = true, background_changed_ = true;
-    ShadowDirtyTiles shadow_marks_{ShadowCascades()};
+    ShadowDirtyTiles shadow_damage_{ShadowCascades()};
     std::vector<Pose> poses_;
     std::vector<DrawableBounds> items_;
     double near_distance_ = 0.0;

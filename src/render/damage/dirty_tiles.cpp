@@ -40,10 +40,10 @@ int tile_of(double pixel, int size, int count) {
 DirtyTiles::DirtyTiles(const Camera& view, int size)
     : view_(&view),
       grid_{(view.width() + size - 1) / size, (view.height() + size - 1) / size, size, view.width(), view.height()},
-      marks_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
+      dirty_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
 
 void DirtyTiles::mark_all() {
-    std::fill(marks_.begin(), marks_.end(), char(1));
+    std::fill(dirty_.begin(), dirty_.end(), char(1));
     count_ = grid_.columns * grid_.rows;
 }
 
@@ -82,19 +82,19 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
         // Extent of the hull to both sides within this row of tiles.
         const double low = row * grid_.cell - rim, high = (row + 1) * grid_.cell + rim;
         double left = std::numeric_limits<double>::infinity(), right = -left;
-        const auto reach = [&](double x) {
+        const auto include = [&](double x) {
             left = std::min(left, x);
             right = std::max(right, x);
         };
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const ScreenPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
-            if (a.y() >= low && a.y() <= high) reach(a.x());
+            if (a.y() >= low && a.y() <= high) include(a.x());
             for (const double y : {low, high})
-                if ((a.y() < y) != (b.y() < y)) reach(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
+                if ((a.y() < y) != (b.y() < y)) include(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
         }
         for (int column = std::max(0, tile_of(left - rim, grid_.cell, grid_.columns));
              column <= std::min(grid_.columns - 1, tile_of(right + rim, grid_.cell, grid_.columns)); ++column) {
-            char& mark = marks_[std::size_t(row * grid_.columns + column)];
+            char& mark = dirty_[std::size_t(row * grid_.columns + column)];
             count_ += mark == 0 ? 1 : 0;
             mark = 1;
         }

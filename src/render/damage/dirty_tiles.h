@@ -25,7 +25,7 @@ public:
 
     bool none() const { return count_ == 0; }
     bool all() const { return count_ == grid_.columns * grid_.rows; }
-    bool at(int column, int row) const { return marks_[std::size_t(row * grid_.columns + column)] != 0; }
+    bool at(int column, int row) const { return dirty_[std::size_t(row * grid_.columns + column)] != 0; }
 
     /// True if the bounding rectangle of the points' convex hull touches a marked tile.
     bool touched_by(std::span<const Vec3> points) const;
@@ -43,7 +43,7 @@ private:
 
     const Camera* view_;
     CellGrid grid_;
-    std::vector<char> marks_;
+    std::vector<char> dirty_;
     int count_ = 0;  // of marked tiles
 };
 

@@ -51,7 +51,7 @@ std::array<Vec3, 4> FaceDamage::Face::corners() const {
 }
 
 FaceDamage::FaceDamage(const DrawableBounds& box, std::uint8_t faces, const ShadowLight& light, const Camera& view)
-    : light_(light), view_(&view), two_maps_(light.fit.may_look_far(box.center, box.radius)) {
+    : light_(light), view_(&view), two_maps_(light.cascades.may_look_far(box.center, box.radius)) {
     for (int face = 0; face < 6; ++face) {
         if ((faces >> face & 1) == 0) continue;
         const int axis = face / 2;
@@ -67,7 +67,7 @@ FaceDamage::FaceDamage(const DrawableBounds& box, std::uint8_t faces, const Shad
         f.approach = -f.normal.dot(light.direction);
         if (f.approach < -1e-6) continue;  // turned away from the sun
         Mat3 to_map;
-        to_map << row_of(light.fit.x).transpose(), row_of(light.fit.y).transpose(), f.normal.transpose();
+        to_map << row_of(light.cascades.x).transpose(), row_of(light.cascades.y).transpose(), f.normal.transpose();
         f.from_map = to_map.inverse();
         faces_.push_back(f);
     }
@@ -77,14 +77,14 @@ bool FaceDamage::suits(const DrawableBounds& box, const ShadowCascades& shadows)
     return shadows.near_holds(box.center, box.radius) || shadows.spans_maps(box.center, box.radius);
 }
 
-void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const {
-    const ShadowCascades& fit = light_.fit;
-    const double most_margin = fit.filter.reach * (two_maps_ ? fit.far_texel : fit.near_texel);
+void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const {
+    const ShadowCascades& cascades = light_.cascades;
+    const double most_margin = cascades.filter.extent * (two_maps_ ? cascades.far_texel : cascades.near_texel);
     if (!view_->sees_swept(caster.center, caster.radius + most_margin, light_.direction)) return;
     for (const Face& face : faces_) {
         if (face.normal.dot(caster.center - face.middle) < -caster.radius) continue;
         if (face.approach < least_approach) {
-            marks.mark_hull(face.corners());
+            dirty.mark_hull(face.corners());
             continue;
         }
         const auto foot_of = [&](const Vec3& p) -> Vec3 {
@@ -95,35 +95,36 @@ void FaceDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) co
         if (!face.meets(foot, (caster.radius + most_margin) / face.approach)) continue;
         std::array<Vec3, 8> feet = caster.corners();
         for (Vec3& corner : feet) corner = foot_of(corner);
-        const double margin = light_.filter_reach(face.approach) * fit.near_texel / face.approach;
-        if (face.meets(feet, margin)) marks.mark_hull(feet, margin);
-        if (two_maps_) mark_in_far_map(face, caster, marks);
+        const double margin = light_.filter_extent(face.approach) * cascades.near_texel / face.approach;
+        if (face.meets(feet, margin)) dirty.mark_hull(feet, margin);
+        if (two_maps_) mark_in_far_map(face, caster, dirty);
     }
 }
 
 // The far map's texels are up to 64 times as wide, but it is used only outside the near one. Unit across the light:
 // widths of the near map. A point samples the place of itself displaced along the normal, and some texels around it.
-void FaceDamage::mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const {
-    const ShadowCascades& fit = light_.fit;
-    const double inner = 0.5 - rim_texels / fit.texels,
-                 reach = (fit.far_along() + spare_texels) * fit.far_texel / (fit.near_texel * fit.texels);
+void FaceDamage::mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& dirty) const {
+    const ShadowCascades& cascades = light_.cascades;
+    const double inner = 0.5 - rim_texels / cascades.texels, extent = (cascades.far_along() + spare_texels) *
+                                                                      cascades.far_texel /
+                                                                      (cascades.near_texel * cascades.texels);
     const auto range = [&](const glm::vec4& row) {
         const Vec3 axis = row_of(row);
-        const double at =
-            axis.dot(caster.center) + double(row.w) - axis.dot(face.normal) * (fit.filter.offset * fit.far_texel);
-        const double half = (caster.half_axes.transpose() * axis).cwiseAbs().sum() + reach;
+        const double at = axis.dot(caster.center) + double(row.w) -
+                          axis.dot(face.normal) * (cascades.filter.offset * cascades.far_texel);
+        const double half = (caster.half_axes.transpose() * axis).cwiseAbs().sum() + extent;
         return std::pair(at - half, at + half);
     };
-    const auto [x0, x1] = range(fit.x);
-    const auto [y0, y1] = range(fit.y);
+    const auto [x0, x1] = range(cascades.x);
+    const auto [y0, y1] = range(cascades.y);
     const auto mark = [&](double left, double right, double low, double high) {
         if (!(left < right && low < high)) return;
         std::array<Vec3, 4> points;
         for (std::size_t i = 0; i < 4; ++i)
             points[i] =
-                face.from_map * Vec3(((i & 1) != 0 ? right : left) - double(fit.x.w),
-                                     ((i & 2) != 0 ? high : low) - double(fit.y.w), face.normal.dot(face.middle));
-        if (face.meets(points, 0.0)) marks.mark_hull(points);
+                face.from_map * Vec3(((i & 1) != 0 ? right : left) - double(cascades.x.w),
+                                     ((i & 2) != 0 ? high : low) - double(cascades.y.w), face.normal.dot(face.middle));
+        if (face.meets(points, 0.0)) dirty.mark_hull(points);
     };
     mark(x0, std::min(x1, 0.5 - inner), y0, y1);
     mark(std::max(x0, 0.5 + inner), x1, y0, y1);

@@ -19,7 +19,7 @@ public:
     static bool suits(const DrawableBounds& box, const ShadowCascades& shadows);
 
     /// Marks the caster's shadow on each face.
-    void mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const;
+    void mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const;
 
 private:
     struct Face {
@@ -31,7 +31,7 @@ private:
         bool meets(std::span<const Vec3> points, double around) const;
         std::array<Vec3, 4> corners() const;
     };
-    void mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const;
+    void mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& dirty) const;
 
     ShadowLight light_;
     const Camera* view_;

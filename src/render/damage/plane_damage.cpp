@@ -29,40 +29,41 @@ std::array<Vec3, 4> foot_print(const PlanePatch& plane, const DrawableBounds& it
 
 }  // namespace
 
-ShadowLight::ShadowLight(const LightDescription& light, const ShadowCascades& shadow_fit)
-    : shadows(light.shadows), direction(light.direction.normalized()), fit(shadow_fit) {}
+ShadowLight::ShadowLight(const LightDescription& light, const ShadowCascades& shadow_cascades)
+    : shadows(light.shadows), direction(light.direction.normalized()), cascades(shadow_cascades) {}
 
 // The displacement across the light by the normal offset is smaller for steeper light; half a texel is the margin.
-double ShadowLight::filter_reach(double approach) const {
-    return fit.filter.across + fit.filter.offset * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
+double ShadowLight::filter_extent(double approach) const {
+    return cascades.filter.across + cascades.filter.offset * std::sqrt(std::max(1.0 - approach * approach, 0.0)) + 0.5;
 }
 
 double ShadowLight::margin(const DrawableBounds& item) const {
-    const double near = fit.filter.reach * fit.near_texel;
-    if (!fit.may_look_far(item.center, item.radius + near)) return near;  // its shadow is in the near map as well
-    return fit.filter.reach * fit.far_texel;
+    const double near = cascades.filter.extent * cascades.near_texel;
+    if (!cascades.may_look_far(item.center, item.radius + near)) return near;  // its shadow is in the near map as well
+    return cascades.filter.extent * cascades.far_texel;
 }
 
 double ShadowLight::margin_on_plane(const DrawableBounds& item, double approach) const {
-    return margin(item) * std::min(filter_reach(approach) / fit.filter.reach, 1.0);
+    return margin(item) * std::min(filter_extent(approach) / cascades.filter.extent, 1.0);
 }
 
-void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur,
-                   const ShadowLight& light, const Camera& view, DirtyTiles& marks) {
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+                   const ShadowLight& light, const Camera& view, DirtyTiles& dirty) {
     const double height = plane.normal.dot(item.center) + plane.height;
     if (height < -item.radius) return;
-    if (reach > 0.0 && height < item.radius + 2.0 * reach && view.sees(item.center, item.radius + 2.0 * reach))
-        marks.mark_hull(foot_print(plane, item, reach + blur));
+    if (ao_radius > 0.0 && height < item.radius + 2.0 * ao_radius &&
+        view.sees(item.center, item.radius + 2.0 * ao_radius))
+        dirty.mark_hull(foot_print(plane, item, ao_radius + blur));
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0 || !view.sees_swept(item.center, item.radius, light.direction)) return;
-    if (approach < least_approach) return marks.mark_all();
+    if (approach < least_approach) return dirty.mark_all();
     std::array<Vec3, 8> feet = item.corners();
     for (Vec3& foot : feet) foot += light.direction * ((plane.normal.dot(foot) + plane.height) / approach);
-    marks.mark_hull(feet, light.margin_on_plane(item, approach) / approach);
+    dirty.mark_hull(feet, light.margin_on_plane(item, approach) / approach);
 }
 
-bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
-               const Camera& view, const Rectangle& part) {
+bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+               const ShadowLight& light, const Camera& view, const Rectangle& part) {
     constexpr double margin = 8.0;  // pixels: more than the margin of DirtyTiles
     const double height = plane.normal.dot(item.center) + plane.height;
     const auto meets = [&](const Vec3& center, double radius) {
@@ -75,7 +76,7 @@ bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach
     };
     // The corners of a ball's box are 1.74 radii from its center; a rectangle around them extends 1.42 times as far,
     // and an oblique shadow twice as far, over the sine of the elevation.
-    if (meets(item.center - plane.normal * height, 2.5 * (item.radius + reach + blur))) return true;
+    if (meets(item.center - plane.normal * height, 2.5 * (item.radius + ao_radius + blur))) return true;
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0) return false;
     return meets(item.center + light.direction * (height / approach),

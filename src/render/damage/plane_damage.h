@@ -15,13 +15,13 @@ inline constexpr double least_approach = 0.02;
 struct ShadowLight {
     bool shadows = true;
     Vec3 direction = Vec3::Zero();  // unit, direction in which the light travels
-    ShadowCascades fit;
+    ShadowCascades cascades;
 
-    ShadowLight(const LightDescription& light, const ShadowCascades& shadow_fit);
+    ShadowLight(const LightDescription& light, const ShadowCascades& shadow_cascades);
 
     /// Distance from a shadow's outline, across the light, within which a plane is affected that the light meets at an
     /// angle of this sine: texels.
-    double filter_reach(double approach) const;
+    double filter_extent(double approach) const;
 
     /// Extent of the filter around the outline of this item's shadow, across the light, m.
     double margin(const DrawableBounds& item) const;
@@ -30,14 +30,14 @@ struct ShadowLight {
     double margin_on_plane(const DrawableBounds& item, double approach) const;
 };
 
-/// Marks the item's shadow on the plane and its occlusion of the plane within `reach` (m; 0: none), which is blurred by
+/// Marks the item's shadow on the plane and its occlusion of the plane within `ao_radius` (m; 0: none), which is blurred by
 /// `blur` (m).
-void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur,
-                   const ShadowLight& light, const Camera& view, DirtyTiles& marks);
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+                   const ShadowLight& light, const Camera& view, DirtyTiles& dirty);
 
 /// False if mark_on_plane() certainly marks nothing in the given part of the frame: true of most bodies if little
 /// changed.
-bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double reach, double blur, const ShadowLight& light,
-               const Camera& view, const Rectangle& part);
+bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+               const ShadowLight& light, const Camera& view, const Rectangle& part);
 
 }  // namespace tumble

@@ -23,17 +23,17 @@ bool covered(int column, int row, const PlanePatch& plane, const Camera& view, c
 constexpr int area_block = 4, longest_run = 32;  // texels
 
 // Marks the runs of blocks with occlusion in the plane's tile of the atlas.
-void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& looks,
+void mark_occlusion(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& scene,
                     const Snapshot& snapshot, const Camera& view, DirtyTiles& touched) {
-    const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
-                                     [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
-    if (window == atlas.windows.end()) return;
+    const auto tile = std::find_if(atlas.plane_tiles.begin(), atlas.plane_tiles.end(),
+                                   [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
+    if (tile == atlas.plane_tiles.end()) return;
     const BodyState& state = snapshot.bodies[plane.body];
-    const PlaneAxes axes = plane_axes(looks.bodies[plane.body].plane.normal);
+    const PlaneAxes axes = plane_axes(scene.bodies[plane.body].plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v, eye = view.eye() - state.origin;
     const auto place = [&](int i, int j) -> Vec3 {
-        return u * ((window->low_a + i) * window->cell - u.dot(eye)) +
-               v * ((window->low_b + j) * window->cell - v.dot(eye)) - plane.normal * plane.height;
+        return u * ((tile->low_a + i) * tile->cell - u.dot(eye)) + v * ((tile->low_b + j) * tile->cell - v.dot(eye)) -
+               plane.normal * plane.height;
     };
     const auto mark = [&](int left, int right, int top, int bottom) {  // interpolation: a texel affects its neighbors
         const std::array<Vec3, 4> corners{place(left - 1, top - 1), place(right, top - 1), place(right, bottom),
@@ -43,44 +43,44 @@ void mark_darkening(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
     };
     const auto dark = [&](int i, int j) {
         constexpr std::array<std::uint8_t, area_block> open{255, 255, 255, 255};
-        const std::size_t columns = std::size_t(std::min(area_block, window->width - i));
-        for (int row = j; row < std::min(j + area_block, window->height); ++row)
+        const std::size_t columns = std::size_t(std::min(area_block, tile->width - i));
+        for (int row = j; row < std::min(j + area_block, tile->height); ++row)
             if (std::memcmp(
-                    &atlas.texels[std::size_t(window->y + row) * OcclusionAtlas::width + std::size_t(window->x + i)],
+                    &atlas.texels[std::size_t(tile->y + row) * OcclusionAtlas::width + std::size_t(tile->x + i)],
                     open.data(), columns) != 0)
                 return true;
         return false;
     };
-    for (int j = 0; j < window->height; j += area_block)
-        for (int i = 0, first = 0; i < window->width; i += area_block) {
+    for (int j = 0; j < tile->height; j += area_block)
+        for (int i = 0, first = 0; i < tile->width; i += area_block) {
             const bool is_dark = dark(i, j),
-                       ends = i + area_block >= window->width || i + area_block - first >= longest_run;
-            const int end = is_dark ? std::min(i + area_block, window->width) : i;
-            if (first < end && (!is_dark || ends)) mark(first, end, j, std::min(j + area_block, window->height));
+                       ends = i + area_block >= tile->width || i + area_block - first >= longest_run;
+            const int end = is_dark ? std::min(i + area_block, tile->width) : i;
+            if (first < end && (!is_dark || ends)) mark(first, end, j, std::min(j + area_block, tile->height));
             if (!is_dark || ends) first = i + area_block;
         }
 }
 
 }  // namespace
 
-std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene,
-                                          const RenderScene& looks, const std::vector<DrawableBounds>& items,
+std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const SceneDescription& description,
+                                          const RenderScene& scene, const std::vector<DrawableBounds>& items,
                                           const Camera& view, const ShadowCascades& shadows,
                                           const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
-                                          const Snapshot& snapshot, const DirtyTiles& marks) {
+                                          const Snapshot& snapshot, const DirtyTiles& dirty) {
     constexpr int per_tile = DirtyTiles::tile / CoarseDepthBuffer::cell;
     static_assert(per_tile * CoarseDepthBuffer::cell == DirtyTiles::tile);
     DirtyTiles touched(view, CoarseDepthBuffer::cell);
-    const ShadowLight light(scene.light, shadows);
-    const Rectangle marked = marks.bounds();
+    const ShadowLight light(description.light, shadows);
+    const Rectangle marked = dirty.bounds();
     for (std::size_t i = 0; i < items.size() && !touched.all(); ++i)
         if (items[i].exists() && may_touch(plane, items[i], 0.0, 0.0, light, view, marked))
             mark_on_plane(plane, items[i], 0.0, 0.0, light, view, touched);
-    mark_darkening(plane, atlas, looks, snapshot, view, touched);
+    mark_occlusion(plane, atlas, scene, snapshot, view, touched);
     // The plane is drawn neither outside the marked tiles nor behind boxes. A rectangle costs ten microseconds, as much
     // as twenty such cells.
     const auto closed = [&](int column, int row) {
-        return !marks.at(column / per_tile, row / per_tile) || covered(column, row, plane, view, cover);
+        return !dirty.at(column / per_tile, row / per_tile) || covered(column, row, plane, view, cover);
     };
     return cell_rectangles(
         touched.grid(), [&](int column, int row) { return touched.at(column, row) && !closed(column, row); }, closed);

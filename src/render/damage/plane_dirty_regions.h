@@ -13,10 +13,10 @@ namespace tumble {
 
 /// Within the marked tiles. `items`: possible casters; `atlas`: texels with occlusion (the AO radius of most bodies
 /// exceeds the visible effect).
-std::vector<Rectangle> find_touched_areas(const PlanePatch& plane, const SceneDescription& scene,
-                                          const RenderScene& looks, const std::vector<DrawableBounds>& items,
+std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const SceneDescription& description,
+                                          const RenderScene& scene, const std::vector<DrawableBounds>& items,
                                           const Camera& view, const ShadowCascades& shadows,
                                           const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
-                                          const Snapshot& snapshot, const DirtyTiles& marks);
+                                          const Snapshot& snapshot, const DirtyTiles& dirty);
 
 }  // namespace tumble

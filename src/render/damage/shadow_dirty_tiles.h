@@ -14,7 +14,7 @@ class ShadowDirtyTiles {
 public:
     static constexpr int count = 24;  // cells per side: 32 texels each
 
-    explicit ShadowDirtyTiles(const ShadowCascades& fit);
+    explicit ShadowDirtyTiles(const ShadowCascades& cascades);
 
     void mark_all();
     void mark(const DrawableBounds& item);
@@ -35,9 +35,9 @@ private:
     };
     Range range(const DrawableBounds& item, int map) const;
 
-    ShadowCascades fit_;
+    ShadowCascades cascades_;
     int maps_;                 // 2 with a far map
-    std::vector<char> marks_;  // map by map, row by row
+    std::vector<char> dirty_;  // map by map, row by row
 };
 
 }  // namespace tumble

@@ -14,17 +14,17 @@ struct CellGrid {
     int width = 0, height = 0;  // of the frame, pixels; the last column and row may be cut off
 };
 
-/// The rectangles of all cells for which `wanted(column, row)` is true, in pixels: runs along a row, extended downward
+/// The rectangles of all cells for which `selected(column, row)` is true, in pixels: runs along a row, extended downward
 /// while the rows below have the same run. They do not overlap. They may include cells for which `free(column, row)` is
 /// true where that makes fewer rectangles.
-template <class Wanted, class Free>
-std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted, Free free) {
+template <class Selected, class Free>
+std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Selected selected, Free free) {
     enum Cell : char { none, spare, needed };
     std::vector<char> left(std::size_t(grid.columns) * std::size_t(grid.rows));
     const auto at = [&](int column, int row) -> char& { return left[std::size_t(row * grid.columns + column)]; };
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column)
-            at(column, row) = wanted(column, row) ? needed : free(column, row) ? spare : none;
+            at(column, row) = selected(column, row) ? needed : free(column, row) ? spare : none;
     std::vector<Rectangle> rectangles;
     for (int row = 0; row < grid.rows; ++row)
         for (int column = 0; column < grid.columns; ++column) {
@@ -53,9 +53,9 @@ std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted, Free
     return rectangles;
 }
 
-template <class Wanted>
-std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Wanted wanted) {
-    return cell_rectangles(grid, wanted, [](int, int) { return false; });
+template <class Selected>
+std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Selected selected) {
+    return cell_rectangles(grid, selected, [](int, int) { return false; });
 }
 
 }  // namespace tumble

@@ -6,18 +6,18 @@
 
 namespace tumble {
 
-VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks,
+VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const RenderScene& scene,
                            const BodyState& state, const ShadowLight& light, const Camera& view)
     : light_(light),
       view_(&view),
       axes_(state.orientation.toRotationMatrix()),
-      two_maps_(light.fit.may_look_far(item.center, item.radius)) {
-    if (look.fine_surface < 0) {
+      two_maps_(light.cascades.may_look_far(item.center, item.radius)) {
+    if (proxy.lightmap < 0) {
         boxes_.push_back({item.center, item.half_axes.colwise().norm()});
         return;
     }
     const Vec3 origin = view.relative(state.origin);
-    for (const OcclusionLightmap::Group& group : looks.fine_surfaces[std::size_t(look.fine_surface)].groups) {
+    for (const OcclusionLightmap::Group& group : scene.lightmaps[std::size_t(proxy.lightmap)].groups) {
         const Vec3 center = origin + axes_ * group.bounds.center();
         if (view.sees(center, 0.5 * group.bounds.extent().norm()))
             boxes_.push_back({center, 0.5 * group.bounds.extent()});
@@ -26,16 +26,16 @@ VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& look, c
 
 // A shadow extends beyond its outline by the filter and the normal offset. Near the border of the near map, or outside
 // it, those of the far one apply.
-void VolumeDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const {
-    const double near = light_.fit.filter.reach * light_.fit.near_texel,
-                 far = light_.fit.filter.reach * light_.fit.far_texel;
-    const double margin = two_maps_ && !light_.fit.near_holds(caster.center, caster.radius + far) ? far : near;
+void VolumeDamage::mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const {
+    const double near = light_.cascades.filter.extent * light_.cascades.near_texel,
+                 far = light_.cascades.filter.extent * light_.cascades.far_texel;
+    const double margin = two_maps_ && !light_.cascades.near_holds(caster.center, caster.radius + far) ? far : near;
     if (!view_->sees_swept(caster.center, caster.radius + margin, light_.direction)) return;
-    for (const Box& box : boxes_) mark_in(box, caster, margin, marks);
+    for (const Box& box : boxes_) mark_in(box, caster, margin, dirty);
 }
 
 // The interval along the light within which a box around the caster meets the box (the slabs of Kay and Kajiya 1986).
-void VolumeDamage::mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const {
+void VolumeDamage::mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& dirty) const {
     double enter = -margin, leave = std::numeric_limits<double>::infinity();
     for (int k = 0; k < 3; ++k) {
         const Vec3 axis = axes_.col(k);
@@ -56,7 +56,7 @@ void VolumeDamage::mark_in(const Box& box, const DrawableBounds& caster, double 
         points[i] = corners[i] + light_.direction * enter;
         points[i + 8] = corners[i] + light_.direction * leave;
     }
-    marks.mark_hull(points, margin);
+    dirty.mark_hull(points, margin);
 }
 
 }  // namespace tumble

@@ -11,17 +11,17 @@ namespace tumble {
 class VolumeDamage {
 public:
     /// `state`: of the item's body.
-    VolumeDamage(const DrawableBounds& item, const RenderBody& look, const RenderScene& looks, const BodyState& state,
+    VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const RenderScene& scene, const BodyState& state,
                  const ShadowLight& light, const Camera& view);
 
     /// Marks the caster's shadow.
-    void mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const;
+    void mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const;
 
 private:
     struct Box {
         Vec3 center, half_size;  // m, relative to the eye; m, along the axes
     };
-    void mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& marks) const;
+    void mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& dirty) const;
 
     ShadowLight light_;
     const Camera* view_;

@@ -22,7 +22,7 @@ struct Batch {
     std::size_t mesh = 0;
     bool patterned = false;
     bool lit = true;                   // false: faces turned away from the sun, which need no shadow lookup
-    bool wide = false;                 // each pixel selects its shadow cascade
+    bool spans_cascades = false;       // each pixel selects its shadow cascade
     bool charted = false;              // a mesh with AO per pixel: see chart_unwrap.h
     std::size_t first = 0, count = 0;  // of the instances
 };

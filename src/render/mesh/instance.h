@@ -11,7 +11,7 @@ struct Instance {
     glm::vec4 orientation;  // x, y, z, w
     glm::vec4 scale;        // of the mesh; w: cell of its pattern, m
     glm::vec4 color;        // linear; w: roughness
-    glm::vec4 look;         // metallic, pattern; z, w: place in the AO atlas, texels
+    glm::vec4 proxy;        // metallic, pattern; z, w: place in the AO atlas, texels
     glm::vec4
         tile;  // edge of its AO tiles, texels; index of a box's face, as in make_box(); surface id, as alpha; 1: uses
                // the near shadow map, 0: the far one

@@ -13,9 +13,9 @@ struct Attribute {
 };
 constexpr Attribute instance_attributes[] = {{4, offsetof(Instance, position)}, {4, offsetof(Instance, orientation)},
                                              {4, offsetof(Instance, scale)},    {4, offsetof(Instance, color)},
-                                             {4, offsetof(Instance, look)},     {4, offsetof(Instance, tile)}};
-constexpr GLuint probe_attribute = first_instance_attribute + GLuint(std::size(instance_attributes));
-constexpr GLuint texel_attribute = probe_attribute + 1;
+                                             {4, offsetof(Instance, proxy)},    {4, offsetof(Instance, tile)}};
+constexpr GLuint sample_attribute = first_instance_attribute + GLuint(std::size(instance_attributes));
+constexpr GLuint texel_attribute = sample_attribute + 1;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -32,7 +32,7 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
       array_(gl, GlKind::vertex_array),
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),
-      probes_(gl, GlKind::buffer),
+      samples_(gl, GlKind::buffer),
       texels_(gl, GlKind::buffer),
       index_count_(GLsizei(data.indices.size())),
       closed_(data.closed) {
@@ -44,10 +44,10 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
     gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, position)));
     gl.EnableVertexAttribArray(1);
     gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, normal)));
-    if (!data.probe_of_vertex.empty()) {
-        fill(gl, GL_ARRAY_BUFFER, probes_, data.probe_of_vertex);
-        gl.EnableVertexAttribArray(probe_attribute);
-        gl.VertexAttribIPointer(probe_attribute, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), nullptr);
+    if (!data.sample_of_vertex.empty()) {
+        fill(gl, GL_ARRAY_BUFFER, samples_, data.sample_of_vertex);
+        gl.EnableVertexAttribArray(sample_attribute);
+        gl.VertexAttribIPointer(sample_attribute, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), nullptr);
     }
     if (!data.texels.empty()) {
         fill(gl, GL_ARRAY_BUFFER, texels_, data.texels);

@@ -14,8 +14,8 @@ namespace tumble {
 struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
     std::span<const std::uint32_t> indices;
-    std::span<const std::uint32_t> probe_of_vertex;  // may be empty: only meshes of the scene have samples
-    std::span<const std::array<float, 2>> texels;    // may be empty: only meshes with charts have texels
+    std::span<const std::uint32_t> sample_of_vertex;  // may be empty: only meshes of the scene have samples
+    std::span<const std::array<float, 2>> texels;     // may be empty: only meshes with charts have texels
     bool closed = true;
 };
 
@@ -31,7 +31,7 @@ public:
 
 private:
     const GlFunctions* gl_;
-    GlObject array_, vertices_, indices_, probes_, texels_;
+    GlObject array_, vertices_, indices_, samples_, texels_;
     GLsizei index_count_;
     mutable GLuint instances_ = 0;  // the buffer that the vertex array refers to
     bool closed_;

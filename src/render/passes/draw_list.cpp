@@ -33,15 +33,15 @@ struct Item {
     std::uint32_t number;  // index of the body; cords follow the bodies
     std::uint32_t mesh;
     std::uint8_t face;  // of a box
-    bool patterned, lit, wide;
+    bool patterned, lit, spans_cascades;
     bool charted = false;  // given by the mesh
 };
 
-Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double distance, std::size_t number, int face,
-               bool in_shells) {
+Item make_item(std::size_t mesh, bool patterned, bool lit, bool spans_cascades, double distance, std::size_t number,
+               int face, bool in_shells) {
     const double shell =
         in_shells ? std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30))) + shell_offset : 0.0;
-    return {std::uint64_t(shell) << 40 | std::uint64_t(mesh) << 3 | (wide ? 4u : 0u) | (patterned ? 2u : 0u) |
+    return {std::uint64_t(shell) << 40 | std::uint64_t(mesh) << 3 | (spans_cascades ? 4u : 0u) | (patterned ? 2u : 0u) |
                 (lit ? 1u : 0u),
             float(distance),
             std::uint32_t(number),
@@ -49,7 +49,7 @@ Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double dis
             std::uint8_t(face),
             patterned,
             lit,
-            wide};
+            spans_cascades};
 }
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
@@ -63,13 +63,13 @@ std::size_t ball_mesh_for(double radius, double error) {  // m
     return first_ball_mesh + level;
 }
 
-Instance instance_of(const RenderBody& look, const BodyState& state, const Camera& view, const OcclusionPlace& place,
+Instance instance_of(const RenderBody& proxy, const BodyState& state, const Camera& view, const OcclusionPlace& place,
                      std::size_t body, bool near_shadows) {
-    return {to_glm(view.relative(state.origin), look.bevel),
+    return {to_glm(view.relative(state.origin), proxy.bevel),
             to_glm(state.orientation),
-            to_glm(look.half_size, look.pattern_cell),
-            glm::vec4(look.color, look.roughness),
-            glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
+            to_glm(proxy.half_size, proxy.pattern_cell),
+            glm::vec4(proxy.color, proxy.roughness),
+            glm::vec4(proxy.metallic, pattern_number(proxy.pattern), float(place.x), float(place.y)),
             glm::vec4(float(place.size), 0.0f, surface_alpha(body, 0), near_shadows ? 1.0f : 0.0f)};
 }
 
@@ -108,28 +108,28 @@ void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& ligh
         if (there[axis] > 0.0) half_box.scale[axis] = -half_box.scale[axis];
 }
 
-std::size_t mesh_of(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view) {
-    switch (look.kind) {
+std::size_t mesh_of(const RenderBody& proxy, const RenderScene& scene, const BoundingBall& ball, const Camera& view) {
+    switch (proxy.kind) {
         case DrawKind::ball:
             return ball_mesh_for(ball.radius, outline_error * view.pixel_size() *
                                                   std::max(ball.center.norm() - ball.radius, 1e-3 * ball.radius));
         case DrawKind::mesh:
-            return scene_mesh(look.mesh, level_in_view(look, looks, ball.center, view));
+            return scene_mesh(proxy.mesh, level_in_view(proxy, scene, ball.center, view));
         default:
             return half_box_mesh;
     }
 }
 
 // Level of detail for the resolution of the item's shadow map.
-std::size_t caster_mesh(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view,
+std::size_t caster_mesh(const RenderBody& proxy, const RenderScene& scene, const BoundingBall& ball, const Camera& view,
                         const ShadowCascades& shadows) {
     const double texel = shadows.may_look_far(ball.center, ball.radius)
                              ? std::min(shadows.near_texel, shadows.far_texel)
                              : shadows.near_texel;
-    if (look.kind == DrawKind::ball)
-        return looks.bodies.size() < crowd ? mesh_of(look, looks, ball, view)
-                                           : ball_mesh_for(ball.radius, outline_error * texel);
-    return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));
+    if (proxy.kind == DrawKind::ball)
+        return scene.bodies.size() < large_scene ? mesh_of(proxy, scene, ball, view)
+                                                 : ball_mesh_for(ball.radius, outline_error * texel);
+    return scene_mesh(proxy.mesh, level_for(proxy, scene, most_detail_error * texel));
 }
 
 // Appends the items' instances as batches of one mesh, nearest first; equal items keep the scene's order.
@@ -141,8 +141,9 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
     std::vector<Batch> batches;
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
-            batches.back().lit != item.lit || batches.back().wide != item.wide)
-            batches.push_back({item.mesh, item.patterned, item.lit, item.wide, item.charted, instances.size(), 0});
+            batches.back().lit != item.lit || batches.back().spans_cascades != item.spans_cascades)
+            batches.push_back(
+                {item.mesh, item.patterned, item.lit, item.spans_cascades, item.charted, instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
@@ -151,32 +152,33 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
 
 }  // namespace
 
-DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
+DrawList make_draw_list(const SceneDescription& description, const RenderScene& scene, const Snapshot& snapshot,
                         const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowCascades& shadows, const std::vector<char>& wanted,
-                        const std::vector<char>& casting) {
-    TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
-    const std::size_t bodies = looks.bodies.size();
-    const Vec3 light = scene.light.direction.normalized();
+                        const ShadowCascades& shadows, const std::vector<char>& draw_mask,
+                        const std::vector<char>& caster_mask) {
+    TUMBLE_CHECK_EQ(snapshot.bodies.size(), scene.bodies.size());
+    const std::size_t bodies = scene.bodies.size();
+    const Vec3 light = description.light.direction.normalized();
     std::vector<Item> visible, casters;
     for (std::size_t i = 0; i < bodies; ++i) {
-        const RenderBody& look = looks.bodies[i];
-        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        const bool in_view = visibility.bodies[i] && wanted[i] != 0;
-        const bool casts = scene.light.shadows && casting[i] != 0;
-        const bool patterned = look.pattern != Pattern::plain;
+        const RenderBody& proxy = scene.bodies[i];
+        if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(proxy, snapshot.bodies[i], view);
+        const bool in_view = visibility.bodies[i] && draw_mask[i] != 0;
+        const bool casts = description.light.shadows && caster_mask[i] != 0;
+        const bool patterned = proxy.pattern != Pattern::plain;
         const double distance = ball.center.norm();
         if (casts) {
             const std::size_t mesh =
-                look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, view, shadows);
+                proxy.kind == DrawKind::box ? half_box_mesh : caster_mesh(proxy, scene, ball, view, shadows);
             casters.push_back(make_item(mesh, false, true, false, distance, i, 0, false));
         }
         if (!in_view) continue;
-        const bool wide = scene.light.shadows && shadows.spans_maps(ball.center, ball.radius);
-        if (look.kind != DrawKind::box) {
-            visible.push_back(make_item(mesh_of(look, looks, ball, view), patterned, true, wide, distance, i, 0, true));
-            visible.back().charted = look.kind == DrawKind::mesh && looks.meshes[look.mesh].charts.has_value();
+        const bool spans_cascades = description.light.shadows && shadows.spans_maps(ball.center, ball.radius);
+        if (proxy.kind != DrawKind::box) {
+            visible.push_back(
+                make_item(mesh_of(proxy, scene, ball, view), patterned, true, spans_cascades, distance, i, 0, true));
+            visible.back().charted = proxy.kind == DrawKind::mesh && scene.meshes[proxy.mesh].charts.has_value();
             continue;
         }
         // Visible faces of the box: lit ones are separate from unlit ones.
@@ -184,25 +186,25 @@ DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks,
         for (int face = 0; face < 6; ++face)
             if ((visibility.faces[i] >> face & 1) != 0) {
                 const bool lit = there[face / 2] * (face % 2 == 0 ? -1.0 : 1.0) < 0.0;
-                visible.push_back(make_item(face_mesh, patterned, lit, wide && lit, distance, i, face, true));
+                visible.push_back(make_item(face_mesh, patterned, lit, spans_cascades && lit, distance, i, face, true));
             }
     }
     std::vector<CordPlace> cords;
-    for (std::size_t i = 0; i < scene.cords.size(); ++i) {
-        cords.push_back(place_cord(scene.cords[i], snapshot, view));
+    for (std::size_t i = 0; i < description.cords.size(); ++i) {
+        cords.push_back(place_cord(description.cords[i], snapshot, view));
         const double distance = cords.back().middle.norm();
-        if (wanted[bodies + i] != 0)
+        if (draw_mask[bodies + i] != 0)
             visible.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, true));
-        if (scene.light.shadows && casting[bodies + i] != 0)
+        if (description.light.shadows && caster_mask[bodies + i] != 0)
             casters.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, false));
     }
     const auto instance = [&](const Item& item) {
         const std::size_t i = item.number;
-        if (i >= bodies) return cord_instance(scene.cords[i - bodies], i, cords[i - bodies], shadows);
-        const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
-        Instance made = instance_of(looks.bodies[i], snapshot.bodies[i], view, atlas.places[i], i,
+        if (i >= bodies) return cord_instance(description.cords[i - bodies], i, cords[i - bodies], shadows);
+        const BoundingBall ball = bounding_ball(scene.bodies[i], snapshot.bodies[i], view);
+        Instance made = instance_of(scene.bodies[i], snapshot.bodies[i], view, atlas.places[i], i,
                                     shadows.near_holds(ball.center, ball.radius));
-        const bool open_mesh = looks.bodies[i].kind == DrawKind::mesh && !looks.meshes[looks.bodies[i].mesh].closed;
+        const bool open_mesh = scene.bodies[i].kind == DrawKind::mesh && !scene.meshes[scene.bodies[i].mesh].closed;
         made.tile.y = open_mesh ? 1.0f : float(item.face);
         made.tile.z = surface_alpha(i, item.face);
         if (item.mesh == half_box_mesh) turn_to_light(made, snapshot.bodies[i].orientation, light);

@@ -13,10 +13,10 @@
 
 namespace tumble {
 
-/// `wanted`, `casting`: draw mask and caster mask, by item of drawable_bounds.h.
-DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
+/// `draw_mask`, `caster_mask`: draw mask and caster mask, by item of drawable_bounds.h.
+DrawList make_draw_list(const SceneDescription& description, const RenderScene& scene, const Snapshot& snapshot,
                         const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowCascades& shadows, const std::vector<char>& wanted,
-                        const std::vector<char>& casting);
+                        const ShadowCascades& shadows, const std::vector<char>& draw_mask,
+                        const std::vector<char>& caster_mask);
 
 }  // namespace tumble

@@ -6,14 +6,14 @@
 #include "render/shadow/shadow_map.h"
 
 namespace tumble {
-bool sun_is_up(const SceneDescription& scene) {
+bool sun_is_up(const SceneDescription& description) {
     constexpr double steepest_ground =
         0.5;  // cosine of 60 degrees: a steeper plane is a wall, as for the default camera
-    for (const BodyDescription& body : scene.bodies) {
+    for (const BodyDescription& body : description.bodies) {
         const auto* plane = std::get_if<PlaneShape>(&body.shape);
         if (plane == nullptr || body.type != BodyType::fixed) continue;
         const Vec3 normal = body.rotation * plane->normal.normalized();
-        if (normal.y() > steepest_ground && normal.dot(scene.light.direction) >= 0.0) return false;
+        if (normal.y() > steepest_ground && normal.dot(description.light.direction) >= 0.0) return false;
     }
     return true;
 }
@@ -33,10 +33,12 @@ FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, co
     u.shadow_far = shadows.far;
     u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
                                 float(shadows.filter.offset));
-    u.haze = glm::vec4(float(1.0 / (view.fog_distance() * view.fog_distance())), float(view.pixel_size()), 0.0f, 0.0f);
-    if (widen_rods)
-        u.haze.z = float(widest_rod_pixels * view.pixel_size()),
-        u.haze.w = float(thinnest_rod_pixels * view.pixel_size());
+    u.fog_density = float(1.0 / (view.fog_distance() * view.fog_distance()));
+    u.pixel_size = float(view.pixel_size());
+    if (widen_rods) {
+        u.widest_rod = float(widest_rod_pixels * view.pixel_size());
+        u.thinnest_rod = float(thinnest_rod_pixels * view.pixel_size());
+    }
     u.atlas = glm::vec4(1.0f / float(OcclusionAtlas::width), 1.0f / float(atlas_height), 0.0f, 0.0f);
     return u;
 }

@@ -15,14 +15,16 @@ struct FrameUniforms {
     glm::vec4 ray_origin, ray_dx, ray_dy;
     glm::vec4 to_light;
     glm::vec4 shadow_x, shadow_y, shadow_z, shadow_far, shadow_texels;
-    glm::vec4 haze;
+    float fog_density;               // 1 / squared distance at which fog is half of the light, 1/m^2
+    float pixel_size;                // at distance 1 along the axis
+    float widest_rod, thinnest_rod;  // half sizes at distance 1; 0: no rod is widened
     glm::vec4 atlas;
 };
 static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4));
 
 /// False if the sun is below a fixed plane that bodies can rest on. Planes cast no shadows: a plane is the surface of a
 /// half-space, which would block either all sunlight or none.
-bool sun_is_up(const SceneDescription& scene);
+bool sun_is_up(const SceneDescription& description);
 
 /// `sun_up`: false disables sunlight.
 FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const Camera& view, double near_distance,

@@ -17,7 +17,7 @@ namespace tumble {
 
 class PlanePass {
 public:
-    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks, bool shadows,
+    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene, bool shadows,
               const ShadowFilter& filter);
 
     /// Draws the sky outside the planes. Call it first: at the horizon, the depth of a plane rounds to that of the sky.
@@ -25,11 +25,11 @@ public:
 
     /// Draws all planes without shadows and occlusion by bodies, where no surface at the same or a smaller depth has
     /// been drawn. Bodies and dirty regions may be drawn before or after.
-    void draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const;
+    void draw_background(const std::vector<PlanePatch>& planes, const RenderScene& scene) const;
 
-    /// Draws planes[i] in areas[i], with shadows and occlusion.
-    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
-                      const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
+    /// Draws planes[i] in regions[i], with shadows and occlusion.
+    void draw_regions(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& regions,
+                      const RenderScene& scene, const OcclusionAtlas& atlas, const Snapshot& snapshot,
                       const Camera& view, bool far_shadows);
 
     /// One draw per shader, which makes the driver compile it. The caller must prevent it from changing the frame.
@@ -37,15 +37,15 @@ public:
 
 private:
     struct Programs {
-        ShaderProgram open, touched;
-        std::optional<ShaderProgram> touched_far;  // once the far shadow map is in use
+        ShaderProgram background, occluded;
+        std::optional<ShaderProgram> occluded_far;  // once the far shadow map is in use
     };
     ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
-    std::vector<std::string> touched() const;
+    std::vector<std::string> occluded() const;
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
-                      const RenderScene& looks) const;
-    void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                    const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const;
+                      const RenderScene& scene) const;
+    void set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                  const RenderScene& scene, const Snapshot& snapshot, const Camera& view) const;
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
     void draw_polygon(const std::vector<glm::vec3>& corners) const;
 

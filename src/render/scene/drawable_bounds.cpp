@@ -4,13 +4,14 @@
 namespace tumble {
 namespace {
 
-DrawableBounds body_item(const RenderBody& look, const RenderScene& looks, const BodyState& state, const Camera& view) {
+DrawableBounds body_item(const RenderBody& proxy, const RenderScene& scene, const BodyState& state,
+                         const Camera& view) {
     DrawableBounds item;
-    if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) return item;
-    const BoundingBall ball = bounding_ball(look, state, view);
+    if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) return item;
+    const BoundingBall ball = bounding_ball(proxy, state, view);
     item.center = ball.center;
     item.radius = ball.radius;
-    const Vec3 half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
+    const Vec3 half_size = proxy.kind == DrawKind::mesh ? scene.meshes[proxy.mesh].half_extent : proxy.half_size;
     item.half_axes = state.orientation.toRotationMatrix() * half_size.asDiagonal();
     return item;
 }
@@ -50,13 +51,14 @@ std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3
     return corners;
 }
 
-std::vector<DrawableBounds> make_drawn_items(const SceneDescription& scene, const RenderScene& looks,
+std::vector<DrawableBounds> make_drawn_items(const SceneDescription& description, const RenderScene& scene,
                                              const Snapshot& snapshot, const Camera& view) {
     std::vector<DrawableBounds> items;
-    items.reserve(looks.bodies.size() + scene.cords.size());
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i)
-        items.push_back(body_item(looks.bodies[i], looks, snapshot.bodies[i], view));
-    for (const CordDescription& cord : scene.cords) items.push_back(cord_item(cord, snapshot.bodies[cord.body], view));
+    items.reserve(scene.bodies.size() + description.cords.size());
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        items.push_back(body_item(scene.bodies[i], scene, snapshot.bodies[i], view));
+    for (const CordDescription& cord : description.cords)
+        items.push_back(cord_item(cord, snapshot.bodies[cord.body], view));
     return items;
 }
 

@@ -19,7 +19,7 @@ struct DrawableBounds {
     bool exists() const { return radius >= 0.0; }
 };
 
-std::vector<DrawableBounds> make_drawn_items(const SceneDescription& scene, const RenderScene& looks,
+std::vector<DrawableBounds> make_drawn_items(const SceneDescription& description, const RenderScene& scene,
                                              const Snapshot& snapshot, const Camera& view);
 
 /// The corners of a box.

@@ -7,11 +7,11 @@
 namespace tumble {
 
 /// Lower bound of the depth of the visible part of a body, m.
-double least_depth(const RenderBody& look, const RenderScene& looks, const BodyState& state, const BoundingBall& ball,
+double least_depth(const RenderBody& proxy, const RenderScene& scene, const BodyState& state, const BoundingBall& ball,
                    const Camera& view);
 
 /// Near distance: half of the nearest visible body's distance, rounded down to a power of two, so that small movements
 /// do not round all depths differently.
-double near_distance_for(const RenderScene& looks, const Snapshot& snapshot, const Camera& view);
+double near_distance_for(const RenderScene& scene, const Snapshot& snapshot, const Camera& view);
 
 }  // namespace tumble

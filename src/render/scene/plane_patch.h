@@ -23,7 +23,7 @@ struct PlanePatch {
 };
 
 /// The planes that are visible from their open side; from behind, a plane is transparent.
-std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+std::vector<PlanePatch> make_plane_patches(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
                                            double near_distance);
 
 /// The part of the screen without planes (enlarged by two pixels across each horizon), in clip space.
@@ -33,6 +33,6 @@ std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const 
 double pattern_cell(double viewing_distance);
 
 /// The plane in the world: unit normal and offset (points p with normal . p = offset).
-PlaneShape plane_in_world(const RenderBody& look, const BodyState& state);
+PlaneShape plane_in_world(const RenderBody& proxy, const BodyState& state);
 
 }  // namespace tumble
