@@ -6,7 +6,7 @@
 #include "render/clip.h"
 #include "render/passes/pass_timer.h"
 #include "render/picture_error.h"
-#include "render/renderer.h"
+#include "render/render_switches.h"
 #include "scene/load.h"
 
 #include <fmt/format.h>
@@ -68,7 +68,7 @@ void measure_cost(const Arguments& a) {
     const SceneDescription scene = load_scene(a.scene, a.overrides);
     const std::vector<Snapshot> clip = drawn_clip(scene, a.first, a.end);
     PassTimes times;
-    RenderOptions options;
+    RenderSwitches options;
     options.full_redraw = a.full;
     if (a.stages) options.times = &times;
     Renderer renderer(scene, options);
@@ -105,7 +105,7 @@ Image picture(const SceneDescription& scene, const Snapshot& snapshot, int sampl
               double shift_x = 0.0, double shift_y = 0.0) {
     SceneDescription sampled = scene;
     sampled.output.samples = samples;
-    RenderOptions options;
+    RenderSwitches options;
     options.multisample = multisample;
     options.shift_x = shift_x;
     options.shift_y = shift_y;

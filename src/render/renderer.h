@@ -14,25 +14,20 @@
 
 namespace tumble {
 
-class ShaderCompileSchedule;
-struct PassTimes;
+struct RenderSwitches;
 
 struct RenderOptions {
     GlBackend backend = GlBackend::osmesa;
     std::filesystem::path shader_folder;  // empty: found beside the program, installed, or in the source tree
-    bool full_redraw = false;  // redraw every frame completely, with the same bytes: for tests and comparisons
-    bool draw_hidden = false;  // draw bodies behind boxes as well: for tests and comparisons
-    bool multisample = false;  // several samples per pixel, as in scenes with cords: for comparisons
-    double shift_x = 0.0, shift_y = 0.0;  // displacement of the frame, below 1 pixel: for averages of many frames
-    PassTimes* times = nullptr;           // sums of the costs of passes; must outlive the renderer
-    ShaderCompileSchedule* compile_schedule = nullptr;  // shared with the other processes that draw this scene, or null
 };
 
 /// One OpenGL context and its resources. Use it in the thread that made it.
 class Renderer {
 public:
     /// Throws RunError if no context can be made or a shader is missing or broken (with the compiler's log).
-    Renderer(const SceneDescription& scene, const RenderOptions& options);
+    explicit Renderer(const SceneDescription& scene, const RenderOptions& options = {});
+    /// With the switches of render_switches.h.
+    Renderer(const SceneDescription& scene, const RenderSwitches& switches);
     ~Renderer();
 
     /// Draws the snapshot at the scene's output size, with the camera at the snapshot's time. The image is valid until

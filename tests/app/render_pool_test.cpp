@@ -5,6 +5,7 @@
 #include "core/image_mean.h"
 #include "output/png_writer.h"
 #include "output/video_pixels.h"
+#include "render/render_switches.h"
 
 #include <gtest/gtest.h>
 
@@ -252,7 +253,7 @@ TEST(RenderPool, AllOutputsShowTheRenderersPicture) {
     RenderPool drawer(scene, {}, both, 2);
     const std::vector<Seen> seen = draw(drawer, scene, 16);
     const auto expect = [&] {
-        RenderOptions options;
+        RenderSwitches options;
         options.full_redraw = true;
         Renderer renderer(scene, options);
         PngEncoder png;
@@ -281,7 +282,7 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
     // Frames 0 to 6 and 11 to 13 are blurred; the first after them is sharp again, then nothing moves.
     for (std::size_t n = 0; n < first.size(); ++n) EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
     const auto expect = [&] {
-        Renderer renderer(scene, {});
+        Renderer renderer(scene);
         PngEncoder png;
         for (const Seen& s : first) {
             ImageMean mean;

@@ -159,7 +159,7 @@ TEST(MovingCamera, AFollowedBodyStaysAtItsPixel) {
     scene.bodies = {ground_plane(), ball_body(Vec3(0.7, 1.0, 0.0), 0.4, {220, 30, 20})};
     scene.camera.follow = 1;
     scene.camera.follow_start = scene.bodies[1].position;
-    Renderer renderer(scene, {});
+    Renderer renderer(scene);
     const Pixel middle = pixel_of(scene, scene.bodies[1].position), left = pixel_of(scene, Vec3(0.25, 1.0, 0.0));
     for (const double x : {0.0, 2.3, 40.0, 800.0}) {
         Snapshot snapshot = at_time(scene, 0.0);
@@ -181,9 +181,9 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
     scene.camera.follow_start = scene.bodies[last].position;
     for (const bool turns : {false, true}) {
         scene.camera.orbit = turns ? 60.0 : 0.0;
-        RenderOptions everything;
+        RenderSwitches everything;
         everything.full_redraw = true;
-        Renderer partial(scene, {}), every_other(scene, {}), full(scene, everything);
+        Renderer partial(scene), every_other(scene), full(scene, everything);
         PoseFilter poses(scene);
         for (int n = 0; n < 15; ++n) {  // with still frames before and after
             Snapshot snapshot = at_time(scene, 0.1 * n);
@@ -211,7 +211,7 @@ TEST(MovingCamera, CachedDataDoesNotDependOnTheViewpoint) {
     const std::vector<double> times = {0.0, 5.3, 9.1};
     std::vector<Image> images;
     {
-        Renderer used(scene, {});
+        Renderer used(scene);
         for (const double time : times) images.push_back(used.render(at_time(scene, time)));
     }
     for (std::size_t i = 0; i < times.size(); ++i)
@@ -221,7 +221,7 @@ TEST(MovingCamera, CachedDataDoesNotDependOnTheViewpoint) {
 TEST(MovingCamera, AWholeTurnComesBackToTheSameBytes) {
     SceneDescription scene = small_heap();
     scene.camera.orbit = 90.0;
-    Renderer renderer(scene, {});
+    Renderer renderer(scene);
     const Image first = renderer.render(at_time(scene, 0.0));
     for (const double time : {1.0, 2.0, 3.0}) EXPECT_NE(renderer.render(at_time(scene, time)), first) << time;
     EXPECT_EQ(renderer.render(at_time(scene, 4.0)), first);

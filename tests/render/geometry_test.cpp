@@ -300,12 +300,13 @@ TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
     SceneDescription scene = heap_scene(30);
     scene.bodies.push_back(box_body(scene.camera.eye + Vec3(0.0, 0.0, 30.0), Vec3::Ones(), {1, 2, 3}));
     const RenderScene render_scene = make_render_scene(scene);
-    const Camera view(scene.camera, 1280, 720);
+    FrameSetup setup(scene, render_scene);
+    const Snapshot snapshot = first_snapshot(scene);
+    const FrameContext frame = setup.prepare(snapshot, false);
     OcclusionAtlas atlas;
     atlas.places.resize(scene.bodies.size());
-    const DrawList list = make_draw_list(
-        scene, render_scene, first_snapshot(scene), view, find_visible(render_scene, first_snapshot(scene), view),
-        atlas, {}, std::vector<char>(scene.bodies.size(), 1), std::vector<char>(scene.bodies.size(), 1));
+    const DrawableMask all{std::vector<char>(scene.bodies.size(), 1), {}};
+    const DrawList list = make_draw_list(frame, find_visible(frame), atlas, all, all);
     std::size_t faces = 0;
     double last = 0.0;  // distance
     const double shell = std::exp2(1.0 / 8.0);
@@ -313,7 +314,7 @@ TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
         EXPECT_EQ(batch.mesh, face_mesh);
         faces += batch.count;
         for (std::size_t i = 0; i < batch.count; ++i) {
-            const glm::vec4& p = list.instances[batch.first + i].position;
+            const glm::vec3& p = list.instances[batch.first + i].position;
             const double distance = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
             EXPECT_GE(distance, i == 0 ? last / shell : last - 1e-4);  // batches within one shell start again
             last = distance;

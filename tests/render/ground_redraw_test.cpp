@@ -145,12 +145,12 @@ std::size_t different_pixels(const Image& a, const Image& b) {
 
 // One renderer draws all frames, another every second one, like two workers. Returns the redrawn part of all frames.
 double draw_partly(unsigned seeds, Ground ground) {
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.full_redraw = true;
     double redrawn = 0.0, frames = 0.0;
     for (unsigned seed = 0; seed < seeds; ++seed) {
         const SceneDescription scene = random_scene(seed, ground);
-        Renderer partial(scene, {}), second(scene, {}), full(scene, everything);
+        Renderer partial(scene), second(scene), full(scene, everything);
         Random random(1000 + seed);
         Snapshot snapshot = first_snapshot(scene);
         for (int step = 0; step < 20; ++step) {
@@ -188,7 +188,7 @@ TEST(GroundRedraw, RedrawsLittleOnALargeBoxOrMesh) {
         scene.bodies.push_back(box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 130, 60}));
         scene.bodies.push_back(box_body(Vec3(1.5, 0.5, 1.0), Vec3::Ones(), {200, 130, 60}));
         scene.bodies.push_back(ball_body(Vec3(-1.5, 0.6, 1.0), 0.6, {60, 110, 200}));
-        Renderer renderer(scene, {});
+        Renderer renderer(scene);
         Snapshot snapshot = first_snapshot(scene);
         renderer.render(snapshot);
         snapshot.bodies[3].origin.x() += 0.01;

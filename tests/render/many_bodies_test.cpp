@@ -43,15 +43,17 @@ SceneDescription crowded_scene() {
 
 TEST(ManyBodies, CullingChangesNoByte) {
     const SceneDescription scene = crowded_scene();
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.draw_hidden = true;
     EXPECT_EQ(drawn(scene), drawn(scene, everything));
     const RenderScene render_scene = make_render_scene(scene);
     EXPECT_GT(render_scene.mesh_triangles, most_whole_triangles) << "so that meshes are simplified";
-    const Camera view(scene.camera, scene.output.width, scene.output.height);
-    const auto count = [](const Visibility& v) { return std::count(v.bodies.begin(), v.bodies.end(), true); };
-    const auto coarse = count(find_visible(render_scene, first_snapshot(scene), view));
-    const auto fine = count(find_visible(render_scene, first_snapshot(scene), view, true));
+    FrameSetup setup(scene, render_scene);
+    const auto visible = [&](bool one_sample) {
+        const Visibility v = find_visible(setup.prepare(first_snapshot(scene), one_sample));
+        return std::count(v.bodies.begin(), v.bodies.end(), true);
+    };
+    const auto coarse = visible(false), fine = visible(true);
     EXPECT_LT(fine, 0.7 * double(coarse)) << "by pixel much more is found hidden";
 }
 
@@ -59,9 +61,9 @@ TEST(ManyBodies, PartialRedrawHasTheBytesOfAFullRedraw) {
     for (const int samples : {1, 4}) {  // with 4: smooth edges
         SceneDescription scene = crowded_scene();
         scene.output.samples = samples;
-        RenderOptions full;
+        RenderSwitches full;
         full.full_redraw = true;
-        Renderer partial(scene, {}), whole(scene, full);
+        Renderer partial(scene), whole(scene, full);
         Snapshot snapshot = first_snapshot(scene);
         Random random(9);
         for (const int moved : {0, 1, 5, 60, 3000, 2}) {  // above a quarter, all AO is checked again
@@ -108,9 +110,11 @@ TEST(ManyBodies, OcclusionBlendsFromOneValueToAllTexels) {
         for (std::size_t i = 0; i < large_scene; ++i)
             scene.bodies.push_back(box_body(Vec3(0.0, 50.0 + 9.0 * double(i), 0.0), Vec3::Ones(), {200, 200, 200}));
         const RenderScene render_scene = make_render_scene(scene);
-        const Camera view(scene.camera, scene.output.width, scene.output.height);
+        FrameSetup setup(scene, render_scene);
+        const Snapshot snapshot = first_snapshot(scene);
+        const FrameContext frame = setup.prepare(snapshot, false);
         AmbientOcclusion maker(render_scene, Vec3::Zero());
-        maker.update(first_snapshot(scene), view, everything_visible(render_scene, view));
+        maker.update(frame, everything_visible(frame));
         const OcclusionPlace& place = maker.atlas().places[1];
         int low = 255, high = 0;
         for (int j = 0; j < place.size; ++j)

@@ -19,9 +19,11 @@ bool blocks(const BodyDescription& box, const Vec3& eye, const Vec3& point) {
 struct Heap {
     SceneDescription scene = heap_scene(150);
     RenderScene render_scene = make_render_scene(scene);
-    Camera view{scene.camera, 1280, 720};
     Snapshot snapshot = first_snapshot(scene);
-    Visibility visibility = find_visible(render_scene, snapshot, view);
+    FrameSetup setup{scene, render_scene};
+    FrameContext frame = setup.prepare(snapshot, false);
+    const Camera& view = frame.camera;
+    Visibility visibility = find_visible(frame);
 
     bool in_picture(const Vec3& point) const {
         const Vec3 p = view.relative(point);
@@ -66,11 +68,10 @@ TEST(OcclusionCulling, CulledFacesAreHiddenOrTurnedAway) {
 
 TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnOnce) {
     const Heap heap;
-    const CascadeFitter stage(heap.scene, heap.render_scene, heap.view, 1024);
-    const std::vector<PlanePatch> planes = make_plane_patches(heap.render_scene, heap.snapshot, heap.view, 0.01);
+    const std::vector<PlanePatch>& planes = heap.frame.planes;
     ASSERT_EQ(planes.size(), 1u);
     AmbientOcclusion occlusion(heap.render_scene, heap.view.eye());
-    occlusion.update(heap.snapshot, heap.view, heap.visibility);
+    occlusion.update(heap.frame, heap.visibility);
     ASSERT_EQ(occlusion.atlas().plane_tiles.size(), 1u);
     const PlaneOcclusionTile& tile = occlusion.atlas().plane_tiles[0];
     const PlaneAxes axes = plane_axes(planes[0].normal);
@@ -91,10 +92,7 @@ TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnO
     DirtyTiles everything(heap.view);
     everything.mark_all();
     const std::vector<Rectangle> areas =
-        find_dirty_regions(planes[0], heap.scene, heap.render_scene,
-                           make_drawn_items(heap.scene, heap.render_scene, heap.snapshot, heap.view), heap.view,
-                           stage.fit(heap.render_scene, heap.snapshot, heap.view), heap.visibility.cover,
-                           occlusion.atlas(), heap.snapshot, everything);
+        find_dirty_regions(planes[0], heap.frame, heap.visibility.cover, occlusion.atlas(), everything);
     std::vector<int> times(1280 * 720, 0);
     for (const Rectangle& area : areas)
         for (int y = area.y; y < area.y + area.height; ++y)
@@ -129,9 +127,9 @@ TEST(OcclusionCulling, ABoxAroundTheEyeHidesNothing) {
     SceneDescription scene = empty_scene();
     scene.bodies = {box_body(scene.camera.eye, Vec3(4.0, 4.0, 4.0), {1, 2, 3}),
                     box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {1, 2, 3})};
-    const Visibility visibility =
-        find_visible(make_render_scene(scene), first_snapshot(scene), Camera(scene.camera, 320, 180));
-    EXPECT_TRUE(visibility.bodies[1]);
+    const RenderScene render_scene = make_render_scene(scene);
+    FrameSetup setup(scene, render_scene);
+    EXPECT_TRUE(find_visible(setup.prepare(first_snapshot(scene), false)).bodies[1]);
 }
 
 }  // namespace

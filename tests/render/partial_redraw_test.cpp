@@ -99,12 +99,12 @@ void expect_unchanged_elsewhere(const Image& before, const Image& after, const s
 
 // Returns the redrawn part of all frames.
 double draw_partly(unsigned seeds, Ground ground) {
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.full_redraw = true;
     double redrawn = 0.0;
     for (unsigned seed = 0; seed < seeds; ++seed) {
         const SceneDescription scene = random_scene(seed, ground);
-        Renderer partial(scene, {}), full(scene, everything);
+        Renderer partial(scene), full(scene, everything);
         Image before;
         Random random(1000 + seed);
         Snapshot snapshot = first_snapshot(scene);
@@ -136,7 +136,7 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawOnLargeGrounds) {
 
 // So high that it occludes nothing: only its shadow changes the receiver, in the near map and in the far one.
 TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.full_redraw = true;
     for (const bool mesh : {false, true}) {
         SceneDescription scene = empty_scene();
@@ -145,7 +145,7 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
         if (mesh) scene.bodies[0] = mesh_body(Vec3::Zero(), sheet_asset(16.0, 10), {176, 180, 184});
         scene.bodies.push_back(ball_body(Vec3(0.0, 2.0, 0.0), 0.3, {200, 60, 40}));
         scene.bodies.push_back(box_body(Vec3(-1.0, 0.25, 0.0), Vec3::Constant(0.5), {60, 90, 200}));
-        Renderer partial(scene, {}), full(scene, everything);
+        Renderer partial(scene), full(scene, everything);
         Snapshot snapshot = first_snapshot(scene);
         for (int step = 0; step < 30; ++step) {
             snapshot.bodies[1].origin = Vec3(0.25 * step, 2.0, -0.1 * step);
@@ -165,7 +165,7 @@ TEST(PartialRedraw, EarlierFramesHaveNoInfluence) {
     scene.camera.target = Vec3(0.0, 0.0, 0.0);
     scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
     for (int i = 0; i < 4; ++i) scene.bodies.push_back(box_body(Vec3::Zero(), Vec3::Constant(0.5), {200, 60, 40}));
-    Renderer used(scene, {});
+    Renderer used(scene);
     Snapshot snapshot = first_snapshot(scene);
     for (const auto& [wide, deep] : {std::pair{1.5, 0.4}, {0.4, 1.5}, {1.5, 1.5}, {2.5, 0.4}, {0.4, 2.5}, {2.5, 2.5}}) {
         for (int i = 0; i < 4; ++i)
@@ -184,7 +184,7 @@ TEST(PartialRedraw, ThinSidesHaveTheirOwnOcclusion) {
     scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
     Random random(3);
     for (int i = 0; i < 90; ++i) scene.bodies.push_back(box_body(Vec3::Zero(), Vec3(0.1, 0.004, 0.4), {200, 160, 140}));
-    Renderer used(scene, {});
+    Renderer used(scene);
     Snapshot snapshot = first_snapshot(scene);
     for (int arrangement = 0; arrangement < 12; ++arrangement) {
         for (std::size_t i = 1; i < snapshot.bodies.size(); ++i) {
@@ -197,7 +197,7 @@ TEST(PartialRedraw, ThinSidesHaveTheirOwnOcclusion) {
 
 TEST(PartialRedraw, DrawsNothingWhereNothingMoves) {
     const SceneDescription scene = random_scene(1);
-    Renderer renderer(scene, {});
+    Renderer renderer(scene);
     Random random(5);
     Snapshot snapshot = first_snapshot(scene);
     place(scene, random, snapshot);

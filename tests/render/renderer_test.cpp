@@ -30,7 +30,7 @@ SceneDescription mixed_scene() {
 TEST(Renderer, DrawsTheSameBytesTwice) {
     const SceneDescription scene = mixed_scene();
     const Snapshot snapshot = first_snapshot(scene);
-    Renderer first(scene, {});
+    Renderer first(scene);
     const Image once = first.render(snapshot);
     EXPECT_EQ(first.render(snapshot), once) << "a frame depends on the one before";
     EXPECT_EQ(once, drawn(scene)) << "a renderer depends on the one before";
@@ -40,7 +40,7 @@ TEST(Renderer, DoesNotRememberOtherFrames) {
     const SceneDescription scene = mixed_scene();
     Snapshot away = first_snapshot(scene);
     for (std::size_t i = 1; i < away.bodies.size(); ++i) away.bodies[i].origin += Vec3(3.0, 40.0, 2.0) * double(i);
-    Renderer renderer(scene, {});
+    Renderer renderer(scene);
     renderer.render(away);
     EXPECT_EQ(renderer.render(first_snapshot(scene)), drawn(scene));
 }
@@ -49,7 +49,7 @@ TEST(Renderer, TwoInOneThreadKeepApart) {
     const SceneDescription scene = mixed_scene();
     const Image alone = drawn(scene);
     auto first = std::make_unique<Renderer>(scene, RenderOptions{});
-    Renderer second(scene, {});
+    Renderer second(scene);
     EXPECT_EQ(first->render(first_snapshot(scene)), alone) << "the first, after the second was made";
     first.reset();
     EXPECT_EQ(second.render(first_snapshot(scene)), alone) << "the second, after the first was destroyed";
@@ -114,7 +114,7 @@ TEST(Renderer, DrawsAllPartsOfABody) {
 }
 
 TEST(Renderer, NamesItsDriver) {
-    Renderer renderer(empty_scene(), {});
+    Renderer renderer(empty_scene());
     EXPECT_NE(renderer.driver().find("OpenGL"), std::string::npos) << renderer.driver();
 }
 
@@ -182,7 +182,7 @@ TEST(Renderer, AveragesTheSamplesOfAPixel) {
                              Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())))};
     for (const int samples : {1, 4}) {  // llvmpipe has no other numbers: 2 are drawn as 4
         scene.output.samples = samples;
-        RenderOptions options = shaders.options();
+        const RenderSwitches options = shaders.options();
         options.multisample = true;
         const Image image = drawn(scene, options);
         std::set<int> values;
@@ -218,7 +218,7 @@ TEST(Renderer, TurnsWithTheBody) {
 TEST(Renderer, RefusesAPictureThatTheDriverCannotHold) {
     SceneDescription scene = empty_scene();
     scene.output.width = 1 << 20;
-    EXPECT_THROW(Renderer(scene, {}), RunError);
+    EXPECT_THROW(Renderer(scene), RunError);
 }
 
 }  // namespace

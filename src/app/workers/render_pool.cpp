@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
+#include "render/render_switches.h"
 
 #include <sys/mman.h>
 
@@ -74,7 +75,7 @@ private:
 RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
                        int workers, int most_moments)
     : turns_(make_turns(workers)), drawn_poses_(scene), aov_changes_(scene), forms_(forms) {
-    RenderOptions in_turns = options;
+    RenderSwitches in_turns{options};
     in_turns.compile_schedule = turns_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {

@@ -70,7 +70,7 @@ WorkTime timed(const Work& work) {
 /// The child process: its OpenGL context, and its previous frame with all outputs.
 class FrameMaker {
 public:
-    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+    FrameMaker(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& forms,
                SharedFrames& memory)
         : memory_(memory) {
         if (forms.picture()) renderer_.emplace(scene, options);
@@ -146,7 +146,7 @@ std::string reason(const std::exception& error) {
     return std::string(text);
 }
 
-[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+[[noreturn]] void work(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& forms,
                        SharedFrames& memory, int socket) {
     ::setpgid(0, 0);  // Ctrl-C must reach it only through the program
     sigset_t none;
@@ -179,7 +179,7 @@ std::string reason(const std::exception& error) {
 
 }  // namespace
 
-RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& forms,
+RenderProcess::RenderProcess(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& forms,
                              int slots, int most_moments, std::span<const int> other_sockets)
     : memory_(std::make_shared<SharedFrames>(scene, forms, slots, most_moments)) {
     int ends[2];

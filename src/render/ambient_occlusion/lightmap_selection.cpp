@@ -42,7 +42,7 @@ struct Charted {
 };
 
 bool chart(RenderScene& scene, const RenderBody& proxy, double cell, double coarsest, std::vector<Charted>& charted) {
-    const MeshAsset* asset = scene.meshes[proxy.mesh].asset;
+    const MeshAsset* asset = scene.meshes[proxy.mesh].asset.get();
     for (; cell <= coarsest; cell *= 2.0)
         if (auto charts = make_mesh_charts(*asset, cell, most_texels)) {
             charted.push_back({asset, scene.meshes.size(), std::ptrdiff_t(scene.lightmaps.size())});
@@ -73,7 +73,7 @@ void select_lightmaps(const SceneDescription& description, RenderScene& scene) {
         if (description.bodies[i].type != BodyType::fixed || proxy.bound_radius < large_of_ao_radius * ao_radius)
             continue;
         if (proxy.kind == DrawKind::mesh) {
-            const MeshAsset* asset = scene.meshes[proxy.mesh].asset;
+            const MeshAsset* asset = scene.meshes[proxy.mesh].asset.get();
             auto known =
                 std::find_if(charted.begin(), charted.end(), [&](const Charted& c) { return c.asset == asset; });
             if (known == charted.end()) {

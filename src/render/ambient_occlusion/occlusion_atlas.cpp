@@ -36,33 +36,35 @@ double occlusion_lod(double pixels, double few, double all) {
 }
 
 struct AmbientOcclusion::State {
-    struct Pose {
-        Vec3 origin;
-        Quat orientation;
-    };
     // The state that a body's texels were made from, apart from the bodies around it.
     struct Made {
         std::uint8_t faces = 0;  // up to date; 1 for shapes without faces
-        float detail = 0.0f;
+        float lod = 0.0f;
     };
 
-    State(const RenderScene& l, const Vec3& r) : scene(l), reference(r), made(l.bodies.size()) {
+    State(const RenderScene& s, const Vec3& r) : scene(s), reference(r), made(s.bodies.size()) {
         lay_out_places(scene, atlas);
         body_rows = atlas.height;
         atlas.texels.resize(std::size_t(atlas.height) * OcclusionAtlas::width, 255);
         lightmaps.resize(scene.lightmaps.empty() ? 0 : scene.bodies.size());
     }
 
-    void follow(const Snapshot& snapshot);
-    void find_planes(const Snapshot& snapshot, const Camera& view);
-    void forget_touched(const Visibility& visibility, const OccluderFinder& movers);
-    void update_plane_tiles(const Snapshot& snapshot);
-    void update_body(std::size_t body, std::uint8_t visible, const Camera& view);
-    void update_lightmap(std::size_t body, const OccluderFinder& movers);
+    void follow(const FrameContext& frame);
+    void find_planes(const FrameContext& frame);
+    void forget_touched(const Visibility& visible, const OccluderFinder& movers);
+    void update_plane_tiles(const FrameContext& frame);
+    void update_body(std::size_t body, std::uint8_t visible_faces, const FrameContext& frame);
+    void update_lightmap(std::size_t body, const BodyPlace& pose, const OccluderFinder& movers);
     bool store(int x, int y, int width, int height, int stride, const float* open);
     void store_receiver_face(std::size_t body, int x, int y, int size, const float* open);
+
     Vec3 center_of(std::size_t body) const {  // of the bounding ball
-        return Vec3(poses[body].origin - reference) + poses[body].orientation * scene.bodies[body].bound_center;
+        return Vec3(snapshot->bodies[body].origin - reference) +
+               snapshot->bodies[body].orientation * scene.bodies[body].bound_center;
+    }
+    BodyPlace pose_of(std::size_t body) const {
+        const BodyState& state = snapshot->bodies[body];
+        return {state.origin - reference, center_of(body), state.orientation.toRotationMatrix()};
     }
 
     const RenderScene& scene;
@@ -70,7 +72,7 @@ struct AmbientOcclusion::State {
     OcclusionAtlas atlas;
     int body_rows = 1;  // of the atlas; plane tiles are below them
     OcclusionChanges changes;
-    std::vector<Pose> poses;                 // of the previous update
+    const Snapshot* snapshot = nullptr;      // of the current update
     std::vector<Occluder> occluders, moved;  // of all bodies; of those that moved, at both poses
     std::vector<std::uint32_t> first;        // first occluder of each body, and the end
     OccluderFinder finder{{}};
@@ -81,41 +83,33 @@ struct AmbientOcclusion::State {
     PlaneOcclusion plane_occlusion;
     BodyOcclusion body_occlusion{scene};
     std::vector<std::size_t> found;                           // possible occluders of the current body
-    std::vector<std::optional<LightmapOcclusion>> lightmaps;  // lightmaps, made when first visible
+    std::vector<std::optional<LightmapOcclusion>> lightmaps;  // made when first visible
 };
 
-// Takes over the poses: rebuilds the occluders and finds those that moved.
-void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
+// Rebuilds the occluders of the bodies that moved, and finds these.
+void AmbientOcclusion::State::follow(const FrameContext& frame) {
+    snapshot = &frame.snapshot;
     const std::size_t bodies = scene.bodies.size();
     moved.clear();
     moved_much = false;
-    if (poses.empty()) {
+    if (first.empty()) {
         for (std::size_t i = 0; i < bodies; ++i) {
-            const BodyState& state = snapshot.bodies[i];
-            poses.push_back({state.origin, state.orientation});
             first.push_back(std::uint32_t(occluders.size()));
-            add_occluders(scene, i, state, reference, occluders);
+            add_occluders(scene, i, snapshot->bodies[i], reference, occluders);
         }
         first.push_back(std::uint32_t(occluders.size()));
         finder = OccluderFinder(occluders);
         return;
     }
-    const auto has_moved = [&](std::size_t i) {
-        const BodyState& state = snapshot.bodies[i];
-        return poses[i].origin != state.origin || poses[i].orientation.coeffs() != state.orientation.coeffs();
-    };
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < bodies; ++i) count += has_moved(i) ? 1 : 0;
+    const auto count = std::count(frame.moved.begin(), frame.moved.end(), char(1));
     if (count == 0) return;
     moved_much = double(count) > most_moved * double(bodies);
     std::vector<Occluder> now;
     for (std::size_t i = 0; i < bodies; ++i) {
-        if (!has_moved(i)) continue;
-        const BodyState& state = snapshot.bodies[i];
-        poses[i] = {state.origin, state.orientation};
+        if (frame.moved[i] == 0) continue;
         made[i].faces = 0;
         now.clear();
-        add_occluders(scene, i, state, reference, now);
+        add_occluders(scene, i, snapshot->bodies[i], reference, now);
         const auto place = occluders.begin() + first[i];
         if (!moved_much) {
             moved.insert(moved.end(), place, place + std::ptrdiff_t(now.size()));
@@ -126,11 +120,11 @@ void AmbientOcclusion::State::follow(const Snapshot& snapshot) {
     finder = OccluderFinder(occluders);
 }
 
-void AmbientOcclusion::State::find_planes(const Snapshot& snapshot, const Camera& view) {
+void AmbientOcclusion::State::find_planes(const FrameContext& frame) {
     std::vector<PlaneInView> now;
     for (const std::size_t i : scene.planes) {
-        const PlaneShape plane = plane_in_world(scene.bodies[i], snapshot.bodies[i]);
-        if (plane.normal.dot(view.eye()) - plane.offset > 0.0)
+        const PlaneShape plane = plane_in_world(scene.bodies[i], snapshot->bodies[i]);
+        if (plane.normal.dot(frame.camera.eye()) - plane.offset > 0.0)
             now.push_back({i, plane.normal.cast<float>(), float(plane.normal.dot(reference) - plane.offset)});
     }
     if (now != planes) anew = true;
@@ -138,7 +132,7 @@ void AmbientOcclusion::State::find_planes(const Snapshot& snapshot, const Camera
 }
 
 // Marks the bodies near an occluder that moved.
-void AmbientOcclusion::State::forget_touched(const Visibility& visibility, const OccluderFinder& movers) {
+void AmbientOcclusion::State::forget_touched(const Visibility& visible, const OccluderFinder& movers) {
     if (anew || moved_much) {
         for (Made& body : made) body.faces = 0;
         return;
@@ -146,32 +140,31 @@ void AmbientOcclusion::State::forget_touched(const Visibility& visibility, const
     if (moved.empty()) return;
     for (std::size_t i = 0; i < made.size(); ++i)  // hidden bodies are updated when they become visible
         if (made[i].faces != 0 &&
-            (!visibility.bodies[i] || (scene.bodies[i].lightmap < 0 &&
-                                       movers.any(center_of(i).cast<float>(), float(scene.bodies[i].bound_radius)))))
+            (!visible.bodies[i] || (scene.bodies[i].lightmap < 0 &&
+                                    movers.any(center_of(i).cast<float>(), float(scene.bodies[i].bound_radius)))))
             made[i].faces = 0;
 }
 
-void AmbientOcclusion::State::update_plane_tiles(const Snapshot& snapshot) {
+void AmbientOcclusion::State::update_plane_tiles(const FrameContext& frame) {
     ShelfPacker shelves(body_rows, OcclusionAtlas::most_rows);
-    std::vector<PlaneOcclusionTile> plane_tiles;
+    std::vector<PlaneOcclusionTile> tiles;
+    const FrameOccluders around{frame, reference, occluders, moved, anew || moved_much};
+    const auto keep = [&](int x, int y, int width, int height, int stride, const float* open) {
+        const int needed = y + height;
+        if (needed > atlas.height) {
+            atlas.height = needed;
+            atlas.texels.resize(std::size_t(needed) * OcclusionAtlas::width, 255);
+        }
+        store(x, y, width, height, stride, open);
+    };
     for (const PlaneInView& plane : planes) {
         const auto known = std::find_if(atlas.plane_tiles.begin(), atlas.plane_tiles.end(),
-                                        [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
-        PlaneOcclusionTile tile;
-        const auto keep = [&](int x, int y, int width, int height, int stride, const float* open) {
-            const int needed = y + height;
-            if (needed > atlas.height) {
-                atlas.height = needed;
-                atlas.texels.resize(std::size_t(needed) * OcclusionAtlas::width, 255);
-            }
-            store(x, y, width, height, stride, open);
-        };
-        if (plane_occlusion.update(plane, scene, snapshot, reference, occluders, moved, anew || moved_much,
-                                   known == atlas.plane_tiles.end() ? nullptr : &*known, shelves, tile, keep))
-            plane_tiles.push_back(tile);
+                                        [&](const PlaneOcclusionTile& t) { return t.body == plane.body; });
+        const PlaneOcclusionTile* last = known == atlas.plane_tiles.end() ? nullptr : &*known;
+        if (const auto tile = plane_occlusion.update(plane, around, last, shelves, keep)) tiles.push_back(*tile);
     }
-    changes.plane_tiles_moved = plane_tiles != atlas.plane_tiles;
-    atlas.plane_tiles = std::move(plane_tiles);
+    changes.plane_tiles_moved = tiles != atlas.plane_tiles;
+    atlas.plane_tiles = std::move(tiles);
 }
 
 // `stride`: distance between rows of the visibilities.
@@ -217,19 +210,20 @@ void AmbientOcclusion::State::store_receiver_face(std::size_t body, int x, int y
         }
 }
 
-void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible, const Camera& view) {
+void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible_faces, const FrameContext& frame) {
     const RenderBody& proxy = scene.bodies[body];
     const Sizes& sizes = proxy.kind == DrawKind::box    ? box_sizes
                          : proxy.kind == DrawKind::ball ? ball_sizes
                                                         : mesh_sizes;
     const Vec3 middle = center_of(body);
     const double size = 2.0 * (proxy.kind == DrawKind::mesh ? proxy.bound_radius : proxy.half_size.maxCoeff());
-    const double pixels = size / (std::max((middle + reference - view.eye()).norm(), 1e-30) * view.pixel_size());
-    const float detail = scene.bodies.size() < large_scene ? 1.0f : float(occlusion_lod(pixels, sizes.few, sizes.all));
+    const double distance = std::max((middle + reference - frame.camera.eye()).norm(), 1e-30);
+    const double pixels = size / (distance * frame.camera.pixel_size());
+    const float lod = scene.bodies.size() < large_scene ? 1.0f : float(occlusion_lod(pixels, sizes.few, sizes.all));
     Made& known = made[body];
-    if (known.detail != detail) known = {0, detail};
-    const std::uint8_t wanted = proxy.kind == DrawKind::box ? visible : std::uint8_t(1);
-    const auto missing = std::uint8_t(wanted & ~known.faces);
+    if (known.lod != lod) known = {0, lod};
+    const std::uint8_t requested = proxy.kind == DrawKind::box ? visible_faces : std::uint8_t(1);
+    const auto missing = std::uint8_t(requested & ~known.faces);
     if (missing == 0) return;
     known.faces |= missing;
 
@@ -240,8 +234,7 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     for (const PlaneInView& plane : planes)
         if (plane.normal.dot(center) + plane.height < proxy.bound_radius + 2.0 * proxy.ao_radius)
             near_planes.push_back(plane);
-    const BodyPlace place{poses[body].origin - reference, middle, poses[body].orientation.toRotationMatrix()};
-    const Surroundings around{occluders, found, near_planes};
+    const Receiver receiver{proxy, atlas.places[body], pose_of(body), {occluders, found, near_planes}, lod};
     const auto keep = [&](int x, int y, int width, int height, const float* open) {
         return store(x, y, width, height, width, open);
     };
@@ -254,31 +247,30 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
     switch (proxy.kind) {
         case DrawKind::box:
             faces = body_occlusion.make_box(
-                proxy, atlas.places[body], place, around, missing, detail,
+                receiver, missing,
                 proxy.large_receiver ? BodyOcclusion::Store(keep_receiver) : BodyOcclusion::Store(keep));
             changed = faces != 0;
             break;
         case DrawKind::ball:
-            changed = body_occlusion.make_ball(proxy, atlas.places[body], place, around, detail, keep);
+            changed = body_occlusion.make_ball(receiver, keep);
             break;
         default:
-            changed = body_occlusion.make_mesh(proxy, atlas.places[body], place, around, detail, keep);
+            changed = body_occlusion.make_mesh(receiver, keep);
     }
     if (changed) changes.bodies.push_back({body, faces});
 }
 
 // forget_touched() has marked the bodies near occluders that moved, or all if many moved.
-void AmbientOcclusion::State::update_lightmap(std::size_t body, const OccluderFinder& movers) {
+void AmbientOcclusion::State::update_lightmap(std::size_t body, const BodyPlace& pose, const OccluderFinder& movers) {
     const RenderBody& proxy = scene.bodies[body];
     Made& known = made[body];
     if (known.faces != 0 && moved.empty()) return;
     std::optional<LightmapOcclusion>& occlusion = lightmaps[body];
     const bool all = known.faces == 0;
     if (!occlusion || all) {
-        const LightmapBody place{body, &scene.lightmaps[std::size_t(proxy.lightmap)], poses[body].origin - reference,
-                                 poses[body].orientation.toRotationMatrix(), proxy.ao_radius};
         if (!occlusion) occlusion.emplace();
-        occlusion->place(place);
+        occlusion->place(
+            {body, &scene.lightmaps[std::size_t(proxy.lightmap)], pose.origin, pose.axes, proxy.ao_radius});
     }
     known.faces = 1;
     const OcclusionPlace& at = atlas.places[body];
@@ -294,26 +286,25 @@ AmbientOcclusion::AmbientOcclusion(const RenderScene& scene, const Vec3& referen
 AmbientOcclusion::~AmbientOcclusion() = default;
 
 const OcclusionAtlas& AmbientOcclusion::atlas() const { return state_->atlas; }
+const OcclusionChanges& AmbientOcclusion::changes() const { return state_->changes; }
 
-const OcclusionChanges& AmbientOcclusion::update(const Snapshot& snapshot, const Camera& view,
-                                                 const Visibility& visibility) {
+void AmbientOcclusion::update(const FrameContext& frame, const Visibility& visible) {
     State& s = *state_;
     s.changes = {};
     s.changes.first_row = OcclusionAtlas::most_rows;
-    s.follow(snapshot);
-    s.find_planes(snapshot, view);
+    s.follow(frame);
+    s.find_planes(frame);
     const OccluderFinder movers(s.moved);
-    s.forget_touched(visibility, movers);
-    s.update_plane_tiles(snapshot);
+    s.forget_touched(visible, movers);
+    s.update_plane_tiles(frame);
     for (std::size_t i = 0; i < s.made.size(); ++i) {
-        if (!visibility.bodies[i] || s.atlas.places[i].size == 0) continue;
+        if (!visible.bodies[i] || s.atlas.places[i].size == 0) continue;
         if (s.scene.bodies[i].lightmap >= 0)
-            s.update_lightmap(i, movers);
+            s.update_lightmap(i, s.pose_of(i), movers);
         else
-            s.update_body(i, visibility.faces[i], view);
+            s.update_body(i, visible.faces[i], frame);
     }
     s.anew = false;
-    return s.changes;
 }
 
 }  // namespace tumble

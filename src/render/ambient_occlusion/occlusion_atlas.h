@@ -9,10 +9,8 @@
 #pragma once
 
 #include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/camera/camera.h"
 #include "render/culling/occlusion_culling.h"
-#include "render/scene/render_scene.h"
-#include "sim/snapshot/snapshot.h"
+#include "render/frame/frame_context.h"
 
 #include <cstdint>
 #include <memory>
@@ -79,9 +77,11 @@ public:
     ~AmbientOcclusion();
 
     /// Updates the places of visible bodies and the plane tiles; other bodies keep their texels.
-    const OcclusionChanges& update(const Snapshot& snapshot, const Camera& view, const Visibility& visibility);
+    void update(const FrameContext& frame, const Visibility& visible);
 
     const OcclusionAtlas& atlas() const;
+    /// By the last update.
+    const OcclusionChanges& changes() const;
 
 private:
     struct State;

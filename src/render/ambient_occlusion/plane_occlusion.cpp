@@ -68,10 +68,12 @@ bool PlaneOcclusion::place(PlaneOcclusionTile& tile, ShelfPacker& shelves) const
     return shelves.take(tile.width, tile.height, tile.x, tile.y);
 }
 
-bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& scene, const Snapshot& snapshot,
-                            const Vec3& reference, const std::vector<Occluder>& occluders,
-                            const std::vector<Occluder>& moved, bool everything, const PlaneOcclusionTile* known,
-                            ShelfPacker& shelves, PlaneOcclusionTile& tile, const Store& store) {
+std::optional<PlaneOcclusionTile> PlaneOcclusion::update(const PlaneInView& plane, const FrameOccluders& occluders,
+                                                         const PlaneOcclusionTile* known, ShelfPacker& shelves,
+                                                         const Store& store) {
+    const RenderScene& scene = occluders.frame.scene;
+    const Snapshot& snapshot = occluders.frame.snapshot;
+    const Vec3& reference = occluders.reference;
     const RenderBody& proxy = scene.bodies[plane.body];
     const BodyState& state = snapshot.bodies[plane.body];
     const PlaneAxes axes = plane_axes(proxy.plane.normal);
@@ -85,17 +87,17 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& scene, 
             {&o, u.dot(from_origin), v.dot(from_origin), double(o.bound_radius) + double(o.ao_radius), height});
     };
     feet_.clear();
-    for (const Occluder& o : occluders) add_foot(o, feet_);
-    if (feet_.empty()) return false;
-    tile = {};
+    for (const Occluder& o : occluders.all) add_foot(o, feet_);
+    if (feet_.empty()) return std::nullopt;
+    PlaneOcclusionTile tile;
     tile.body = plane.body;
     // A power of two, with the tile on whole cells: texels keep their places while bodies move.
     const double cell = tile.cell = scene.plane_cell;
-    if (!place(tile, shelves)) return false;
+    if (!place(tile, shelves)) return std::nullopt;
 
     const int columns = (tile.width + update_block - 1) / update_block,
               rows = (tile.height + update_block - 1) / update_block;
-    const bool all = everything || known == nullptr || *known != tile;
+    const bool all = occluders.anew || known == nullptr || *known != tile;
     dirty_.assign(std::size_t(columns) * std::size_t(rows), all ? 1 : 0);
     const auto for_blocks = [&](const Texels& t, const auto& see) {
         for (int row = t.j0 / update_block; row <= t.j1 / update_block; ++row)
@@ -104,8 +106,8 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& scene, 
     };
     if (!all) {
         std::vector<Foot> moved_feet;
-        for (const Occluder& o : moved) add_foot(o, moved_feet);
-        if (moved_feet.empty()) return true;
+        for (const Occluder& o : occluders.moved) add_foot(o, moved_feet);
+        if (moved_feet.empty()) return tile;
         for (const Foot& foot : moved_feet)
             if (const Texels t = touched(foot, tile); !t.empty()) for_blocks(t, [](char& dirty) { dirty = 1; });
     }
@@ -129,8 +131,8 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& scene, 
                                        double(o.half_size.minCoeff()) + double(o.radius), foot.height);
         if (exposed <= 0.0f) continue;
         const Vec3 corner = on_plane + u * ((tile.low_a + t.i0) * cell) + v * ((tile.low_b + t.j0) * cell);
-        around_foot_.set(corner.cast<float>(), (u * cell).cast<float>(), (v * cell).cast<float>(), plane.normal,
-                         t.i1 - t.i0 + 1, t.j1 - t.j0 + 1);
+        around_foot_.set({corner.cast<float>(), (u * cell).cast<float>(), (v * cell).cast<float>(), plane.normal,
+                          t.i1 - t.i0 + 1, t.j1 - t.j0 + 1});
         around_foot_.occlude(o, o.ao_radius);
         const float* share = around_foot_.open().data();
         for (int j = t.j0; j <= t.j1; ++j)
@@ -144,7 +146,7 @@ bool PlaneOcclusion::update(const PlaneInView& plane, const RenderScene& scene, 
                       std::min(update_block, tile.width - column * update_block),
                       std::min(update_block, tile.height - row * update_block), tile.width,
                       &open_[std::size_t(row * update_block * tile.width + column * update_block)]);
-    return true;
+    return tile;
 }
 
 }  // namespace tumble

@@ -11,6 +11,7 @@
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -23,15 +24,23 @@ struct PlaneInView {
     friend bool operator==(const PlaneInView&, const PlaneInView&) = default;
 };
 
+/// The occluders of a frame, with all positions relative to `reference`.
+struct FrameOccluders {
+    const FrameContext& frame;
+    Vec3 reference;  // m
+    const std::vector<Occluder>& all;
+    const std::vector<Occluder>& moved;  // those that moved since the previous frame, at both poses
+    bool anew;                           // any may have moved
+};
+
 class PlaneOcclusion {
 public:
-    /// Updates a plane's tile. `known`: its last tile, if the plane has not moved. `moved`: the occluders that have
-    /// moved since, at both poses; none for `everything`. `store` takes visibilities of the texels from (x, y) on, with
-    /// rows `stride` apart. Returns false if no body is near the plane or there is no room.
+    /// Updates a plane's tile and returns it; nothing if no body is near the plane or there is no room. `known`: its
+    /// last tile, if the plane has not moved. `store` takes visibilities of the texels from (x, y) on, with rows
+    /// `stride` apart.
     using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
-    bool update(const PlaneInView& plane, const RenderScene& scene, const Snapshot& snapshot, const Vec3& reference,
-                const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
-                const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& tile, const Store& store);
+    std::optional<PlaneOcclusionTile> update(const PlaneInView& plane, const FrameOccluders& occluders,
+                                             const PlaneOcclusionTile* known, ShelfPacker& shelves, const Store& store);
 
 private:
     struct Foot {

@@ -15,7 +15,7 @@ namespace {
 constexpr int search = 3;
 
 // Pixels to both sides along a rod over which its color is averaged, because its sides alternate at pixel centers.
-constexpr int along = 2;
+constexpr int averaged = 2;
 
 struct Mean {
     std::array<double, 3> sum{};  // sRGB values, 0 to 255
@@ -83,7 +83,7 @@ public:
                 !of_rod(m + 1, n))
                 return;
             Mean own;
-            for (int other = m - along; other <= m + along; ++other)
+            for (int other = m - averaged; other <= m + averaged; ++other)
                 for (int across = n - 1; across <= n + 1; ++across)
                     if (of_rod(other, across)) own.add(at(other, across));
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];

@@ -47,13 +47,13 @@ double ShadowLight::margin_on_plane(const DrawableBounds& item, double approach)
     return margin(item) * std::min(filter_extent(approach) / cascades.filter.extent, 1.0);
 }
 
-void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, const PlaneOcclusionExtent& occlusion,
                    const ShadowLight& light, const Camera& view, DirtyTiles& dirty) {
     const double height = plane.normal.dot(item.center) + plane.height;
     if (height < -item.radius) return;
-    if (ao_radius > 0.0 && height < item.radius + 2.0 * ao_radius &&
-        view.sees(item.center, item.radius + 2.0 * ao_radius))
-        dirty.mark_hull(foot_print(plane, item, ao_radius + blur));
+    if (occlusion.ao_radius > 0.0 && height < item.radius + 2.0 * occlusion.ao_radius &&
+        view.sees(item.center, item.radius + 2.0 * occlusion.ao_radius))
+        dirty.mark_hull(foot_print(plane, item, occlusion.ao_radius + occlusion.blur));
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0 || !view.sees_swept(item.center, item.radius, light.direction)) return;
     if (approach < least_approach) return dirty.mark_all();
@@ -62,7 +62,7 @@ void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double a
     dirty.mark_hull(feet, light.margin_on_plane(item, approach) / approach);
 }
 
-bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+bool may_touch(const PlanePatch& plane, const DrawableBounds& item, const PlaneOcclusionExtent& occlusion,
                const ShadowLight& light, const Camera& view, const Rectangle& part) {
     constexpr double margin = 8.0;  // pixels: more than the margin of DirtyTiles
     const double height = plane.normal.dot(item.center) + plane.height;
@@ -76,7 +76,8 @@ bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double ao_ra
     };
     // The corners of a ball's box are 1.74 radii from its center; a rectangle around them extends 1.42 times as far,
     // and an oblique shadow twice as far, over the sine of the elevation.
-    if (meets(item.center - plane.normal * height, 2.5 * (item.radius + ao_radius + blur))) return true;
+    if (meets(item.center - plane.normal * height, 2.5 * (item.radius + occlusion.ao_radius + occlusion.blur)))
+        return true;
     const double approach = -plane.normal.dot(light.direction);
     if (!light.shadows || approach <= 0.0) return false;
     return meets(item.center + light.direction * (height / approach),

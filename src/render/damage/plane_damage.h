@@ -30,14 +30,19 @@ struct ShadowLight {
     double margin_on_plane(const DrawableBounds& item, double approach) const;
 };
 
-/// Marks the item's shadow on the plane and its occlusion of the plane within `ao_radius` (m; 0: none), which is blurred by
-/// `blur` (m).
-void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+/// How far a drawable occludes a plane, m; 0: not at all.
+struct PlaneOcclusionExtent {
+    double ao_radius = 0.0;
+    double blur = 0.0;  // by the interpolation between texels
+};
+
+/// Marks the drawable's shadow on the plane and its occlusion of the plane.
+void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, const PlaneOcclusionExtent& occlusion,
                    const ShadowLight& light, const Camera& view, DirtyTiles& dirty);
 
 /// False if mark_on_plane() certainly marks nothing in the given part of the frame: true of most bodies if little
 /// changed.
-bool may_touch(const PlanePatch& plane, const DrawableBounds& item, double ao_radius, double blur,
+bool may_touch(const PlanePatch& plane, const DrawableBounds& item, const PlaneOcclusionExtent& occlusion,
                const ShadowLight& light, const Camera& view, const Rectangle& part);
 
 }  // namespace tumble

@@ -1,5 +1,6 @@
 #include "render/damage/plane_dirty_regions.h"
 
+#include "render/damage/plane_damage.h"
 #include "render/scene/plane_axes.h"
 
 #include <algorithm>
@@ -23,13 +24,14 @@ bool covered(int column, int row, const PlanePatch& plane, const Camera& view, c
 constexpr int area_block = 4, longest_run = 32;  // texels
 
 // Marks the runs of blocks with occlusion in the plane's tile of the atlas.
-void mark_occlusion(const PlanePatch& plane, const OcclusionAtlas& atlas, const RenderScene& scene,
-                    const Snapshot& snapshot, const Camera& view, DirtyTiles& touched) {
+void mark_occlusion(const PlanePatch& plane, const OcclusionAtlas& atlas, const FrameContext& frame,
+                    DirtyTiles& cells) {
     const auto tile = std::find_if(atlas.plane_tiles.begin(), atlas.plane_tiles.end(),
                                    [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
     if (tile == atlas.plane_tiles.end()) return;
-    const BodyState& state = snapshot.bodies[plane.body];
-    const PlaneAxes axes = plane_axes(scene.bodies[plane.body].plane.normal);
+    const BodyState& state = frame.snapshot.bodies[plane.body];
+    const Camera& view = frame.camera;
+    const PlaneAxes axes = plane_axes(frame.scene.bodies[plane.body].plane.normal);
     const Vec3 u = state.orientation * axes.u, v = state.orientation * axes.v, eye = view.eye() - state.origin;
     const auto place = [&](int i, int j) -> Vec3 {
         return u * ((tile->low_a + i) * tile->cell - u.dot(eye)) + v * ((tile->low_b + j) * tile->cell - v.dot(eye)) -
@@ -39,7 +41,7 @@ void mark_occlusion(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
         const std::array<Vec3, 4> corners{place(left - 1, top - 1), place(right, top - 1), place(right, bottom),
                                           place(left - 1, bottom)};
         if (view.sees(0.5 * (corners[0] + corners[2]), 0.5 * (corners[2] - corners[0]).norm()))
-            touched.mark_hull(corners);
+            cells.mark_hull(corners);
     };
     const auto dark = [&](int i, int j) {
         constexpr std::array<std::uint8_t, area_block> open{255, 255, 255, 255};
@@ -63,27 +65,26 @@ void mark_occlusion(const PlanePatch& plane, const OcclusionAtlas& atlas, const 
 
 }  // namespace
 
-std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const SceneDescription& description,
-                                          const RenderScene& scene, const std::vector<DrawableBounds>& items,
-                                          const Camera& view, const ShadowCascades& shadows,
+std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const FrameContext& frame,
                                           const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
-                                          const Snapshot& snapshot, const DirtyTiles& dirty) {
+                                          const DirtyTiles& dirty) {
     constexpr int per_tile = DirtyTiles::tile / CoarseDepthBuffer::cell;
     static_assert(per_tile * CoarseDepthBuffer::cell == DirtyTiles::tile);
-    DirtyTiles touched(view, CoarseDepthBuffer::cell);
-    const ShadowLight light(description.light, shadows);
-    const Rectangle marked = dirty.bounds();
-    for (std::size_t i = 0; i < items.size() && !touched.all(); ++i)
-        if (items[i].exists() && may_touch(plane, items[i], 0.0, 0.0, light, view, marked))
-            mark_on_plane(plane, items[i], 0.0, 0.0, light, view, touched);
-    mark_occlusion(plane, atlas, scene, snapshot, view, touched);
-    // The plane is drawn neither outside the marked tiles nor behind boxes. A rectangle costs ten microseconds, as much
+    DirtyTiles cells(frame.camera, CoarseDepthBuffer::cell);
+    const ShadowLight light(frame.scene.light, frame.cascades);
+    const Rectangle part = dirty.bounds();
+    for (const std::vector<DrawableBounds>* casters : {&frame.drawables.bodies, &frame.drawables.cords})
+        for (const DrawableBounds& caster : *casters)
+            if (caster.exists() && !cells.all() && may_touch(plane, caster, {}, light, frame.camera, part))
+                mark_on_plane(plane, caster, {}, light, frame.camera, cells);
+    mark_occlusion(plane, atlas, frame, cells);
+    // The plane is drawn neither outside the dirty tiles nor behind boxes. A rectangle costs ten microseconds, as much
     // as twenty such cells.
     const auto closed = [&](int column, int row) {
-        return !dirty.at(column / per_tile, row / per_tile) || covered(column, row, plane, view, cover);
+        return !dirty.at(column / per_tile, row / per_tile) || covered(column, row, plane, frame.camera, cover);
     };
     return cell_rectangles(
-        touched.grid(), [&](int column, int row) { return touched.at(column, row) && !closed(column, row); }, closed);
+        cells.grid(), [&](int column, int row) { return cells.at(column, row) && !closed(column, row); }, closed);
 }
 
 }  // namespace tumble

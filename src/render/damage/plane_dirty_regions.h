@@ -5,18 +5,16 @@
 #include "core/rectangle.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/culling/occlusion_culling.h"
-#include "render/damage/plane_damage.h"
+#include "render/damage/dirty_tiles.h"
+#include "render/frame/frame_context.h"
 
 #include <vector>
 
 namespace tumble {
 
-/// Within the marked tiles. `items`: possible casters; `atlas`: texels with occlusion (the AO radius of most bodies
-/// exceeds the visible effect).
-std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const SceneDescription& description,
-                                          const RenderScene& scene, const std::vector<DrawableBounds>& items,
-                                          const Camera& view, const ShadowCascades& shadows,
+/// Within the dirty tiles. `atlas`: texels with occlusion (the AO radius of most bodies exceeds the visible effect).
+std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const FrameContext& frame,
                                           const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
-                                          const Snapshot& snapshot, const DirtyTiles& dirty);
+                                          const DirtyTiles& dirty);
 
 }  // namespace tumble

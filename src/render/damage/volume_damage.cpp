@@ -6,20 +6,20 @@
 
 namespace tumble {
 
-VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const RenderScene& scene,
-                           const BodyState& state, const ShadowLight& light, const Camera& view)
+VolumeDamage::VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const FrameContext& frame,
+                           const BodyState& state, const ShadowLight& light)
     : light_(light),
-      view_(&view),
+      view_(&frame.camera),
       axes_(state.orientation.toRotationMatrix()),
       two_maps_(light.cascades.may_look_far(item.center, item.radius)) {
     if (proxy.lightmap < 0) {
         boxes_.push_back({item.center, item.half_axes.colwise().norm()});
         return;
     }
-    const Vec3 origin = view.relative(state.origin);
-    for (const OcclusionLightmap::Group& group : scene.lightmaps[std::size_t(proxy.lightmap)].groups) {
+    const Vec3 origin = frame.camera.relative(state.origin);
+    for (const OcclusionLightmap::Group& group : frame.scene.lightmaps[std::size_t(proxy.lightmap)].groups) {
         const Vec3 center = origin + axes_ * group.bounds.center();
-        if (view.sees(center, 0.5 * group.bounds.extent().norm()))
+        if (frame.camera.sees(center, 0.5 * group.bounds.extent().norm()))
             boxes_.push_back({center, 0.5 * group.bounds.extent()});
     }
 }

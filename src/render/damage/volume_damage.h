@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/damage/plane_damage.h"
+#include "render/frame/frame_context.h"
 
 #include <vector>
 
@@ -11,8 +12,8 @@ namespace tumble {
 class VolumeDamage {
 public:
     /// `state`: of the item's body.
-    VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const RenderScene& scene, const BodyState& state,
-                 const ShadowLight& light, const Camera& view);
+    VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const FrameContext& frame, const BodyState& state,
+                 const ShadowLight& light);
 
     /// Marks the caster's shadow.
     void mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const;

@@ -24,8 +24,8 @@ void connect(const ShaderProgram& program) {
 }
 
 BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
-                   bool has_cords, bool shadows, const ShadowFilter& filter)
-    : gl_(&gl), shaders_(shaders), shadows_(shadows), filter_(filter) {
+                   const ShadowFilter& filter)
+    : gl_(&gl), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& proxy : scene.bodies)
@@ -33,7 +33,7 @@ BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, 
             for (const bool lit : {true, false})
                 program({proxy.kind, proxy.pattern != Pattern::plain, lit, false,
                          proxy.kind == DrawKind::mesh && proxy.lightmap >= 0});
-    if (has_cords) program({DrawKind::mesh, false, true, false, false});
+    if (!scene.cords.empty()) program({DrawKind::mesh, false, true, false, false});
 }
 
 BodyPass::Variant BodyPass::variant_of(const Batch& batch) {

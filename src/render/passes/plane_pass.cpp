@@ -40,10 +40,10 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 }  // namespace
 
 PlanePass::PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
-                     bool shadows, const ShadowFilter& filter)
+                     const ShadowFilter& filter)
     : gl_(&gl),
       shaders_(shaders),
-      shadows_(shadows),
+      shadows_(scene.light.shadows),
       filter_(filter),
       other_planes_(other_planes(scene)),
       sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
@@ -92,51 +92,52 @@ std::vector<std::function<void()>> PlanePass::compilations() const {
     return all;
 }
 
-void PlanePass::draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const {
-    const std::vector<glm::vec3> sky = sky_polygon(planes, view);
+void PlanePass::draw_sky(const FrameContext& frame) const {
+    const std::vector<glm::vec3> sky = sky_polygon(frame.planes, frame.camera);
     sky_.use();
     if (sky.size() >= 3) draw_polygon(sky);
 }
 
-void PlanePass::draw_background(const std::vector<PlanePatch>& planes, const RenderScene& scene) const {
-    // Pixels at equal depth stay: bodies and dirty regions that were drawn before. Dirty regions are drawn over each
-    // other in order, so the last of several intersecting planes comes first here.
+void PlanePass::draw_background(const FrameContext& frame) const {
+    // Pixels at equal depth stay: bodies and regions that were drawn before. Regions are drawn over each other in order,
+    // so the last of several intersecting planes comes first here.
     gl_->DepthFunc(GL_LESS);
-    for (std::size_t i = planes.size(); i-- > 0;) {
-        set_uniforms(planes_[std::size_t(scene.bodies[planes[i].body].pattern)]->background, planes[i], planes, scene);
-        draw_polygon(planes[i].corners);
+    for (std::size_t i = frame.planes.size(); i-- > 0;) {
+        const PlanePatch& plane = frame.planes[i];
+        set_uniforms(planes_[std::size_t(frame.scene.bodies[plane.body].pattern)]->background, plane, frame);
+        draw_polygon(plane.corners);
     }
     gl_->DepthFunc(GL_LEQUAL);
 }
 
-void PlanePass::draw_regions(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& regions,
-                             const RenderScene& scene, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                             const Camera& view, bool far_shadows) {
+void PlanePass::draw_regions(const FrameContext& frame, const std::vector<std::vector<Rectangle>>& regions,
+                             const OcclusionAtlas& atlas) {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
-    for (std::size_t i = 0; i < planes.size(); ++i) {
+    const bool far_shadows = frame.cascades.has_far;
+    for (std::size_t i = 0; i < frame.planes.size(); ++i) {
         if (regions[i].empty()) continue;
-        const Pattern pattern = scene.bodies[planes[i].body].pattern;
+        const PlanePatch& plane = frame.planes[i];
+        const Pattern pattern = frame.scene.bodies[plane.body].pattern;
         Programs& programs = *planes_[std::size_t(pattern)];
         if (far_shadows && !programs.occluded_far)
             programs.occluded_far.emplace(make(pattern, with(occluded(), {"FAR_MAP"})));
         const ShaderProgram& program = far_shadows ? *programs.occluded_far : programs.occluded;
-        upload_polygon(planes[i].corners);
-        set_uniforms(program, planes[i], planes, scene);
-        set_tile(program, planes[i], atlas, scene, snapshot, view);
+        upload_polygon(plane.corners);
+        set_uniforms(program, plane, frame);
+        set_tile(program, plane, atlas, frame);
         for (const Rectangle& region : regions[i]) {
             gl_->Scissor(region.x, region.y, region.width, region.height);
-            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(planes[i].corners.size()));
+            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(plane.corners.size()));
         }
     }
     gl_->BindVertexArray(0);
     gl_->Disable(GL_SCISSOR_TEST);
 }
 
-void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
-                             const std::vector<PlanePatch>& planes, const RenderScene& scene) const {
-    const RenderBody& proxy = scene.bodies[plane.body];
+void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const FrameContext& frame) const {
+    const RenderBody& proxy = frame.scene.bodies[plane.body];
     program.use();
     program.set("plane_normal", to_glm(plane.normal, plane.height));
     program.set("plane_u", plane.u);
@@ -145,25 +146,25 @@ void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& pla
     program.set("plane_material", glm::vec4(proxy.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
     if (other_planes_ == 0) return;
     std::vector<glm::vec4> others;  // planes outside the view are placed far below, where they have no effect
-    for (const PlanePatch& other : planes)
+    for (const PlanePatch& other : frame.planes)
         if (other.body != plane.body) others.push_back(to_glm(other.normal, other.height));
     others.resize(std::size_t(other_planes_), glm::vec4(0.0f, 0.0f, 0.0f, 1e30f));
     gl_->Uniform4fv(program.uniform("other_planes"), other_planes_, glm::value_ptr(others.front()));
-    gl_->Uniform1f(program.uniform("other_ao_radius"), float(corner_ao_radius * scene.typical_ao_radius));
+    gl_->Uniform1f(program.uniform("other_ao_radius"), float(corner_ao_radius * frame.scene.typical_ao_radius));
 }
 
 void PlanePass::set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                         const RenderScene& scene, const Snapshot& snapshot, const Camera& view) const {
+                         const FrameContext& frame) const {
     const auto tile = std::find_if(atlas.plane_tiles.begin(), atlas.plane_tiles.end(),
                                    [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
     if (tile == atlas.plane_tiles.end()) {  // texel 0, 0 is unoccluded
         for (const char* name : {"tile_u", "tile_v", "tile_rim"}) program.set(name, glm::vec4(0.0f));
         return;
     }
-    const BodyState& state = snapshot.bodies[plane.body];
-    const PlaneAxes axes = plane_axes(scene.bodies[plane.body].plane.normal);
+    const BodyState& state = frame.snapshot.bodies[plane.body];
+    const PlaneAxes axes = plane_axes(frame.scene.bodies[plane.body].plane.normal);
     const Vec3 u = state.orientation * axes.u / tile->cell, v = state.orientation * axes.v / tile->cell;
-    const Vec3 eye = view.eye() - state.origin;
+    const Vec3 eye = frame.camera.eye() - state.origin;
     program.set("tile_u", to_glm(u, u.dot(eye) - tile->low_a + tile->x));
     program.set("tile_v", to_glm(v, v.dot(eye) - tile->low_b + tile->y));
     program.set("tile_rim", glm::vec4(float(tile->x), float(tile->y), float(tile->x + tile->width - 1),

@@ -4,27 +4,27 @@
 namespace tumble {
 namespace {
 
-DrawableBounds body_item(const RenderBody& proxy, const RenderScene& scene, const BodyState& state,
-                         const Camera& view) {
-    DrawableBounds item;
-    if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) return item;
+DrawableBounds bounds_of_body(const RenderBody& proxy, const RenderScene& scene, const BodyState& state,
+                              const Camera& view) {
+    DrawableBounds bounds;
+    if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) return bounds;
     const BoundingBall ball = bounding_ball(proxy, state, view);
-    item.center = ball.center;
-    item.radius = ball.radius;
+    bounds.center = ball.center;
+    bounds.radius = ball.radius;
     const Vec3 half_size = proxy.kind == DrawKind::mesh ? scene.meshes[proxy.mesh].half_extent : proxy.half_size;
-    item.half_axes = state.orientation.toRotationMatrix() * half_size.asDiagonal();
-    return item;
+    bounds.half_axes = state.orientation.toRotationMatrix() * half_size.asDiagonal();
+    return bounds;
 }
 
-DrawableBounds cord_item(const CordDescription& cord, const BodyState& state, const Camera& view) {
+DrawableBounds bounds_of_cord(const CordDescription& cord, const BodyState& state, const Camera& view) {
     const Vec3 from = view.relative(cord.anchor);
     const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
-    DrawableBounds item;
-    item.center = 0.5 * (from + to);
-    item.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
+    DrawableBounds bounds;
+    bounds.center = 0.5 * (from + to);
+    bounds.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
     const Quat turn = turn_between(Vec3::UnitY(), to - from);
-    item.half_axes = turn.toRotationMatrix() * Vec3(cord.radius, item.radius, cord.radius).asDiagonal();
-    return item;
+    bounds.half_axes = turn.toRotationMatrix() * Vec3(cord.radius, bounds.radius, cord.radius).asDiagonal();
+    return bounds;
 }
 
 }  // namespace
@@ -51,15 +51,14 @@ std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3
     return corners;
 }
 
-std::vector<DrawableBounds> make_drawn_items(const SceneDescription& description, const RenderScene& scene,
-                                             const Snapshot& snapshot, const Camera& view) {
-    std::vector<DrawableBounds> items;
-    items.reserve(scene.bodies.size() + description.cords.size());
+PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snapshot& snapshot, const Camera& view) {
+    PerDrawable<DrawableBounds> drawables;
+    drawables.bodies.reserve(scene.bodies.size());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        items.push_back(body_item(scene.bodies[i], scene, snapshot.bodies[i], view));
-    for (const CordDescription& cord : description.cords)
-        items.push_back(cord_item(cord, snapshot.bodies[cord.body], view));
-    return items;
+        drawables.bodies.push_back(bounds_of_body(scene.bodies[i], scene, snapshot.bodies[i], view));
+    for (const CordDescription& cord : scene.cords)
+        drawables.cords.push_back(bounds_of_cord(cord, snapshot.bodies[cord.body], view));
+    return drawables;
 }
 
 }  // namespace tumble

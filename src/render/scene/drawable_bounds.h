@@ -1,4 +1,4 @@
-// Bounds of drawable items: one per body (empty for planes and hidden bodies), then one per cord.
+// Drawables, which are bodies and cords, and their bounds.
 #pragma once
 
 #include "render/camera/camera.h"
@@ -19,8 +19,18 @@ struct DrawableBounds {
     bool exists() const { return radius >= 0.0; }
 };
 
-std::vector<DrawableBounds> make_drawn_items(const SceneDescription& description, const RenderScene& scene,
-                                             const Snapshot& snapshot, const Camera& view);
+/// A value for each body and for each cord of a scene.
+template <class T>
+struct PerDrawable {
+    std::vector<T> bodies, cords;
+    std::size_t size() const { return bodies.size() + cords.size(); }
+};
+
+/// A set of drawables: 1 for each that belongs to it.
+using DrawableMask = PerDrawable<char>;
+
+/// Those of planes and hidden bodies do not exist.
+PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snapshot& snapshot, const Camera& view);
 
 /// The corners of a box.
 std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size);

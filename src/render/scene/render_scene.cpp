@@ -25,13 +25,13 @@ double ao_radius_of(const Vec3& half_size) {
     return std::min(ao_radius_of_half_edge * h[1], ao_radius_of_thin_side * h[0]);
 }
 
-RenderMesh make_render_mesh(const MeshAsset& asset) {
+RenderMesh make_render_mesh(const std::shared_ptr<const MeshAsset>& asset) {
     RenderMesh proxy;
-    proxy.asset = &asset;
-    const Closedness form = closedness(asset.surface);
+    proxy.asset = asset;
+    const Closedness form = closedness(asset->surface);
     proxy.closed = form.closed() && form.signed_volume > 0.0;
     Bounds bounds;
-    for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
+    for (const MeshAsset::Vertex& v : asset->vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
     proxy.bound_center = bounds.center();
     proxy.half_extent = 0.5 * bounds.extent();
     return proxy;
@@ -60,13 +60,13 @@ void set_shape(RenderBody& proxy, const SphereShape& sphere, RenderScene&) {
 }
 
 void set_shape(RenderBody& proxy, const MeshShape& mesh, RenderScene& scene) {
-    const MeshAsset* asset = mesh.asset.get();
+    const std::shared_ptr<const MeshAsset>& asset = mesh.asset;
     if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
     proxy.kind = DrawKind::mesh;
     const auto known = std::find_if(scene.meshes.begin(), scene.meshes.end(),
                                     [&](const RenderMesh& other) { return other.asset == asset; });
     proxy.mesh = std::size_t(known - scene.meshes.begin());
-    if (known == scene.meshes.end()) scene.meshes.push_back(make_render_mesh(*asset));
+    if (known == scene.meshes.end()) scene.meshes.push_back(make_render_mesh(asset));
     const RenderMesh& shared = scene.meshes[proxy.mesh];
     proxy.bound_center = shared.bound_center;
     proxy.bound_radius = shared.half_extent.norm();
@@ -81,6 +81,9 @@ void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}  // expanded 
 
 RenderScene describe_bodies(const SceneDescription& description) {
     RenderScene scene;
+    scene.light = description.light;
+    scene.sun_up = sun_is_up(description);
+    scene.cords = description.cords;
     for (const BodyDescription& body : description.bodies) {
         RenderBody proxy;
         proxy.fixed = body.type == BodyType::fixed;
@@ -107,6 +110,18 @@ RenderScene describe_bodies(const SceneDescription& description) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::mesh) scene.mesh_triangles += scene.meshes[proxy.mesh].asset->indices.size() / 3;
     return scene;
+}
+
+bool sun_is_up(const SceneDescription& description) {
+    // cosine of 60 degrees: a steeper plane is a wall, as for the default camera
+    constexpr double steepest_ground = 0.5;
+    for (const BodyDescription& body : description.bodies) {
+        const auto* plane = std::get_if<PlaneShape>(&body.shape);
+        if (plane == nullptr || body.type != BodyType::fixed) continue;
+        const Vec3 normal = body.rotation * plane->normal.normalized();
+        if (normal.y() > steepest_ground && normal.dot(description.light.direction) >= 0.0) return false;
+    }
+    return true;
 }
 
 BoundingBall bounding_ball(const RenderBody& proxy, const BodyState& state, const Camera& view) {

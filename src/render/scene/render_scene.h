@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -51,7 +52,7 @@ struct VertexSample {
 };
 
 struct RenderMesh {
-    const MeshAsset* asset = nullptr;
+    std::shared_ptr<const MeshAsset> asset;
     bool closed = true;  // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
@@ -63,9 +64,12 @@ struct RenderMesh {
 };
 
 struct RenderScene {
+    LightDescription light;
+    bool sun_up = true;              // false disables sunlight, see sun_is_up()
     std::vector<RenderBody> bodies;  // in scene order
     std::vector<RenderMesh> meshes;  // without repetition, in order of first use
     std::vector<OcclusionLightmap> lightmaps;
+    std::vector<CordDescription> cords;
     std::vector<std::size_t> planes;  // indices of the planes
     double typical_ao_radius = 1.0;   // m, median AO radius of the bodies without large receivers
     std::size_t mesh_triangles = 0;   // of all bodies together
@@ -79,6 +83,10 @@ inline constexpr std::size_t large_scene = 2000;
 /// Shapes, bounds, colors, large receivers and the typical ao_radius: all but the data of ambient occlusion, which
 /// make_render_scene() of render_scene_builder.h adds.
 RenderScene describe_bodies(const SceneDescription& description);
+
+/// False if the sun is below a fixed plane that bodies can rest on. Planes cast no shadows: a plane is the surface of a
+/// half-space, which would block either all sunlight or none.
+bool sun_is_up(const SceneDescription& description);
 
 /// Bounding ball of a body, m, relative to the eye.
 struct BoundingBall {

@@ -116,25 +116,29 @@ bool CasterCulling::hides(const DrawableBounds& item) const {
     });
 }
 
-void drop_hidden_casters(const RenderScene& scene, const std::vector<DrawableBounds>& items,
-                         const ShadowCascades& cascades, std::vector<char>& caster_mask) {
+void drop_hidden_casters(const RenderScene& scene, const PerDrawable<DrawableBounds>& drawables,
+                         const ShadowCascades& cascades, DrawableMask& casters) {
     struct Caster {
         double depth;
-        std::uint32_t item;
+        const DrawableBounds* bounds;
+        char* mask;
+        bool box;
     };
-    std::vector<Caster> casters;
-    for (std::size_t i = 0; i < items.size(); ++i)
-        if (caster_mask[i] != 0) casters.push_back({to_map(cascades, items[i].center).z(), std::uint32_t(i)});
-    if (casters.size() < fewest) return;
-    std::sort(casters.begin(), casters.end(), [](const Caster& a, const Caster& b) {
-        return a.depth != b.depth ? a.depth < b.depth : a.item < b.item;
-    });
+    std::vector<Caster> sorted;
+    const auto add = [&](const DrawableBounds& bounds, char& mask, bool box) {
+        if (mask != 0) sorted.push_back({to_map(cascades, bounds.center).z(), &bounds, &mask, box});
+    };
+    for (std::size_t i = 0; i < drawables.bodies.size(); ++i)
+        add(drawables.bodies[i], casters.bodies[i], scene.bodies[i].kind == DrawKind::box);
+    for (std::size_t i = 0; i < drawables.cords.size(); ++i) add(drawables.cords[i], casters.cords[i], false);
+    if (sorted.size() < fewest) return;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Caster& a, const Caster& b) { return a.depth < b.depth; });
     CasterCulling cover(cascades);
-    for (const Caster& caster : casters) {
-        if (cover.hides(items[caster.item]))
-            caster_mask[caster.item] = 0;
-        else if (caster.item < scene.bodies.size() && scene.bodies[caster.item].kind == DrawKind::box)
-            cover.add(items[caster.item]);
+    for (const Caster& caster : sorted) {
+        if (cover.hides(*caster.bounds))
+            *caster.mask = 0;
+        else if (caster.box)
+            cover.add(*caster.bounds);
     }
 }
 

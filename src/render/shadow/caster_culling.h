@@ -49,8 +49,8 @@ private:
     std::vector<double> depths_;
 };
 
-/// Removes casters from the mask `caster_mask` (by item) that are hidden from the sun by boxes of the mask.
-void drop_hidden_casters(const RenderScene& scene, const std::vector<DrawableBounds>& items,
-                         const ShadowCascades& cascades, std::vector<char>& caster_mask);
+/// Removes casters from the mask that are hidden from the sun by boxes of the mask.
+void drop_hidden_casters(const RenderScene& scene, const PerDrawable<DrawableBounds>& drawables,
+                         const ShadowCascades& cascades, DrawableMask& casters);
 
 }  // namespace tumble
