@@ -1,4 +1,4 @@
-// Placement and material of one drawn body (struct Instance of render/mesh/instance.h).
+// Placement and material of one drawn body (struct Instance of render/mesh/mesh_buffer.h).
 layout(location = 0) in vec3 mesh_position;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 instance_position;      // m, relative to the eye; w: bevel, m

@@ -1,9 +1,8 @@
 #include "render/render_scene_builder.h"
 
 #include "render/ambient_occlusion/lightmap_selection.h"
-#include "render/ambient_occlusion/occluder_boxes.h"
+#include "render/ambient_occlusion/mesh_occlusion_data.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
-#include "render/ambient_occlusion/vertex_samples.h"
 #include "render/scene/distance_outliers.h"
 
 #include <algorithm>

@@ -3,15 +3,15 @@
 
 #include "core/deterministic_math.h"
 #include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/ambient_occlusion/occluder_boxes.h"
+#include "render/ambient_occlusion/mesh_occlusion_data.h"
 #include "render/ambient_occlusion/texel_grid.h"
 #include "render/camera/camera.h"
-#include "render/damage/tile_merge.h"
+#include "render/damage/dirty_tiles.h"
 #include "render/mesh/primitive_meshes.h"
 #include "render/passes/draw_list.h"
 #include "render/render_scene_builder.h"
+#include "render/scene/drawable_bounds.h"
 #include "render/scene/large_receivers.h"
-#include "render/scene/near_plane.h"
 #include "render/scene/plane_patch.h"
 #include "render/scene/render_scene.h"
 #include "render/shadow/shadow_cascades.h"
@@ -100,7 +100,7 @@ TEST(TexelGrid, EqualsTheValuesOfSinglePoints) {
         const int columns = 5, rows = 1 + trial % 4;
         const float ao_radius = random(0.1f, 1.0f), height = random(0.0f, 2.0f);
         TexelGrid lattice;
-        lattice.set(corner, across, along, normal, columns, rows);
+        lattice.set({corner, across, along, normal, columns, rows});
         lattice.occlude(box, ao_radius);
         SurfacePoints points;
         for (int j = 0; j < rows; ++j)
@@ -222,17 +222,17 @@ TEST(ShadowCascades, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
     const SceneDescription scene = heap_scene(50);
     const RenderScene render_scene = make_render_scene(scene);
     const Camera view(scene.camera, 1280, 720);
-    const CascadeFitter stage(scene, render_scene, view, 1024);
+    const CascadeFitter fitter(scene, render_scene, view, 1024);
     Snapshot snapshot = first_snapshot(scene);
-    const ShadowCascades rest = stage.fit(render_scene, snapshot, view);
+    const ShadowCascades rest = fitter.fit(render_scene, snapshot, view);
     EXPECT_FALSE(rest.has_far);
     snapshot.bodies[3].origin += Vec3(0.3, 0.2, -0.1);
-    const ShadowCascades moved_a_little = stage.fit(render_scene, snapshot, view);
+    const ShadowCascades moved_a_little = fitter.fit(render_scene, snapshot, view);
     EXPECT_EQ(rest.x, moved_a_little.x);
     EXPECT_EQ(rest.y, moved_a_little.y);
     EXPECT_EQ(rest.z, moved_a_little.z);
     snapshot.bodies[3].origin = Vec3(-25.0, 1.0, -30.0);
-    const ShadowCascades flown = stage.fit(render_scene, snapshot, view);
+    const ShadowCascades flown = fitter.fit(render_scene, snapshot, view);
     EXPECT_EQ(rest.x, flown.x);
     EXPECT_EQ(rest.y, flown.y);
     ASSERT_TRUE(flown.has_far);

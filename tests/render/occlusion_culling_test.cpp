@@ -2,9 +2,9 @@
 #include "example_scenes.h"
 
 #include "render/culling/occlusion_culling.h"
-#include "render/damage/plane_dirty_regions.h"
+#include "render/damage/plane_damage.h"
 #include "render/render_scene_builder.h"
-#include "render/scene/plane_axes.h"
+#include "render/scene/plane_patch.h"
 
 #include <gtest/gtest.h>
 

@@ -182,7 +182,7 @@ TEST(Renderer, AveragesTheSamplesOfAPixel) {
                              Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())))};
     for (const int samples : {1, 4}) {  // llvmpipe has no other numbers: 2 are drawn as 4
         scene.output.samples = samples;
-        const RenderSwitches options = shaders.options();
+        RenderSwitches options = shaders.options();
         options.multisample = true;
         const Image image = drawn(scene, options);
         std::set<int> values;
@@ -218,7 +218,7 @@ TEST(Renderer, TurnsWithTheBody) {
 TEST(Renderer, RefusesAPictureThatTheDriverCannotHold) {
     SceneDescription scene = empty_scene();
     scene.output.width = 1 << 20;
-    EXPECT_THROW(Renderer(scene), RunError);
+    EXPECT_THROW(Renderer(scene, RenderOptions{}), RunError);
 }
 
 }  // namespace

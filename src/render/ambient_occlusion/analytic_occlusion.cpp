@@ -1,7 +1,6 @@
 #include "render/ambient_occlusion/analytic_occlusion.h"
 
 #include "core/cpu_dispatch.h"
-#include "render/ambient_occlusion/box_distance.h"
 
 #include <algorithm>
 #include <cmath>

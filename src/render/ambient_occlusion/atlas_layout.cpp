@@ -1,7 +1,5 @@
 #include "render/ambient_occlusion/atlas_layout.h"
 
-#include "render/ambient_occlusion/shelf_packer.h"
-
 #include <algorithm>
 #include <cmath>
 

@@ -188,25 +188,38 @@ bool AmbientOcclusion::State::store(int x, int y, int width, int height, int str
 
 // Stores a face of a box part by part.
 void AmbientOcclusion::State::store_receiver_face(std::size_t body, int x, int y, int size, const float* open) {
-    const int face = (x - atlas.places[body].x) / size;
-    const auto on_face = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
+    const int face = (x - atlas.places[body].x) / size, axis = face / 2;
+    const Vec3& half_size = scene.bodies[body].half_size;
+    // A texel affects the surface as far as the centers of its neighbors.
+    const auto on_face = [&](double column, double row) {
+        const auto along = [&](double texel) { return std::clamp(2.0 * texel / (size - 1) - 1.0, -1.0, 1.0); };
+        Vec3 at;
+        at[axis] = face % 2 == 0 ? -1.0 : 1.0;
+        at[(axis + 1) % 3] = along(column);
+        at[(axis + 2) % 3] = along(row);
+        return Vec3(at.cwiseProduct(half_size));
+    };
+    const auto differs = [&](int column, int row) {
+        return atlas.texels[std::size_t(y + row) * OcclusionAtlas::width + std::size_t(x + column)] !=
+               level(open[row * size + column]);
+    };
     for (int j = 0; j < size; j += receiver_part)
         for (int i = 0; i < size; i += receiver_part) {
             int i0 = size, i1 = -1, j0 = size, j1 = -1;  // bounds of the texels that change
-            for (int b = j; b < std::min(j + receiver_part, size); ++b)
-                for (int a = i; a < std::min(i + receiver_part, size); ++a)
-                    if (atlas.texels[std::size_t(y + b) * OcclusionAtlas::width + std::size_t(x + a)] !=
-                        level(open[b * size + a])) {
-                        i0 = std::min(i0, a);
-                        i1 = std::max(i1, a);
-                        j0 = std::min(j0, b);
-                        j1 = std::max(j1, b);
+            for (int row = j; row < std::min(j + receiver_part, size); ++row)
+                for (int column = i; column < std::min(i + receiver_part, size); ++column)
+                    if (differs(column, row)) {
+                        i0 = std::min(i0, column);
+                        i1 = std::max(i1, column);
+                        j0 = std::min(j0, row);
+                        j1 = std::max(j1, row);
                     }
             if (i0 > i1) continue;
             store(x + i0, y + j0, i1 - i0 + 1, j1 - j0 + 1, size, open + j0 * size + i0);
-            // interpolation: affects the area within one texel of a changed one, with a margin of 0.1
-            changes.parts.push_back(
-                {body, face, {on_face(i0 - 1.1), on_face(j0 - 1.1)}, {on_face(i1 + 1.1), on_face(j1 + 1.1)}});
+            Bounds bounds;
+            bounds.add(on_face(i0 - 1.1, j0 - 1.1));
+            bounds.add(on_face(i1 + 1.1, j1 + 1.1));
+            changes.patches.push_back({body, bounds});
         }
 }
 

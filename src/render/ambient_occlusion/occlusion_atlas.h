@@ -52,20 +52,13 @@ struct OcclusionChanges {
         std::size_t body;
         std::uint8_t faces;  // of a box, as in Visibility; 0: any part of another body
     };
-    /// A part of a large receiver's face: low and high on the face's axes (see face_part()), from -1 to 1.
-    struct Part {
-        std::size_t body;
-        int face;
-        Eigen::Vector2d low, high;
-    };
-    /// A changed region of a body with a lightmap: bounds in the body's frame.
+    /// A changed region of a large receiver or of a body with a lightmap: bounds in the body's frame.
     struct Patch {
         std::size_t body;
         Bounds bounds;
     };
     std::vector<Body> bodies;        // without large receivers made of boxes and bodies with lightmaps
-    std::vector<Part> parts;         // of large receivers
-    std::vector<Patch> patches;      // of bodies with lightmaps
+    std::vector<Patch> patches;      // of the others
     bool plane_tiles_moved = false;  // a plane tile moved, appeared or disappeared
     int first_row = 0, end_row = 0;  // range of changed texel rows
 };

@@ -1,7 +1,7 @@
 #include "render/ambient_occlusion/plane_occlusion.h"
 
 #include "render/scene/distance_outliers.h"
-#include "render/scene/plane_axes.h"
+#include "render/scene/plane_patch.h"
 
 #include <algorithm>
 #include <cmath>

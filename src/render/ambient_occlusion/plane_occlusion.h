@@ -3,10 +3,10 @@
 // texels near an occluder that moved, at both poses, are recomputed.
 #pragma once
 
+#include "render/ambient_occlusion/atlas_layout.h"
 #include "render/ambient_occlusion/occluders.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/ambient_occlusion/overhang_heights.h"
-#include "render/ambient_occlusion/shelf_packer.h"
 #include "render/ambient_occlusion/texel_grid.h"
 
 #include <functional>

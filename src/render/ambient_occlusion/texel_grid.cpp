@@ -2,7 +2,6 @@
 
 #include "core/cpu_dispatch.h"
 #include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/ambient_occlusion/box_distance.h"
 
 namespace tumble {
 namespace {

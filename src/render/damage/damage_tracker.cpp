@@ -1,10 +1,8 @@
 #include "render/damage/damage_tracker.h"
 
-#include "render/damage/face_damage.h"
 #include "render/damage/plane_damage.h"
-#include "render/damage/plane_dirty_regions.h"
-#include "render/damage/volume_damage.h"
-#include "render/scene/near_plane.h"
+#include "render/damage/receiver_damage.h"
+#include "render/scene/drawable_bounds.h"
 #include "render/shadow/caster_culling.h"
 
 #include <algorithm>
@@ -171,12 +169,7 @@ void DamageTracker::mark_occlusion(const FrameContext& frame, const OcclusionCha
         if (moved_.bodies[changed.body] != 0) continue;
         if (changed.faces == 0) tiles.mark_hull(bodies[changed.body].corners());
         for (int face = 0; face < 6; ++face)
-            if ((changed.faces >> face & 1) != 0) tiles.mark_hull(face_part(bodies[changed.body], face));
-    }
-    for (const OcclusionChanges::Part& part : occlusion.parts) {
-        if (moved_.bodies[part.body] != 0) continue;
-        tiles.mark_hull(frame.one_sample ? face_part(bodies[part.body], part.face, part.low, part.high)
-                                         : face_part(bodies[part.body], part.face));
+            if ((changed.faces >> face & 1) != 0) tiles.mark_hull(bodies[changed.body].face(face));
     }
     for (const OcclusionChanges::Patch& patch : occlusion.patches) {
         if (moved_.bodies[patch.body] != 0 || tiles.all()) continue;

@@ -11,7 +11,6 @@
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/culling/occlusion_culling.h"
 #include "render/damage/dirty_tiles.h"
-#include "render/damage/shadow_dirty_tiles.h"
 #include "render/frame/frame_context.h"
 
 #include <optional>
@@ -29,7 +28,7 @@ struct Damage {
     std::vector<Rectangle> previous;  // tiles that were dirty in the previous frame and are not in this one
     DrawableMask drawn;               // drawables to draw again: they touch a dirty tile
     DrawableMask casters;             // drawables to draw again into the shadow maps
-    std::vector<std::vector<Rectangle>> plane_regions;  // of each plane in view, see plane_dirty_regions.h
+    std::vector<std::vector<Rectangle>> plane_regions;  // of each plane in view, see find_dirty_regions()
 };
 
 struct DamageOptions {

@@ -1,10 +1,13 @@
-// Damage by a body on a plane: its shadow and its occlusion.
+// Damage by a body on a plane, its shadow and its occlusion; and the regions where a plane has either.
 #pragma once
 
+#include "core/rectangle.h"
+#include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/culling/occlusion_culling.h"
 #include "render/damage/dirty_tiles.h"
-#include "render/scene/drawable_bounds.h"
-#include "render/scene/plane_patch.h"
-#include "render/shadow/shadow_cascades.h"
+#include "render/frame/frame_context.h"
+
+#include <vector>
 
 namespace tumble {
 
@@ -44,5 +47,12 @@ void mark_on_plane(const PlanePatch& plane, const DrawableBounds& item, const Pl
 /// changed.
 bool may_touch(const PlanePatch& plane, const DrawableBounds& item, const PlaneOcclusionExtent& occlusion,
                const ShadowLight& light, const Camera& view, const Rectangle& part);
+
+/// Regions within the dirty tiles where a plane must be drawn over the stored background, which has neither shadows nor
+/// occlusion: the cells that these may touch and that no box covers. Cells are those of CoarseDepthBuffer, merged into
+/// rectangles. `atlas`: texels with occlusion (the AO radius of most bodies exceeds the visible effect).
+std::vector<Rectangle> find_dirty_regions(const PlanePatch& plane, const FrameContext& frame,
+                                          const CoarseDepthBuffer& cover, const OcclusionAtlas& atlas,
+                                          const DirtyTiles& dirty);
 
 }  // namespace tumble

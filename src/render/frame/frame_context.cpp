@@ -1,8 +1,8 @@
 #include "render/frame/frame_context.h"
 
 #include "core/check.h"
+#include "render/scene/drawable_bounds.h"
 #include "render/scene/fog_distance.h"
-#include "render/scene/near_plane.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,7 +1,7 @@
 // Batches of instances that share a mesh, and the indices of the meshes.
 #pragma once
 
-#include "render/mesh/instance.h"
+#include "render/mesh/mesh_buffer.h"
 #include "render/mesh/mesh_lod.h"
 
 #include <cstddef>

@@ -3,7 +3,7 @@
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
 #include "render/passes/body_pass.h"
-#include "render/scene/plane_axes.h"
+#include "render/scene/plane_patch.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>

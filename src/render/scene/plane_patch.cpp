@@ -1,7 +1,6 @@
 #include "render/scene/plane_patch.h"
 
 #include "render/gl/glm_conversion.h"
-#include "render/scene/plane_axes.h"
 
 #include <cmath>
 #include <optional>
