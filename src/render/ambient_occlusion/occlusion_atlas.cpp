@@ -318,6 +318,9 @@ void AmbientOcclusion::update(const FrameContext& frame, const Visibility& visib
             s.update_body(i, visible.faces[i], frame);
     }
     s.anew = false;
+    if (!frame.anew) return;
+    s.changes.first_row = 0;  // changes before an exception were not uploaded
+    s.changes.end_row = s.atlas.height;
 }
 
 }  // namespace tumble
