@@ -5,14 +5,14 @@ in vec3 v_air;
 flat in vec3 v_to_light;
 #endif
 #ifdef SHADOWED
-#ifdef WIDE
+#ifdef SPANS_CASCADES
 in vec3 v_in_near;
 in vec3 v_in_far;
 #else
 in vec4 v_shadow;
 #endif
 #endif
-flat in vec4 v_eye;             // position of the eye; per_half of haze_share()
+flat in vec4 v_eye;             // position of the eye; per_half of fog_share()
 flat in vec3 v_up;
 flat in vec3 v_diffuse;
 flat in vec3 v_f0;
@@ -33,7 +33,7 @@ uniform sampler2D occlusion_atlas;
 vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, vec2 spread) {
     vec3 to_eye = v_eye.xyz - place;
     float squared = max(dot(to_eye, to_eye), 1e-30);
-    float air = haze_share(squared, v_eye.w);   // per pixel, because the corners of a large face are far away
+    float air = fog_share(squared, v_eye.w);   // per pixel, because the corners of a large face are far away
     to_eye *= inversesqrt(squared);
     Surface surface;
     surface.n_v = dot(normal, to_eye);
@@ -47,7 +47,7 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
     surface.l_v = dot(to_eye, v_to_light);
 #endif
 #ifdef SHADOWED
-#ifdef WIDE
+#ifdef SPANS_CASCADES
     surface.sun = sun_visible(v_in_near, v_in_far);
 #else
     surface.sun = sun_visible(v_shadow);

@@ -1,9 +1,9 @@
 #version 410 core
 // Compiled for each kind of body. Defines: BOX, BALL or MESH; CHARTED for meshes with a lightmap; SUNLIT for surfaces
-// that may face the sun; SHADOWED for surfaces that may receive shadows; WIDE for bodies that span cascades.
+// that may face the sun; SHADOWED for surfaces that may receive shadows; SPANS_CASCADES for bodies that span cascades.
 #include "frame.glsl"
 #include "instance.glsl"
-#include "look.glsl"
+#include "light_constants.glsl"
 #include "sky.glsl"
 #include "material.glsl"
 #include "shadow_place.glsl"
@@ -17,7 +17,7 @@ out vec3 v_air;                     // light of the sky behind the body
 flat out vec3 v_to_light;
 #endif
 #ifdef SHADOWED
-#ifdef WIDE
+#ifdef SPANS_CASCADES
 out vec3 v_in_near;                 // place in each shadow map
 out vec3 v_in_far;
 #else
@@ -72,7 +72,7 @@ void main() {
     vec3 size = instance_scale.xyz;
 #ifdef BOX
     // Thinner than a pixel in two directions: see render/antialiasing/thin_geometry_aa.h.
-    vec2 rod = haze.zw * length(instance_position.xyz);
+    vec2 rod = vec2(widest_rod, thinnest_rod) * length(instance_position.xyz);
     float longest = max(max(size.x, size.y), size.z);
     if (max(min(size.x, size.y), min(max(size.x, size.y), size.z)) < rod.x && longest > 5.0 * rod.x) size = max(size, vec3(rod.y));
 #endif
@@ -84,12 +84,12 @@ void main() {
     vec3 direction = position * inversesqrt(max(squared, 1e-30));
     v_air = sky(direction.y, dot(direction, to_light.xyz));
 
-    float roughness = instance_color.w, metallic = instance_look.x;
+    float roughness = instance_color.w, metallic = instance_material.x;
     v_diffuse = surface_diffuse(instance_color.rgb, metallic);
     v_f0 = surface_f0(instance_color.rgb, metallic);
     v_rough = vec4(surface_roughness(roughness), surface_veil(roughness, metallic), instance_tile.z);
 #ifdef PATTERNED
-    v_pattern = vec2(instance_look.y, instance_scale.w);
+    v_pattern = vec2(instance_material.y, instance_scale.w);
 #endif
 
     vec3 eye = rotate_back(instance_orientation, -instance_position.xyz);
@@ -104,12 +104,12 @@ void main() {
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
     // A tile has the center of a texel at each corner of its face. It is a thousandth smaller, so that rounding never
     // reads the next tile.
-    vec2 first = instance_look.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
+    vec2 first = instance_material.zw + vec2(float(face) * instance_tile.x, 0.0) + 0.5;
     float span = max(instance_tile.x - 1.002, 0.0);
     vec2 middle = instance_tile.x > 0.0 ? first + 0.5 * (instance_tile.x - 1.0) : vec2(0.5);
     v_tile = vec4(middle, 0.5 * span / half_size) * atlas.xyxy;
     // A bevel narrower than a pixel would flicker, so it grows with the distance.
-    float pixel = haze.y * length(instance_position.xyz);
+    float pixel = pixel_size * length(instance_position.xyz);
     float thinnest = min(size.x, min(size.y, size.z));
     float bevel = min(max(instance_position.w, pixel), 0.5 * thinnest);
     // A box of a few pixels would consist of bevels, hit irregularly by pixel centers. Its sides are flat instead.
@@ -122,7 +122,7 @@ void main() {
 #endif
 #ifdef BALL
     float half_span = max(0.5 * instance_tile.x - 0.501, 0.0);   // a thousandth less, as for boxes
-    v_tile = vec4(instance_tile.x > 0.0 ? instance_look.zw + 0.5 * instance_tile.x : vec2(0.5), vec2(half_span)) * atlas.xyxy;
+    v_tile = vec4(instance_tile.x > 0.0 ? instance_material.zw + 0.5 * instance_tile.x : vec2(0.5), vec2(half_span)) * atlas.xyxy;
 #ifndef PATTERNED
     // Paler paint; metal has none.
     v_octants = ball_contrast * vec4((1.0 - metallic) * (1.0 - metallic - v_diffuse), metallic);
@@ -130,11 +130,11 @@ void main() {
     vec3 lift = rotate(instance_orientation, mesh_normal);
 #endif
 #ifdef CHARTED
-    v_texel = ((instance_tile.x > 0.0 ? instance_look.zw + mesh_texel : vec2(0.0)) + 0.5) * atlas.xy;
+    v_texel = ((instance_tile.x > 0.0 ? instance_material.zw + mesh_texel : vec2(0.0)) + 0.5) * atlas.xy;
 #elif defined(MESH)
     int width = textureSize(occlusion_atlas, 0).x;
-    int probe = int(instance_look.z) + int(mesh_probe);
-    ivec2 texel = ivec2(probe % width, int(instance_look.w) + probe / width);
+    int vertex_sample = int(instance_material.z) + int(mesh_sample);
+    ivec2 texel = ivec2(vertex_sample % width, int(instance_material.w) + vertex_sample / width);
     v_open = texelFetch(occlusion_atlas, instance_tile.x > 0.0 ? texel : ivec2(0), 0).r;
 #endif
 #ifdef MESH
@@ -144,12 +144,12 @@ void main() {
     // itself.
     if (instance_tile.y > 0.0 && dot(v_normal, light) < 0.0) lift = -lift;
 #endif
-    v_eye = vec4(eye, haze.x);
+    v_eye = vec4(eye, fog_density);
 #ifdef SUNLIT
     v_to_light = light;
 #endif
 #ifdef SHADOWED
-#ifdef WIDE
+#ifdef SPANS_CASCADES
     v_in_near = place_in_map(position, lift, true);
     v_in_far = place_in_map(position, lift, false);
 #else

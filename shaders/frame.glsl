@@ -12,8 +12,9 @@ layout(std140) uniform Frame {
     vec4 shadow_far;             // near map -> far map: scale, offset x, offset y; w: 1 with a far map, else 0
     vec4 shadow_texels;          // size of a texel, m, near and far; z: texels across one map;
                                  // w: normal offset bias, texels
-    vec4 haze;                   // x: 1 / squared distance at which fog is half of the light; y: size of a pixel at distance 1;
-                                 // z: half size of the widest rod at that distance; w: of the thinnest; 0: no rod is
-                                 // widened
+    float fog_density;           // 1 / squared distance at which fog is half of the light, 1/m^2
+    float pixel_size;            // at distance 1
+    float widest_rod;            // half size at distance 1
+    float thinnest_rod;          // the same; both are 0 if no rod is widened
     vec4 atlas;                  // 1 / size of the AO atlas, in texels
 };

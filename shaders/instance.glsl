@@ -1,16 +1,16 @@
-// Placement and material of one drawn body (struct Instance of render/mesh/instance.h).
+// Placement and material of one drawn body (struct Instance of render/mesh/mesh_buffer.h).
 layout(location = 0) in vec3 mesh_position;
 layout(location = 1) in vec3 mesh_normal;
 layout(location = 2) in vec4 instance_position;      // m, relative to the eye; w: bevel, m
 layout(location = 3) in vec4 instance_orientation;   // unit quaternion x, y, z, w
 layout(location = 4) in vec4 instance_scale;         // of the mesh; w: cell of its pattern, m
 layout(location = 5) in vec4 instance_color;         // linear; w: roughness
-layout(location = 6) in vec4 instance_look;          // metallic, pattern; z, w: place in the AO atlas, texels
+layout(location = 6) in vec4 instance_material;   // metallic, pattern; z, w: place in the AO atlas, texels
 // edge of its AO tiles, texels (0: none, unoccluded); face of a box, 1 for a mesh
 layout(location = 7) in vec4 instance_tile;
                                                      // with two sides; surface id; 1: uses the near shadow map
 // index of the vertex sample whose sky visibility applies; meshes of the scene only
-layout(location = 8) in uint mesh_probe;
+layout(location = 8) in uint mesh_sample;
 layout(location = 9) in vec2 mesh_texel;             // or place of its texel, relative to the mesh's place in the AO atlas
 
 #include "rotate.glsl"

@@ -1,7 +1,7 @@
 // From a surface point to the light that it sends to the eye, and from light to the bytes of the screen. In a fragment
 // shader, llvmpipe reads a uniform lane by lane, with forty instructions each. Constants come as flat outputs of the
 // vertex shader instead, and directions only as the cosines that lighting needs.
-#include "look.glsl"
+#include "light_constants.glsl"
 #include "sky.glsl"
 #ifdef SHADOWED
 #include "shadow.glsl"

@@ -16,7 +16,7 @@ float grid(vec2 p, vec2 width, float line) {
     return 1.0 - (1.0 - i.x) * (1.0 - i.y);
 }
 
-// Factor of a body's pattern of this kind (look.pattern: 1 grid, 2 checker) on its color.
+// Factor of a body's pattern of this kind (Instance::pattern: 1 grid, 2 checker) on its color.
 float pattern_paint(float kind, vec2 p, vec2 width) {
     return kind > 1.5 ? 1.0 - 2.0 * ground_contrast * checker(p, width)
                       : 1.0 - grid_line_contrast * grid(p, width, 2.0 * grid_line_width);

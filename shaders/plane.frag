@@ -1,5 +1,5 @@
 #version 410 core
-// An infinite plane. Defines: GRID, CHECKER or neither; TOUCHED within the AO radius of bodies; SHADOWED where shadows
+// An infinite plane. Defines: GRID, CHECKER or neither; OCCLUDED within the AO radius of bodies; SHADOWED where shadows
 // may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect.
 #define SUNLIT
 #include "lighting.glsl"
@@ -16,9 +16,9 @@ flat in vec4 v_facing;
 flat in vec3 v_diffuse;
 flat in vec4 v_f0;
 flat in vec3 v_rough;
-#ifdef TOUCHED
+#ifdef OCCLUDED
 uniform sampler2D occlusion_atlas;
-flat in vec3 v_window;
+flat in vec3 v_tile;
 flat in vec4 v_rim;
 flat in vec2 v_texel;
 #endif
@@ -62,10 +62,10 @@ float sun_of_plane(float far) {
 #endif
 
 // Sky visibility past the bodies and, in a corner, past the other planes.
-float openness(vec2 cells, float far) {
+float sky_visibility(vec2 cells, float far) {
     float open = 1.0;
-#ifdef TOUCHED
-    vec2 texel = clamp(cells * v_window.x + v_window.yz, v_rim.xy, v_rim.zw);
+#ifdef OCCLUDED
+    vec2 texel = clamp(cells * v_tile.x + v_tile.yz, v_rim.xy, v_rim.zw);
     open = textureLod(occlusion_atlas, (texel + 0.5) * v_texel, 0.0).r;
 #endif
 #ifdef OTHER_PLANES
@@ -105,12 +105,12 @@ void main() {
     surface.f0 = v_f0.rgb * (1.0 - v_f0.w + v_f0.w * paint);
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
-    surface.open = openness(cells, far);
+    surface.open = sky_visibility(cells, far);
     surface.sun = 1.0;
 #ifdef SHADOWED
     surface.sun = sun_of_plane(far);
 #endif
-    float share = haze_share(squared * far * far, v_facing.z);
+    float share = fog_share(squared * far * far, v_facing.z);
     vec3 light = shade(surface) * (1.0 - share) + share * sky(-surface.eye_up, -surface.l_v);
     pixel = vec4(dithered(displayed(light)), v_facing.w);
 }

@@ -4,7 +4,7 @@
 // coefficients of (1, x, y in pixels). With six other planes these are 89 components: OpenGL guarantees 60, llvmpipe
 // and GPU drivers offer 124 and more.
 #include "frame.glsl"
-#include "look.glsl"
+#include "light_constants.glsl"
 #include "material.glsl"
 
 layout(location = 0) in vec3 clip_position;
@@ -13,15 +13,15 @@ uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
 uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_look;        // metallic, surface id as alpha
-#ifdef TOUCHED
-uniform vec4 window_u;          // the same as plane_u, in texels of the plane's tile in the AO atlas
-uniform vec4 window_v;
-uniform vec4 window_rim;        // its first and last texels, which are unoccluded
+uniform vec4 plane_material;        // metallic, surface id as alpha
+#ifdef OCCLUDED
+uniform vec4 tile_u;          // the same as plane_u, in texels of the plane's tile in the AO atlas
+uniform vec4 tile_v;
+uniform vec4 tile_rim;        // its first and last texels, which are unoccluded
 #endif
 #ifdef OTHER_PLANES
 uniform vec4 other_planes[OTHER_PLANES];   // unit normal and the eye's height above it
-uniform float other_reach;                 // m
+uniform float other_ao_radius;                 // m
 #endif
 
 flat out vec3 v_fall;           // of the view ray, which is 1 along the camera's axis: slope towards the plane,
@@ -35,8 +35,8 @@ flat out vec4 v_facing;         // cosines of the plane to the sun and upward; f
 flat out vec3 v_diffuse;
 flat out vec4 v_f0;             // w: metallic
 flat out vec3 v_rough;          // surface_roughness(), surface_veil()
-#ifdef TOUCHED
-flat out vec3 v_window;         // texels of the atlas per cell of the pattern, and at the eye's foot; see plane.frag
+#ifdef OCCLUDED
+flat out vec3 v_tile;         // texels of the atlas per cell of the pattern, and at the eye's foot; see plane.frag
 flat out vec4 v_rim;         // its first and last texels, which are unoccluded
 flat out vec2 v_texel;        // size of a texel in texture coordinates
 #endif
@@ -69,14 +69,14 @@ void main() {
     v_length_x = vec4(dot(ray_origin.xyz, ray_origin.xyz), 2.0 * dot(ray_origin.xyz, ray_dx.xyz),
                       dot(ray_dx.xyz, ray_dx.xyz), plane_normal.w);
     v_length_y = vec4(2.0 * dot(ray_origin.xyz, ray_dy.xyz), dot(ray_dy.xyz, ray_dy.xyz), plane_u.w, plane_v.w);
-    v_facing = vec4(dot(plane_normal.xyz, to_light.xyz), plane_normal.y, haze.x, plane_look.y);
-    v_diffuse = surface_diffuse(plane_color.rgb, plane_look.x);
-    v_f0 = vec4(surface_f0(plane_color.rgb, plane_look.x), plane_look.x);
-    v_rough = vec3(surface_roughness(plane_color.w), surface_veil(plane_color.w, plane_look.x));
-#ifdef TOUCHED
-    float texels = length(window_u.xyz) / length(plane_u.xyz);
-    v_window = vec3(texels, vec2(window_u.w, window_v.w) - texels * vec2(plane_u.w, plane_v.w));
-    v_rim = window_rim;
+    v_facing = vec4(dot(plane_normal.xyz, to_light.xyz), plane_normal.y, fog_density, plane_material.y);
+    v_diffuse = surface_diffuse(plane_color.rgb, plane_material.x);
+    v_f0 = vec4(surface_f0(plane_color.rgb, plane_material.x), plane_material.x);
+    v_rough = vec3(surface_roughness(plane_color.w), surface_veil(plane_color.w, plane_material.x));
+#ifdef OCCLUDED
+    float texels = length(tile_u.xyz) / length(plane_u.xyz);
+    v_tile = vec3(texels, vec2(tile_u.w, tile_v.w) - texels * vec2(plane_u.w, plane_v.w));
+    v_rim = tile_rim;
     v_texel = atlas.xy;
 #endif
 #ifdef SHADOWED
@@ -94,8 +94,8 @@ void main() {
 #ifdef OTHER_PLANES
     for (int i = 0; i < OTHER_PLANES; ++i) {
         vec4 other = other_planes[i];
-        v_others[i] = vec4(over_screen(other.xyz) / other_reach,
-                           other.w / other_reach + dot(other.xyz, plane_normal.xyz));
+        v_others[i] = vec4(over_screen(other.xyz) / other_ao_radius,
+                           other.w / other_ao_radius + dot(other.xyz, plane_normal.xyz));
     }
 #endif
 }

@@ -3,8 +3,8 @@
 // `toward_sun`: cosine of the angle to the sun.
 vec3 sky(float height, float toward_sun) {
     float up = max(height, 0.0), down = max(-height, 0.0);
-    float above = 1.0 - 1.0 / (1.0 + sky_haze * up * (1.0 + up));
-    float below = 1.0 - 1.0 / (1.0 + sky_haze * down);
+    float above = 1.0 - 1.0 / (1.0 + horizon_falloff * up * (1.0 + up));
+    float below = 1.0 - 1.0 / (1.0 + horizon_falloff * down);
     toward_sun = max(toward_sun, 0.0);
     toward_sun *= toward_sun;
     toward_sun *= toward_sun;
@@ -20,7 +20,7 @@ vec3 blurred_sky(float height, vec2 rough) {
 }
 
 // Fog: the share of light from the squared distance `squared` that is replaced by that of the sky.
-float haze_share(float squared, float per_half) {
+float fog_share(float squared, float per_half) {
     float relative = squared * per_half;
     relative *= relative;   // the fourth power of the distance keeps nearby bodies clear
     return relative / (1.0 + relative);

@@ -6,7 +6,7 @@
 #include "render/clip.h"
 #include "render/passes/pass_timer.h"
 #include "render/picture_error.h"
-#include "render/renderer.h"
+#include "render/render_switches.h"
 #include "scene/load.h"
 
 #include <fmt/format.h>
@@ -68,25 +68,24 @@ void measure_cost(const Arguments& a) {
     const SceneDescription scene = load_scene(a.scene, a.overrides);
     const std::vector<Snapshot> clip = drawn_clip(scene, a.first, a.end);
     PassTimes times;
-    RenderOptions options;
+    RenderSwitches options;
     options.full_redraw = a.full;
     if (a.stages) options.times = &times;
     Renderer renderer(scene, options);
-    Image frame;
     std::vector<double> costs;
     double pixels = 0.0, rectangles = 0.0;
     PassTimes sum_of_times;
     for (int round = 0; round < a.rounds; ++round) {
-        renderer.render(clip.front(), frame);  // excludes the initial work, and the jump back to the start
+        renderer.render(clip.front());  // excludes the initial work, and the jump back to the start
         times = {};
         for (std::size_t i = 1; i < clip.size(); ++i) {
             const double start = cpu_seconds();
-            renderer.render(clip[i], frame);
+            renderer.render(clip[i]);
             costs.push_back(1e3 * (cpu_seconds() - start));
             rectangles += double(renderer.changed().size());
             for (const Rectangle& r : renderer.changed()) pixels += double(r.width) * r.height;
         }
-        for (std::size_t i = 0; i < render_stages; ++i) sum_of_times.seconds[i] += times.seconds[i];
+        for (std::size_t i = 0; i < pass_count; ++i) sum_of_times.seconds[i] += times.seconds[i];
     }
     double sum = 0.0;
     for (const double cost : costs) sum += cost;
@@ -98,22 +97,19 @@ void measure_cost(const Arguments& a) {
         costs[costs.size() / 2], sum / frames, costs[costs.size() / 10], costs[costs.size() * 9 / 10],
         pixels / frames / (double(scene.output.width) * scene.output.height), rectangles / frames);
     if (!a.stages) return;
-    for (std::size_t i = 0; i < render_stages; ++i)
-        fmt::print("  {:<12} {:6.2f}\n", render_stage_names[i], 1e3 * sum_of_times.seconds[i] / frames);
+    for (std::size_t i = 0; i < pass_count; ++i)
+        fmt::print("  {:<12} {:6.2f}\n", pass_names[i], 1e3 * sum_of_times.seconds[i] / frames);
 }
 
 Image picture(const SceneDescription& scene, const Snapshot& snapshot, int samples, bool multisample,
               double shift_x = 0.0, double shift_y = 0.0) {
     SceneDescription sampled = scene;
     sampled.output.samples = samples;
-    RenderOptions options;
+    RenderSwitches options;
     options.multisample = multisample;
     options.shift_x = shift_x;
     options.shift_y = shift_y;
-    Renderer renderer(sampled, options);
-    Image image;
-    renderer.render(snapshot, image);
-    return image;
+    return Renderer(sampled, options).render(snapshot);
 }
 
 // Against the mean of 64 images of one sample with subpixel shifts.

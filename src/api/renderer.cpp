@@ -8,6 +8,8 @@
 #include "core/image_mean.h"
 #include "render/scene/pose_filter.h"
 
+#include <algorithm>
+
 namespace tumble::v0 {
 namespace {
 
@@ -16,6 +18,14 @@ tumble::RenderOptions to_internal(const RenderOptions& options) {
     to.backend = options.backend == Backend::egl ? GlBackend::egl : GlBackend::osmesa;
     to.shader_folder = options.shader_folder;
     return to;
+}
+
+void copy_pixels(const tumble::Image& from, const std::vector<Rectangle>& parts, Image& to) {
+    for (const Rectangle& part : parts)
+        for (int y = part.y; y < part.y + part.height; ++y) {
+            const std::uint8_t* const row = from.at(part.x, y);
+            std::copy_n(row, 4 * part.width, to.pixels.data() + (row - from.pixels.data()));
+        }
 }
 
 }  // namespace
@@ -27,7 +37,7 @@ struct Renderer::State {
     Scene scene;  // the renderer reads its data
     PoseFilter filter;
     tumble::Renderer renderer;
-    Image image;  // as last drawn; empty after an error, so that the next one is drawn whole
+    Image image;  // a copy of the renderer's, in the interface's type
     Image blurred;
 };
 
@@ -42,9 +52,11 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     return guarded([&]() -> const Image& {
         tumble::Snapshot drawn = v0::to_internal(snapshot, state_->scene.body_count());
         state_->filter.follow(drawn);
-        tumble::Image image = take(std::move(state_->image));
-        state_->renderer.render(drawn, image);
-        state_->image = take(std::move(image));
+        const tumble::Image& image = state_->renderer.render(drawn);
+        if (state_->image.pixels.empty())
+            state_->image = {image.width, image.height, image.pixels};
+        else
+            copy_pixels(image, state_->renderer.changed(), state_->image);
         return state_->image;
     });
 }

@@ -5,6 +5,6 @@
 
 namespace tumble {
 
-RenderScene make_render_scene(const SceneDescription& scene);
+RenderScene make_render_scene(const SceneDescription& description);
 
 }  // namespace tumble

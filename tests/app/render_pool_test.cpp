@@ -5,6 +5,7 @@
 #include "core/image_mean.h"
 #include "output/png_writer.h"
 #include "output/video_pixels.h"
+#include "render/render_switches.h"
 
 #include <gtest/gtest.h>
 
@@ -252,13 +253,12 @@ TEST(RenderPool, AllOutputsShowTheRenderersPicture) {
     RenderPool render_pool(scene, {}, both, 2);
     const std::vector<Seen> seen = draw(render_pool, scene, 16);
     const auto expect = [&] {
-        RenderOptions options;
+        RenderSwitches options;
         options.full_redraw = true;
         Renderer renderer(scene, options);
         PngEncoder png;
         for (const Seen& s : seen) {
-            Image image;
-            renderer.render(at_frame(s.number), image);
+            const Image& image = renderer.render(at_frame(s.number));
             const Rectangle whole{0, 0, image.width, image.height};
             VideoPixels pixels(PixelFormat::yuv420, image.width, image.height);
             pixels.update(image, {&whole, 1});
@@ -282,15 +282,12 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
     // Frames 0 to 6 and 11 to 13 are blurred; the first after them is sharp again, then nothing moves.
     for (std::size_t n = 0; n < first.size(); ++n) EXPECT_EQ(first[n].repeated, (n > 7 && n < 11) || n > 14) << n;
     const auto expect = [&] {
-        Renderer renderer(scene, {});
+        Renderer renderer(scene);
         PngEncoder png;
         for (const Seen& s : first) {
             ImageMean mean;
-            Image image, expected;
-            for (const Snapshot& moment : blurred(s.number).blur_samples) {
-                renderer.render(moment, image);
-                mean.add(image);
-            }
+            Image expected;
+            for (const Snapshot& moment : blurred(s.number).blur_samples) mean.add(renderer.render(moment));
             mean.take(expected);
             if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
         }

@@ -9,9 +9,8 @@
 #include <cmath>
 #include <memory>
 
-using namespace tumble;
-using namespace tumble::testing;
 
+namespace tumble::limits_test {
 namespace {
 
 constexpr double g = 9.81, mu = 0.4;
@@ -144,3 +143,4 @@ TEST(Limits, AMovingMeshCollidesAsItsHull) {
 }
 
 }  // namespace
+}  // namespace tumble::limits_test

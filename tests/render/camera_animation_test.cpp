@@ -159,13 +159,12 @@ TEST(MovingCamera, AFollowedBodyStaysAtItsPixel) {
     scene.bodies = {ground_plane(), ball_body(Vec3(0.7, 1.0, 0.0), 0.4, {220, 30, 20})};
     scene.camera.follow = 1;
     scene.camera.follow_start = scene.bodies[1].position;
-    Renderer renderer(scene, {});
+    Renderer renderer(scene);
     const Pixel middle = pixel_of(scene, scene.bodies[1].position), left = pixel_of(scene, Vec3(0.25, 1.0, 0.0));
     for (const double x : {0.0, 2.3, 40.0, 800.0}) {
         Snapshot snapshot = at_time(scene, 0.0);
         snapshot.bodies[1].origin = snapshot.bodies[1].center_of_mass += Vec3(x, 0.1 * x, -x);
-        Image image;
-        renderer.render(snapshot, image);
+        const Image& image = renderer.render(snapshot);
         const std::uint8_t *ball = image.at(middle.x, middle.y), *beside = image.at(left.x, left.y);
         EXPECT_GT(ball[0], 2 * ball[2]) << "red at " << x;
         EXPECT_LT(beside[0], 2 * beside[2]) << "not red beside it, at " << x;
@@ -182,23 +181,20 @@ TEST(MovingCamera, ChangesNoByteOfAFullRedraw) {
     scene.camera.follow_start = scene.bodies[last].position;
     for (const bool turns : {false, true}) {
         scene.camera.orbit = turns ? 60.0 : 0.0;
-        RenderOptions everything;
+        RenderSwitches everything;
         everything.full_redraw = true;
-        Renderer partial(scene, {}), every_other(scene, {}), full(scene, everything);
+        Renderer partial(scene), every_other(scene), full(scene, everything);
         PoseFilter poses(scene);
-        Image frame, sparse, truth;
         for (int n = 0; n < 15; ++n) {  // with still frames before and after
             Snapshot snapshot = at_time(scene, 0.1 * n);
             snapshot.bodies[1].origin.x() += 0.05 * n;
             if (n > 10)
                 snapshot.bodies[last].origin = snapshot.bodies[last].center_of_mass += Vec3(0.1 * (n - 10), 0.2, 0.0);
             poses.follow(snapshot);
-            partial.render(snapshot, frame);
-            full.render(snapshot, truth);
-            ASSERT_EQ(frame, truth) << n;
+            const Image& truth = full.render(snapshot);
+            ASSERT_EQ(partial.render(snapshot), truth) << n;
             if (n % 2 == 0) continue;
-            every_other.render(snapshot, sparse);
-            ASSERT_EQ(sparse, truth) << n;
+            ASSERT_EQ(every_other.render(snapshot), truth) << n;
         }
     }
 }
@@ -213,10 +209,10 @@ TEST(MovingCamera, CachedDataDoesNotDependOnTheViewpoint) {
     scene.camera.vertical_fov = 1.3;
     scene.camera.orbit = 1.0;
     const std::vector<double> times = {0.0, 5.3, 9.1};
-    std::vector<Image> images(times.size());
+    std::vector<Image> images;
     {
-        Renderer used(scene, {});
-        for (std::size_t i = 0; i < times.size(); ++i) used.render(at_time(scene, times[i]), images[i]);
+        Renderer used(scene);
+        for (const double time : times) images.push_back(used.render(at_time(scene, time)));
     }
     for (std::size_t i = 0; i < times.size(); ++i)
         EXPECT_EQ(images[i], drawn(scene, at_time(scene, times[i]))) << times[i];
@@ -225,15 +221,10 @@ TEST(MovingCamera, CachedDataDoesNotDependOnTheViewpoint) {
 TEST(MovingCamera, AWholeTurnComesBackToTheSameBytes) {
     SceneDescription scene = small_heap();
     scene.camera.orbit = 90.0;
-    Renderer renderer(scene, {});
-    Image first, image;
-    renderer.render(at_time(scene, 0.0), first);
-    for (const double time : {1.0, 2.0, 3.0}) {
-        renderer.render(at_time(scene, time), image);
-        EXPECT_NE(image, first) << time;
-    }
-    renderer.render(at_time(scene, 4.0), image);
-    EXPECT_EQ(image, first);
+    Renderer renderer(scene);
+    const Image first = renderer.render(at_time(scene, 0.0));
+    for (const double time : {1.0, 2.0, 3.0}) EXPECT_NE(renderer.render(at_time(scene, time)), first) << time;
+    EXPECT_EQ(renderer.render(at_time(scene, 4.0)), first);
 }
 
 TEST(MovingCamera, NoTwoFramesAreTheSamePictureUntilItStops) {
@@ -269,18 +260,18 @@ TEST(MovingCamera, StandsStillWithAJitteringBody) {
 TEST(FogReferenceDistance, IsTheDistanceOfTheBodiesInView) {
     SceneDescription scene = empty_scene();
     for (const double x : {-1.0, 0.0, 1.0}) scene.bodies.push_back(ball_body(Vec3(x, 0.0, 0.0), 0.5, {90, 90, 90}));
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     scene.camera.eye = Vec3(0.0, 0.0, 10.0);
     const auto with_target = [&](double z) {
         scene.camera.target = Vec3(0.0, 0.0, z);
-        return viewing_distance(scene, looks);
+        return viewing_distance(scene, render_scene);
     };
     EXPECT_EQ(with_target(0.0), 10.0);
     EXPECT_EQ(with_target(3.0), 7.0);
     EXPECT_NEAR(with_target(9.9), 5.0, 0.1);
     EXPECT_NEAR(with_target(-1000.0), 20.0, 0.2);
     scene.camera.keyframes = {{0.0, {0, 0, 5}, {0, 0, 0}, 40.0}, {2.0, {0, 0, 30}, {0, 0, 0}, 10.0}};
-    EXPECT_EQ(viewing_distance(scene, looks), 30.0);
+    EXPECT_EQ(viewing_distance(scene, render_scene), 30.0);
     scene.bodies.clear();
     scene.camera.keyframes.clear();
     scene.camera.target = Vec3(0.0, 0.0, 6.0);

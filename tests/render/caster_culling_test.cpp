@@ -24,28 +24,28 @@ struct Cloud {
             const Vec3 size = random.vector(0.3) + Vec3::Constant(i % 10 == 0 ? 2.0 : 0.6);
             scene.bodies.push_back(box_body(random.vector(4.0, 4.0, 4.0), size, {200, 200, 200}, random.turn()));
         }
-        looks = make_render_scene(scene);
+        render_scene = make_render_scene(scene);
         snapshot = first_snapshot(scene);
-        items = make_drawn_items(scene, looks, snapshot, view);
-        fit = CascadeFitter(scene, looks, view, 768).fit(looks, snapshot, view);
+        items = make_drawables(render_scene, snapshot, view);
+        fit = CascadeFitter(scene, render_scene, view, 768).fit(render_scene, snapshot, view);
     }
 
     SceneDescription scene = empty_scene();
-    RenderScene looks;
+    RenderScene render_scene;
     Camera view{scene.camera, 320, 180};
     Snapshot snapshot;
-    std::vector<DrawableBounds> items;
+    PerDrawable<DrawableBounds> items;
     ShadowCascades fit;
 };
 
 TEST(CasterCulling, CulledCastersAreInTheShadowOfOthers) {
     const Cloud cloud;
-    std::vector<char> casting(cloud.items.size(), 1);
-    drop_hidden_casters(cloud.looks, cloud.items, cloud.fit, casting);
+    DrawableMask casters{std::vector<char>(cloud.items.bodies.size(), 1), {}};
+    drop_hidden_casters(cloud.render_scene, cloud.items, cloud.fit, casters);
     const Vec3 to_sun = -cloud.scene.light.direction.normalized();
     int dropped = 0;
-    for (std::size_t i = 0; i < cloud.items.size(); ++i) {
-        if (casting[i] != 0) continue;
+    for (std::size_t i = 0; i < cloud.items.bodies.size(); ++i) {
+        if (casters.bodies[i] != 0) continue;
         ++dropped;
         for (double u = -1.0; u <= 1.0; u += 0.25)
             for (double v = -1.0; v <= 1.0; v += 0.25)
@@ -56,10 +56,10 @@ TEST(CasterCulling, CulledCastersAreInTheShadowOfOthers) {
                         on_cube[(axis + 1) % 3] = u;
                         on_cube[(axis + 2) % 3] = v;
                         const Vec3 point =
-                            cloud.view.eye() + cloud.items[i].center + cloud.items[i].half_axes * on_cube;
+                            cloud.view.eye() + cloud.items.bodies[i].center + cloud.items.bodies[i].half_axes * on_cube;
                         bool shaded = false;
-                        for (std::size_t k = 0; k < cloud.items.size() && !shaded; ++k)
-                            shaded = casting[k] != 0 && shades(cloud.scene.bodies[k], point, to_sun);
+                        for (std::size_t k = 0; k < cloud.items.bodies.size() && !shaded; ++k)
+                            shaded = casters.bodies[k] != 0 && shades(cloud.scene.bodies[k], point, to_sun);
                         ASSERT_TRUE(shaded) << "body " << i;
                     }
     }
@@ -80,11 +80,11 @@ TEST(CasterCulling, HidesBodiesBehindABoxAndNoOthers) {
          {std::pair(1.6, 0.0), {1.6, 0.6}, {1.6, 0.9}, {-1.6, 0.0}, {0.0, 0.0}, {6.0, 0.0}})
         scene.bodies.push_back(cube(front + away * down + beside * across, 0.5));
     scene.bodies.push_back(cube(front + 2.0 * down, 2.5));  // wider than the box in front of it
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     const Camera view(scene.camera, 320, 180);
     const Snapshot snapshot = first_snapshot(scene);
-    const std::vector<DrawableBounds> items = make_drawn_items(scene, looks, snapshot, view);
-    const ShadowCascades fit = CascadeFitter(scene, looks, view, 768).fit(looks, snapshot, view);
+    const std::vector<DrawableBounds> items = make_drawables(render_scene, snapshot, view).bodies;
+    const ShadowCascades fit = CascadeFitter(scene, render_scene, view, 768).fit(render_scene, snapshot, view);
     CasterCulling cover(fit);
     cover.add(items[0]);
     std::vector<bool> hidden;

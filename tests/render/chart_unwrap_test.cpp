@@ -109,7 +109,7 @@ TEST(OcclusionLightmap, BlocksHoldTheirTexels) {
     for (int y = 0; y < charts->height; ++y)
         for (int x = 0; x < charts->width; ++x)
             if (charts->used(std::size_t(y * charts->width + x))) used.emplace(x, y);
-    const OcclusionLightmap mesh = fine_surface_of_mesh(*charts), ball = fine_surface_of_ball(3.0, 100);
+    const OcclusionLightmap mesh = lightmap_of_mesh(*charts), ball = lightmap_of_ball(3.0, 100);
     std::size_t in_blocks = 0;
     for (const OcclusionLightmap* surface : {&mesh, &ball})
         for (const OcclusionLightmap::Group& group : surface->groups)

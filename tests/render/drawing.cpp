@@ -8,15 +8,12 @@
 #include <cmath>
 
 namespace tumble {
-Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderOptions& options) {
-    Renderer renderer(scene, options);
-    Image image;
-    renderer.render(snapshot, image);
-    return image;
+Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderSwitches& switches) {
+    return Renderer(scene, switches).render(snapshot);
 }
 
-Image drawn(const SceneDescription& scene, const RenderOptions& options) {
-    return drawn(scene, first_snapshot(scene), options);
+Image drawn(const SceneDescription& scene, const RenderSwitches& switches) {
+    return drawn(scene, first_snapshot(scene), switches);
 }
 
 Pixel pixel_of(const SceneDescription& scene, const Vec3& point) {

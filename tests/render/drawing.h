@@ -5,15 +5,15 @@
 
 #include "core/image.h"
 #include "render/camera/camera.h"
-#include "render/renderer.h"
+#include "render/render_switches.h"
 
 #include <filesystem>
 #include <string>
 
 namespace tumble {
 
-Image drawn(const SceneDescription& scene, const RenderOptions& options = {});
-Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderOptions& options = {});
+Image drawn(const SceneDescription& scene, const RenderSwitches& switches = {});
+Image drawn(const SceneDescription& scene, const Snapshot& snapshot, const RenderSwitches& switches = {});
 
 /// The pixel of a point of the world.
 struct Pixel {
@@ -34,7 +34,7 @@ public:
     int replace(const std::string& file, const std::string& text, const std::string& by);
     void remove(const std::string& file);
     const std::filesystem::path& folder() const { return folder_.path(); }
-    RenderOptions options() const { return {GlBackend::osmesa, folder()}; }
+    RenderSwitches options() const { return {{GlBackend::osmesa, folder()}}; }
 
 private:
     TestFolder folder_;

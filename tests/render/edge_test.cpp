@@ -121,7 +121,7 @@ public:
     // Root mean square error over the partly covered pixels. `inside`: true for a covered point.
     template <class Inside>
     double error(const SceneDescription& scene, bool multisample, Inside inside) const {
-        RenderOptions options = shaders_.options();
+        RenderSwitches options = shaders_.options();
         options.multisample = multisample;
         const Image image = drawn(scene, options);
         double sum = 0.0;

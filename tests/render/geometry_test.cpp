@@ -3,15 +3,15 @@
 
 #include "core/deterministic_math.h"
 #include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/ambient_occlusion/occluder_boxes.h"
+#include "render/ambient_occlusion/mesh_occlusion_data.h"
 #include "render/ambient_occlusion/texel_grid.h"
 #include "render/camera/camera.h"
-#include "render/damage/tile_merge.h"
+#include "render/damage/dirty_tiles.h"
 #include "render/mesh/primitive_meshes.h"
 #include "render/passes/draw_list.h"
 #include "render/render_scene_builder.h"
+#include "render/scene/drawable_bounds.h"
 #include "render/scene/large_receivers.h"
-#include "render/scene/near_plane.h"
 #include "render/scene/plane_patch.h"
 #include "render/scene/render_scene.h"
 #include "render/shadow/shadow_cascades.h"
@@ -52,14 +52,14 @@ TEST(AnalyticOcclusion, AWallTakesTheShareOfTheFormula) {
     wall.center.setZero();
     wall.to_local.setIdentity();
     wall.half_size = {1.0f, 50.0f, 50.0f};
-    wall.reach = 0.5f;
+    wall.ao_radius = 0.5f;
     SurfacePoints points;
     for (const float x : {0.0f, 0.05f, 0.3f, 0.6f}) points.add({1.0f + x, 0.0f, 0.0f}, Eigen::Vector3f::UnitY());
-    darken(points, wall, 1e9f);
+    occlude(points, wall, 1e9f);
     std::size_t i = 0;
     for (const float x : {0.0f, 0.05f, 0.3f, 0.6f}) {
         const auto share = [&](float h) { return std::max(0.0f, 1.0f - x / h); };
-        const float closed = 0.5f * (share(near_probe * 0.5f) + share(0.5f));
+        const float closed = 0.5f * (share(near_sample * 0.5f) + share(0.5f));
         EXPECT_NEAR(points.open[i++], 1.0f - occlusion_strength * closed, 1e-6f) << x;
     }
 }
@@ -69,11 +69,11 @@ TEST(AnalyticOcclusion, CoplanarFacesAndBodiesBehindDoNotOcclude) {
     box.center.setZero();
     box.to_local.setIdentity();
     box.half_size = {0.5f, 0.5f, 0.5f};
-    box.reach = 0.5f;
+    box.ao_radius = 0.5f;
     SurfacePoints points;
     points.add({0.51f, 0.5f, 0.0f}, Eigen::Vector3f::UnitY());  // the top of a neighbor of the same height
     points.add({0.6f, 0.0f, 0.0f}, Eigen::Vector3f::UnitX());   // turned away
-    darken(points, box, 0.5f);
+    occlude(points, box, 0.5f);
     EXPECT_NEAR(points.open[0], 1.0f, 0.01f);
     EXPECT_EQ(points.open[1], 1.0f);
 }
@@ -92,26 +92,26 @@ TEST(TexelGrid, EqualsTheValuesOfSinglePoints) {
         box.to_local =
             Quat(Eigen::AngleAxisd(random(0, 6), Vec3(0.3, 0.5, 0.8).normalized())).toRotationMatrix().cast<float>();
         box.half_size = {random(0.1f, 1.0f), random(0.1f, 1.0f), random(0.1f, 1.0f)};
-        box.reach = random(0.1f, 1.0f);
+        box.ao_radius = random(0.1f, 1.0f);
         box.center = vector(2.0f);
         const Eigen::Vector3f normal = vector(1.0f).normalized(),
                               across = normal.unitOrthogonal() * random(0.05f, 0.3f);
         const Eigen::Vector3f along = normal.cross(across), corner = vector(1.0f), floor = vector(1.0f).normalized();
         const int columns = 5, rows = 1 + trial % 4;
-        const float reach = random(0.1f, 1.0f), height = random(0.0f, 2.0f);
+        const float ao_radius = random(0.1f, 1.0f), height = random(0.0f, 2.0f);
         TexelGrid lattice;
-        lattice.set(corner, across, along, normal, columns, rows);
-        lattice.darken(box, reach);
+        lattice.set({corner, across, along, normal, columns, rows});
+        lattice.occlude(box, ao_radius);
         SurfacePoints points;
         for (int j = 0; j < rows; ++j)
             for (int i = 0; i < columns; ++i) points.add(corner + float(i) * across + float(j) * along, normal);
-        darken(points, box, reach);
+        occlude(points, box, ao_radius);
         for (std::size_t k = 0; k < points.size(); ++k) {
             ASSERT_NEAR(lattice.open()[k], points.open[k], 1e-4f) << trial;
             (points.open[k] < 1.0f ? dark : clear) += 1;
         }
-        lattice.darken(floor, height, reach);
-        darken(points, floor, height, reach);
+        lattice.occlude(floor, height, ao_radius);
+        occlude(points, floor, height, ao_radius);
         for (std::size_t k = 0; k < points.size(); ++k) ASSERT_NEAR(lattice.open()[k], points.open[k], 1e-4f) << trial;
     }
     EXPECT_GT(dark, 1000);  // of 25,000
@@ -154,7 +154,7 @@ TEST(OccluderFinder, EqualsAFullComparison) {
     for (std::size_t i = 0; i < occluders.size(); ++i) {
         occluders[i].center = {random(-20, 20), random(0, 5), random(-20, 20)};
         occluders[i].bound_radius = i % 50 == 0 ? 30.0f : random(0.1f, 1.5f);  // some plates among the boxes
-        occluders[i].reach = random(0.1f, 0.6f);
+        occluders[i].ao_radius = random(0.1f, 0.6f);
         occluders[i].body = i;
     }
     const OccluderFinder finder(occluders);
@@ -165,7 +165,7 @@ TEST(OccluderFinder, EqualsAFullComparison) {
         finder.find(center, radius, found);
         std::vector<std::size_t> expected;
         for (std::size_t i = 0; i < occluders.size(); ++i) {
-            const float near = occluders[i].bound_radius + 2.0f * occluders[i].reach + radius;
+            const float near = occluders[i].bound_radius + 2.0f * occluders[i].ao_radius + radius;
             if ((occluders[i].center - center).squaredNorm() < near * near) expected.push_back(i);
         }
         EXPECT_EQ(found, expected);
@@ -195,9 +195,9 @@ TEST(OccluderBoxes, StayInsideAndLeaveTheHoleFree) {
 TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ground_plane()};
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     const Camera view(scene.camera, 320, 180);  // level, eye at height 1: the horizon is the center row
-    const std::vector<PlanePatch> patches = make_plane_patches(looks, first_snapshot(scene), view, 0.01);
+    const std::vector<PlanePatch> patches = make_plane_patches(render_scene, first_snapshot(scene), view, 0.01);
     ASSERT_EQ(patches.size(), 1u);
     EXPECT_DOUBLE_EQ(patches[0].height, 1.0);
     for (const glm::vec3& corner : patches[0].corners) {
@@ -207,7 +207,7 @@ TEST(PlanePatch, CoversTheScreenBelowTheHorizon) {
         EXPECT_NEAR(corner.z, 1.0 - 0.02 / depth, 1e-6);
     }
     scene.camera.eye.y() = scene.camera.target.y() = -1.0;  // seen from below, a plane is transparent
-    EXPECT_TRUE(make_plane_patches(looks, first_snapshot(scene), Camera(scene.camera, 320, 180), 0.01).empty());
+    EXPECT_TRUE(make_plane_patches(render_scene, first_snapshot(scene), Camera(scene.camera, 320, 180), 0.01).empty());
 }
 
 TEST(PlanePatch, CellsAreRoundNumbers) {
@@ -220,19 +220,19 @@ TEST(PlanePatch, CellsAreRoundNumbers) {
 
 TEST(ShadowCascades, HoldsStillWhileBodiesMoveAndGrowsInPowersOfTwo) {
     const SceneDescription scene = heap_scene(50);
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     const Camera view(scene.camera, 1280, 720);
-    const CascadeFitter stage(scene, looks, view, 1024);
+    const CascadeFitter fitter(scene, render_scene, view, 1024);
     Snapshot snapshot = first_snapshot(scene);
-    const ShadowCascades rest = stage.fit(looks, snapshot, view);
+    const ShadowCascades rest = fitter.fit(render_scene, snapshot, view);
     EXPECT_FALSE(rest.has_far);
     snapshot.bodies[3].origin += Vec3(0.3, 0.2, -0.1);
-    const ShadowCascades moved_a_little = stage.fit(looks, snapshot, view);
+    const ShadowCascades moved_a_little = fitter.fit(render_scene, snapshot, view);
     EXPECT_EQ(rest.x, moved_a_little.x);
     EXPECT_EQ(rest.y, moved_a_little.y);
     EXPECT_EQ(rest.z, moved_a_little.z);
     snapshot.bodies[3].origin = Vec3(-25.0, 1.0, -30.0);
-    const ShadowCascades flown = stage.fit(looks, snapshot, view);
+    const ShadowCascades flown = fitter.fit(render_scene, snapshot, view);
     EXPECT_EQ(rest.x, flown.x);
     EXPECT_EQ(rest.y, flown.y);
     ASSERT_TRUE(flown.has_far);
@@ -258,10 +258,10 @@ TEST(LargeReceivers, AreMuchLargerThanAllTheRestTogether) {
         SceneDescription scene = empty_scene();
         scene.bodies.push_back(box_body(Vec3(0.0, -0.5, 0.0), Vec3(size, 1.0, size), {}));
         for (const double x : {-1.5, 0.5, 1.5}) scene.bodies.push_back(box_body(Vec3(x, 0.5, 0.0), Vec3::Ones(), {}));
-        const RenderScene looks = make_render_scene(scene);
-        EXPECT_EQ(looks.bodies[0].ground, ground) << size;  // diagonal against 1.5 * max(4.73, 7.5)
-        for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(looks.bodies[i].ground);
-        EXPECT_EQ(looks.typical_reach, 0.5);
+        const RenderScene render_scene = make_render_scene(scene);
+        EXPECT_EQ(render_scene.bodies[0].large_receiver, ground) << size;  // diagonal against 1.5 * max(4.73, 7.5)
+        for (std::size_t i = 1; i < 4; ++i) EXPECT_FALSE(render_scene.bodies[i].large_receiver);
+        EXPECT_EQ(render_scene.typical_ao_radius, 0.5);
     }
 }
 
@@ -271,9 +271,9 @@ TEST(LargeReceivers, AreFoundBelowFallingBodies) {
     const Quat slope(Eigen::AngleAxisd(pi / 6.0, Vec3::UnitZ()));
     scene.bodies.push_back(box_body(Vec3(0.0, 20.0, 0.0), Vec3(40.0, 2.0, 40.0), {}, slope));
     scene.bodies.push_back(ball_body(Vec3(0.0, 25.0, 0.0), 0.5, {}));
-    const RenderScene looks = make_render_scene(scene);
-    ASSERT_TRUE(looks.bodies[1].ground);
-    const RestHeightEstimate landing(scene, looks);
+    const RenderScene render_scene = make_render_scene(scene);
+    ASSERT_TRUE(render_scene.bodies[1].large_receiver);
+    const RestHeightEstimate landing(scene, render_scene);
     // Above the center plane the top is higher by 1 / cos 30 degrees, and rises by tan 30 degrees.
     EXPECT_NEAR(landing.fall(Vec3(0.0, 25.0, 3.0), -Vec3::UnitY()), 5.0 - 2.0 / std::sqrt(3.0), 1e-9);
     EXPECT_NEAR(landing.fall(Vec3(3.0, 25.0, 0.0), -Vec3::UnitY()), 5.0 - 5.0 / std::sqrt(3.0), 1e-9);
@@ -299,13 +299,14 @@ TEST(NearDistance, FitsTheGroundBelowTheEye) {
 TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
     SceneDescription scene = heap_scene(30);
     scene.bodies.push_back(box_body(scene.camera.eye + Vec3(0.0, 0.0, 30.0), Vec3::Ones(), {1, 2, 3}));
-    const RenderScene looks = make_render_scene(scene);
-    const Camera view(scene.camera, 1280, 720);
+    const RenderScene render_scene = make_render_scene(scene);
+    FrameSetup setup(scene, render_scene);
+    const Snapshot snapshot = first_snapshot(scene);
+    const FrameContext frame = setup.prepare(snapshot, false);
     OcclusionAtlas atlas;
     atlas.places.resize(scene.bodies.size());
-    const DrawList list =
-        make_draw_list(scene, looks, first_snapshot(scene), view, find_visible(looks, first_snapshot(scene), view),
-                       atlas, {}, std::vector<char>(scene.bodies.size(), 1), std::vector<char>(scene.bodies.size(), 1));
+    const DrawableMask all{std::vector<char>(scene.bodies.size(), 1), {}};
+    const DrawList list = make_draw_list(frame, find_visible(frame), atlas, all, all);
     std::size_t faces = 0;
     double last = 0.0;  // distance
     const double shell = std::exp2(1.0 / 8.0);
@@ -313,7 +314,7 @@ TEST(DrawList, IsSortedFrontToBackAndOmitsBodiesOutOfView) {
         EXPECT_EQ(batch.mesh, face_mesh);
         faces += batch.count;
         for (std::size_t i = 0; i < batch.count; ++i) {
-            const glm::vec4& p = list.instances[batch.first + i].position;
+            const glm::vec3& p = list.instances[batch.first + i].position;
             const double distance = std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z);
             EXPECT_GE(distance, i == 0 ? last / shell : last - 1e-4);  // batches within one shell start again
             last = distance;

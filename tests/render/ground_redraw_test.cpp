@@ -145,23 +145,20 @@ std::size_t different_pixels(const Image& a, const Image& b) {
 
 // One renderer draws all frames, another every second one, like two workers. Returns the redrawn part of all frames.
 double draw_partly(unsigned seeds, Ground ground) {
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.full_redraw = true;
     double redrawn = 0.0, frames = 0.0;
     for (unsigned seed = 0; seed < seeds; ++seed) {
         const SceneDescription scene = random_scene(seed, ground);
-        Renderer partial(scene, {}), second(scene, {}), full(scene, everything);
-        Image frame, half, truth;
+        Renderer partial(scene), second(scene), full(scene, everything);
         Random random(1000 + seed);
         Snapshot snapshot = first_snapshot(scene);
         for (int step = 0; step < 20; ++step) {
             if (step % 10 == 9) snapshot.time += 0.5;  // an orbiting camera moves
-            partial.render(snapshot, frame);
-            full.render(snapshot, truth);
+            const Image &frame = partial.render(snapshot), &truth = full.render(snapshot);
             EXPECT_EQ(different_pixels(frame, truth), 0u) << "scene " << seed << ", step " << step;
             if (step % 2 == 0) {
-                second.render(snapshot, half);
-                EXPECT_EQ(different_pixels(half, truth), 0u)
+                EXPECT_EQ(different_pixels(second.render(snapshot), truth), 0u)
                     << "scene " << seed << ", step " << step << ", second worker";
             }
             if (frame != truth) return 1.0;
@@ -191,12 +188,11 @@ TEST(GroundRedraw, RedrawsLittleOnALargeBoxOrMesh) {
         scene.bodies.push_back(box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 130, 60}));
         scene.bodies.push_back(box_body(Vec3(1.5, 0.5, 1.0), Vec3::Ones(), {200, 130, 60}));
         scene.bodies.push_back(ball_body(Vec3(-1.5, 0.6, 1.0), 0.6, {60, 110, 200}));
-        Renderer renderer(scene, {});
+        Renderer renderer(scene);
         Snapshot snapshot = first_snapshot(scene);
-        Image frame;
-        renderer.render(snapshot, frame);
+        renderer.render(snapshot);
         snapshot.bodies[3].origin.x() += 0.01;
-        renderer.render(snapshot, frame);
+        const Image& frame = renderer.render(snapshot);
         double pixels = 0.0;
         for (const Rectangle& r : renderer.changed()) pixels += double(r.width) * r.height;
         return pixels / double(frame.width * frame.height);

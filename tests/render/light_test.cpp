@@ -265,7 +265,7 @@ TEST(Light, MetalEdgesDoNotGlitter) {
     const auto brightest = [&] {  // of each pixel: the difference from the mean
         std::vector<Image> images;
         for (int i = 0; i < 16; ++i) {
-            RenderOptions options;
+            RenderSwitches options;
             options.shift_x = (i % 4) / 4.0;
             options.shift_y = (i / 4) / 4.0;
             images.push_back(drawn(scene, options));

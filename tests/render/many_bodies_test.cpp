@@ -43,15 +43,17 @@ SceneDescription crowded_scene() {
 
 TEST(ManyBodies, CullingChangesNoByte) {
     const SceneDescription scene = crowded_scene();
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.draw_hidden = true;
     EXPECT_EQ(drawn(scene), drawn(scene, everything));
-    const RenderScene looks = make_render_scene(scene);
-    EXPECT_GT(looks.mesh_triangles, most_whole_triangles) << "so that meshes are simplified";
-    const Camera view(scene.camera, scene.output.width, scene.output.height);
-    const auto count = [](const Visibility& v) { return std::count(v.bodies.begin(), v.bodies.end(), true); };
-    const auto coarse = count(find_visible(looks, first_snapshot(scene), view));
-    const auto fine = count(find_visible(looks, first_snapshot(scene), view, true));
+    const RenderScene render_scene = make_render_scene(scene);
+    EXPECT_GT(render_scene.mesh_triangles, most_whole_triangles) << "so that meshes are simplified";
+    FrameSetup setup(scene, render_scene);
+    const auto visible = [&](bool one_sample) {
+        const Visibility v = find_visible(setup.prepare(first_snapshot(scene), one_sample));
+        return std::count(v.bodies.begin(), v.bodies.end(), true);
+    };
+    const auto coarse = visible(false), fine = visible(true);
     EXPECT_LT(fine, 0.7 * double(coarse)) << "by pixel much more is found hidden";
 }
 
@@ -59,35 +61,32 @@ TEST(ManyBodies, PartialRedrawHasTheBytesOfAFullRedraw) {
     for (const int samples : {1, 4}) {  // with 4: smooth edges
         SceneDescription scene = crowded_scene();
         scene.output.samples = samples;
-        RenderOptions full;
+        RenderSwitches full;
         full.full_redraw = true;
-        Renderer partial(scene, {}), whole(scene, full);
+        Renderer partial(scene), whole(scene, full);
         Snapshot snapshot = first_snapshot(scene);
         Random random(9);
-        Image frame, truth;
         for (const int moved : {0, 1, 5, 60, 3000, 2}) {  // above a quarter, all AO is checked again
             for (int i = 0; i < moved; ++i) {
                 BodyState& body = snapshot.bodies[1 + std::size_t(random.between(0.0, 4000.0))];
                 body.origin += random.vector(0.4);
                 body.orientation = random.turn(0.1);
             }
-            partial.render(snapshot, frame);
-            whole.render(snapshot, truth);
-            ASSERT_EQ(frame, truth) << moved << " moved, " << samples << " samples";
+            ASSERT_EQ(partial.render(snapshot), whole.render(snapshot)) << moved << " moved, " << samples << " samples";
         }
     }
 }
 
 TEST(ManyBodies, HundredThousandFitTheAtlas) {
-    RenderScene looks;
-    RenderBody look;
-    look.kind = DrawKind::box;
-    look.half_size = Vec3::Constant(0.5);
-    look.reach = 0.5;
+    RenderScene render_scene;
+    RenderBody proxy;
+    proxy.kind = DrawKind::box;
+    proxy.half_size = Vec3::Constant(0.5);
+    proxy.ao_radius = 0.5;
     for (const std::size_t count : {std::size_t(100), std::size_t(100'000)}) {
-        looks.bodies.assign(count, look);
+        render_scene.bodies.assign(count, proxy);
         OcclusionAtlas atlas;
-        lay_out_places(looks, atlas);
+        lay_out_places(render_scene, atlas);
         EXPECT_LE(atlas.height, OcclusionAtlas::most_body_rows);
         for (const OcclusionPlace& place : atlas.places) ASSERT_EQ(place.size, count == 100 ? 9 : 3);
     }
@@ -98,7 +97,7 @@ TEST(ManyBodies, HundredThousandFitTheAtlas) {
 TEST(ManyBodies, OcclusionBlendsFromOneValueToAllTexels) {
     double last = 0.0;
     for (double pixels = 0.0; pixels < 12.0; pixels += 0.01) {
-        const double detail = darkening_detail(pixels, 4.0, 8.0);
+        const double detail = occlusion_lod(pixels, 4.0, 8.0);
         EXPECT_LE(std::abs(detail - last), 0.005) << pixels;
         EXPECT_GE(detail, last);
         last = detail;
@@ -108,12 +107,14 @@ TEST(ManyBodies, OcclusionBlendsFromOneValueToAllTexels) {
         SceneDescription scene = empty_scene();
         scene.camera.eye = Vec3(0.0, 1.0, away);
         scene.bodies = {ground_plane(), box_body(Vec3(0.0, 0.5, 0.0), Vec3::Ones(), {200, 200, 200})};
-        for (std::size_t i = 0; i < crowd; ++i)
+        for (std::size_t i = 0; i < large_scene; ++i)
             scene.bodies.push_back(box_body(Vec3(0.0, 50.0 + 9.0 * double(i), 0.0), Vec3::Ones(), {200, 200, 200}));
-        const RenderScene looks = make_render_scene(scene);
-        const Camera view(scene.camera, scene.output.width, scene.output.height);
-        AmbientOcclusion maker(looks, Vec3::Zero());
-        maker.update(first_snapshot(scene), view, everything_visible(looks, view));
+        const RenderScene render_scene = make_render_scene(scene);
+        FrameSetup setup(scene, render_scene);
+        const Snapshot snapshot = first_snapshot(scene);
+        const FrameContext frame = setup.prepare(snapshot, false);
+        AmbientOcclusion maker(render_scene, Vec3::Zero());
+        maker.update(frame, everything_visible(frame));
         const OcclusionPlace& place = maker.atlas().places[1];
         int low = 255, high = 0;
         for (int j = 0; j < place.size; ++j)
@@ -155,10 +156,10 @@ TEST(MeshLod, IsOffByNoMoreThanAskedFor) {
     const auto asset = torus_asset(1.0, 0.3);
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), asset, {1, 2, 3})};
-    const RenderScene looks = make_render_scene(scene);
+    const RenderScene render_scene = make_render_scene(scene);
     std::size_t last = asset->indices.size();
     for (const double deviation : {0.003, 0.01, 0.03, 0.1}) {
-        const MeshLod detail = simplify(looks.meshes[0], deviation);
+        const MeshLod detail = simplify(render_scene.meshes[0], deviation);
         EXPECT_LT(detail.indices.size(), last) << deviation;
         last = detail.indices.size();
         EXPECT_EQ(detail.surface.triangles.size() * 3, detail.indices.size());
@@ -178,11 +179,13 @@ TEST(MeshLod, IsOffByNoMoreThanAskedFor) {
 TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     SceneDescription scene = empty_scene();
     scene.bodies = {mesh_body(Vec3::Zero(), torus_asset(1.0, 0.3), {1, 2, 3})};
-    RenderScene looks = make_render_scene(scene);
-    EXPECT_EQ(level_in_view(looks.bodies[0], looks, Vec3(0.0, 0.0, -1000.0), Camera(scene.camera, 320, 180)), 0u)
+    RenderScene render_scene = make_render_scene(scene);
+    EXPECT_EQ(
+        level_in_view(render_scene.bodies[0], render_scene, Vec3(0.0, 0.0, -1000.0), Camera(scene.camera, 320, 180)),
+        0u)
         << "few triangles";
-    looks.mesh_triangles = most_whole_triangles + 1;
-    const RenderBody& look = looks.bodies[0];
+    render_scene.mesh_triangles = most_whole_triangles + 1;
+    const RenderBody& proxy = render_scene.bodies[0];
     const Camera view(scene.camera, scene.output.width, scene.output.height);
     Random random(4);
     double worst = 0.0;
@@ -190,11 +193,11 @@ TEST(MeshLod, IsOffByAQuarterOfAPixelAtMost) {
     for (int trial = 0; trial < 20000; ++trial) {
         const Vec3 center =
             view.ray(random.between(0.0, 320.0), random.between(0.0, 180.0)) * std::exp(random.between(0.0, 6.0));
-        const std::size_t level = level_in_view(look, looks, center, view);
+        const std::size_t level = level_in_view(proxy, render_scene, center, view);
         coarsest = std::max(coarsest, level);
         if (level == 0) continue;
-        const Vec3 point = center + random.turn(0.1) * Vec3::UnitX() * look.bound_radius;
-        const Vec3 off = random.turn(0.1) * Vec3::UnitX() * deviation_of_level(look, level);
+        const Vec3 point = center + random.turn(0.1) * Vec3::UnitX() * proxy.bound_radius;
+        const Vec3 off = random.turn(0.1) * Vec3::UnitX() * deviation_of_level(proxy, level);
         const double pixels = (view.pixel(point + off) - view.pixel(point)).norm();
         EXPECT_LE(pixels, most_detail_error * 1.05);  // the deviation itself moves it nearer
         worst = std::max(worst, pixels);

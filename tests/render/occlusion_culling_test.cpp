@@ -2,9 +2,9 @@
 #include "example_scenes.h"
 
 #include "render/culling/occlusion_culling.h"
-#include "render/damage/plane_dirty_regions.h"
+#include "render/damage/plane_damage.h"
 #include "render/render_scene_builder.h"
-#include "render/scene/plane_axes.h"
+#include "render/scene/plane_patch.h"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +18,12 @@ bool blocks(const BodyDescription& box, const Vec3& eye, const Vec3& point) {
 
 struct Heap {
     SceneDescription scene = heap_scene(150);
-    RenderScene looks = make_render_scene(scene);
-    Camera view{scene.camera, 1280, 720};
+    RenderScene render_scene = make_render_scene(scene);
     Snapshot snapshot = first_snapshot(scene);
-    Visibility visibility = find_visible(looks, snapshot, view);
+    FrameSetup setup{scene, render_scene};
+    FrameContext frame = setup.prepare(snapshot, false);
+    const Camera& view = frame.camera;
+    Visibility visibility = find_visible(frame);
 
     bool in_picture(const Vec3& point) const {
         const Vec3 p = view.relative(point);
@@ -66,35 +68,31 @@ TEST(OcclusionCulling, CulledFacesAreHiddenOrTurnedAway) {
 
 TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnOnce) {
     const Heap heap;
-    const CascadeFitter stage(heap.scene, heap.looks, heap.view, 1024);
-    const std::vector<PlanePatch> planes = make_plane_patches(heap.looks, heap.snapshot, heap.view, 0.01);
+    const std::vector<PlanePatch>& planes = heap.frame.planes;
     ASSERT_EQ(planes.size(), 1u);
-    AmbientOcclusion darkening(heap.looks, heap.view.eye());
-    darkening.update(heap.snapshot, heap.view, heap.visibility);
-    ASSERT_EQ(darkening.atlas().windows.size(), 1u);
-    const PlaneOcclusionTile& window = darkening.atlas().windows[0];
+    AmbientOcclusion occlusion(heap.render_scene, heap.view.eye());
+    occlusion.update(heap.frame, heap.visibility);
+    ASSERT_EQ(occlusion.atlas().plane_tiles.size(), 1u);
+    const PlaneOcclusionTile& tile = occlusion.atlas().plane_tiles[0];
     const PlaneAxes axes = plane_axes(planes[0].normal);
     // The darkest of the four texels around a place.
     const auto least_open = [&](const Vec3& point) {
-        const Vec3 from_origin = point - heap.snapshot.bodies[window.body].origin;
-        const int i = int(std::floor(axes.u.dot(from_origin) / window.cell - window.low_a));
-        const int j = int(std::floor(axes.v.dot(from_origin) / window.cell - window.low_b));
+        const Vec3 from_origin = point - heap.snapshot.bodies[tile.body].origin;
+        const int i = int(std::floor(axes.u.dot(from_origin) / tile.cell - tile.low_a));
+        const int j = int(std::floor(axes.v.dot(from_origin) / tile.cell - tile.low_b));
         int least = 255;
         for (const int x : {i, i + 1})
             for (const int y : {j, j + 1})
-                if (x >= 0 && y >= 0 && x < window.width && y < window.height)
+                if (x >= 0 && y >= 0 && x < tile.width && y < tile.height)
                     least = std::min<int>(
-                        least,
-                        darkening.atlas()
-                            .texels[std::size_t(window.y + y) * OcclusionAtlas::width + std::size_t(window.x + x)]);
+                        least, occlusion.atlas()
+                                   .texels[std::size_t(tile.y + y) * OcclusionAtlas::width + std::size_t(tile.x + x)]);
         return least;
     };
     DirtyTiles everything(heap.view);
     everything.mark_all();
-    const std::vector<Rectangle> areas = find_touched_areas(
-        planes[0], heap.scene, heap.looks, make_drawn_items(heap.scene, heap.looks, heap.snapshot, heap.view),
-        heap.view, stage.fit(heap.looks, heap.snapshot, heap.view), heap.visibility.cover, darkening.atlas(),
-        heap.snapshot, everything);
+    const std::vector<Rectangle> areas =
+        find_dirty_regions(planes[0], heap.frame, heap.visibility.cover, occlusion.atlas(), everything);
     std::vector<int> times(1280 * 720, 0);
     for (const Rectangle& area : areas)
         for (int y = area.y; y < area.y + area.height; ++y)
@@ -118,7 +116,7 @@ TEST(OcclusionCulling, OmittedPlaneRegionsAreHiddenOrUntouchedAndOthersAreDrawnO
                 EXPECT_FALSE(blocks(box, point - heap.scene.light.direction.normalized() * 100.0, point))
                     << "a shadow at " << x << ", " << y;
             }
-            EXPECT_EQ(least_open(point), 255) << "darkening at " << x << ", " << y;
+            EXPECT_EQ(least_open(point), 255) << "occlusion at " << x << ", " << y;
         }
     EXPECT_GT(left_out, 5000);
     EXPECT_GT(hidden, 500);
@@ -129,9 +127,9 @@ TEST(OcclusionCulling, ABoxAroundTheEyeHidesNothing) {
     SceneDescription scene = empty_scene();
     scene.bodies = {box_body(scene.camera.eye, Vec3(4.0, 4.0, 4.0), {1, 2, 3}),
                     box_body(Vec3(0.0, 1.0, 0.0), Vec3::Ones(), {1, 2, 3})};
-    const Visibility visibility =
-        find_visible(make_render_scene(scene), first_snapshot(scene), Camera(scene.camera, 320, 180));
-    EXPECT_TRUE(visibility.bodies[1]);
+    const RenderScene render_scene = make_render_scene(scene);
+    FrameSetup setup(scene, render_scene);
+    EXPECT_TRUE(find_visible(setup.prepare(first_snapshot(scene), false)).bodies[1]);
 }
 
 }  // namespace

@@ -99,26 +99,25 @@ void expect_unchanged_elsewhere(const Image& before, const Image& after, const s
 
 // Returns the redrawn part of all frames.
 double draw_partly(unsigned seeds, Ground ground) {
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.full_redraw = true;
     double redrawn = 0.0;
     for (unsigned seed = 0; seed < seeds; ++seed) {
         const SceneDescription scene = random_scene(seed, ground);
-        Renderer partial(scene, {}), full(scene, everything);
-        Image frame, truth, before;
+        Renderer partial(scene), full(scene, everything);
+        Image before;
         Random random(1000 + seed);
         Snapshot snapshot = first_snapshot(scene);
         for (int arrangement = 0; arrangement < 10; ++arrangement) {
             place(scene, random, snapshot);
             for (int step = 0; step < 3; ++step) {
-                before = frame;
-                partial.render(snapshot, frame);
-                full.render(snapshot, truth);
+                const Image &frame = partial.render(snapshot), &truth = full.render(snapshot);
                 EXPECT_EQ(different_pixels(frame, truth), 0u)
                     << "scene " << seed << ", arrangement " << arrangement << ", step " << step;
                 if (frame != truth) return 1.0;
                 if (!before.pixels.empty()) expect_unchanged_elsewhere(before, frame, partial.changed());
                 for (const Rectangle& r : partial.changed()) redrawn += double(r.width) * r.height;
+                before = frame;
                 move(scene, random, snapshot);
             }
         }
@@ -137,7 +136,7 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawOnLargeGrounds) {
 
 // So high that it occludes nothing: only its shadow changes the receiver, in the near map and in the far one.
 TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
-    RenderOptions everything;
+    RenderSwitches everything;
     everything.full_redraw = true;
     for (const bool mesh : {false, true}) {
         SceneDescription scene = empty_scene();
@@ -146,14 +145,12 @@ TEST(PartialRedraw, HasTheBytesOfAFullRedrawWhereAShadowMovesOnALargeGround) {
         if (mesh) scene.bodies[0] = mesh_body(Vec3::Zero(), sheet_asset(16.0, 10), {176, 180, 184});
         scene.bodies.push_back(ball_body(Vec3(0.0, 2.0, 0.0), 0.3, {200, 60, 40}));
         scene.bodies.push_back(box_body(Vec3(-1.0, 0.25, 0.0), Vec3::Constant(0.5), {60, 90, 200}));
-        Renderer partial(scene, {}), full(scene, everything);
-        Image frame, truth;
+        Renderer partial(scene), full(scene, everything);
         Snapshot snapshot = first_snapshot(scene);
         for (int step = 0; step < 30; ++step) {
             snapshot.bodies[1].origin = Vec3(0.25 * step, 2.0, -0.1 * step);
-            partial.render(snapshot, frame);
-            full.render(snapshot, truth);
-            EXPECT_EQ(different_pixels(frame, truth), 0u) << "step " << step << (mesh ? ", mesh" : ", box");
+            EXPECT_EQ(different_pixels(partial.render(snapshot), full.render(snapshot)), 0u)
+                << "step " << step << (mesh ? ", mesh" : ", box");
         }
     }
 }
@@ -168,16 +165,13 @@ TEST(PartialRedraw, EarlierFramesHaveNoInfluence) {
     scene.camera.target = Vec3(0.0, 0.0, 0.0);
     scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
     for (int i = 0; i < 4; ++i) scene.bodies.push_back(box_body(Vec3::Zero(), Vec3::Constant(0.5), {200, 60, 40}));
-    Renderer used(scene, {});
-    Image frame, truth;
+    Renderer used(scene);
     Snapshot snapshot = first_snapshot(scene);
     for (const auto& [wide, deep] : {std::pair{1.5, 0.4}, {0.4, 1.5}, {1.5, 1.5}, {2.5, 0.4}, {0.4, 2.5}, {2.5, 2.5}}) {
         for (int i = 0; i < 4; ++i)
             snapshot.bodies[std::size_t(i + 1)].origin =
                 Vec3(i % 2 == 0 ? wide : -wide, 0.3, i / 2 == 0 ? deep : -deep);
-        used.render(snapshot, frame);
-        Renderer(scene, {}).render(snapshot, truth);
-        EXPECT_EQ(different_pixels(frame, truth), 0u) << wide << " by " << deep;
+        EXPECT_EQ(different_pixels(used.render(snapshot), drawn(scene, snapshot)), 0u) << wide << " by " << deep;
     }
 }
 
@@ -190,45 +184,28 @@ TEST(PartialRedraw, ThinSidesHaveTheirOwnOcclusion) {
     scene.bodies.push_back(ground_plane({176, 180, 184}, Pattern::plain));
     Random random(3);
     for (int i = 0; i < 90; ++i) scene.bodies.push_back(box_body(Vec3::Zero(), Vec3(0.1, 0.004, 0.4), {200, 160, 140}));
-    Renderer used(scene, {});
-    Image frame, truth;
+    Renderer used(scene);
     Snapshot snapshot = first_snapshot(scene);
     for (int arrangement = 0; arrangement < 12; ++arrangement) {
         for (std::size_t i = 1; i < snapshot.bodies.size(); ++i) {
             snapshot.bodies[i].origin = Vec3(0.0, 0.2, 0.0) + random.vector(2.5, 0.2, 2.5);
             snapshot.bodies[i].orientation = random.turn();
         }
-        used.render(snapshot, frame);
-        Renderer(scene, {}).render(snapshot, truth);
-        EXPECT_EQ(different_pixels(frame, truth), 0u) << "arrangement " << arrangement;
+        EXPECT_EQ(different_pixels(used.render(snapshot), drawn(scene, snapshot)), 0u) << "arrangement " << arrangement;
     }
 }
 
 TEST(PartialRedraw, DrawsNothingWhereNothingMoves) {
     const SceneDescription scene = random_scene(1);
-    Renderer renderer(scene, {});
+    Renderer renderer(scene);
     Random random(5);
     Snapshot snapshot = first_snapshot(scene);
     place(scene, random, snapshot);
-    Image frame, copy;
-    renderer.render(snapshot, frame);
+    const Image first = renderer.render(snapshot);
     EXPECT_EQ(renderer.changed(), (std::vector<Rectangle>{{0, 0, 232, 152}}));
-    copy = frame;
-    renderer.render(snapshot, frame);
+    const Image& second = renderer.render(snapshot);
     EXPECT_TRUE(renderer.changed().empty());
-    EXPECT_EQ(frame, copy);
-}
-
-TEST(PartialRedraw, ReplacesAnImageOfAnotherSizeAndUpdatesOneThatFits) {
-    const SceneDescription scene = random_scene(1);
-    Renderer renderer(scene, {});
-    Snapshot snapshot = first_snapshot(scene);
-    Image frame, fresh, touched(232, 152);
-    renderer.render(snapshot, frame);
-    renderer.render(snapshot, fresh);
-    EXPECT_EQ(fresh, frame);
-    renderer.render(snapshot, touched);
-    EXPECT_EQ(touched, Image(232, 152)) << "nothing had changed";
+    EXPECT_EQ(second, first);
 }
 
 TEST(DirtyTiles, MarksTheTilesOfAHull) {

@@ -1,4 +1,4 @@
-// Places of bodies in the image, and equality of images in every run and with every backend.
+// Places of bodies in the image, equality of images in every run and with every backend, and gradients without bands.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -30,11 +30,9 @@ SceneDescription mixed_scene() {
 TEST(Renderer, DrawsTheSameBytesTwice) {
     const SceneDescription scene = mixed_scene();
     const Snapshot snapshot = first_snapshot(scene);
-    Renderer first(scene, {});
-    Image once, again;
-    first.render(snapshot, once);
-    first.render(snapshot, again);
-    EXPECT_EQ(once, again) << "a frame depends on the one before";
+    Renderer first(scene);
+    const Image once = first.render(snapshot);
+    EXPECT_EQ(first.render(snapshot), once) << "a frame depends on the one before";
     EXPECT_EQ(once, drawn(scene)) << "a renderer depends on the one before";
 }
 
@@ -42,24 +40,19 @@ TEST(Renderer, DoesNotRememberOtherFrames) {
     const SceneDescription scene = mixed_scene();
     Snapshot away = first_snapshot(scene);
     for (std::size_t i = 1; i < away.bodies.size(); ++i) away.bodies[i].origin += Vec3(3.0, 40.0, 2.0) * double(i);
-    Renderer renderer(scene, {});
-    Image image;
-    renderer.render(away, image);
-    renderer.render(first_snapshot(scene), image);
-    EXPECT_EQ(image, drawn(scene));
+    Renderer renderer(scene);
+    renderer.render(away);
+    EXPECT_EQ(renderer.render(first_snapshot(scene)), drawn(scene));
 }
 
 TEST(Renderer, TwoInOneThreadKeepApart) {
     const SceneDescription scene = mixed_scene();
     const Image alone = drawn(scene);
     auto first = std::make_unique<Renderer>(scene, RenderOptions{});
-    Renderer second(scene, {});
-    Image image;
-    first->render(first_snapshot(scene), image);
-    EXPECT_EQ(image, alone) << "the first, after the second was made";
+    Renderer second(scene);
+    EXPECT_EQ(first->render(first_snapshot(scene)), alone) << "the first, after the second was made";
     first.reset();
-    second.render(first_snapshot(scene), image);
-    EXPECT_EQ(image, alone) << "the second, after the first was destroyed";
+    EXPECT_EQ(second.render(first_snapshot(scene)), alone) << "the second, after the first was destroyed";
 }
 
 TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
@@ -73,8 +66,7 @@ TEST(Renderer, EglDrawsTheSameBytesAsOsmesa) {
             GTEST_SKIP() << "no EGL here: " << failure.what();
         }
         if (egl->driver().find("llvmpipe") == std::string::npos) GTEST_SKIP() << "EGL draws with " << egl->driver();
-        Image image;
-        egl->render(first_snapshot(scene), image);
+        const Image image = egl->render(first_snapshot(scene));
         egl.reset();
         EXPECT_EQ(image, drawn(scene)) << samples << " samples";
     }
@@ -122,7 +114,7 @@ TEST(Renderer, DrawsAllPartsOfABody) {
 }
 
 TEST(Renderer, NamesItsDriver) {
-    Renderer renderer(empty_scene(), {});
+    Renderer renderer(empty_scene());
     EXPECT_NE(renderer.driver().find("OpenGL"), std::string::npos) << renderer.driver();
 }
 
@@ -190,7 +182,7 @@ TEST(Renderer, AveragesTheSamplesOfAPixel) {
                              Quat(Eigen::AngleAxisd(0.3, Vec3::UnitZ())))};
     for (const int samples : {1, 4}) {  // llvmpipe has no other numbers: 2 are drawn as 4
         scene.output.samples = samples;
-        RenderOptions options = shaders.options();
+        RenderSwitches options = shaders.options();
         options.multisample = true;
         const Image image = drawn(scene, options);
         std::set<int> values;
@@ -226,7 +218,38 @@ TEST(Renderer, TurnsWithTheBody) {
 TEST(Renderer, RefusesAPictureThatTheDriverCannotHold) {
     SceneDescription scene = empty_scene();
     scene.output.width = 1 << 20;
-    EXPECT_THROW(Renderer(scene, {}), RunError);
+    EXPECT_THROW(Renderer(scene, RenderOptions{}), RunError);
+}
+
+// The means of 8 x 8 pixels down the middle of the picture, in levels of green.
+std::vector<double> block_means(const Image& image) {
+    std::vector<double> means;
+    for (int top = 0; top + 8 <= image.height; top += 8) {
+        double sum = 0.0;
+        for (int y = top; y < top + 8; ++y)
+            for (int x = image.width / 2; x < image.width / 2 + 8; ++x) sum += image.at(x, y)[1];
+        means.push_back(sum / 64.0);
+    }
+    return means;
+}
+
+// A gradient of some levels over the whole image: rounded to the nearest level, it would have visible bands.
+TEST(Renderer, SkyAndGroundHaveNoBands) {
+    SceneDescription sky = empty_scene(), ground = empty_scene();
+    sky.camera.target = Vec3(0.0, 3.0, 0.0);
+    ground.bodies = {ground_plane({185, 188, 194}, Pattern::plain)};
+    ground.camera.target = Vec3(0.0, -0.2, 0.0);
+    for (SceneDescription* scene : {&sky, &ground}) {
+        scene->output.width = 640;
+        scene->output.height = 360;
+        scene->camera.vertical_fov = scene == &sky ? 5.0 : 12.0;
+        const std::vector<double> means = block_means(drawn(*scene));
+        EXPECT_GT(std::abs(means.back() - means.front()), 1.5) << "there must be steps to see";
+        EXPECT_LT(std::abs(means.back() - means.front()), 30.0) << "they must be wide";
+        for (std::size_t i = 1; i + 1 < means.size(); ++i)
+            EXPECT_NEAR(means[i - 1] - 2.0 * means[i] + means[i + 1], 0.0, 0.3)
+                << (scene == &sky ? "sky" : "ground") << ", row " << 8 * i;
+    }
 }
 
 }  // namespace

@@ -97,9 +97,9 @@ TEST_F(Turns, ThePictureIsTheSame) {
         scene.bodies.push_back(ball_body(Vec3(1.2, 1.4, 0.3), 0.5, {40, 120, 200}));
         scene.bodies.push_back(mesh_body(Vec3(-1.2, 1.4, 0.3), torus_asset(0.5, 0.2), {90, 160, 60}));
         const Image alone = drawn(scene);
-        RenderOptions options;
+        RenderSwitches options;
         ShaderCompileSchedule turns;
-        options.turns = &turns;
+        options.compile_schedule = &turns;
         EXPECT_EQ(drawn(scene, options).pixels, alone.pixels);
     }
 }

@@ -58,7 +58,7 @@ TEST(Shaders, AMissingFolderIsNamed) {
 
 TEST(Shaders, AreFoundInTheSourceTreeOrWhereTheVariableSays) {
     unsetenv("TUMBLE_SHADERS");
-    EXPECT_TRUE(std::filesystem::exists(find_shader_folder() / "look.glsl"));
+    EXPECT_TRUE(std::filesystem::exists(find_shader_folder() / "light_constants.glsl"));
     ShaderCopy shaders;
     setenv("TUMBLE_SHADERS", shaders.folder().c_str(), 1);
     EXPECT_EQ(find_shader_folder(), shaders.folder());

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace tumble::time_scaling_test {
+namespace tumble::clip_timing_test {
 namespace {
 
 SceneDescription falling_box() {
@@ -94,4 +94,4 @@ TEST(TimeScaling, TooManyFramesAreRefused) {
 }
 
 }  // namespace
-}  // namespace tumble::time_scaling_test
+}  // namespace tumble::clip_timing_test

@@ -123,9 +123,7 @@ Finding try_drawing(GlBackend backend, TimeLimit& time_limit) {
         RenderOptions options;
         options.backend = backend;
         Renderer renderer(scene, options);
-        Snapshot snapshot;
-        Image image;
-        renderer.render(snapshot, image);
+        const Image& image = renderer.render(Snapshot());
         if (image.width != 32 || image.height != 32) throw RunError("the picture has a different size than requested");
         return renderer.driver();
     };

@@ -4,6 +4,7 @@
 #include "core/error.h"
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
+#include "render/render_switches.h"
 
 #include <sys/mman.h>
 
@@ -74,8 +75,8 @@ private:
 RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
                        int workers, int max_blur_samples)
     : compile_schedule_(make_compile_schedule(workers)), pose_filter_(scene), aov_changes_(scene), outputs_(outputs) {
-    RenderOptions with_schedule = options;
-    with_schedule.turns = compile_schedule_.get();
+    RenderSwitches with_schedule{options};
+    with_schedule.compile_schedule = compile_schedule_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
         workers_.push_back(

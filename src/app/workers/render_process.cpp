@@ -70,7 +70,7 @@ WorkTime timed(const Work& work) {
 /// The child process: its OpenGL context, and its previous frame with all outputs.
 class FrameMaker {
 public:
-    FrameMaker(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
+    FrameMaker(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs,
                SharedFrames& memory)
         : memory_(memory) {
         if (outputs.image()) renderer_.emplace(scene, options);
@@ -97,9 +97,9 @@ private:
     void make_image(const Job& job, DrawnFrame& drawn) {
         drawn.drawing = timed([&] { draw_samples(job); });
         const bool partly = !was_blurred_ && job.blur_samples == 1;  // otherwise the previous image was a different one
+        const Image& image = job.blur_samples == 1 ? *drawn_ : blurred_;
         const std::vector<Rectangle> changed =
-            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image_.width, image_.height}};
-        const Image& image = job.blur_samples == 1 ? image_ : blurred_;
+            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image.width, image.height}};
         was_blurred_ = job.blur_samples > 1;
         drawn.unchanged = changed.empty();
         if (video_)
@@ -118,8 +118,8 @@ private:
     void draw_samples(const Job& job) {
         for (std::size_t i = 0; i < job.blur_samples; ++i) {
             memory_.read_poses(i, snapshot_);
-            renderer_->render(snapshot_, image_);
-            if (job.blur_samples > 1) mean_.add(image_);
+            drawn_ = &renderer_->render(snapshot_);
+            if (job.blur_samples > 1) mean_.add(*drawn_);
         }
         if (job.blur_samples > 1) mean_.take(blurred_);
     }
@@ -127,7 +127,7 @@ private:
     SharedFrames& memory_;
     std::optional<Renderer> renderer_;
     Snapshot snapshot_;
-    Image image_;  // the last sample that was drawn
+    const Image* drawn_ = nullptr;  // the last sample that was drawn; the renderer owns it
     ImageMean mean_;
     Image blurred_;
     bool was_blurred_ = false;
@@ -146,7 +146,7 @@ std::string reason(const std::exception& error) {
     return std::string(text);
 }
 
-[[noreturn]] void work(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
+[[noreturn]] void work(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs,
                        SharedFrames& memory, int socket) {
     ::setpgid(0, 0);  // Ctrl-C must reach it only through the program
     sigset_t none;
@@ -179,7 +179,7 @@ std::string reason(const std::exception& error) {
 
 }  // namespace
 
-RenderProcess::RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
+RenderProcess::RenderProcess(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs,
                              int slots, int max_blur_samples, std::span<const int> other_sockets)
     : memory_(std::make_shared<SharedFrames>(scene, outputs, slots, max_blur_samples)) {
     int ends[2];

@@ -6,7 +6,7 @@
 #include "app/workers/motion_blur_frame.h"
 #include "app/workers/shared_frames.h"
 #include "output/process.h"
-#include "render/renderer.h"
+#include "render/render_switches.h"
 #include "scene/description/description.h"
 
 #include <sys/types.h>
@@ -36,7 +36,7 @@ class RenderProcess {
 public:
     /// Forks; the child opens OpenGL at once, and closes the sockets of the workers that were started before it.
     /// Precondition: the program has no other thread. Throws RunError if there are no more processes or no memory.
-    RenderProcess(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs, int slots,
+    RenderProcess(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs, int slots,
                   int max_blur_samples, std::span<const int> other_sockets = {});
     /// Ends the process in any state.
     ~RenderProcess();

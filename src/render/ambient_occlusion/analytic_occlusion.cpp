@@ -1,7 +1,6 @@
 #include "render/ambient_occlusion/analytic_occlusion.h"
 
 #include "core/cpu_dispatch.h"
-#include "render/ambient_occlusion/box_distance.h"
 
 #include <algorithm>
 #include <cmath>
@@ -40,13 +39,13 @@ void SurfacePoints::add(const SurfacePoints& others, std::size_t first, std::siz
     open.insert(open.end(), count, 1.0f);
 }
 
-TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float reach) {
+TUMBLE_WIDE void occlude(SurfacePoints& points, const Occluder& occluder, float ao_radius) {
     const Eigen::Matrix3f& m = occluder.to_local;
     const Eigen::Vector3f c = occluder.center, half = occluder.half_size;
     const float m00 = m(0, 0), m01 = m(0, 1), m02 = m(0, 2), m10 = m(1, 0), m11 = m(1, 1), m12 = m(1, 2);
     const float m20 = m(2, 0), m21 = m(2, 1), m22 = m(2, 2);
     const float hx = half.x(), hy = half.y(), hz = half.z(), radius = occluder.radius;
-    const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
+    const float far_step = std::min(ao_radius, occluder.ao_radius), near_step = near_sample * far_step;
     const float per_near = 1.0f / near_step, per_far = 1.0f / far_step;
     const float *px = points.x.data(), *py = points.y.data(), *pz = points.z.data();
     const float *nx = points.nx.data(), *ny = points.ny.data(), *nz = points.nz.data();
@@ -66,9 +65,9 @@ TUMBLE_WIDE void darken(SurfacePoints& points, const Occluder& occluder, float r
     }
 }
 
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder,
-                 float reach) {
-    const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
+float visibility_past(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder,
+                      float ao_radius) {
+    const float far_step = std::min(ao_radius, occluder.ao_radius), near_step = near_sample * far_step;
     const Eigen::Vector3f away = position - occluder.center;
     const float room = occluder.bound_radius + 2.0f * far_step;  // beyond it, both samples are unoccluded
     if (away.squaredNorm() > room * room) return 1.0f;
@@ -82,23 +81,25 @@ float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
     return 1.0f - occlusion_strength * 0.5f * (closed(near_step) + closed(far_step));
 }
 
-void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach) {
-    const float near_step = near_probe * reach;
+void occlude(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius) {
+    const float near_step = near_sample * ao_radius;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const float height = plane_normal.x() * points.x[i] + plane_normal.y() * points.y[i] +
                              plane_normal.z() * points.z[i] + plane_height;
         const float rise =
             plane_normal.x() * points.nx[i] + plane_normal.y() * points.ny[i] + plane_normal.z() * points.nz[i];
-        const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
+        const float near = 1.0f - (height + rise * near_step) / near_step,
+                    far = 1.0f - (height + rise * ao_radius) / ao_radius;
         points.open[i] *= 1.0f - occlusion_strength * 0.5f * (clamped(near) + clamped(far));
     }
 }
 
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
-                 float plane_height, float reach) {
+float visibility_past(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                      const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius) {
     const float height = plane_normal.dot(position) + plane_height, rise = plane_normal.dot(normal);
-    const float near_step = near_probe * reach;
-    const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
+    const float near_step = near_sample * ao_radius;
+    const float near = 1.0f - (height + rise * near_step) / near_step,
+                far = 1.0f - (height + rise * ao_radius) / ao_radius;
     return 1.0f - occlusion_strength * 0.5f * (clamped(near) + clamped(far));
 }
 

@@ -9,6 +9,8 @@
 
 #include "render/ambient_occlusion/occluders.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace tumble {
@@ -26,22 +28,31 @@ struct SurfacePoints {
     void add(const SurfacePoints& others, std::size_t first, std::size_t count);
 };
 
-/// Multiplies each point's `open` by its visibility past one body. `reach`: AO radius of the receiving body, m; the
+/// Multiplies each point's `open` by its visibility past one body. `ao_radius`: AO radius of the receiving body, m; the
 /// smaller one of the two bodies counts.
-void darken(SurfacePoints& points, const Occluder& occluder, float reach);
+void occlude(SurfacePoints& points, const Occluder& occluder, float ao_radius);
 
 /// The same for a single point; returns the factor.
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder, float reach);
+float visibility_past(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Occluder& occluder,
+                      float ao_radius);
 
 /// The same for a plane: points q with normal . q + height = 0.
-void darken(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float reach);
+void occlude(SurfacePoints& points, const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius);
 
-float share_left(const Eigen::Vector3f& position, const Eigen::Vector3f& normal, const Eigen::Vector3f& plane_normal,
-                 float plane_height, float reach);
+float visibility_past(const Eigen::Vector3f& position, const Eigen::Vector3f& normal,
+                      const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius);
 
 /// Share of a point's sky light that a closed gap takes, and the distance of the first sample in parts of the AO
 /// radius.
 inline constexpr float occlusion_strength = 0.72f;
-inline constexpr float near_probe = 0.22f;
+inline constexpr float near_sample = 0.22f;
+
+/// The distance of a point from a box at the origin.
+/// Quilez 2008, Distance functions: exact outside; inside, the negative distance to the nearest face.
+inline float box_distance(float x, float y, float z, float half_x, float half_y, float half_z) {
+    const float qx = std::abs(x) - half_x, qy = std::abs(y) - half_y, qz = std::abs(z) - half_z;
+    const float ox = std::max(qx, 0.0f), oy = std::max(qy, 0.0f), oz = std::max(qz, 0.0f);
+    return std::sqrt(ox * ox + oy * oy + oz * oz) + std::min(std::max(qx, std::max(qy, qz)), 0.0f);
+}
 
 }  // namespace tumble

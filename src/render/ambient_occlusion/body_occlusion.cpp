@@ -28,122 +28,131 @@ void stretch(const std::vector<float>& values, int from, int to, std::vector<flo
 
 }  // namespace
 
-void BodyOcclusion::darken_points(const Surroundings& around, double reach) {
-    for (const std::size_t i : around.near) darken(points_, around.occluders[i], float(reach));
-    for (const PlaneInView& plane : around.planes) darken(points_, plane.normal, plane.height, float(reach));
+void BodyOcclusion::occlude_points(const Surroundings& around, double ao_radius) {
+    for (const std::size_t i : around.near) occlude(points_, around.occluders[i], float(ao_radius));
+    for (const PlaneInView& plane : around.planes) occlude(points_, plane.normal, plane.height, float(ao_radius));
 }
 
-// Like face_.darken(), but only for the texels within the occluder's AO radius: few of a large receiver.
-void BodyOcclusion::darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
-                                const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach) {
-    const Eigen::Vector3f from = occluder.center - corner;
-    const float far = occluder.bound_radius + std::min(reach, occluder.reach);
+// Like face_.occlude(), but only for the texels within the occluder's AO radius: few of a large receiver.
+void BodyOcclusion::occlude_part(const Occluder& occluder, const GridPoints& face, float ao_radius) {
+    const Eigen::Vector3f from = occluder.center - face.corner;
+    const float far = occluder.bound_radius + std::min(ao_radius, occluder.ao_radius);
+    const int size = face.columns;
     const auto range = [&](const Eigen::Vector3f& step, int& first, int& count) {
         const float length = step.norm(), at = from.dot(step) / length;  // m
         first = int(std::floor(std::clamp((at - far) / length, 0.0f, float(size))));
         count = int(std::ceil(std::clamp((at + far) / length, -1.0f, float(size - 1)))) - first + 1;
     };
-    int i0, j0, columns, rows;
-    range(across, i0, columns);
-    range(along, j0, rows);
-    if (columns <= 0 || rows <= 0) return;
-    part_.set(corner + across * float(i0) + along * float(j0), across, along, normal, columns, rows);
-    part_.darken(occluder, reach);
+    int i0, j0;
+    GridPoints part = face;
+    range(face.across, i0, part.columns);
+    range(face.along, j0, part.rows);
+    if (part.columns <= 0 || part.rows <= 0) return;
+    part.corner = face.corner + face.across * float(i0) + face.along * float(j0);
+    part_.set(part);
+    part_.occlude(occluder, ao_radius);
     const float* share = part_.open().data();
-    for (int j = j0; j < j0 + rows; ++j)
-        for (int i = i0; i < i0 + columns; ++i) face_.open()[std::size_t(j * size + i)] *= *share++;
+    for (int j = j0; j < j0 + part.rows; ++j)
+        for (int i = i0; i < i0 + part.columns; ++i) face_.open()[std::size_t(j * size + i)] *= *share++;
 }
 
-std::uint8_t BodyOcclusion::make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                                     const Surroundings& around, std::uint8_t wanted, float detail,
-                                     const Store& store) {
-    const int size = place.size;
+std::uint8_t BodyOcclusion::make_box(const Receiver& body, std::uint8_t faces, const Store& store) {
+    const RenderBody& proxy = body.proxy;
+    const Surroundings& around = body.around;
+    const int size = body.texels.size;
     // A body on a large receiver occludes it as far as a plane, also where the receiver is thin.
-    const float own = float(look.reach), reach = look.ground ? std::numeric_limits<float>::infinity() : own;
-    std::uint8_t faces = 0;
+    const float own = float(proxy.ao_radius),
+                ao_radius = proxy.large_receiver ? std::numeric_limits<float>::infinity() : own;
+    std::uint8_t changed = 0;
     for (int face = 0; face < 6; ++face) {
-        if ((wanted >> face & 1) == 0) continue;
+        if ((faces >> face & 1) == 0) continue;
         const int axis = face / 2, a = (axis + 1) % 3, b = (axis + 2) % 3;
-        const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * body.axes.col(axis);
-        const Vec3 middle = body.center + normal * look.half_size[axis];
-        const Vec3 u = body.axes.col(a) * look.half_size[a], v = body.axes.col(b) * look.half_size[b];
+        const Mat3& axes = body.pose.axes;
+        const Vec3 normal = (face % 2 == 0 ? -1.0 : 1.0) * axes.col(axis);
+        const Vec3 middle = body.pose.center + normal * proxy.half_size[axis];
+        const Vec3 u = axes.col(a) * proxy.half_size[a], v = axes.col(b) * proxy.half_size[b];
         const Eigen::Vector3f at = middle.cast<float>(), outward = normal.cast<float>();
-        const Eigen::Vector3f corner = (middle - u - v).cast<float>();
-        const Eigen::Vector3f across = (2.0 * u / (size - 1)).cast<float>(),
-                              along = (2.0 * v / (size - 1)).cast<float>();
-        face_.set(corner, across, along, outward, size, size);
-        if (detail > 0.0f) {
+        const GridPoints points{(middle - u - v).cast<float>(),
+                                (2.0 * u / (size - 1)).cast<float>(),
+                                (2.0 * v / (size - 1)).cast<float>(),
+                                outward,
+                                size,
+                                size};
+        face_.set(points);
+        if (body.lod > 0.0f) {
             for (const std::size_t i : around.near) {
-                if (look.ground)
-                    darken_part(around.occluders[i], corner, across, along, outward, size, reach);
+                if (proxy.large_receiver)
+                    occlude_part(around.occluders[i], points, ao_radius);
                 else
-                    face_.darken(around.occluders[i], reach);
+                    face_.occlude(around.occluders[i], ao_radius);
             }
-            for (const PlaneInView& plane : around.planes) face_.darken(plane.normal, plane.height, own);
+            for (const PlaneInView& plane : around.planes) face_.occlude(plane.normal, plane.height, own);
         }
-        if (detail < 1.0f) {
+        if (body.lod < 1.0f) {
             float open = 1.0f;
-            for (const std::size_t i : around.near) open *= share_left(at, outward, around.occluders[i], reach);
+            for (const std::size_t i : around.near)
+                open *= visibility_past(at, outward, around.occluders[i], ao_radius);
             for (const PlaneInView& plane : around.planes)
-                open *= share_left(at, outward, plane.normal, plane.height, own);
-            for (float& value : face_.open()) value = open + (value - open) * detail;
+                open *= visibility_past(at, outward, plane.normal, plane.height, own);
+            for (float& value : face_.open()) value = open + (value - open) * body.lod;
         }
-        if (store(place.x + face * size, place.y, size, size, face_.open().data())) faces |= std::uint8_t(1u << face);
+        if (store(body.texels.x + face * size, body.texels.y, size, size, face_.open().data()))
+            changed |= std::uint8_t(1u << face);
     }
-    return faces;
+    return changed;
 }
 
-bool BodyOcclusion::make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                              const Surroundings& around, float detail, const Store& store) {
-    const Eigen::Matrix3f axes = body.axes.cast<float>();
-    const Eigen::Vector3f center = body.center.cast<float>();
+bool BodyOcclusion::make_ball(const Receiver& body, const Store& store) {
+    const Eigen::Matrix3f axes = body.pose.axes.cast<float>();
+    const Eigen::Vector3f center = body.pose.center.cast<float>();
+    const OcclusionPlace& place = body.texels;
     const auto make = [&](int size) {
         points_.clear();
         for (int j = 0; j < size; ++j)
             for (int i = 0; i < size; ++i) {
                 const float s = 2.0f * float(i) / float(size - 1) - 1.0f, t = 2.0f * float(j) / float(size - 1) - 1.0f;
                 const Eigen::Vector3f normal = axes * octahedral(s, t);
-                points_.add(center + normal * float(look.half_size.x()), normal);
+                points_.add(center + normal * float(body.proxy.half_size.x()), normal);
             }
-        darken_points(around, look.reach);
+        occlude_points(body.around, body.proxy.ao_radius);
     };
-    if (detail < 1.0f) {
+    if (body.lod < 1.0f) {
         make(coarse_ball_tile);
         stretch(points_.open, coarse_ball_tile, place.size, stretched_);
     }
-    if (detail > 0.0f)
+    if (body.lod > 0.0f)
         make(place.size);
     else
         points_.open = stretched_;
-    if (detail < 1.0f)
+    if (body.lod < 1.0f)
         for (std::size_t i = 0; i < stretched_.size(); ++i)
-            points_.open[i] = stretched_[i] + (points_.open[i] - stretched_[i]) * detail;
+            points_.open[i] = stretched_[i] + (points_.open[i] - stretched_[i]) * body.lod;
     return store(place.x, place.y, place.size, place.size, points_.open.data());
 }
 
 // A run of texels, row after row over the whole width of the atlas.
-bool BodyOcclusion::make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                              const Surroundings& around, float detail, const Store& store) {
-    const RenderMesh& mesh = looks_->meshes[look.mesh];
-    const auto make = [&](const auto& probes) {
+bool BodyOcclusion::make_mesh(const Receiver& body, const Store& store) {
+    const OcclusionPlace& place = body.texels;
+    const RenderMesh& mesh = scene_->meshes[body.proxy.mesh];
+    const auto make = [&](const auto& vertex_samples) {
         points_.clear();
-        for (const VertexSample& probe : probes)
-            points_.add((body.origin + body.axes * probe.position).cast<float>(),
-                        (body.axes * probe.normal).cast<float>());
-        darken_points(around, look.reach);
+        for (const VertexSample& sample : vertex_samples)
+            points_.add((body.pose.origin + body.pose.axes * sample.position).cast<float>(),
+                        (body.pose.axes * sample.normal).cast<float>());
+        occlude_points(body.around, body.proxy.ao_radius);
     };
-    if (detail < 1.0f) {
-        make(mesh.coarse_probes);
+    if (body.lod < 1.0f) {
+        make(mesh.coarse_samples);
         coarse_ = points_.open;
     }
-    if (detail > 0.0f)
-        make(mesh.probes);
+    if (body.lod > 0.0f)
+        make(mesh.vertex_samples);
     else
-        points_.open.assign(mesh.probes.size(), 1.0f);
-    if (detail < 1.0f)
+        points_.open.assign(mesh.vertex_samples.size(), 1.0f);
+    if (body.lod < 1.0f)
         for (std::size_t i = 0; i < points_.open.size(); ++i) {
-            const float open = coarse_[mesh.coarse_of_probe[i]];
-            points_.open[i] = open + (points_.open[i] - open) * detail;
+            const float open = coarse_[mesh.coarse_of_sample[i]];
+            points_.open[i] = open + (points_.open[i] - open) * body.lod;
         }
     constexpr int width = OcclusionAtlas::width;
     const int count = int(points_.open.size()), whole = count / width;

@@ -22,31 +22,35 @@ struct Surroundings {
     const std::vector<PlaneInView>& planes;
 };
 
+/// A body to compute.
+struct Receiver {
+    const RenderBody& proxy;
+    OcclusionPlace texels;
+    BodyPlace pose;
+    Surroundings around;
+    float lod;  // 0 (one value per face, a few for a ball or mesh) to 1 (all texels)
+};
+
 class BodyOcclusion {
 public:
     /// Stores visibilities of the texels from (x, y) on, row after row; true when any of them changes.
     using Store = std::function<bool(int x, int y, int width, int height, const float* open)>;
 
-    /// `detail`: 0 (one value per face, a few for a ball or mesh) to 1 (all texels).
-    explicit BodyOcclusion(const RenderScene& looks) : looks_(&looks) {}
+    explicit BodyOcclusion(const RenderScene& scene) : scene_(&scene) {}
 
-    /// Updates the wanted faces (bits as in Visibility): tiles in the order of make_box()'s faces, with the center of a
-    /// texel at each corner of a face. Returns the faces that changed.
-    std::uint8_t make_box(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                          const Surroundings& around, std::uint8_t wanted, float detail, const Store& store);
+    /// Updates faces of a box (bits as in Visibility): tiles in the order of the bits, with the center of a texel at
+    /// each corner of a face. Returns the faces that changed.
+    std::uint8_t make_box(const Receiver& body, std::uint8_t faces, const Store& store);
 
     /// True if any texel changed.
-    bool make_ball(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                   const Surroundings& around, float detail, const Store& store);
-    bool make_mesh(const RenderBody& look, const OcclusionPlace& place, const BodyPlace& body,
-                   const Surroundings& around, float detail, const Store& store);
+    bool make_ball(const Receiver& body, const Store& store);
+    bool make_mesh(const Receiver& body, const Store& store);
 
 private:
-    void darken_part(const Occluder& occluder, const Eigen::Vector3f& corner, const Eigen::Vector3f& across,
-                     const Eigen::Vector3f& along, const Eigen::Vector3f& normal, int size, float reach);
-    void darken_points(const Surroundings& around, double reach);
+    void occlude_part(const Occluder& occluder, const GridPoints& face, float ao_radius);
+    void occlude_points(const Surroundings& around, double ao_radius);
 
-    const RenderScene* looks_;
+    const RenderScene* scene_;
     TexelGrid face_, part_;
     SurfacePoints points_;
     std::vector<float> coarse_, stretched_;

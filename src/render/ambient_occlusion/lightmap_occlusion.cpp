@@ -22,9 +22,9 @@ LightmapOcclusion::Ball LightmapOcclusion::ball_around(const Bounds& bounds) con
     return {Vec3(body_.origin + body_.axes * bounds.center()).cast<float>(), float(0.5 * bounds.extent().norm())};
 }
 
-bool LightmapOcclusion::reached_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const {
+bool LightmapOcclusion::occluded_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const {
     return std::any_of(planes.begin(), planes.end(), [&](const PlaneInView& plane) {
-        return plane.normal.dot(ball.center) + plane.height < ball.radius + 2.0f * float(body_.reach);
+        return plane.normal.dot(ball.center) + plane.height < ball.radius + 2.0f * float(body_.ao_radius);
     });
 }
 
@@ -36,7 +36,7 @@ void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const Occ
     for (const OcclusionLightmap::Group& group : surface.groups) {
         const Ball whole = ball_around(group.bounds);
         if (moved != nullptr && !moved->any(whole.center, whole.radius)) continue;
-        const bool alone = !near.any(whole.center, whole.radius) && !reached_by_plane(whole, planes);
+        const bool alone = !near.any(whole.center, whole.radius) && !occluded_by_plane(whole, planes);
         for (std::uint32_t i = group.first; i < group.end; ++i) {
             if (alone && touched_[i] == 0) continue;
             const OcclusionLightmap::Block& block = surface.blocks[i];
@@ -45,15 +45,16 @@ void LightmapOcclusion::update(const std::vector<Occluder>& occluders, const Occ
             near.find(ball.center, ball.radius, found_);
             // a body does not occlude itself
             std::erase_if(found_, [&](std::size_t o) { return occluders[o].body == body_.body; });
-            const bool by_planes = reached_by_plane(ball, planes);
+            const bool by_planes = occluded_by_plane(ball, planes);
             if (found_.empty() && !by_planes && touched_[i] == 0) continue;
             touched_[i] = !found_.empty() || by_planes ? 1 : 0;
             points_.clear();
             for (int y = block.y; y < block.y + block.height; ++y)
                 points_.add(all_, std::size_t(y) * std::size_t(surface.width) + std::size_t(block.x),
                             std::size_t(block.width));
-            for (const std::size_t o : found_) darken(points_, occluders[o], std::numeric_limits<float>::infinity());
-            for (const PlaneInView& plane : planes) darken(points_, plane.normal, plane.height, float(body_.reach));
+            for (const std::size_t o : found_) occlude(points_, occluders[o], std::numeric_limits<float>::infinity());
+            for (const PlaneInView& plane : planes)
+                occlude(points_, plane.normal, plane.height, float(body_.ao_radius));
             store(block, points_.open.data());
         }
     }

@@ -18,7 +18,7 @@ struct LightmapBody {
     const OcclusionLightmap* surface = nullptr;
     Vec3 origin;  // m
     Mat3 axes;
-    double reach = 0.0;  // AO radius of this body, m
+    double ao_radius = 0.0;  // AO radius of this body, m
 };
 
 class LightmapOcclusion {
@@ -40,7 +40,7 @@ private:
         float radius;
     };
     Ball ball_around(const Bounds& bounds) const;
-    bool reached_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const;
+    bool occluded_by_plane(const Ball& ball, const std::vector<PlaneInView>& planes) const;
 
     LightmapBody body_{};
     SurfacePoints all_, points_;  // of the whole surface; of a block

@@ -7,6 +7,6 @@ namespace tumble {
 
 /// Gives lightmaps to fixed meshes and balls that are large relative to moving bodies. AO radii and large receivers
 /// must be set before.
-void choose_fine_surfaces(const SceneDescription& scene, RenderScene& looks);
+void select_lightmaps(const SceneDescription& description, RenderScene& scene);
 
 }  // namespace tumble

@@ -10,7 +10,7 @@ namespace {
 // Cell size over the largest influence in it: a search then visits about 13 cells.
 constexpr float cell_of_influence = 2.0f;
 
-float influence(const Occluder& o) { return o.bound_radius + 2.0f * o.reach; }
+float influence(const Occluder& o) { return o.bound_radius + 2.0f * o.ao_radius; }
 
 // The factors are primes. Cells along x are adjacent in the table; cells in one bucket cost a comparison.
 std::uint32_t bucket(std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -24,20 +24,20 @@ Eigen::Array3i cell_of(const Eigen::Array3f& at, float cell) {
 
 }  // namespace
 
-void add_occluders(const RenderScene& looks, std::size_t body, const BodyState& state, const Vec3& reference,
+void add_occluders(const RenderScene& scene, std::size_t body, const BodyState& state, const Vec3& reference,
                    std::vector<Occluder>& occluders) {
-    const RenderBody& look = looks.bodies[body];
-    if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) return;
+    const RenderBody& proxy = scene.bodies[body];
+    if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) return;
     const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
     const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {
         occluders.push_back({Vec3(state.origin + state.orientation * center - reference).cast<float>(), to_local,
-                             half_size.cast<float>(), float(radius), float(look.reach),
+                             half_size.cast<float>(), float(radius), float(proxy.ao_radius),
                              float(half_size.norm() + radius), body});
     };
-    if (look.kind == DrawKind::box) add(Vec3::Zero(), look.half_size, 0.0);
-    if (look.kind == DrawKind::ball) add(Vec3::Zero(), Vec3::Zero(), look.half_size.x());
-    if (look.kind == DrawKind::mesh)
-        for (const OccluderBox& box : looks.meshes[look.mesh].occluders) add(box.center, box.half_size, 0.0);
+    if (proxy.kind == DrawKind::box) add(Vec3::Zero(), proxy.half_size, 0.0);
+    if (proxy.kind == DrawKind::ball) add(Vec3::Zero(), Vec3::Zero(), proxy.half_size.x());
+    if (proxy.kind == DrawKind::mesh)
+        for (const OccluderBox& box : scene.meshes[proxy.mesh].occluders) add(box.center, box.half_size, 0.0);
 }
 
 OccluderFinder::OccluderFinder(const std::vector<Occluder>& occluders) {
@@ -81,10 +81,10 @@ void OccluderFinder::visit_near(const Eigen::Vector3f& center, float radius, Vis
     };
     for (const Level& level : levels_) {
         const Eigen::Array3f at = center.array();
-        const float reach = radius + level.largest;
-        if ((at + reach < level.low).any() || (at - reach > level.high).any()) continue;
-        const Eigen::Array3i low = cell_of((at - reach).max(level.low), level.cell);
-        const Eigen::Array3i high = cell_of((at + reach).min(level.high), level.cell);
+        const float within = radius + level.largest;
+        if ((at + within < level.low).any() || (at - within > level.high).any()) continue;
+        const Eigen::Array3i low = cell_of((at - within).max(level.low), level.cell);
+        const Eigen::Array3i high = cell_of((at + within).min(level.high), level.cell);
         const Eigen::Array3d count = (high - low).cast<double>() + 1.0;
         if (count.prod() > double(level.entries.size())) {  // looking at all entries costs less
             for (const Entry& entry : level.entries)

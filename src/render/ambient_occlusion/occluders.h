@@ -16,14 +16,14 @@ struct Occluder {
     Eigen::Matrix3f to_local;   // world axes -> the occluder's
     Eigen::Vector3f half_size;  // m
     float radius;               // m
-    float reach;                // AO radius, m
+    float ao_radius;            // AO radius, m
     float bound_radius;         // of the bounding ball, m
     std::size_t body;
 };
 
 /// Appends the boxes and balls of one body. `reference`: a fixed point near the scene that all positions are relative
 /// to, m. It does not move with the camera, so that the occlusion stays the same to the bit.
-void add_occluders(const RenderScene& looks, std::size_t body, const BodyState& state, const Vec3& reference,
+void add_occluders(const RenderScene& scene, std::size_t body, const BodyState& state, const Vec3& reference,
                    std::vector<Occluder>& occluders);
 
 /// Finds the occluders near a place. Each power of two of the occluders' sizes has a grid; an occluder is in the one

@@ -9,10 +9,8 @@
 #pragma once
 
 #include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/camera/camera.h"
 #include "render/culling/occlusion_culling.h"
-#include "render/scene/render_scene.h"
-#include "sim/snapshot/snapshot.h"
+#include "render/frame/frame_context.h"
 
 #include <cstdint>
 #include <memory>
@@ -40,12 +38,12 @@ struct OcclusionAtlas {
     static constexpr int width = 2048;
     static constexpr int most_rows = 8192;           // OpenGL 4.1 guarantees 16384; 16 MiB here and as much on the GPU
     static constexpr int most_body_rows = 4096;      // the plane tiles need room as well
-    static constexpr int largest_window = 1024;      // texels; bodies beyond it do not occlude the plane
-    static constexpr double texels_per_reach = 4.0;  // sampling density of a body's occlusion
+    static constexpr int largest_plane_tile = 1024;  // texels; bodies beyond it do not occlude the plane
+    static constexpr double texels_per_ao_radius = 4.0;  // sampling density of a body's occlusion
     int height = 1;
     std::vector<std::uint8_t> texels;    // width * height; 255: unoccluded
     std::vector<OcclusionPlace> places;  // of each body
-    std::vector<PlaneOcclusionTile> windows;
+    std::vector<PlaneOcclusionTile> plane_tiles;
 };
 
 /// Changes by one update.
@@ -54,34 +52,29 @@ struct OcclusionChanges {
         std::size_t body;
         std::uint8_t faces;  // of a box, as in Visibility; 0: any part of another body
     };
-    /// A part of a large receiver's face: low and high on the face's axes (see face_part()), from -1 to 1.
-    struct Part {
-        std::size_t body;
-        int face;
-        Eigen::Vector2d low, high;
-    };
-    /// A changed region of a body with a lightmap: bounds in the body's frame.
+    /// A changed region of a large receiver or of a body with a lightmap: bounds in the body's frame.
     struct Patch {
         std::size_t body;
         Bounds bounds;
     };
     std::vector<Body> bodies;        // without large receivers made of boxes and bodies with lightmaps
-    std::vector<Part> parts;         // of large receivers
-    std::vector<Patch> patches;      // of bodies with lightmaps
-    bool windows_moved = false;      // a plane tile moved, appeared or disappeared
+    std::vector<Patch> patches;      // of the others
+    bool plane_tiles_moved = false;  // a plane tile moved, appeared or disappeared
     int first_row = 0, end_row = 0;  // range of changed texel rows
 };
 
 class AmbientOcclusion {
 public:
     /// Assigns a place to each body. The scene must outlive it. `reference`: as in add_occluders().
-    AmbientOcclusion(const RenderScene& looks, const Vec3& reference);
+    AmbientOcclusion(const RenderScene& scene, const Vec3& reference);
     ~AmbientOcclusion();
 
     /// Updates the places of visible bodies and the plane tiles; other bodies keep their texels.
-    const OcclusionChanges& update(const Snapshot& snapshot, const Camera& view, const Visibility& visibility);
+    void update(const FrameContext& frame, const Visibility& visible);
 
     const OcclusionAtlas& atlas() const;
+    /// By the last update.
+    const OcclusionChanges& changes() const;
 
 private:
     struct State;
@@ -89,6 +82,6 @@ private:
 };
 
 /// Level of detail, 0 to 1, of a body that is `pixels` across; 0 below `few`, 1 above `all`.
-double darkening_detail(double pixels, double few, double all);
+double occlusion_lod(double pixels, double few, double all);
 
 }  // namespace tumble

@@ -28,18 +28,18 @@ void OcclusionTexture::upload(const OcclusionAtlas& atlas, int first_row, int en
         end_row = filled_ = atlas.height;
     }
     // The bodies' tiles fill their rows; below them only plane tiles are read.
-    int first_of_windows = atlas.height, columns = 0;
-    for (const PlaneOcclusionTile& window : atlas.windows) {
-        first_of_windows = std::min(first_of_windows, window.y);
-        columns = std::max(columns, window.x + window.width);
+    int first_plane_row = atlas.height, columns = 0;
+    for (const PlaneOcclusionTile& tile : atlas.plane_tiles) {
+        first_plane_row = std::min(first_plane_row, tile.y);
+        columns = std::max(columns, tile.x + tile.width);
     }
     if (columns > columns_) {  // unoccluded columns have not changed, but are new in the texture
-        first_row = std::min(first_row, first_of_windows);
+        first_row = std::min(first_row, first_plane_row);
         end_row = std::max(end_row, atlas.height);
         columns_ = columns;
     }
-    send(atlas, first_row, std::min(end_row, first_of_windows), OcclusionAtlas::width);
-    send(atlas, std::max(first_row, first_of_windows), end_row, columns_);  // all columns that a plane tile may read
+    send(atlas, first_row, std::min(end_row, first_plane_row), OcclusionAtlas::width);
+    send(atlas, std::max(first_row, first_plane_row), end_row, columns_);  // all columns that a plane tile may read
 }
 
 void OcclusionTexture::send(const OcclusionAtlas& atlas, int first_row, int end_row, int columns) {

@@ -49,9 +49,9 @@ void OverhangHeights::add_triangle(const Vec3& a, const Vec3& b, const Vec3& c) 
 
 void OverhangHeights::add_ball(const Vec3& center, double radius) {
     const Vec3 c = on_frame(center);
-    const double reach = radius / frame_.cell;
-    const auto [i0, i1] = texels(c.x() - reach, c.x() + reach, frame_.width);
-    const auto [j0, j1] = texels(c.y() - reach, c.y() + reach, frame_.height);
+    const double half_width = radius / frame_.cell;
+    const auto [i0, i1] = texels(c.x() - half_width, c.x() + half_width, frame_.width);
+    const auto [j0, j1] = texels(c.y() - half_width, c.y() + half_width, frame_.height);
     for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {
             const double x = (i - c.x()) * frame_.cell, y = (j - c.y()) * frame_.cell;
@@ -61,29 +61,29 @@ void OverhangHeights::add_ball(const Vec3& center, double radius) {
         }
 }
 
-void OverhangHeights::update(const PlaneFrame& frame, const RenderScene& looks, const Snapshot& snapshot) {
+void OverhangHeights::update(const PlaneFrame& frame, const RenderScene& scene, const Snapshot& snapshot) {
     if (frame == frame_) return;
     frame_ = frame;
     height_.clear();
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const RenderBody& look = looks.bodies[i];
-        if (!look.fixed) continue;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const RenderBody& proxy = scene.bodies[i];
+        if (!proxy.fixed) continue;
         const BodyState& state = snapshot.bodies[i];
         const auto in_world = [&](const Vec3& point) { return Vec3(state.origin + state.orientation * point); };
-        if (look.kind == DrawKind::ball) add_ball(state.origin, look.half_size.x());
-        if (look.kind == DrawKind::mesh) {
-            const TriangleMesh& mesh = looks.meshes[look.mesh].asset->mesh;
+        if (proxy.kind == DrawKind::ball) add_ball(state.origin, proxy.half_size.x());
+        if (proxy.kind == DrawKind::mesh) {
+            const TriangleMesh& mesh = scene.meshes[proxy.mesh].asset->mesh;
             for (const auto& t : mesh.triangles)
                 add_triangle(in_world(mesh.vertices[t[0]]), in_world(mesh.vertices[t[1]]),
                              in_world(mesh.vertices[t[2]]));
         }
-        if (look.kind != DrawKind::box) continue;
+        if (proxy.kind != DrawKind::box) continue;
         for (int axis = 0; axis < 3; ++axis)
             for (const double side : {-1.0, 1.0}) {
                 Vec3 middle = Vec3::Zero(), across = Vec3::Zero(), along = Vec3::Zero();
-                middle[axis] = side * look.half_size[axis];
-                across[(axis + 1) % 3] = look.half_size[(axis + 1) % 3];
-                along[(axis + 2) % 3] = look.half_size[(axis + 2) % 3];
+                middle[axis] = side * proxy.half_size[axis];
+                across[(axis + 1) % 3] = proxy.half_size[(axis + 1) % 3];
+                along[(axis + 2) % 3] = proxy.half_size[(axis + 2) % 3];
                 const Vec3 corners[4] = {in_world(middle - across - along), in_world(middle + across - along),
                                          in_world(middle + across + along), in_world(middle - across + along)};
                 add_triangle(corners[0], corners[1], corners[2]);
@@ -94,15 +94,15 @@ void OverhangHeights::update(const PlaneFrame& frame, const RenderScene& looks, 
 
 float OverhangHeights::open_share(double a, double b, double radius, double height) const {
     if (height_.empty()) return 1.0f;
-    const double reach = std::max(radius / frame_.cell, 1.0);
-    const auto [i0, i1] = texels(a - reach, a + reach, frame_.width);
-    const auto [j0, j1] = texels(b - reach, b + reach, frame_.height);
+    const double half_width = std::max(radius / frame_.cell, 1.0);
+    const auto [i0, i1] = texels(a - half_width, a + half_width, frame_.width);
+    const auto [j0, j1] = texels(b - half_width, b + half_width, frame_.height);
     double open = 0.0, all = 0.0;
     for (int j = j0; j <= j1; ++j)
         for (int i = i0; i <= i1; ++i) {
             // The weight falls towards the edge of the disc, so that the share is continuous as the disc moves over the
             // texels.
-            const double weight = 1.0 - ((i - a) * (i - a) + (j - b) * (j - b)) / (reach * reach);
+            const double weight = 1.0 - ((i - a) * (i - a) + (j - b) * (j - b)) / (half_width * half_width);
             if (!(weight > 0.0)) continue;
             all += weight;
             if (double(height_[std::size_t(j) * std::size_t(frame_.width) + std::size_t(i)]) >= height) open += weight;

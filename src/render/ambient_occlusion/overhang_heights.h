@@ -24,7 +24,7 @@ struct PlaneFrame {
 class OverhangHeights {
 public:
     /// Rebuilds the heights if the frame is a different one. Fixed bodies have the same pose in every snapshot.
-    void update(const PlaneFrame& frame, const RenderScene& looks, const Snapshot& snapshot);
+    void update(const PlaneFrame& frame, const RenderScene& scene, const Snapshot& snapshot);
 
     /// Share (0 to 1) of a disc without a fixed surface below `height` (m, of its center above the plane). (a, b): its
     /// center, in texels from the corner; `radius`: m, at least a texel.

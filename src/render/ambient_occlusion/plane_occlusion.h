@@ -3,14 +3,15 @@
 // texels near an occluder that moved, at both poses, are recomputed.
 #pragma once
 
+#include "render/ambient_occlusion/atlas_layout.h"
 #include "render/ambient_occlusion/occluders.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/ambient_occlusion/overhang_heights.h"
-#include "render/ambient_occlusion/shelf_packer.h"
 #include "render/ambient_occlusion/texel_grid.h"
 
 #include <functional>
 #include <map>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -23,15 +24,23 @@ struct PlaneInView {
     friend bool operator==(const PlaneInView&, const PlaneInView&) = default;
 };
 
+/// The occluders of a frame, with all positions relative to `reference`.
+struct FrameOccluders {
+    const FrameContext& frame;
+    Vec3 reference;  // m
+    const std::vector<Occluder>& all;
+    const std::vector<Occluder>& moved;  // those that moved since the previous frame, at both poses
+    bool anew;                           // any may have moved
+};
+
 class PlaneOcclusion {
 public:
-    /// Updates a plane's tile. `known`: its last tile, if the plane has not moved. `moved`: the occluders that have
-    /// moved since, at both poses; none for `everything`. `store` takes visibilities of the texels from (x, y) on, with
-    /// rows `stride` apart. Returns false if no body is near the plane or there is no room.
+    /// Updates a plane's tile and returns it; nothing if no body is near the plane or there is no room. `known`: its
+    /// last tile, if the plane has not moved. `store` takes visibilities of the texels from (x, y) on, with rows
+    /// `stride` apart.
     using Store = std::function<void(int x, int y, int width, int height, int stride, const float* open)>;
-    bool update(const PlaneInView& plane, const RenderScene& looks, const Snapshot& snapshot, const Vec3& reference,
-                const std::vector<Occluder>& occluders, const std::vector<Occluder>& moved, bool everything,
-                const PlaneOcclusionTile* known, ShelfPacker& shelves, PlaneOcclusionTile& window, const Store& store);
+    std::optional<PlaneOcclusionTile> update(const PlaneInView& plane, const FrameOccluders& occluders,
+                                             const PlaneOcclusionTile* known, ShelfPacker& shelves, const Store& store);
 
 private:
     struct Foot {
@@ -43,10 +52,10 @@ private:
         int i0, i1, j0, j1;  // texels of the tile, both ends included
         bool empty() const { return i0 > i1 || j0 > j1; }
     };
-    static Texels touched(const Foot& foot, const PlaneOcclusionTile& window);
-    bool place(PlaneOcclusionTile& window, ShelfPacker& shelves) const;
+    static Texels touched(const Foot& foot, const PlaneOcclusionTile& tile);
+    bool place(PlaneOcclusionTile& tile, ShelfPacker& shelves) const;
 
-    std::map<std::size_t, OverhangHeights> roofs_;  // by plane
+    std::map<std::size_t, OverhangHeights> overhangs_;  // by plane
     std::vector<Foot> feet_;
     std::vector<float> open_;
     std::vector<char> dirty_;  // blocks

@@ -2,7 +2,6 @@
 
 #include "core/cpu_dispatch.h"
 #include "render/ambient_occlusion/analytic_occlusion.h"
-#include "render/ambient_occlusion/box_distance.h"
 
 namespace tumble {
 namespace {
@@ -19,7 +18,7 @@ struct Seen {
 };
 
 // For points in full groups.
-TUMBLE_WIDE void darken_points(const float* i, const float* j, std::size_t groups, const Seen& s, float* open) {
+TUMBLE_WIDE void occlude_points(const float* i, const float* j, std::size_t groups, const Seen& s, float* open) {
     const float nx = s.near[0], ny = s.near[1], nz = s.near[2], fx = s.far[0], fy = s.far[1], fz = s.far[2];
     const float ax = s.across[0], ay = s.across[1], az = s.across[2], bx = s.along[0], by = s.along[1], bz = s.along[2];
     const float hx = s.half[0], hy = s.half[1], hz = s.half[2], radius = s.radius;
@@ -50,58 +49,54 @@ void put(const Eigen::Vector3f& from, float (&to)[3]) { std::copy_n(from.data(),
 
 }  // namespace
 
-void TexelGrid::set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
-                    const Eigen::Vector3f& normal, int columns, int rows) {
-    corner_ = corner;
-    across_ = across;
-    along_ = along;
-    normal_ = normal;
-    const std::size_t count = std::size_t(columns) * std::size_t(rows), room = (count + group - 1) / group * group;
+void TexelGrid::set(const GridPoints& points) {
+    const bool same_size = points.columns == points_.columns && points.rows == points_.rows;
+    points_ = points;
+    const std::size_t room = (count() + group - 1) / group * group;
     open_.assign(room, 1.0f);
-    if (columns == columns_ && rows == rows_) return;
-    columns_ = columns;
-    rows_ = rows;
+    if (same_size) return;
     i_.assign(room, 0.0f);
     j_.assign(room, 0.0f);
-    for (int j = 0, k = 0; j < rows; ++j)
-        for (int i = 0; i < columns; ++i, ++k) {
+    for (int j = 0, k = 0; j < points.rows; ++j)
+        for (int i = 0; i < points.columns; ++i, ++k) {
             i_[std::size_t(k)] = float(i);
             j_[std::size_t(k)] = float(j);
         }
 }
 
-void TexelGrid::darken(const Occluder& occluder, float reach) {
-    const float far_step = std::min(reach, occluder.reach), near_step = near_probe * far_step;
+void TexelGrid::occlude(const Occluder& occluder, float ao_radius) {
+    const float far_step = std::min(ao_radius, occluder.ao_radius), near_step = near_sample * far_step;
     constexpr float spare = 1.0001f;  // for rounding: a skipped occluder would have multiplied by 1
-    const Eigen::Vector3f first = occluder.to_local * (corner_ - occluder.center),
-                          outward = occluder.to_local * normal_;
+    const Eigen::Vector3f first = occluder.to_local * (points_.corner - occluder.center),
+                          outward = occluder.to_local * points_.normal;
     // A body behind the face is farther from the samples than the face is.
     const float top = outward.cwiseAbs().dot(occluder.half_size) + occluder.radius - outward.dot(first);
     if (top < (1.0f - spare) * near_step) return;
     Seen seen{};
     put(first + outward * near_step, seen.near);
     put(first + outward * far_step, seen.far);
-    put(occluder.to_local * across_, seen.across);
-    put(occluder.to_local * along_, seen.along);
+    put(occluder.to_local * points_.across, seen.across);
+    put(occluder.to_local * points_.along, seen.along);
     put(occluder.half_size, seen.half);
     seen.radius = occluder.radius;
     seen.per_near = 1.0f / near_step;
     seen.per_far = 1.0f / far_step;
-    if (clear_of(seen, seen.near, columns_, rows_, spare * (near_step + seen.radius)) &&
-        clear_of(seen, seen.far, columns_, rows_, spare * (far_step + seen.radius)))
+    if (clear_of(seen, seen.near, points_.columns, points_.rows, spare * (near_step + seen.radius)) &&
+        clear_of(seen, seen.far, points_.columns, points_.rows, spare * (far_step + seen.radius)))
         return;
-    darken_points(i_.data(), j_.data(), open_.size() / group, seen, open_.data());
+    occlude_points(i_.data(), j_.data(), open_.size() / group, seen, open_.data());
 }
 
-void TexelGrid::darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach) {
-    const float near_step = near_probe * reach, rise = plane_normal.dot(normal_);
-    const float height = plane_normal.dot(corner_) + plane_height;
-    const float across = plane_normal.dot(across_), along = plane_normal.dot(along_);
-    const float near = 1.0f - (height + rise * near_step) / near_step, far = 1.0f - (height + rise * reach) / reach;
+void TexelGrid::occlude(const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius) {
+    const float near_step = near_sample * ao_radius, rise = plane_normal.dot(points_.normal);
+    const float height = plane_normal.dot(points_.corner) + plane_height;
+    const float across = plane_normal.dot(points_.across), along = plane_normal.dot(points_.along);
+    const float near = 1.0f - (height + rise * near_step) / near_step,
+                far = 1.0f - (height + rise * ao_radius) / ao_radius;
     for (std::size_t k = 0; k < open_.size(); ++k) {
         const float higher = i_[k] * across + j_[k] * along;
         open_[k] *=
-            1.0f - occlusion_strength * 0.5f * (clamped(near - higher / near_step) + clamped(far - higher / reach));
+            1.0f - occlusion_strength * 0.5f * (clamped(near - higher / near_step) + clamped(far - higher / ao_radius));
     }
 }
 

@@ -9,26 +9,32 @@
 
 namespace tumble {
 
+/// The points corner + i across + j along, row after row (m, relative to the same point as occluders).
+struct GridPoints {
+    Eigen::Vector3f corner, across, along;
+    Eigen::Vector3f normal;  // unit
+    int columns = 0, rows = 0;
+};
+
 class TexelGrid {
 public:
-    /// Replaces the points by columns x rows points corner + i across + j along, row after row (m, relative to the same
-    /// point as occluders), all unoccluded.
-    void set(const Eigen::Vector3f& corner, const Eigen::Vector3f& across, const Eigen::Vector3f& along,
-             const Eigen::Vector3f& normal, int columns, int rows);
+    /// Replaces the points; all are unoccluded.
+    void set(const GridPoints& points);
 
-    /// Multiplies each point's visibility by that past one body. `reach`: AO radius of the face, m.
-    void darken(const Occluder& occluder, float reach);
+    /// Multiplies each point's visibility by that past one body. `ao_radius`: AO radius of the face, m.
+    void occlude(const Occluder& occluder, float ao_radius);
 
     /// The same for a plane: points q with normal . q + height = 0.
-    void darken(const Eigen::Vector3f& plane_normal, float plane_height, float reach);
+    void occlude(const Eigen::Vector3f& plane_normal, float plane_height, float ao_radius);
 
     /// Sky visibility of the points.
-    std::span<float> open() { return {open_.data(), std::size_t(columns_) * std::size_t(rows_)}; }
-    std::span<const float> open() const { return {open_.data(), std::size_t(columns_) * std::size_t(rows_)}; }
+    std::span<float> open() { return {open_.data(), count()}; }
+    std::span<const float> open() const { return {open_.data(), count()}; }
 
 private:
-    Eigen::Vector3f corner_, across_, along_, normal_;
-    int columns_ = 0, rows_ = 0;
+    std::size_t count() const { return std::size_t(points_.columns) * std::size_t(points_.rows); }
+
+    GridPoints points_;
     std::vector<float> i_, j_;  // of each point
     std::vector<float> open_;
 };

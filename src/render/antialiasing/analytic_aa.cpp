@@ -38,7 +38,7 @@ int below(double x) { return int(x + 2.0) - 2; }
 template <bool whole_box>
 class Walk {
 public:
-    Walk(const Image& drawn, const DirtyTiles& marks, Image& frame) : drawn_(drawn), marks_(marks), frame_(frame) {}
+    Walk(const Image& drawn, const DirtyTiles& dirty, Image& frame) : drawn_(drawn), dirty_(dirty), frame_(frame) {}
 
     void blend(ScreenEdge e) {
         const double dx = e.x1 - e.x0, dy = e.y1 - e.y0;
@@ -108,7 +108,7 @@ private:
         }
         if (whole_box && !is_inner && from[3] != inner_) from = of_face_beside(m, n, step, from);
         const int x = across_ ? n : m, y = across_ ? m : n;
-        if (!marks_.at(int(unsigned(x) / DirtyTiles::tile), int(unsigned(y) / DirtyTiles::tile))) return;
+        if (!dirty_.at(int(unsigned(x) / DirtyTiles::tile), int(unsigned(y) / DirtyTiles::tile))) return;
         const double after =
             share_of(n + 1.0 - here.line, here.half, here.inverse);  // of the strip on the side of greater n
         // A line that passes the center on the wrong side belongs to a partly hidden edge: half at most.
@@ -130,7 +130,7 @@ private:
     }
 
     const Image& drawn_;
-    const DirtyTiles& marks_;
+    const DirtyTiles& dirty_;
     Image& frame_;
     bool across_ = false;  // the edge is steep: m is y
     int side_ = 1, count_m_ = 0, count_n_ = 0;
@@ -159,10 +159,10 @@ void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, I
     }
 }
 
-void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& marks,
+void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& dirty,
                           Image& frame) {
-    Walk<false> one_face(drawn, marks, frame);
-    Walk<true> whole_box(drawn, marks, frame);
+    Walk<false> one_face(drawn, dirty, frame);
+    Walk<true> whole_box(drawn, dirty, frame);
     for (const ScreenEdge& edge : edges) edge.whole_box ? whole_box.blend(edge) : one_face.blend(edge);
 }
 

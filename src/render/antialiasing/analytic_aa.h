@@ -17,7 +17,7 @@ namespace tumble {
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame);
 
 /// Blends the edges in the dirty tiles of the frame, which must hold the drawn image there.
-void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& marks,
+void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& dirty,
                           Image& frame);
 
 /// The mean over x in [-half, half] of clamp(t - x, 0, 1): the share of a strip, one pixel high and 2 half of the slope

@@ -70,22 +70,20 @@ MeshEdges::MeshEdges(const TriangleMesh& mesh) {
     }
 }
 
-EdgeFinder::EdgeFinder(const RenderScene& looks, const Camera& view, MeshLods& details)
-    : looks_(&looks), view_(&view), details_(&details) {}
-
-const std::vector<ScreenEdge>& EdgeFinder::find(const Snapshot& snapshot, const std::vector<DrawableBounds>& items,
-                                                const std::vector<char>& wanted, const Visibility& visibility,
-                                                const std::vector<PlanePatch>& planes) {
+const std::vector<ScreenEdge>& EdgeFinder::find(const FrameContext& frame, const std::vector<char>& drawn,
+                                                const Visibility& visible) {
+    frame_ = &frame;
     found_.clear();
     rods_.clear();
-    for (std::size_t i = 0; i < planes.size(); ++i)
-        for (std::size_t j = i + 1; j < planes.size(); ++j) add_corner(planes[i], planes[j]);
-    for (std::size_t i = 0; i < looks_->bodies.size(); ++i) {
-        if (wanted[i] == 0 || !visibility.bodies[i]) continue;
-        const RenderBody& look = looks_->bodies[i];
-        if (look.kind == DrawKind::box) add_box(i, items[i], visibility.faces[i]);
-        if (look.kind == DrawKind::ball) add_ball(i, items[i]);
-        if (look.kind == DrawKind::mesh) add_mesh(i, snapshot.bodies[i], items[i]);
+    for (std::size_t i = 0; i < frame.planes.size(); ++i)
+        for (std::size_t j = i + 1; j < frame.planes.size(); ++j) add_corner(frame.planes[i], frame.planes[j]);
+    for (std::size_t i = 0; i < frame.scene.bodies.size(); ++i) {
+        if (drawn[i] == 0 || !visible.bodies[i]) continue;
+        const RenderBody& proxy = frame.scene.bodies[i];
+        const DrawableBounds& bounds = frame.drawables.bodies[i];
+        if (proxy.kind == DrawKind::box) add_box(i, bounds, visible.faces[i]);
+        if (proxy.kind == DrawKind::ball) add_ball(i, bounds);
+        if (proxy.kind == DrawKind::mesh) add_mesh(i, frame.snapshot.bodies[i], bounds);
     }
     return found_;
 }
@@ -95,14 +93,14 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
     std::array<ScreenPoint, 8> corners;
     bool before = true;  // all corners are in front of the eye
     for (std::size_t i = 0; i < 8 && before; ++i) {
-        before = before_eye(places[i], *view_);
-        if (before) corners[i] = view_->pixel(places[i]);
+        before = before_eye(places[i], frame_->camera);
+        if (before) corners[i] = frame_->camera.pixel(places[i]);
     }
-    if (before && is_rod(looks_->bodies[body].half_size / (view_->pixel_size() * item.center.norm())))
+    if (before && is_rod(frame_->scene.bodies[body].half_size / (frame_->camera.pixel_size() * item.center.norm())))
         return add_rod(body, item);
-    const double depth = item.center.dot(view_->forward());
+    const double depth = item.center.dot(frame_->camera.forward());
     const bool inner_edges =
-        2.0 * looks_->bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * view_->pixel_size();
+        2.0 * frame_->scene.bodies[body].half_size.maxCoeff() > inner_edge_pixels * depth * frame_->camera.pixel_size();
     std::array<bool, 6> front{};  // facing the eye, though perhaps hidden
     for (std::size_t face = 0; face < 6; ++face) {
         const std::size_t bit = std::size_t(1) << (face / 2);
@@ -146,9 +144,9 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
 // Uses the longest axis, and at both ends the extent of the other axes perpendicular to it on the screen.
 void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
     Eigen::Index longest = 0;
-    looks_->bodies[body].half_size.maxCoeff(&longest);
+    frame_->scene.bodies[body].half_size.maxCoeff(&longest);
     const Vec3 axis = item.half_axes.col(longest);
-    std::array<ScreenPoint, 2> ends{view_->pixel(item.center - axis), view_->pixel(item.center + axis)};
+    std::array<ScreenPoint, 2> ends{frame_->camera.pixel(item.center - axis), frame_->camera.pixel(item.center + axis)};
     const ScreenPoint way = ends[1] - ends[0];
     const ScreenPoint to = way.norm() > 1e-6 ? ScreenPoint(way.normalized()) : ScreenPoint(1.0, 0.0),
                       across(-to.y(), to.x());
@@ -158,7 +156,7 @@ void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
         const ScreenPoint middle = ends[end];
         double beyond = 0.0;
         for (const Eigen::Index other : {(longest + 1) % 3, (longest + 2) % 3}) {
-            const ScreenPoint side = view_->pixel(at + item.half_axes.col(other)) - middle;
+            const ScreenPoint side = frame_->camera.pixel(at + item.half_axes.col(other)) - middle;
             half[end] += std::abs(across.dot(side));
             beyond += std::abs(to.dot(side));
         }
@@ -169,22 +167,23 @@ void EdgeFinder::add_rod(std::size_t body, const DrawableBounds& item) {
 
 // The outline of a ball is a circle in space, where rays from the eye are tangent.
 void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
-    const double radius = looks_->bodies[body].half_size.x(), distance = item.center.norm();
+    const double radius = frame_->scene.bodies[body].half_size.x(), distance = item.center.norm();
     if (distance < 1.001 * radius) return;
     const Vec3 axis = item.center / distance;
     const double share = radius / distance, circle = radius * std::sqrt(1.0 - share * share);
     const Vec3 middle = item.center - axis * (radius * share);
     const Vec3 u = axis.unitOrthogonal() * circle, v = axis.cross(u);
-    const double pixels = circle / (middle.norm() * view_->pixel_size());
+    const double pixels = circle / (middle.norm() * frame_->camera.pixel_size());
     const int count = std::clamp(int(std::numbers::pi * std::sqrt(0.5 * pixels / circle_error)) + 1, 8, 1000);
-    const bool before = before_eye(item.center, *view_);
-    const ScreenPoint inside = view_->pixel(item.center);
+    const bool before = before_eye(item.center, frame_->camera);
+    const ScreenPoint inside = frame_->camera.pixel(item.center);
     Vec3 last;
     for (int i = 0; i <= count; ++i) {
         const double angle = 2.0 * std::numbers::pi * (i % count) / count;
         const Vec3 point = middle + u * std::cos(angle) + v * std::sin(angle);
-        if (i > 0 && before && before_eye(last, *view_) && before_eye(point, *view_))
-            found_.push_back(directed(view_->pixel(last), view_->pixel(point), inside, surface_id(body, 0), 0));
+        if (i > 0 && before && before_eye(last, frame_->camera) && before_eye(point, frame_->camera))
+            found_.push_back(
+                directed(frame_->camera.pixel(last), frame_->camera.pixel(point), inside, surface_id(body, 0), 0));
         else if (i > 0)
             add_clipped(last, point, item.center, surface_id(body, 0), 0);
         last = point;
@@ -193,15 +192,15 @@ void EdgeFinder::add_ball(std::size_t body, const DrawableBounds& item) {
 
 // Uses the level of detail that is drawn.
 void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const DrawableBounds& item) {
-    const RenderBody& look = looks_->bodies[body];
-    const std::size_t level = level_in_view(look, *looks_, item.center, *view_);
+    const RenderBody& proxy = frame_->scene.bodies[body];
+    const std::size_t level = level_in_view(proxy, frame_->scene, item.center, frame_->camera);
     const TriangleMesh& surface =
-        level == 0 ? looks_->meshes[look.mesh].asset->mesh : details_->at(look.mesh, level).surface;
+        level == 0 ? frame_->scene.meshes[proxy.mesh].asset->mesh : lods_->at(proxy.mesh, level).surface;
     const auto is_as_before = [&](const Seen& seen) {
         return seen.level == level && seen.origin == state.origin &&
-               seen.orientation.coeffs() == state.orientation.coeffs() && seen.eye == view_->eye() &&
-               seen.forward == view_->forward() && seen.right == view_->right() &&
-               seen.pixel_size == view_->pixel_size();
+               seen.orientation.coeffs() == state.orientation.coeffs() && seen.eye == frame_->camera.eye() &&
+               seen.forward == frame_->camera.forward() && seen.right == frame_->camera.right() &&
+               seen.pixel_size == frame_->camera.pixel_size();
     };
     const auto seen = seen_.find(body);
     if (seen != seen_.end() && is_as_before(seen->second)) {
@@ -209,29 +208,29 @@ void EdgeFinder::add_mesh(std::size_t body, const BodyState& state, const Drawab
         return;
     }
     const std::size_t first = found_.size();
-    const std::pair key(look.mesh, level);
+    const std::pair key(proxy.mesh, level);
     auto edges = meshes_.find(key);
     if (edges == meshes_.end()) edges = meshes_.emplace(key, MeshEdges(surface)).first;
     add_outline(body, state, surface, edges->second);
     seen_[body] = {state.origin,
-                   view_->eye(),
-                   view_->forward(),
-                   view_->right(),
+                   frame_->camera.eye(),
+                   frame_->camera.forward(),
+                   frame_->camera.right(),
                    state.orientation,
-                   view_->pixel_size(),
+                   frame_->camera.pixel_size(),
                    level,
                    {found_.begin() + std::ptrdiff_t(first), found_.end()}};
 }
 
 void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const TriangleMesh& surface,
                              const MeshEdges& edges) {
-    const Vec3 origin = view_->relative(state.origin);
+    const Vec3 origin = frame_->camera.relative(state.origin);
     const Vec3 eye = state.orientation.conjugate() * -origin;  // in the mesh's frame
     const Mat3 axes = state.orientation.toRotationMatrix();
     const auto place = [&](std::uint32_t vertex) -> Vec3 { return origin + axes * surface.vertices[vertex]; };
     std::vector<ScreenPoint> points;
     for (std::uint32_t i = 0; i < surface.vertices.size() && points.size() == i; ++i)
-        if (const Vec3 at = place(i); before_eye(at, *view_)) points.push_back(view_->pixel(at));
+        if (const Vec3 at = place(i); before_eye(at, frame_->camera)) points.push_back(frame_->camera.pixel(at));
     const bool before = points.size() == surface.vertices.size();
     std::vector<char> front;
     for (const auto& t : surface.triangles) {
@@ -260,7 +259,7 @@ void EdgeFinder::add_outline(std::size_t body, const BodyState& state, const Tri
 }
 
 void EdgeFinder::add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer) {
-    for (const Vec3& side : view_->sides()) {
+    for (const Vec3& side : frame_->camera.sides()) {
         const double at_a = side.dot(a), at_b = side.dot(b);
         if (at_a < 0.0 && at_b < 0.0) return;
         if (at_a < 0.0)
@@ -270,8 +269,9 @@ void EdgeFinder::add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, 
     }
     constexpr double inward = 1e-3;  // of the way to c, which may be behind the eye
     const Vec3 middle = 0.5 * (a + b), inside = middle + inward * (c - middle);
-    if (!before_eye(a, *view_) || !before_eye(b, *view_) || !before_eye(inside, *view_)) return;
-    found_.push_back(directed(view_->pixel(a), view_->pixel(b), view_->pixel(inside), inner, outer));
+    if (!before_eye(a, frame_->camera) || !before_eye(b, frame_->camera) || !before_eye(inside, frame_->camera)) return;
+    found_.push_back(
+        directed(frame_->camera.pixel(a), frame_->camera.pixel(b), frame_->camera.pixel(inside), inner, outer));
 }
 
 // The intersection of two planes: the part of the line in front of the eye.
@@ -289,14 +289,14 @@ void EdgeFinder::add_corner(const PlanePatch& a, const PlanePatch& b) {
         if (slope < 0.0) high = std::min(high, -at / slope);
         if (slope == 0.0 && at < 0.0) high = low;
     };
-    for (const Vec3& side : view_->sides()) clip(side);
+    for (const Vec3& side : frame_->camera.sides()) clip(side);
     if (!(low < high)) return;
     const Vec3 from = point + along * low, to = point + along * high;
-    if (!before_eye(from, *view_) || !before_eye(to, *view_)) return;
-    const ScreenPoint p = view_->pixel(from), q = view_->pixel(to);
+    if (!before_eye(from, frame_->camera) || !before_eye(to, frame_->camera)) return;
+    const ScreenPoint p = frame_->camera.pixel(from), q = frame_->camera.pixel(to);
     // The visible plane has the larger reciprocal depth.
     const ScreenPoint across = ScreenPoint(p.y() - q.y(), q.x() - p.x()).normalized(), beside = 0.5 * (p + q) + across;
-    const Vec3 ray = view_->ray(beside.x(), beside.y());
+    const Vec3 ray = frame_->camera.ray(beside.x(), beside.y());
     const bool a_there = -a.normal.dot(ray) / a.height > -b.normal.dot(ray) / b.height;
     found_.push_back(
         directed(p, q, beside, surface_id(a_there ? a.body : b.body, 0), surface_id(a_there ? b.body : a.body, 0)));

@@ -4,9 +4,8 @@
 
 #include "render/antialiasing/thin_geometry_aa.h"
 #include "render/culling/occlusion_culling.h"
+#include "render/frame/frame_context.h"
 #include "render/mesh/mesh_lod.h"
-#include "render/scene/drawable_bounds.h"
-#include "render/scene/plane_patch.h"
 
 #include <array>
 #include <cstdint>
@@ -36,13 +35,12 @@ struct MeshEdges {
 
 class EdgeFinder {
 public:
-    /// All arguments must outlive it.
-    EdgeFinder(const RenderScene& looks, const Camera& view, MeshLods& details);
+    /// `lods` must outlive it.
+    explicit EdgeFinder(MeshLods& lods) : lods_(&lods) {}
 
-    /// Edges of the items in the draw mask, in scene order. Valid until the next call.
-    const std::vector<ScreenEdge>& find(const Snapshot& snapshot, const std::vector<DrawableBounds>& items,
-                                        const std::vector<char>& wanted, const Visibility& visibility,
-                                        const std::vector<PlanePatch>& planes);
+    /// Edges of the drawn bodies, in scene order. Valid until the next call.
+    const std::vector<ScreenEdge>& find(const FrameContext& frame, const std::vector<char>& drawn,
+                                        const Visibility& visible);
 
     /// Boxes among them that are thinner than a pixel, which have no edges. Valid as long.
     const std::vector<ScreenRod>& rods() const { return rods_; }
@@ -58,9 +56,8 @@ private:
     /// is on the inner side.
     void add_clipped(Vec3 a, Vec3 b, const Vec3& c, std::uint8_t inner, std::uint8_t outer);
 
-    const RenderScene* looks_;
-    const Camera* view_;
-    MeshLods* details_;
+    const FrameContext* frame_ = nullptr;  // of the current call
+    MeshLods* lods_;
     /// A mesh's edges on the screen, and the view that they were computed for.
     struct Seen {
         Vec3 origin, eye, forward, right;

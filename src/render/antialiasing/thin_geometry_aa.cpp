@@ -15,7 +15,7 @@ namespace {
 constexpr int search = 3;
 
 // Pixels to both sides along a rod over which its color is averaged, because its sides alternate at pixel centers.
-constexpr int along = 2;
+constexpr int averaged = 2;
 
 struct Mean {
     std::array<double, 3> sum{};  // sRGB values, 0 to 255
@@ -57,9 +57,9 @@ public:
     }
 
     /// Fills these pixels from beside the rods.
-    void clear(const RodPixels& rods, const DirtyTiles& marks, Image& frame) const {
+    void clear(const RodPixels& rods, const DirtyTiles& dirty, Image& frame) const {
         for_each([&](int m, int n, double, double) {
-            if (!of_rod(m, n) || !marked(m, n, marks)) return;
+            if (!of_rod(m, n) || !is_dirty(m, n, dirty)) return;
             Mean beside;
             for (const int side : {-1, 1})
                 for (int step = 1; step <= search; ++step) {
@@ -75,15 +75,15 @@ public:
     }
 
     /// Blends the rod into each pixel by its coverage, where only other rods hide it.
-    void cover(const RodPixels& rods, const DirtyTiles& marks, Image& frame) const {
+    void cover(const RodPixels& rods, const DirtyTiles& dirty, Image& frame) const {
         for_each([&](int m, int n, double middle, double half) {
             const double share = std::min(covered(m, n, middle, half), 1.0);
-            if (share <= 0.0 || !marked(m, n, marks)) return;
+            if (share <= 0.0 || !is_dirty(m, n, dirty)) return;
             if (rods[index(m, n)] == 0 && !of_rod(m, n - 1) && !of_rod(m, n + 1) && !of_rod(m - 1, n) &&
                 !of_rod(m + 1, n))
                 return;
             Mean own;
-            for (int other = m - along; other <= m + along; ++other)
+            for (int other = m - averaged; other <= m + averaged; ++other)
                 for (int across = n - 1; across <= n + 1; ++across)
                     if (of_rod(other, across)) own.add(at(other, across));
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
@@ -102,9 +102,9 @@ private:
         for (int m = first; m <= last; ++m) {
             const double t = std::clamp((m + 0.5 - m0_) / length_, 0.0, 1.0);
             const double middle = n0_ + (n1_ - n0_) * t, half = (half0_ + (half1_ - half0_) * t) * widening_;
-            const double reach = std::max(half, 1.5 * thinnest_rod_pixels * widening_) + 0.5;
-            const int low = int(std::clamp(std::floor(middle - reach), 0.0, double(count_n_)));
-            const int high = int(std::clamp(std::floor(middle + reach), -1.0, count_n_ - 1.0));
+            const double extent = std::max(half, 1.5 * thinnest_rod_pixels * widening_) + 0.5;
+            const int low = int(std::clamp(std::floor(middle - extent), 0.0, double(count_n_)));
+            const int high = int(std::clamp(std::floor(middle + extent), -1.0, count_n_ - 1.0));
             for (int n = low; n <= high; ++n) see(m, n, middle, half);
         }
     }
@@ -116,8 +116,8 @@ private:
     const std::uint8_t* at(int m, int n) const { return &drawn_.pixels[4 * index(m, n)]; }
     bool in_picture(int m, int n) const { return m >= 0 && n >= 0 && m < count_m_ && n < count_n_; }
     bool of_rod(int m, int n) const { return in_picture(m, n) && of_same_box(at(m, n)[3], first_face_, 0); }
-    bool marked(int m, int n, const DirtyTiles& marks) const {
-        return marks.at((steep_ ? n : m) / DirtyTiles::tile, (steep_ ? m : n) / DirtyTiles::tile);
+    bool is_dirty(int m, int n, const DirtyTiles& dirty) const {
+        return dirty.at((steep_ ? n : m) / DirtyTiles::tile, (steep_ ? m : n) / DirtyTiles::tile);
     }
 
     /// Coverage of the pixel by the rod: the share before its far side less the share before its near side.
@@ -144,12 +144,12 @@ bool is_rod(const Vec3& half_pixels) {
     return half_pixels.sum() - least - most < widest_rod_pixels && most > shortest_rod_pixels;
 }
 
-void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& marks, Image& frame) {
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& dirty, Image& frame) {
     if (rods.empty()) return;
     RodPixels pixels(drawn.pixels.size() / 4, 0);
     for (const ScreenRod& rod : rods) RodWalk(drawn, rod).mark(pixels);
-    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).clear(pixels, marks, frame);
-    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).cover(pixels, marks, frame);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).clear(pixels, dirty, frame);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).cover(pixels, dirty, frame);
 }
 
 }  // namespace tumble

@@ -27,6 +27,6 @@ struct ScreenRod {
 };
 
 /// Blends the rods into the pixels of the dirty tiles by coverage. Call it after blend_analytic_edges().
-void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& marks, Image& frame);
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& dirty, Image& frame);
 
 }  // namespace tumble

@@ -55,14 +55,15 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
 
 void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& parts, const ScenePlaces& places,
                  const Snapshot& snapshot, const PinholeCamera& camera, std::vector<float>& values) {
-    std::vector<Mat3> turns;               // rotation of each part to the world
+    std::vector<Mat3> rotations;           // rotation of each part to the world
     std::vector<const float*> everywhere;  // of planes: their constant normal
     std::vector<std::array<float, 3>> planes(parts.size());
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        turns.push_back((snapshot.bodies[parts[i].body].orientation * parts[i].rotation).toRotationMatrix());
+        rotations.push_back((snapshot.bodies[parts[i].body].orientation * parts[i].rotation).toRotationMatrix());
         const auto* plane = std::get_if<PlaneShape>(&parts[i].shape);
         everywhere.push_back(plane != nullptr ? planes[i].data() : nullptr);
-        if (plane != nullptr) Eigen::Map<Eigen::Vector3f>(planes[i].data()) = (turns[i] * plane->normal).cast<float>();
+        if (plane != nullptr)
+            Eigen::Map<Eigen::Vector3f>(planes[i].data()) = (rotations[i] * plane->normal).cast<float>();
     }
     const std::array<float, 3> zero{};
     values.resize(3 * map.surface.size());
@@ -79,8 +80,8 @@ void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& 
         const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
         const double depth = map.depth[pixel];
         const Vec3 normal = surface < parts.size()
-                                ? Vec3(turns[surface] * part_normal(parts[surface], places.parts[surface],
-                                                                    map.triangle[pixel], ray, depth))
+                                ? Vec3(rotations[surface] * part_normal(parts[surface], places.parts[surface],
+                                                                        map.triangle[pixel], ray, depth))
                                 : Vec3(camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray));
         for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = float(normal[Eigen::Index(k)]);
     });

@@ -1,6 +1,6 @@
 #include "render/aov/mesh_depths.h"
 
-#include "render/aov/pixel_bounds.h"
+#include "render/aov/pinhole_camera.h"
 
 namespace tumble {
 namespace {

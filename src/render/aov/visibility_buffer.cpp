@@ -2,7 +2,7 @@
 #include "core/rotation.h"
 
 #include "render/aov/mesh_depths.h"
-#include "render/aov/pixel_bounds.h"
+#include "render/aov/pinhole_camera.h"
 #include "render/aov/ray_intersections.h"
 
 #include <array>

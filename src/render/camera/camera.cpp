@@ -40,14 +40,14 @@ Camera::Camera(const CameraDescription& camera, int width, int height, const Eig
 Camera Camera::from(const CameraDescription& camera) const {
     Camera view(camera, width_, height_, shift_);
     view.viewing_distance_ = viewing_distance_;
-    view.haze_distance_ = haze_distance_;
+    view.fog_distance_ = fog_distance_;
     return view;
 }
 
-Camera Camera::with_distances(double viewing, double haze) const {
+Camera Camera::with_distances(double viewing, double fog) const {
     Camera view = *this;
     view.viewing_distance_ = viewing;
-    view.haze_distance_ = haze;
+    view.fog_distance_ = fog;
     return view;
 }
 

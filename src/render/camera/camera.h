@@ -37,8 +37,8 @@ public:
     /// Reference distance of patterns, and distance at which fog is half of a body's light, m; constant over a clip.
     /// Default: the distance to the target, and no fog.
     double viewing_distance() const { return viewing_distance_; }
-    double fog_distance() const { return haze_distance_; }
-    Camera with_distances(double viewing, double haze) const;
+    double fog_distance() const { return fog_distance_; }
+    Camera with_distances(double viewing, double fog) const;
 
     /// The width of a pixel at distance 1 along the axis.
     double pixel_size() const { return 2.0 * tan_y_ / height_; }
@@ -67,7 +67,7 @@ public:
 private:
     Vec3 eye_, right_, up_, forward_;
     double target_distance_, viewing_distance_;
-    double haze_distance_ = std::numeric_limits<double>::infinity();
+    double fog_distance_ = std::numeric_limits<double>::infinity();
     int width_, height_;
     double tan_x_, tan_y_;
     Eigen::Vector2d shift_;  // pixels

@@ -124,13 +124,12 @@ struct Candidate {
     float distance;  // m; of the bounding ball
 };
 
-std::vector<Candidate> find_candidates(const RenderScene& looks, const Snapshot& snapshot, const Camera& view) {
+std::vector<Candidate> find_candidates(const FrameContext& frame) {
     std::vector<Candidate> candidates;
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const RenderBody& look = looks.bodies[i];
-        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        if (view.sees(ball.center, ball.radius)) candidates.push_back({std::uint32_t(i), float(ball.center.norm())});
+    for (std::size_t i = 0; i < frame.drawables.bodies.size(); ++i) {
+        const DrawableBounds& bounds = frame.drawables.bodies[i];
+        if (bounds.exists() && frame.camera.sees(bounds.center, bounds.radius))
+            candidates.push_back({std::uint32_t(i), float(bounds.center.norm())});
     }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {
         return a.distance != b.distance ? a.distance < b.distance : a.body < b.body;
@@ -163,25 +162,26 @@ std::uint8_t add_faces(const CoarseDepthBuffer::Corners& corners, const Projecte
 
 }  // namespace
 
-Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view, bool one_sample) {
+Visibility find_visible(const FrameContext& frame) {
+    const RenderScene& scene = frame.scene;
+    const Camera& view = frame.camera;
     Mat3 view_axes;
     view_axes << view.right(), view.up(), view.forward();
-    Visibility result{CoarseDepthBuffer(view), std::vector<bool>(looks.bodies.size(), false),
-                      std::vector<std::uint8_t>(looks.bodies.size(), 0)};
-    const std::vector<Candidate> candidates = find_candidates(looks, snapshot, view);
-    const bool by_pixel = one_sample && candidates.size() >= crowd;
-    const auto is_box = [&](const Candidate& c) { return looks.bodies[c.body].kind == DrawKind::box; };
+    Visibility result{CoarseDepthBuffer(view), std::vector<bool>(scene.bodies.size(), false),
+                      std::vector<std::uint8_t>(scene.bodies.size(), 0)};
+    const std::vector<Candidate> candidates = find_candidates(frame);
+    const bool by_pixel = frame.one_sample && candidates.size() >= large_scene;
+    const auto is_box = [&](const Candidate& c) { return scene.bodies[c.body].kind == DrawKind::box; };
     const auto corners_of = [&](const Candidate& c) {
-        const RenderBody& look = looks.bodies[c.body];
-        const BoundingBall ball = bounding_ball(look, snapshot.bodies[c.body], view);
-        return is_box(c)
-                   ? box_corners(ball.center, snapshot.bodies[c.body].orientation.toRotationMatrix(), look.half_size)
-                   : box_corners(ball.center, view_axes, Vec3::Constant(ball.radius));
+        const DrawableBounds& bounds = frame.drawables.bodies[c.body];
+        return is_box(c) ? box_corners(bounds.center, frame.snapshot.bodies[c.body].orientation.toRotationMatrix(),
+                                       scene.bodies[c.body].half_size)
+                         : box_corners(bounds.center, view_axes, Vec3::Constant(bounds.radius));
     };
     const auto is_small = [&](const Candidate& c) {
-        const double distance = double(c.distance) - looks.bodies[c.body].bound_radius;
+        const double distance = double(c.distance) - scene.bodies[c.body].bound_radius;
         return by_pixel && distance > 0.0 &&
-               2.0 * looks.bodies[c.body].bound_radius < small * distance * view.pixel_size();
+               2.0 * scene.bodies[c.body].bound_radius < small * distance * view.pixel_size();
     };
     for (const Candidate& candidate : candidates) {  // nearest first: a hidden candidate need not cover other bodies
         if (!is_box(candidate) || is_small(candidate)) continue;
@@ -210,11 +210,11 @@ Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, cons
     return result;
 }
 
-Visibility everything_visible(const RenderScene& looks, const Camera& view) {
-    Visibility all{CoarseDepthBuffer(view), {}, {}};
-    for (const RenderBody& look : looks.bodies) {
-        all.bodies.push_back(look.kind != DrawKind::hidden && look.kind != DrawKind::plane);
-        all.faces.push_back(look.kind == DrawKind::box ? 0x3f : 0);
+Visibility everything_visible(const FrameContext& frame) {
+    Visibility all{CoarseDepthBuffer(frame.camera), {}, {}};
+    for (const RenderBody& proxy : frame.scene.bodies) {
+        all.bodies.push_back(proxy.kind != DrawKind::hidden && proxy.kind != DrawKind::plane);
+        all.faces.push_back(proxy.kind == DrawKind::box ? 0x3f : 0);
     }
     return all;
 }

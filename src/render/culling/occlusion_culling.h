@@ -5,8 +5,7 @@
 #pragma once
 
 #include "render/camera/camera.h"
-#include "render/scene/render_scene.h"
-#include "sim/snapshot/snapshot.h"
+#include "render/frame/frame_context.h"
 
 #include <array>
 #include <cstdint>
@@ -47,12 +46,10 @@ struct Visibility {
         faces;  // of boxes: bit 2 k for the face on the low side of axis k, 2 k + 1 for the high side
 };
 
-/// `one_sample`: the frame has one sample per pixel; many small boxes are then culled per pixel
-/// (software_depth_buffer.h).
-Visibility find_visible(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
-                        bool one_sample = false);
+/// With one sample per pixel, many small boxes are culled per pixel (software_depth_buffer.h).
+Visibility find_visible(const FrameContext& frame);
 
 /// Without culling.
-Visibility everything_visible(const RenderScene& looks, const Camera& view);
+Visibility everything_visible(const FrameContext& frame);
 
 }  // namespace tumble

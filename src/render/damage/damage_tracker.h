@@ -3,71 +3,61 @@
 // - the planes in its old and new shadow and within its AO radius;
 // - every body behind it as seen from the sun;
 // - every surface with changed AO.
-// Of large receivers and bodies with lightmaps, only the shadows on them (face_damage.h, volume_damage.h) and the
-// changed texels are damaged. A change of the depth range, of the cascades or of a plane damages the whole frame. The
+// Of large receivers and bodies with lightmaps, only the shadows on them (receiver_damage.h) and the changed
+// texels are damaged. A change of the depth range, of the cascades or of a plane damages the whole frame. The
 // damage is conservative: the frame has the bytes of a full redraw.
 #pragma once
 
 #include "render/ambient_occlusion/occlusion_atlas.h"
+#include "render/culling/occlusion_culling.h"
 #include "render/damage/dirty_tiles.h"
-#include "render/damage/face_damage.h"
-#include "render/damage/shadow_dirty_tiles.h"
-#include "render/scene/drawable_bounds.h"
-#include "render/scene/plane_patch.h"
-#include "render/shadow/shadow_cascades.h"
+#include "render/frame/frame_context.h"
 
+#include <optional>
 #include <vector>
 
 namespace tumble {
 
-/// The inputs of a frame that can change.
-struct FrameState {
-    const Snapshot& snapshot;
-    std::vector<DrawableBounds> items;
-    double near_distance = 0.0;  // m
-    ShadowCascades shadows;
-    std::vector<PlanePatch> planes;
-    bool one_sample = false;  // per pixel, at its center
+struct Damage {
+    explicit Damage(const FrameContext& frame) : tiles(frame.camera), shadow_tiles(frame.cascades) {}
+
+    DirtyTiles tiles;
+    ShadowDirtyTiles shadow_tiles;
+    bool background = true;           // the planes or the depth range changed
+    std::vector<Rectangle> changed;   // the dirty tiles
+    std::vector<Rectangle> previous;  // tiles that were dirty in the previous frame and are not in this one
+    DrawableMask drawn;               // drawables to draw again: they touch a dirty tile
+    DrawableMask casters;             // drawables to draw again into the shadow maps
+    std::vector<std::vector<Rectangle>> plane_regions;  // of each plane in view, see find_dirty_regions()
+};
+
+struct DamageOptions {
+    bool full_redraw = false;   // everything is damaged in every frame
+    bool keep_casters = false;  // without culling of shadow casters
 };
 
 class DamageTracker {
 public:
-    DamageTracker(const SceneDescription& scene, const RenderScene& looks, const Camera& view);
+    explicit DamageTracker(const DamageOptions& options = {}) : options_(options) {}
 
-    /// True if all poses equal those of the previous find(); the frame is then the same.
-    bool unmoved(const Snapshot& snapshot) const;
-
-    /// Makes the next find() report everything as changed, as the first one does; for a changed view.
-    void forget() { first_ = true; }
-
-    /// Compares with the state of the previous call, and stores this one.
-    DirtyTiles find(const FrameState& now, const OcclusionChanges& occlusion, const Visibility& visibility);
-
-    /// Parts of the shadow maps that changed in the previous find().
-    const ShadowDirtyTiles& shadow_marks() const { return shadow_marks_; }
-    /// True if the planes or the depth range changed.
-    bool background_changed() const { return background_changed_; }
+    /// Compares with the frame of the previous call, and stores this one. `visible`: the drawn bodies.
+    Damage find(const FrameContext& frame, const Visibility& visible, const AmbientOcclusion& occlusion);
 
 private:
-    struct Pose {
-        Vec3 origin;
-        Quat orientation;
-    };
-    bool moved(const Snapshot& snapshot, std::size_t body) const;
-    void mark_on_planes(const DrawableBounds& item, std::size_t number, const FrameState& now, DirtyTiles& marks) const;
-    bool too_near(const FrameState& now) const;
-    void mark_shadowed(const std::vector<char>& item_moved, const FrameState& now, const Visibility& visibility,
-                       DirtyTiles& marks) const;
+    void find_moved(const FrameContext& frame, Damage& damage);
+    void mark_tiles(const FrameContext& frame, const Visibility& visible, const OcclusionChanges& occlusion,
+                    DirtyTiles& tiles) const;
+    void mark_moved(const FrameContext& frame, DirtyTiles& tiles) const;
+    void mark_occlusion(const FrameContext& frame, const OcclusionChanges& occlusion, DirtyTiles& tiles) const;
+    void mark_shadow_receivers(const FrameContext& frame, const Visibility& visible, DirtyTiles& tiles) const;
+    void select(const FrameContext& frame, Damage& damage) const;
 
-    const SceneDescription* scene_;
-    const RenderScene* looks_;
-    const Camera* view_;
-    bool first_ = true, background_changed_ = true;
-    ShadowDirtyTiles shadow_marks_{ShadowCascades()};
-    std::vector<Pose> poses_;
-    std::vector<DrawableBounds> items_;
-    double near_distance_ = 0.0;
-    ShadowCascades shadows_;
+    DamageOptions options_;
+    DrawableMask moved_;  // of this frame
+    PerDrawable<DrawableBounds> previous_drawables_;
+    std::optional<DirtyTiles> previous_tiles_;
+    double previous_near_distance_ = 0.0;  // m
+    ShadowCascades previous_cascades_;
 };
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include "core/check.h"
 #include "render/camera/convex_hull_2d.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -40,10 +41,10 @@ int tile_of(double pixel, int size, int count) {
 DirtyTiles::DirtyTiles(const Camera& view, int size)
     : view_(&view),
       grid_{(view.width() + size - 1) / size, (view.height() + size - 1) / size, size, view.width(), view.height()},
-      marks_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
+      dirty_(std::size_t(grid_.columns) * std::size_t(grid_.rows), 0) {}
 
 void DirtyTiles::mark_all() {
-    std::fill(marks_.begin(), marks_.end(), char(1));
+    std::fill(dirty_.begin(), dirty_.end(), char(1));
     count_ = grid_.columns * grid_.rows;
 }
 
@@ -82,19 +83,19 @@ void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
         // Extent of the hull to both sides within this row of tiles.
         const double low = row * grid_.cell - rim, high = (row + 1) * grid_.cell + rim;
         double left = std::numeric_limits<double>::infinity(), right = -left;
-        const auto reach = [&](double x) {
+        const auto include = [&](double x) {
             left = std::min(left, x);
             right = std::max(right, x);
         };
         for (std::size_t i = 0; i < corners.size(); ++i) {
             const ScreenPoint &a = corners[i], &b = corners[(i + 1) % corners.size()];
-            if (a.y() >= low && a.y() <= high) reach(a.x());
+            if (a.y() >= low && a.y() <= high) include(a.x());
             for (const double y : {low, high})
-                if ((a.y() < y) != (b.y() < y)) reach(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
+                if ((a.y() < y) != (b.y() < y)) include(a.x() + (b.x() - a.x()) * ((y - a.y()) / (b.y() - a.y())));
         }
         for (int column = std::max(0, tile_of(left - rim, grid_.cell, grid_.columns));
              column <= std::min(grid_.columns - 1, tile_of(right + rim, grid_.cell, grid_.columns)); ++column) {
-            char& mark = marks_[std::size_t(row * grid_.columns + column)];
+            char& mark = dirty_[std::size_t(row * grid_.columns + column)];
             count_ += mark == 0 ? 1 : 0;
             mark = 1;
         }
@@ -152,6 +153,68 @@ Rectangle DirtyTiles::bounds() const {
         }
     if (x0 >= x1) return {0, 0, 0, 0};
     return {x0 * grid_.cell, y0 * grid_.cell, (x1 - x0) * grid_.cell, (y1 - y0) * grid_.cell};
+}
+
+ShadowDirtyTiles::ShadowDirtyTiles(const ShadowCascades& cascades)
+    : cascades_(cascades), maps_(cascades.has_far ? 2 : 1), dirty_(std::size_t(maps_ * count * count), 0) {}
+
+void ShadowDirtyTiles::mark_all() { std::fill(dirty_.begin(), dirty_.end(), char(1)); }
+
+bool ShadowDirtyTiles::none() const { return std::find(dirty_.begin(), dirty_.end(), char(1)) == dirty_.end(); }
+bool ShadowDirtyTiles::all() const { return std::find(dirty_.begin(), dirty_.end(), char(0)) == dirty_.end(); }
+
+// Cells from x0 to before x1; empty outside the map. The margin of one and a half texels is for rasterization.
+ShadowDirtyTiles::Range ShadowDirtyTiles::range(const DrawableBounds& item, int map) const {
+    const double scale = map == 1 ? cascades_.far.x : 1.0, shift_x = map == 1 ? cascades_.far.y : 0.0;
+    const double shift_y = map == 1 ? cascades_.far.z : 0.0;
+    const double half_width = scale * item.radius / (cascades_.near_texel * cascades_.texels) + 1.5 / cascades_.texels;
+    const auto cell = [](double at) { return int(std::clamp(std::floor(at * count), -1.0, double(count))); };
+    const auto span = [&](const glm::vec4& row, double shift, int& first, int& end) {
+        const double near = row.x * item.center.x() + row.y * item.center.y() + row.z * item.center.z() + double(row.w);
+        const double at = scale * near + shift;
+        first = std::max(cell(at - half_width), 0);
+        end = std::min(cell(at + half_width) + 1, count);
+    };
+    Range r{};
+    span(cascades_.x, shift_x, r.x0, r.x1);
+    span(cascades_.y, shift_y, r.y0, r.y1);
+    return r;
+}
+
+void ShadowDirtyTiles::mark(const DrawableBounds& item) {
+    for (int map = 0; map < maps_; ++map) {
+        const Range r = range(item, map);
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x) dirty_[std::size_t((map * count + y) * count + x)] = 1;
+    }
+}
+
+bool ShadowDirtyTiles::touched_by(const DrawableBounds& item) const {
+    for (int map = 0; map < maps_; ++map) {
+        const Range r = range(item, map);
+        for (int y = r.y0; y < r.y1; ++y)
+            for (int x = r.x0; x < r.x1; ++x)
+                if (dirty_[std::size_t((map * count + y) * count + x)] != 0) return true;
+    }
+    return false;
+}
+
+void ShadowDirtyTiles::settle() {
+    const auto marked = std::count(dirty_.begin(), dirty_.end(), char(1));
+    if (2 * marked > std::ptrdiff_t(dirty_.size())) mark_all();
+}
+
+std::vector<Rectangle> ShadowDirtyTiles::rectangles() const {
+    const int texels = (cascades_.texels + count - 1) / count;
+    std::vector<Rectangle> all;
+    for (int map = 0; map < maps_; ++map)
+        for (Rectangle part : cell_rectangles(
+                 {count, count, texels, cascades_.texels, cascades_.texels},
+                 [&](int column, int row) { return dirty_[std::size_t((map * count + row) * count + column)] != 0; })) {
+            part.x += map * cascades_.texels;
+            all.push_back(part);
+        }
+    return all;
 }
 
 }  // namespace tumble

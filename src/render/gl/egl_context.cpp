@@ -1,4 +1,4 @@
-#include "render/gl/egl_context.h"
+#include "render/gl/gl_context.h"
 
 #include "core/error.h"
 #include "render/gl/dynamic_library.h"

@@ -106,8 +106,8 @@ void Framebuffer::begin_whole() {
     whole_open_ = true;
 }
 
-void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing) {
-    close(whole_open_ ? std::vector<Rectangle>{{0, 0, width_, height_}} : closing);
+void Framebuffer::begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& previous_damage) {
+    close(whole_open_ ? std::vector<Rectangle>{{0, 0, width_, height_}} : previous_damage);
     copy(background_, drawn_, rectangles, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     bind(drawn_);
     whole_open_ = false;

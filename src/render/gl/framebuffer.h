@@ -31,7 +31,7 @@ public:
     /// Makes the frame the draw target. Only the rectangles can be drawn to: they get the background's colors and
     /// depths; all other pixels have the nearest depth. `closing`: at least the pixels that could be drawn to in the
     /// previous frame and cannot in this one.
-    void begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& closing);
+    void begin(const std::vector<Rectangle>& rectangles, const std::vector<Rectangle>& previous_damage);
 
     /// Averages the samples in the rectangles.
     void resolve(const std::vector<Rectangle>& rectangles) const;

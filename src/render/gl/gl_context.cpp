@@ -1,8 +1,5 @@
 #include "render/gl/gl_context.h"
 
-#include "render/gl/egl_context.h"
-#include "render/gl/osmesa_context.h"
-
 namespace tumble {
 
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend) {

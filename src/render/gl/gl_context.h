@@ -29,4 +29,12 @@ public:
 /// Makes a context, current in this thread. Throws RunError that names the missing part and the remedy.
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend);
 
+/// Mesa's off-screen interface: software drawing with no display, no device and no permissions. Throws RunError if the
+/// library is missing or cannot make a core context of the requested version.
+std::unique_ptr<GlContext> make_osmesa_context();
+
+/// EGL without a surface: the alternative for systems whose Mesa lacks OSMesa, and for graphics cards. Throws RunError if
+/// EGL is missing or offers neither a surfaceless nor a device display.
+std::unique_ptr<GlContext> make_egl_context();
+
 }  // namespace tumble

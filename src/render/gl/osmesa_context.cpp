@@ -1,4 +1,4 @@
-#include "render/gl/osmesa_context.h"
+#include "render/gl/gl_context.h"
 
 #include "core/error.h"
 #include "core/memory_limit.h"

@@ -42,7 +42,7 @@ std::filesystem::path find_shader_folder() {
     std::string tried;
     for (const fs::path& place : places) {
         std::error_code failed;
-        if (fs::is_regular_file(place / "look.glsl", failed)) return place.lexically_normal();
+        if (fs::is_regular_file(place / "light_constants.glsl", failed)) return place.lexically_normal();
         tried += "\n  " + safe_path(place.lexically_normal());
     }
     throw RunError(fmt::format("no shaders found; set TUMBLE_SHADERS to their folder. Looked in:{}", tried));

@@ -70,7 +70,7 @@ Eigen::Vector3f octahedral(float x, float y) {
         .normalized();
 }
 
-OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts) {
+OcclusionLightmap lightmap_of_mesh(ChartedMesh& charts) {
     OcclusionLightmap surface;
     surface.width = charts.width;
     surface.height = charts.height;
@@ -94,7 +94,7 @@ OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts) {
     return surface;
 }
 
-OcclusionLightmap fine_surface_of_ball(double radius, int texels) {
+OcclusionLightmap lightmap_of_ball(double radius, int texels) {
     OcclusionLightmap surface;
     surface.width = surface.height = texels;
     for (int j = 0; j < texels; ++j)

@@ -29,10 +29,10 @@ struct OcclusionLightmap {
 };
 
 /// Moves the texels out of the charts.
-OcclusionLightmap fine_surface_of_mesh(ChartedMesh& charts);
+OcclusionLightmap lightmap_of_mesh(ChartedMesh& charts);
 
 /// A ball with `texels` per side.
-OcclusionLightmap fine_surface_of_ball(double radius, int texels);
+OcclusionLightmap lightmap_of_ball(double radius, int texels);
 
 /// The unit vector of a point in [-1, 1]^2. Meyer et al. 2010, On Floating-Point Normal Vectors: octahedral map.
 Eigen::Vector3f octahedral(float x, float y);

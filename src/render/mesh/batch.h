@@ -1,7 +1,7 @@
 // Batches of instances that share a mesh, and the indices of the meshes.
 #pragma once
 
-#include "render/mesh/instance.h"
+#include "render/mesh/mesh_buffer.h"
 #include "render/mesh/mesh_lod.h"
 
 #include <cstddef>
@@ -22,7 +22,7 @@ struct Batch {
     std::size_t mesh = 0;
     bool patterned = false;
     bool lit = true;                   // false: faces turned away from the sun, which need no shadow lookup
-    bool wide = false;                 // each pixel selects its shadow cascade
+    bool spans_cascades = false;       // each pixel selects its shadow cascade
     bool charted = false;              // a mesh with AO per pixel: see chart_unwrap.h
     std::size_t first = 0, count = 0;  // of the instances
 };

@@ -9,9 +9,9 @@ constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 
 }  // namespace
 
-GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& looks)
-    : gl_(&gl), looks_(&looks), instances_(gl, GlKind::buffer) {
-    meshes_.resize(scene_mesh(looks.meshes.size(), 0));
+GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& scene)
+    : gl_(&gl), scene_(&scene), instances_(gl, GlKind::buffer) {
+    meshes_.resize(scene_mesh(scene.meshes.size(), 0));
 }
 
 void GpuMeshCache::make_primitive(std::size_t mesh) {
@@ -26,16 +26,17 @@ void GpuMeshCache::make_primitive(std::size_t mesh) {
 void GpuMeshCache::make(std::size_t mesh, MeshLods& details) {
     if (mesh < first_scene_mesh) return make_primitive(mesh);
     const std::size_t which = (mesh - first_scene_mesh) / mesh_levels, level = (mesh - first_scene_mesh) % mesh_levels;
-    const RenderMesh& look = looks_->meshes[which];
-    if (look.charts && level == 0) {
-        const ChartedMesh& charts = *look.charts;
-        meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, look.closed});
+    const RenderMesh& proxy = scene_->meshes[which];
+    if (proxy.charts && level == 0) {
+        const ChartedMesh& charts = *proxy.charts;
+        meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, proxy.closed});
     } else if (level == 0) {
         meshes_[mesh].emplace(
-            *gl_, MeshData{look.asset->vertices, look.asset->indices, look.probe_of_vertex, {}, look.closed});
+            *gl_, MeshData{proxy.asset->vertices, proxy.asset->indices, proxy.sample_of_vertex, {}, proxy.closed});
     } else {
         const MeshLod& detail = details.at(which, level);
-        meshes_[mesh].emplace(*gl_, MeshData{detail.vertices, detail.indices, detail.probe_of_vertex, {}, look.closed});
+        meshes_[mesh].emplace(*gl_,
+                              MeshData{detail.vertices, detail.indices, detail.sample_of_vertex, {}, proxy.closed});
     }
 }
 

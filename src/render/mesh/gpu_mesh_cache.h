@@ -11,7 +11,7 @@ namespace tumble {
 
 class GpuMeshCache {
 public:
-    GpuMeshCache(const GlFunctions& gl, const RenderScene& looks);
+    GpuMeshCache(const GlFunctions& gl, const RenderScene& scene);
 
     /// Uploads the frame's instances, which the next batches refer to, and the meshes that they are the first to use.
     void upload(const DrawList& list, MeshLods& details);
@@ -28,7 +28,7 @@ private:
     void make_primitive(std::size_t mesh);
 
     const GlFunctions* gl_;
-    const RenderScene* looks_;
+    const RenderScene* scene_;
     std::vector<std::optional<MeshBuffer>> meshes_;
     GlObject instances_;
 };

@@ -6,16 +6,9 @@ namespace tumble {
 namespace {
 
 // Attribute locations as in shaders/instance.glsl.
-constexpr GLuint first_instance_attribute = 2;
-struct Attribute {
-    GLint components;
-    std::size_t offset;
-};
-constexpr Attribute instance_attributes[] = {{4, offsetof(Instance, position)}, {4, offsetof(Instance, orientation)},
-                                             {4, offsetof(Instance, scale)},    {4, offsetof(Instance, color)},
-                                             {4, offsetof(Instance, look)},     {4, offsetof(Instance, tile)}};
-constexpr GLuint probe_attribute = first_instance_attribute + GLuint(std::size(instance_attributes));
-constexpr GLuint texel_attribute = probe_attribute + 1;
+constexpr GLuint first_instance_attribute = 2, instance_attributes = sizeof(Instance) / sizeof(glm::vec4);
+constexpr GLuint sample_attribute = first_instance_attribute + instance_attributes;
+constexpr GLuint texel_attribute = sample_attribute + 1;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -32,7 +25,7 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
       array_(gl, GlKind::vertex_array),
       vertices_(gl, GlKind::buffer),
       indices_(gl, GlKind::buffer),
-      probes_(gl, GlKind::buffer),
+      samples_(gl, GlKind::buffer),
       texels_(gl, GlKind::buffer),
       index_count_(GLsizei(data.indices.size())),
       closed_(data.closed) {
@@ -44,17 +37,17 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
     gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, position)));
     gl.EnableVertexAttribArray(1);
     gl.VertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), offset(offsetof(Vertex, normal)));
-    if (!data.probe_of_vertex.empty()) {
-        fill(gl, GL_ARRAY_BUFFER, probes_, data.probe_of_vertex);
-        gl.EnableVertexAttribArray(probe_attribute);
-        gl.VertexAttribIPointer(probe_attribute, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), nullptr);
+    if (!data.sample_of_vertex.empty()) {
+        fill(gl, GL_ARRAY_BUFFER, samples_, data.sample_of_vertex);
+        gl.EnableVertexAttribArray(sample_attribute);
+        gl.VertexAttribIPointer(sample_attribute, 1, GL_UNSIGNED_INT, sizeof(std::uint32_t), nullptr);
     }
     if (!data.texels.empty()) {
         fill(gl, GL_ARRAY_BUFFER, texels_, data.texels);
         gl.EnableVertexAttribArray(texel_attribute);
         gl.VertexAttribPointer(texel_attribute, 2, GL_FLOAT, GL_FALSE, sizeof(std::array<float, 2>), nullptr);
     }
-    for (GLuint i = 0; i < std::size(instance_attributes); ++i) {
+    for (GLuint i = 0; i < instance_attributes; ++i) {
         gl.EnableVertexAttribArray(first_instance_attribute + i);
         gl.VertexAttribDivisor(first_instance_attribute + i, 1);
     }
@@ -66,10 +59,9 @@ void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count) co
     // Set once, because Mesa recompiles a vertex shader for an array with changing pointers.
     if (instances != instances_) {
         gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
-        GLuint location = first_instance_attribute;
-        for (const Attribute& attribute : instance_attributes)
-            gl_->VertexAttribPointer(location++, attribute.components, GL_FLOAT, GL_FALSE, sizeof(Instance),
-                                     offset(attribute.offset));
+        for (GLuint i = 0; i < instance_attributes; ++i)
+            gl_->VertexAttribPointer(first_instance_attribute + i, 4, GL_FLOAT, GL_FALSE, sizeof(Instance),
+                                     offset(i * sizeof(glm::vec4)));
         instances_ = instances;
     }
     gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, GLsizei(count),

@@ -2,8 +2,11 @@
 #pragma once
 
 #include "render/gl/gl_object.h"
-#include "render/mesh/instance.h"
 #include "scene/description/description.h"
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <array>
 #include <cstdint>
@@ -11,11 +14,29 @@
 
 namespace tumble {
 
+/// One drawn body (or one face of a box); six vec4 attributes, as in shaders/instance.glsl.
+struct Instance {
+    glm::vec3 position;     // of the body's origin, m, relative to the eye
+    float bevel;            // m
+    glm::vec4 orientation;  // x, y, z, w
+    glm::vec3 scale;        // of the mesh
+    float pattern_cell;     // m
+    glm::vec3 color;        // linear
+    float roughness;
+    float metallic, pattern;  // pattern: see pattern_number()
+    glm::vec2 atlas_place;    // in the AO atlas, texels
+    float tile_size;          // edge of its AO tiles, texels; 0: none
+    float face;               // of a box, as in BodyOcclusion; 1 for an open mesh
+    float surface_id;         // as alpha
+    float near_shadows;       // 1: uses the near shadow map, 0: the far one
+};
+static_assert(sizeof(Instance) == 6 * sizeof(glm::vec4));
+
 struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
     std::span<const std::uint32_t> indices;
-    std::span<const std::uint32_t> probe_of_vertex;  // may be empty: only meshes of the scene have samples
-    std::span<const std::array<float, 2>> texels;    // may be empty: only meshes with charts have texels
+    std::span<const std::uint32_t> sample_of_vertex;  // may be empty: only meshes of the scene have samples
+    std::span<const std::array<float, 2>> texels;     // may be empty: only meshes with charts have texels
     bool closed = true;
 };
 
@@ -31,7 +52,7 @@ public:
 
 private:
     const GlFunctions* gl_;
-    GlObject array_, vertices_, indices_, probes_, texels_;
+    GlObject array_, vertices_, indices_, samples_, texels_;
     GLsizei index_count_;
     mutable GLuint instances_ = 0;  // the buffer that the vertex array refers to
     bool closed_;

@@ -68,24 +68,24 @@ Indices fewer_triangles(const MeshAsset& asset, double deviation) {
 
 }  // namespace
 
-double deviation_of_level(const RenderBody& look, std::size_t level) {
-    return level == 0 ? 0.0 : look.bound_radius * finest_deviation * std::ldexp(1.0, int(level) - 1);
+double deviation_of_level(const RenderBody& proxy, std::size_t level) {
+    return level == 0 ? 0.0 : proxy.bound_radius * finest_deviation * std::ldexp(1.0, int(level) - 1);
 }
 
-std::size_t level_for(const RenderBody& look, const RenderScene& looks, double deviation) {
-    const std::size_t triangles = looks.meshes[look.mesh].asset->indices.size() / 3;
-    if (looks.mesh_triangles <= most_whole_triangles || triangles <= few_triangles || triangles > many_triangles)
+std::size_t level_for(const RenderBody& proxy, const RenderScene& scene, double deviation) {
+    const std::size_t triangles = scene.meshes[proxy.mesh].asset->indices.size() / 3;
+    if (scene.mesh_triangles <= most_whole_triangles || triangles <= few_triangles || triangles > many_triangles)
         return 0;
     std::size_t level = 0;
-    while (level + 1 < mesh_levels && deviation_of_level(look, level + 1) <= deviation) ++level;
+    while (level + 1 < mesh_levels && deviation_of_level(proxy, level + 1) <= deviation) ++level;
     return level;
 }
 
-std::size_t level_in_view(const RenderBody& look, const RenderScene& looks, const Vec3& center, const Camera& view) {
+std::size_t level_in_view(const RenderBody& proxy, const RenderScene& scene, const Vec3& center, const Camera& view) {
     // Away from the center of the view, a deviation appears larger by the factor |p| / depth.
-    const double depth = center.dot(view.forward()) - look.bound_radius, distance = center.norm() + look.bound_radius;
-    if (!(depth > 0.0) || looks.meshes[look.mesh].charts) return 0;
-    return level_for(look, looks, most_detail_error * view.pixel_size() * depth * depth / distance);
+    const double depth = center.dot(view.forward()) - proxy.bound_radius, distance = center.norm() + proxy.bound_radius;
+    if (!(depth > 0.0) || scene.meshes[proxy.mesh].charts) return 0;
+    return level_for(proxy, scene, most_detail_error * view.pixel_size() * depth * depth / distance);
 }
 
 MeshLod simplify(const RenderMesh& mesh, double deviation) {
@@ -100,7 +100,7 @@ MeshLod simplify(const RenderMesh& mesh, double deviation) {
         const MeshAsset::Vertex& vertex = asset.vertices[old];
         if (is_new) {
             detail.vertices.push_back(vertex);
-            detail.probe_of_vertex.push_back(mesh.probe_of_vertex[old]);
+            detail.sample_of_vertex.push_back(mesh.sample_of_vertex[old]);
         }
         detail.indices.push_back(place->second);
         const auto [point, is_new_point] =
@@ -114,13 +114,13 @@ MeshLod simplify(const RenderMesh& mesh, double deviation) {
     return detail;
 }
 
-MeshLods::MeshLods(const RenderScene& looks) : looks_(&looks), details_(looks.meshes.size() * (mesh_levels - 1)) {}
+MeshLods::MeshLods(const RenderScene& scene) : scene_(&scene), details_(scene.meshes.size() * (mesh_levels - 1)) {}
 
 const MeshLod& MeshLods::at(std::size_t mesh, std::size_t level) {
     std::optional<MeshLod>& detail = details_[mesh * (mesh_levels - 1) + level - 1];
     if (!detail) {
-        const RenderMesh& look = looks_->meshes[mesh];
-        detail = simplify(look, look.half_extent.norm() * finest_deviation * std::ldexp(1.0, int(level) - 1));
+        const RenderMesh& proxy = scene_->meshes[mesh];
+        detail = simplify(proxy, proxy.half_extent.norm() * finest_deviation * std::ldexp(1.0, int(level) - 1));
     }
     return *detail;
 }

@@ -17,8 +17,8 @@ namespace tumble {
 struct MeshLod {
     std::vector<MeshAsset::Vertex> vertices;
     std::vector<std::uint32_t> indices;
-    std::vector<std::uint32_t> probe_of_vertex;  // as in RenderMesh
-    TriangleMesh surface;                        // the same triangles with welded vertices, for the outline
+    std::vector<std::uint32_t> sample_of_vertex;  // as in RenderMesh
+    TriangleMesh surface;                         // the same triangles with welded vertices, for the outline
 };
 
 /// largest deviation of the drawn surface from the true one, pixels or texels of a shadow map
@@ -30,19 +30,19 @@ inline constexpr std::size_t mesh_levels = 8;
 inline constexpr std::size_t most_whole_triangles = 200'000;
 
 /// Largest deviation of a level, m: 0 for level 0, then 1/512 of the mesh's radius, doubled with each level.
-double deviation_of_level(const RenderBody& look, std::size_t level);
+double deviation_of_level(const RenderBody& proxy, std::size_t level);
 
 /// The coarsest level with a deviation of at most `deviation`, m.
-std::size_t level_for(const RenderBody& look, const RenderScene& looks, double deviation);
+std::size_t level_for(const RenderBody& proxy, const RenderScene& scene, double deviation);
 
 /// The level of a mesh whose bounding ball is at `center`, m, relative to the eye.
-std::size_t level_in_view(const RenderBody& look, const RenderScene& looks, const Vec3& center, const Camera& view);
+std::size_t level_in_view(const RenderBody& proxy, const RenderScene& scene, const Vec3& center, const Camera& view);
 
 /// The levels in use, of all meshes of a scene.
 class MeshLods {
 public:
     /// The scene must outlive it.
-    explicit MeshLods(const RenderScene& looks);
+    explicit MeshLods(const RenderScene& scene);
 
     /// Level 1 or above; made on first use. Postcondition: every vertex of the mesh is within deviation_of_level() of
     /// the level's surface, and the corners, edge midpoints and centers of the level's triangles are within that
@@ -51,7 +51,7 @@ public:
     const MeshLod& at(std::size_t mesh, std::size_t level);
 
 private:
-    const RenderScene* looks_;
+    const RenderScene* scene_;
     std::vector<std::optional<MeshLod>> details_;  // by mesh
 };
 

@@ -23,24 +23,24 @@ void connect(const ShaderProgram& program) {
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
 }
 
-BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
-                   bool has_cords, bool shadows, const ShadowFilter& filter)
-    : gl_(&gl), shaders_(shaders), shadows_(shadows), filter_(filter) {
-    for (const RenderBody& look : looks.bodies)
-        if (look.kind == DrawKind::box && look.metallic > 0.0f) metal_boxes_ = true;
-    for (const RenderBody& look : looks.bodies)
-        if (look.kind == DrawKind::box || look.kind == DrawKind::ball || look.kind == DrawKind::mesh)
+BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+                   const ShadowFilter& filter)
+    : gl_(&gl), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter) {
+    for (const RenderBody& proxy : scene.bodies)
+        if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
+    for (const RenderBody& proxy : scene.bodies)
+        if (proxy.kind == DrawKind::box || proxy.kind == DrawKind::ball || proxy.kind == DrawKind::mesh)
             for (const bool lit : {true, false})
-                program({look.kind, look.pattern != Pattern::plain, lit, false,
-                         look.kind == DrawKind::mesh && look.fine_surface >= 0});
-    if (has_cords) program({DrawKind::mesh, false, true, false, false});
+                program({proxy.kind, proxy.pattern != Pattern::plain, lit, false,
+                         proxy.kind == DrawKind::mesh && proxy.lightmap >= 0});
+    if (!scene.cords.empty()) program({DrawKind::mesh, false, true, false, false});
 }
 
 BodyPass::Variant BodyPass::variant_of(const Batch& batch) {
     const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                           : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                        : DrawKind::mesh;
-    return {kind, batch.patterned, batch.lit, batch.wide, batch.charted};
+    return {kind, batch.patterned, batch.lit, batch.spans_cascades, batch.charted};
 }
 
 std::size_t BodyPass::index_of(const Variant& variant) {
@@ -48,7 +48,7 @@ std::size_t BodyPass::index_of(const Variant& variant) {
                               : variant.kind == DrawKind::ball ? 2
                               : variant.charted                ? 4
                                                                : 3;
-    return 4 * which + (variant.patterned ? 2 : 0) + (variant.wide ? 1 : 0);
+    return 4 * which + (variant.patterned ? 2 : 0) + (variant.spans_cascades ? 1 : 0);
 }
 
 const ShaderProgram& BodyPass::program(const Variant& variant) {
@@ -64,7 +64,7 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     }
     if (variant.kind == DrawKind::box && variant.lit && metal_boxes_) files.defines.emplace_back("FILTERED");
     if (variant.patterned) files.defines.emplace_back("PATTERNED");
-    if (variant.wide) files.defines.emplace_back("WIDE");
+    if (variant.spans_cascades) files.defines.emplace_back("SPANS_CASCADES");
     if (variant.charted) files.defines.emplace_back("CHARTED");
     made.emplace(*gl_, shaders_, files);
     connect(*made);

@@ -27,8 +27,8 @@ void connect(const ShaderProgram& program);
 class BodyPass {
 public:
     /// Compiles the shaders that the scene's bodies need; those for bodies that span cascades on first use.
-    BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks, bool has_cords,
-             bool shadows, const ShadowFilter& filter);
+    BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+             const ShadowFilter& filter);
 
     void draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
@@ -39,7 +39,7 @@ public:
 private:
     struct Variant {
         DrawKind kind;
-        bool patterned, lit, wide, charted;
+        bool patterned, lit, spans_cascades, charted;
     };
     static Variant variant_of(const Batch& batch);
     static std::size_t index_of(const Variant& variant);

@@ -1,6 +1,5 @@
 #include "render/passes/draw_list.h"
 
-#include "core/check.h"
 #include "core/rotation.h"
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
@@ -26,30 +25,33 @@ constexpr double shells_per_doubling = 8.0;  // per doubling of the distance
 
 constexpr double shell_offset = 100000.0;  // keeps shell numbers positive
 
-// One item before sorting.
+// A face of a box, another body or a cord, before sorting.
 struct Item {
-    std::uint64_t order;   // key by shell, mesh and shader
-    float distance;        // m
-    std::uint32_t number;  // index of the body; cords follow the bodies
-    std::uint32_t mesh;
-    std::uint8_t face;  // of a box
-    bool patterned, lit, wide;
+    std::uint64_t order = 0;  // key by shell, mesh and shader, see ordered()
+    float distance = 0.0f;    // m
+    bool cord = false;        // cords come after bodies
+    std::uint32_t index = 0;  // of the body or of the cord
+    std::uint32_t mesh = 0;
+    std::uint8_t face = 0;  // of a box
+    bool patterned = false, lit = true, spans_cascades = false;
     bool charted = false;  // given by the mesh
 };
 
-Item make_item(std::size_t mesh, bool patterned, bool lit, bool wide, double distance, std::size_t number, int face,
-               bool in_shells) {
+Item item_of(std::size_t index, std::size_t mesh) {
+    Item item;
+    item.index = std::uint32_t(index);
+    item.mesh = std::uint32_t(mesh);
+    return item;
+}
+
+// Sets the key. Without shells, as for shadow maps, all items of a mesh form one batch.
+Item ordered(Item item, double distance, bool in_shells) {
     const double shell =
         in_shells ? std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30))) + shell_offset : 0.0;
-    return {std::uint64_t(shell) << 40 | std::uint64_t(mesh) << 3 | (wide ? 4u : 0u) | (patterned ? 2u : 0u) |
-                (lit ? 1u : 0u),
-            float(distance),
-            std::uint32_t(number),
-            std::uint32_t(mesh),
-            std::uint8_t(face),
-            patterned,
-            lit,
-            wide};
+    item.order = std::uint64_t(shell) << 40 | std::uint64_t(item.mesh) << 3 | (item.spans_cascades ? 4u : 0u) |
+                 (item.patterned ? 2u : 0u) | (item.lit ? 1u : 0u);
+    item.distance = float(distance);
+    return item;
 }
 
 // An edge of angle a lies at most r (1 - cos(a / 2)) = r a^2 / 8 inside the circle of radius r.
@@ -63,15 +65,8 @@ std::size_t ball_mesh_for(double radius, double error) {  // m
     return first_ball_mesh + level;
 }
 
-Instance instance_of(const RenderBody& look, const BodyState& state, const Camera& view, const OcclusionPlace& place,
-                     std::size_t body, bool near_shadows) {
-    return {to_glm(view.relative(state.origin), look.bevel),
-            to_glm(state.orientation),
-            to_glm(look.half_size, look.pattern_cell),
-            glm::vec4(look.color, look.roughness),
-            glm::vec4(look.metallic, pattern_number(look.pattern), float(place.x), float(place.y)),
-            glm::vec4(float(place.size), 0.0f, surface_alpha(body, 0), near_shadows ? 1.0f : 0.0f)};
-}
+// The bounding balls of bodies that exist are those of their drawables.
+BoundingBall ball_of(const DrawableBounds& bounds) { return {bounds.center, bounds.radius}; }
 
 struct CordPlace {
     Vec3 middle;
@@ -79,26 +74,13 @@ struct CordPlace {
     Quat turn;
 };
 
-CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& view) {
+CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& camera) {
     const BodyState& state = snapshot.bodies[cord.body];
-    const Vec3 from = view.relative(cord.anchor);
-    const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
+    const Vec3 from = camera.relative(cord.anchor);
+    const Vec3 to = camera.relative(state.origin + state.orientation * cord.point);
     const double length = (to - from).norm();
     return {0.5 * (from + to), length,
             rotation_between(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};
-}
-
-Instance cord_instance(const CordDescription& cord, std::size_t number, const CordPlace& place,
-                       const ShadowCascades& shadows) {
-    const std::array<double, 3> c = to_linear(cord.color);
-    const Vec3 scale(cord.radius, std::max(0.5 * place.length, 1e-3 * cord.radius), cord.radius);
-    return {to_glm(place.middle, 0.0),
-            to_glm(place.turn),
-            to_glm(scale, cord.radius),
-            glm::vec4(float(c[0]), float(c[1]), float(c[2]), cord_roughness),
-            glm::vec4(0.0f),
-            glm::vec4(0.0f, 0.0f, surface_alpha(number, 0),
-                      shadows.near_holds(place.middle, 0.5 * place.length + cord.radius) ? 1.0f : 0.0f)};
 }
 
 // The half box has the faces on the high sides; they are mirrored to be those towards the sun.
@@ -108,111 +90,181 @@ void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& ligh
         if (there[axis] > 0.0) half_box.scale[axis] = -half_box.scale[axis];
 }
 
-std::size_t mesh_of(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view) {
-    switch (look.kind) {
+std::size_t mesh_of(const RenderBody& proxy, const RenderScene& scene, const BoundingBall& ball, const Camera& view) {
+    switch (proxy.kind) {
         case DrawKind::ball:
             return ball_mesh_for(ball.radius, outline_error * view.pixel_size() *
                                                   std::max(ball.center.norm() - ball.radius, 1e-3 * ball.radius));
         case DrawKind::mesh:
-            return scene_mesh(look.mesh, level_in_view(look, looks, ball.center, view));
+            return scene_mesh(proxy.mesh, level_in_view(proxy, scene, ball.center, view));
         default:
             return half_box_mesh;
     }
 }
 
 // Level of detail for the resolution of the item's shadow map.
-std::size_t caster_mesh(const RenderBody& look, const RenderScene& looks, const BoundingBall& ball, const Camera& view,
+std::size_t caster_mesh(const RenderBody& proxy, const RenderScene& scene, const BoundingBall& ball, const Camera& view,
                         const ShadowCascades& shadows) {
     const double texel = shadows.may_look_far(ball.center, ball.radius)
                              ? std::min(shadows.near_texel, shadows.far_texel)
                              : shadows.near_texel;
-    if (look.kind == DrawKind::ball)
-        return looks.bodies.size() < crowd ? mesh_of(look, looks, ball, view)
-                                           : ball_mesh_for(ball.radius, outline_error * texel);
-    return scene_mesh(look.mesh, level_for(look, looks, most_detail_error * texel));
+    if (proxy.kind == DrawKind::ball)
+        return scene.bodies.size() < large_scene ? mesh_of(proxy, scene, ball, view)
+                                                 : ball_mesh_for(ball.radius, outline_error * texel);
+    return scene_mesh(proxy.mesh, level_for(proxy, scene, most_detail_error * texel));
 }
 
 // Appends the items' instances as batches of one mesh, nearest first; equal items keep the scene's order.
 template <class Make>
 std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance>& instances, const Make& make) {
     std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) {
-        return std::tie(a.order, a.distance, a.number, a.face) < std::tie(b.order, b.distance, b.number, b.face);
+        return std::tie(a.order, a.distance, a.cord, a.index, a.face) <
+               std::tie(b.order, b.distance, b.cord, b.index, b.face);
     });
     std::vector<Batch> batches;
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
-            batches.back().lit != item.lit || batches.back().wide != item.wide)
-            batches.push_back({item.mesh, item.patterned, item.lit, item.wide, item.charted, instances.size(), 0});
+            batches.back().lit != item.lit || batches.back().spans_cascades != item.spans_cascades)
+            batches.push_back(
+                {item.mesh, item.patterned, item.lit, item.spans_cascades, item.charted, instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
     return batches;
 }
 
+class Builder {
+public:
+    Builder(const FrameContext& frame, const Visibility& visible, const OcclusionAtlas& atlas)
+        : frame_(frame), visible_(visible), atlas_(atlas), light_(frame.scene.light.direction.normalized()) {}
+
+    void add_body(std::size_t i, bool drawn, bool casts) {
+        const RenderBody& proxy = frame_.scene.bodies[i];
+        if (casts) {
+            const BoundingBall ball = ball_of(frame_.drawables.bodies[i]);
+            const std::size_t mesh = proxy.kind == DrawKind::box
+                                         ? half_box_mesh
+                                         : caster_mesh(proxy, frame_.scene, ball, frame_.camera, frame_.cascades);
+            casters_.push_back(ordered(item_of(i, mesh), ball.center.norm(), false));
+        }
+        if (!drawn) return;
+        if (proxy.kind == DrawKind::box)
+            add_faces(i);
+        else
+            add_whole(i);
+    }
+
+    void add_cord(std::size_t i, bool drawn, bool casts) {
+        cords_.push_back(place_cord(frame_.scene.cords[i], frame_.snapshot, frame_.camera));
+        Item item = item_of(i, cylinder_mesh);
+        item.cord = true;
+        const double distance = cords_.back().middle.norm();
+        if (drawn) drawn_.push_back(ordered(item, distance, true));
+        if (casts) casters_.push_back(ordered(item, distance, false));
+    }
+
+    DrawList take() {
+        const auto instance = [&](const Item& item) {
+            return item.cord ? cord_instance(item.index) : body_instance(item);
+        };
+        DrawList list;
+        list.instances.reserve(drawn_.size() + casters_.size());
+        list.visible = append_batches(drawn_, list.instances, instance);
+        list.casters = append_batches(casters_, list.instances, instance);
+        return list;
+    }
+
+private:
+    bool spans_cascades(const DrawableBounds& bounds) const {
+        return frame_.scene.light.shadows && frame_.cascades.spans_maps(bounds.center, bounds.radius);
+    }
+
+    void add_whole(std::size_t i) {
+        const RenderBody& proxy = frame_.scene.bodies[i];
+        const DrawableBounds& bounds = frame_.drawables.bodies[i];
+        Item item = item_of(i, mesh_of(proxy, frame_.scene, ball_of(bounds), frame_.camera));
+        item.patterned = proxy.pattern != Pattern::plain;
+        item.spans_cascades = spans_cascades(bounds);
+        item.charted = proxy.kind == DrawKind::mesh && frame_.scene.meshes[proxy.mesh].charts.has_value();
+        drawn_.push_back(ordered(item, bounds.center.norm(), true));
+    }
+
+    // Visible faces of a box: lit ones are separate from unlit ones.
+    void add_faces(std::size_t i) {
+        const DrawableBounds& bounds = frame_.drawables.bodies[i];
+        const Vec3 there = frame_.snapshot.bodies[i].orientation.conjugate() * light_;
+        Item item = item_of(i, face_mesh);
+        item.patterned = frame_.scene.bodies[i].pattern != Pattern::plain;
+        for (int face = 0; face < 6; ++face) {
+            if ((visible_.faces[i] >> face & 1) == 0) continue;
+            item.face = std::uint8_t(face);
+            item.lit = there[face / 2] * (face % 2 == 0 ? -1.0 : 1.0) < 0.0;
+            item.spans_cascades = item.lit && spans_cascades(bounds);
+            drawn_.push_back(ordered(item, bounds.center.norm(), true));
+        }
+    }
+
+    Instance body_instance(const Item& item) const {
+        const RenderBody& proxy = frame_.scene.bodies[item.index];
+        const BodyState& state = frame_.snapshot.bodies[item.index];
+        const DrawableBounds& bounds = frame_.drawables.bodies[item.index];
+        const OcclusionPlace& place = atlas_.places[item.index];
+        const bool open_mesh = proxy.kind == DrawKind::mesh && !frame_.scene.meshes[proxy.mesh].closed;
+        Instance made{};
+        made.position = to_glm(frame_.camera.relative(state.origin));
+        made.bevel = float(proxy.bevel);
+        made.orientation = to_glm(state.orientation);
+        made.scale = to_glm(proxy.half_size);
+        made.pattern_cell = float(proxy.pattern_cell);
+        made.color = proxy.color;
+        made.roughness = proxy.roughness;
+        made.metallic = proxy.metallic;
+        made.pattern = pattern_number(proxy.pattern);
+        made.atlas_place = glm::vec2(float(place.x), float(place.y));
+        made.tile_size = float(place.size);
+        made.face = open_mesh ? 1.0f : float(item.face);
+        made.surface_id = surface_alpha(item.index, item.face);
+        made.near_shadows = frame_.cascades.near_holds(bounds.center, bounds.radius) ? 1.0f : 0.0f;
+        if (item.mesh == half_box_mesh) turn_to_light(made, state.orientation, light_);
+        return made;
+    }
+
+    Instance cord_instance(std::size_t i) const {
+        const CordDescription& cord = frame_.scene.cords[i];
+        const CordPlace& place = cords_[i];
+        const std::array<double, 3> color = to_linear(cord.color);
+        Instance made{};
+        made.position = to_glm(place.middle);
+        made.orientation = to_glm(place.turn);
+        made.scale = to_glm(Vec3(cord.radius, std::max(0.5 * place.length, 1e-3 * cord.radius), cord.radius));
+        made.pattern_cell = float(cord.radius);
+        made.color = glm::vec3(float(color[0]), float(color[1]), float(color[2]));
+        made.roughness = cord_roughness;
+        made.surface_id = surface_alpha(frame_.scene.bodies.size() + i, 0);
+        made.near_shadows = frame_.cascades.near_holds(place.middle, 0.5 * place.length + cord.radius) ? 1.0f : 0.0f;
+        return made;
+    }
+
+    const FrameContext& frame_;
+    const Visibility& visible_;
+    const OcclusionAtlas& atlas_;
+    Vec3 light_;  // unit, direction in which the light travels
+    std::vector<CordPlace> cords_;
+    std::vector<Item> drawn_, casters_;
+};
+
 }  // namespace
 
-DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
-                        const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowCascades& shadows, const std::vector<char>& wanted,
-                        const std::vector<char>& casting) {
-    TUMBLE_CHECK_EQ(snapshot.bodies.size(), looks.bodies.size());
-    const std::size_t bodies = looks.bodies.size();
-    const Vec3 light = scene.light.direction.normalized();
-    std::vector<Item> visible, casters;
-    for (std::size_t i = 0; i < bodies; ++i) {
-        const RenderBody& look = looks.bodies[i];
-        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
-        const bool in_view = visibility.bodies[i] && wanted[i] != 0;
-        const bool casts = scene.light.shadows && casting[i] != 0;
-        const bool patterned = look.pattern != Pattern::plain;
-        const double distance = ball.center.norm();
-        if (casts) {
-            const std::size_t mesh =
-                look.kind == DrawKind::box ? half_box_mesh : caster_mesh(look, looks, ball, view, shadows);
-            casters.push_back(make_item(mesh, false, true, false, distance, i, 0, false));
-        }
-        if (!in_view) continue;
-        const bool wide = scene.light.shadows && shadows.spans_maps(ball.center, ball.radius);
-        if (look.kind != DrawKind::box) {
-            visible.push_back(make_item(mesh_of(look, looks, ball, view), patterned, true, wide, distance, i, 0, true));
-            visible.back().charted = look.kind == DrawKind::mesh && looks.meshes[look.mesh].charts.has_value();
-            continue;
-        }
-        // Visible faces of the box: lit ones are separate from unlit ones.
-        const Vec3 there = snapshot.bodies[i].orientation.conjugate() * light;
-        for (int face = 0; face < 6; ++face)
-            if ((visibility.faces[i] >> face & 1) != 0) {
-                const bool lit = there[face / 2] * (face % 2 == 0 ? -1.0 : 1.0) < 0.0;
-                visible.push_back(make_item(face_mesh, patterned, lit, wide && lit, distance, i, face, true));
-            }
-    }
-    std::vector<CordPlace> cords;
-    for (std::size_t i = 0; i < scene.cords.size(); ++i) {
-        cords.push_back(place_cord(scene.cords[i], snapshot, view));
-        const double distance = cords.back().middle.norm();
-        if (wanted[bodies + i] != 0)
-            visible.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, true));
-        if (scene.light.shadows && casting[bodies + i] != 0)
-            casters.push_back(make_item(cylinder_mesh, false, true, false, distance, bodies + i, 0, false));
-    }
-    const auto instance = [&](const Item& item) {
-        const std::size_t i = item.number;
-        if (i >= bodies) return cord_instance(scene.cords[i - bodies], i, cords[i - bodies], shadows);
-        const BoundingBall ball = bounding_ball(looks.bodies[i], snapshot.bodies[i], view);
-        Instance made = instance_of(looks.bodies[i], snapshot.bodies[i], view, atlas.places[i], i,
-                                    shadows.near_holds(ball.center, ball.radius));
-        const bool open_mesh = looks.bodies[i].kind == DrawKind::mesh && !looks.meshes[looks.bodies[i].mesh].closed;
-        made.tile.y = open_mesh ? 1.0f : float(item.face);
-        made.tile.z = surface_alpha(i, item.face);
-        if (item.mesh == half_box_mesh) turn_to_light(made, snapshot.bodies[i].orientation, light);
-        return made;
-    };
-    DrawList list;
-    list.instances.reserve(visible.size() + casters.size());
-    list.visible = append_batches(visible, list.instances, instance);
-    list.casters = append_batches(casters, list.instances, instance);
-    return list;
+DrawList make_draw_list(const FrameContext& frame, const Visibility& visible, const OcclusionAtlas& atlas,
+                        const DrawableMask& drawn, const DrawableMask& casters) {
+    Builder builder(frame, visible, atlas);
+    const bool shadows = frame.scene.light.shadows;
+    for (std::size_t i = 0; i < frame.drawables.bodies.size(); ++i)
+        if (frame.drawables.bodies[i].exists())
+            builder.add_body(i, visible.bodies[i] && drawn.bodies[i] != 0, shadows && casters.bodies[i] != 0);
+    for (std::size_t i = 0; i < frame.drawables.cords.size(); ++i)
+        builder.add_cord(i, drawn.cords[i] != 0, shadows && casters.cords[i] != 0);
+    return builder.take();
 }
 
 }  // namespace tumble

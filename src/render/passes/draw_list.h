@@ -1,22 +1,16 @@
-// The draw list of one frame: plain values made from the render scene and a snapshot, ready for upload. Bodies that
-// share a mesh form one batch of instances, nearest first, so that hidden pixels are rejected early.
+// The draw list of one frame: plain values made from the frame, ready for upload. Bodies that share a mesh form one batch
+// of instances, nearest first, so that hidden pixels are rejected early.
 #pragma once
 
 #include "render/ambient_occlusion/occlusion_atlas.h"
-#include "render/camera/camera.h"
+#include "render/culling/occlusion_culling.h"
+#include "render/frame/frame_context.h"
 #include "render/mesh/batch.h"
-#include "render/scene/render_scene.h"
-#include "render/shadow/shadow_cascades.h"
-#include "sim/snapshot/snapshot.h"
-
-#include <vector>
 
 namespace tumble {
 
-/// `wanted`, `casting`: draw mask and caster mask, by item of drawable_bounds.h.
-DrawList make_draw_list(const SceneDescription& scene, const RenderScene& looks, const Snapshot& snapshot,
-                        const Camera& view, const Visibility& visibility, const OcclusionAtlas& atlas,
-                        const ShadowCascades& shadows, const std::vector<char>& wanted,
-                        const std::vector<char>& casting);
+/// `drawn`, `casters`: drawables to draw into the frame and into the shadow maps.
+DrawList make_draw_list(const FrameContext& frame, const Visibility& visible, const OcclusionAtlas& atlas,
+                        const DrawableMask& drawn, const DrawableMask& casters);
 
 }  // namespace tumble

@@ -1,9 +1,7 @@
 // Uniforms that are constant over a frame, in the layout of shaders/frame.glsl (std140: vec4s throughout).
 #pragma once
 
-#include "render/camera/camera.h"
-#include "render/shadow/shadow_cascades.h"
-#include "scene/description/description.h"
+#include "render/frame/frame_context.h"
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec4.hpp>
@@ -15,17 +13,14 @@ struct FrameUniforms {
     glm::vec4 ray_origin, ray_dx, ray_dy;
     glm::vec4 to_light;
     glm::vec4 shadow_x, shadow_y, shadow_z, shadow_far, shadow_texels;
-    glm::vec4 haze;
+    float fog_density;               // 1 / squared distance at which fog is half of the light, 1/m^2
+    float pixel_size;                // at distance 1 along the axis
+    float widest_rod, thinnest_rod;  // half sizes at distance 1; 0: no rod is widened
     glm::vec4 atlas;
 };
 static_assert(sizeof(FrameUniforms) == sizeof(glm::mat4) + 11 * sizeof(glm::vec4));
 
-/// False if the sun is below a fixed plane that bodies can rest on. Planes cast no shadows: a plane is the surface of a
-/// half-space, which would block either all sunlight or none.
-bool sun_is_up(const SceneDescription& scene);
-
-/// `sun_up`: false disables sunlight.
-FrameUniforms make_frame_uniforms(const LightDescription& light, bool sun_up, const Camera& view, double near_distance,
-                                  const ShadowCascades& shadows, int atlas_height, bool widen_rods);
+/// `widen_rods`: boxes thinner than a pixel are drawn about a pixel wide (thin_geometry_aa.h).
+FrameUniforms make_frame_uniforms(const FrameContext& frame, int atlas_height, bool widen_rods);
 
 }  // namespace tumble

@@ -9,14 +9,14 @@
 
 namespace tumble {
 
-enum class Pass { preparation, upload, shadow, background, bodies, planes, sky, edges, read };
-inline constexpr std::size_t render_stages = 9;
-inline constexpr std::array<const char*, render_stages> render_stage_names = {
-    "preparation", "upload", "shadow", "background", "bodies", "planes", "sky", "edges", "read"};
+enum class Pass { preparation, upload, shadow, background, bodies, planes, edges, read };
+inline constexpr std::size_t pass_count = 8;
+inline constexpr std::array<const char*, pass_count> pass_names = {
+    "preparation", "upload", "shadow", "background", "bodies", "planes", "edges", "read"};
 
 /// CPU seconds of the process, summed over all frames.
 struct PassTimes {
-    std::array<double, render_stages> seconds{};
+    std::array<double, pass_count> seconds{};
 };
 
 /// Adds the time since the last pass ended. Without a target it does nothing and does not wait.

@@ -3,7 +3,7 @@
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
 #include "render/passes/body_pass.h"
-#include "render/scene/plane_axes.h"
+#include "render/scene/plane_patch.h"
 
 #include <fmt/format.h>
 #include <glm/gtc/type_ptr.hpp>
@@ -14,13 +14,13 @@ namespace tumble {
 namespace {
 
 // Range within which two intersecting planes occlude each other, in parts of the typical AO radius.
-constexpr double corner_reach = 2.0;
+constexpr double corner_ao_radius = 2.0;
 
 constexpr int most_other_planes = 6;  // of a box-shaped room, and one more
 
-int other_planes(const RenderScene& looks) {
-    const auto planes = std::count_if(looks.bodies.begin(), looks.bodies.end(),
-                                      [](const RenderBody& look) { return look.kind == DrawKind::plane; });
+int other_planes(const RenderScene& scene) {
+    const auto planes = std::count_if(scene.bodies.begin(), scene.bodies.end(),
+                                      [](const RenderBody& proxy) { return proxy.kind == DrawKind::plane; });
     return int(std::clamp<std::ptrdiff_t>(planes - 1, 0, most_other_planes));
 }
 
@@ -39,21 +39,21 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 
 }  // namespace
 
-PlanePass::PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks,
-                     bool shadows, const ShadowFilter& filter)
+PlanePass::PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+                     const ShadowFilter& filter)
     : gl_(&gl),
       shaders_(shaders),
-      shadows_(shadows),
+      shadows_(scene.light.shadows),
       filter_(filter),
-      other_planes_(other_planes(looks)),
+      other_planes_(other_planes(scene)),
       sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
       array_(gl, GlKind::vertex_array),
       corners_(gl, GlKind::buffer) {
     connect(sky_);
-    for (const RenderBody& look : looks.bodies) {
-        auto& programs = planes_[std::size_t(look.pattern)];
-        if (look.kind != DrawKind::plane || programs) continue;
-        programs.emplace(Programs{make(look.pattern, {}), make(look.pattern, touched()), std::nullopt});
+    for (const RenderBody& proxy : scene.bodies) {
+        auto& programs = planes_[std::size_t(proxy.pattern)];
+        if (proxy.kind != DrawKind::plane || programs) continue;
+        programs.emplace(Programs{make(proxy.pattern, {}), make(proxy.pattern, occluded()), std::nullopt});
     }
     gl.BindVertexArray(array_.name());
     gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
@@ -68,8 +68,8 @@ ShaderProgram PlanePass::make(Pattern pattern, const std::vector<std::string>& m
     return made;
 }
 
-std::vector<std::string> PlanePass::touched() const {
-    std::vector<std::string> all = {"TOUCHED"};
+std::vector<std::string> PlanePass::occluded() const {
+    std::vector<std::string> all = {"OCCLUDED"};
     return shadows_ ? with(with(all, {"SHADOWED"}), shadow_defines(filter_)) : all;
 }
 
@@ -85,89 +85,90 @@ std::vector<std::function<void()>> PlanePass::compilations() const {
         });
     };
     for (const auto& programs : planes_)
-        if (programs) add(programs->touched, GL_LEQUAL);
+        if (programs) add(programs->occluded, GL_LEQUAL);
     for (const auto& programs : planes_)
-        if (programs) add(programs->open, GL_LESS);
+        if (programs) add(programs->background, GL_LESS);
     add(sky_, GL_LEQUAL);
     return all;
 }
 
-void PlanePass::draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const {
-    const std::vector<glm::vec3> sky = sky_polygon(planes, view);
+void PlanePass::draw_sky(const FrameContext& frame) const {
+    const std::vector<glm::vec3> sky = sky_polygon(frame.planes, frame.camera);
     sky_.use();
     if (sky.size() >= 3) draw_polygon(sky);
 }
 
-void PlanePass::draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
-    // Pixels at equal depth stay: bodies and dirty regions that were drawn before. Dirty regions are drawn over each
-    // other in order, so the last of several intersecting planes comes first here.
+void PlanePass::draw_background(const FrameContext& frame) const {
+    // Pixels at equal depth stay: bodies and regions that were drawn before. Regions are drawn over each other in order,
+    // so the last of several intersecting planes comes first here.
     gl_->DepthFunc(GL_LESS);
-    for (std::size_t i = planes.size(); i-- > 0;) {
-        set_uniforms(planes_[std::size_t(looks.bodies[planes[i].body].pattern)]->open, planes[i], planes, looks);
-        draw_polygon(planes[i].corners);
+    for (std::size_t i = frame.planes.size(); i-- > 0;) {
+        const PlanePatch& plane = frame.planes[i];
+        set_uniforms(planes_[std::size_t(frame.scene.bodies[plane.body].pattern)]->background, plane, frame);
+        draw_polygon(plane.corners);
     }
     gl_->DepthFunc(GL_LEQUAL);
 }
 
-void PlanePass::draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
-                             const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                             const Camera& view, bool far_shadows) {
+void PlanePass::draw_regions(const FrameContext& frame, const std::vector<std::vector<Rectangle>>& regions,
+                             const OcclusionAtlas& atlas) {
     gl_->Disable(GL_CULL_FACE);
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->BindVertexArray(array_.name());
-    for (std::size_t i = 0; i < planes.size(); ++i) {
-        if (areas[i].empty()) continue;
-        const Pattern pattern = looks.bodies[planes[i].body].pattern;
+    const bool far_shadows = frame.cascades.has_far;
+    for (std::size_t i = 0; i < frame.planes.size(); ++i) {
+        if (regions[i].empty()) continue;
+        const PlanePatch& plane = frame.planes[i];
+        const Pattern pattern = frame.scene.bodies[plane.body].pattern;
         Programs& programs = *planes_[std::size_t(pattern)];
-        if (far_shadows && !programs.touched_far)
-            programs.touched_far.emplace(make(pattern, with(touched(), {"FAR_MAP"})));
-        const ShaderProgram& program = far_shadows ? *programs.touched_far : programs.touched;
-        upload_polygon(planes[i].corners);
-        set_uniforms(program, planes[i], planes, looks);
-        set_window(program, planes[i], atlas, looks, snapshot, view);
-        for (const Rectangle& area : areas[i]) {
-            gl_->Scissor(area.x, area.y, area.width, area.height);
-            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(planes[i].corners.size()));
+        if (far_shadows && !programs.occluded_far)
+            programs.occluded_far.emplace(make(pattern, with(occluded(), {"FAR_MAP"})));
+        const ShaderProgram& program = far_shadows ? *programs.occluded_far : programs.occluded;
+        upload_polygon(plane.corners);
+        set_uniforms(program, plane, frame);
+        set_tile(program, plane, atlas, frame);
+        for (const Rectangle& region : regions[i]) {
+            gl_->Scissor(region.x, region.y, region.width, region.height);
+            gl_->DrawArrays(GL_TRIANGLE_FAN, 0, GLsizei(plane.corners.size()));
         }
     }
     gl_->BindVertexArray(0);
     gl_->Disable(GL_SCISSOR_TEST);
 }
 
-void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& plane,
-                             const std::vector<PlanePatch>& planes, const RenderScene& looks) const {
-    const RenderBody& look = looks.bodies[plane.body];
+void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const FrameContext& frame) const {
+    const RenderBody& proxy = frame.scene.bodies[plane.body];
     program.use();
     program.set("plane_normal", to_glm(plane.normal, plane.height));
     program.set("plane_u", plane.u);
     program.set("plane_v", plane.v);
-    program.set("plane_color", glm::vec4(look.color, look.roughness));
-    program.set("plane_look", glm::vec4(look.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
+    program.set("plane_color", glm::vec4(proxy.color, proxy.roughness));
+    program.set("plane_material", glm::vec4(proxy.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
     if (other_planes_ == 0) return;
     std::vector<glm::vec4> others;  // planes outside the view are placed far below, where they have no effect
-    for (const PlanePatch& other : planes)
+    for (const PlanePatch& other : frame.planes)
         if (other.body != plane.body) others.push_back(to_glm(other.normal, other.height));
     others.resize(std::size_t(other_planes_), glm::vec4(0.0f, 0.0f, 0.0f, 1e30f));
     gl_->Uniform4fv(program.uniform("other_planes"), other_planes_, glm::value_ptr(others.front()));
-    gl_->Uniform1f(program.uniform("other_reach"), float(corner_reach * looks.typical_reach));
+    gl_->Uniform1f(program.uniform("other_ao_radius"), float(corner_ao_radius * frame.scene.typical_ao_radius));
 }
 
-void PlanePass::set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                           const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const {
-    const auto window = std::find_if(atlas.windows.begin(), atlas.windows.end(),
-                                     [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
-    if (window == atlas.windows.end()) {  // texel 0, 0 is unoccluded
-        for (const char* name : {"window_u", "window_v", "window_rim"}) program.set(name, glm::vec4(0.0f));
+void PlanePass::set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                         const FrameContext& frame) const {
+    const auto tile = std::find_if(atlas.plane_tiles.begin(), atlas.plane_tiles.end(),
+                                   [&](const PlaneOcclusionTile& w) { return w.body == plane.body; });
+    if (tile == atlas.plane_tiles.end()) {  // texel 0, 0 is unoccluded
+        for (const char* name : {"tile_u", "tile_v", "tile_rim"}) program.set(name, glm::vec4(0.0f));
         return;
     }
-    const BodyState& state = snapshot.bodies[plane.body];
-    const PlaneAxes axes = plane_axes(looks.bodies[plane.body].plane.normal);
-    const Vec3 u = state.orientation * axes.u / window->cell, v = state.orientation * axes.v / window->cell;
-    const Vec3 eye = view.eye() - state.origin;
-    program.set("window_u", to_glm(u, u.dot(eye) - window->low_a + window->x));
-    program.set("window_v", to_glm(v, v.dot(eye) - window->low_b + window->y));
-    program.set("window_rim", glm::vec4(float(window->x), float(window->y), float(window->x + window->width - 1),
-                                        float(window->y + window->height - 1)));
+    const BodyState& state = frame.snapshot.bodies[plane.body];
+    const PlaneAxes axes = plane_axes(frame.scene.bodies[plane.body].plane.normal);
+    const Vec3 u = state.orientation * axes.u / tile->cell, v = state.orientation * axes.v / tile->cell;
+    const Vec3 eye = frame.camera.eye() - state.origin;
+    program.set("tile_u", to_glm(u, u.dot(eye) - tile->low_a + tile->x));
+    program.set("tile_v", to_glm(v, v.dot(eye) - tile->low_b + tile->y));
+    program.set("tile_rim", glm::vec4(float(tile->x), float(tile->y), float(tile->x + tile->width - 1),
+                                      float(tile->y + tile->height - 1)));
 }
 
 void PlanePass::draw_polygon(const std::vector<glm::vec3>& corners) const {

@@ -1,8 +1,9 @@
 // Draws the infinite planes, and the sky where no plane is.
 #pragma once
 
+#include "core/rectangle.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
-#include "render/damage/plane_dirty_regions.h"
+#include "render/frame/frame_context.h"
 #include "render/gl/gl_object.h"
 #include "render/gl/shader_program.h"
 
@@ -17,35 +18,33 @@ namespace tumble {
 
 class PlanePass {
 public:
-    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& looks, bool shadows,
+    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
               const ShadowFilter& filter);
 
     /// Draws the sky outside the planes. Call it first: at the horizon, the depth of a plane rounds to that of the sky.
-    void draw_sky(const std::vector<PlanePatch>& planes, const Camera& view) const;
+    void draw_sky(const FrameContext& frame) const;
 
     /// Draws all planes without shadows and occlusion by bodies, where no surface at the same or a smaller depth has
-    /// been drawn. Bodies and dirty regions may be drawn before or after.
-    void draw_open(const std::vector<PlanePatch>& planes, const RenderScene& looks) const;
+    /// been drawn. Bodies and regions may be drawn before or after.
+    void draw_background(const FrameContext& frame) const;
 
-    /// Draws planes[i] in areas[i], with shadows and occlusion.
-    void draw_touched(const std::vector<PlanePatch>& planes, const std::vector<std::vector<Rectangle>>& areas,
-                      const RenderScene& looks, const OcclusionAtlas& atlas, const Snapshot& snapshot,
-                      const Camera& view, bool far_shadows);
+    /// Draws the i-th plane of the frame in regions[i], with shadows and occlusion.
+    void draw_regions(const FrameContext& frame, const std::vector<std::vector<Rectangle>>& regions,
+                      const OcclusionAtlas& atlas);
 
     /// One draw per shader, which makes the driver compile it. The caller must prevent it from changing the frame.
     std::vector<std::function<void()>> compilations() const;
 
 private:
     struct Programs {
-        ShaderProgram open, touched;
-        std::optional<ShaderProgram> touched_far;  // once the far shadow map is in use
+        ShaderProgram background, occluded;
+        std::optional<ShaderProgram> occluded_far;  // once the far shadow map is in use
     };
     ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
-    std::vector<std::string> touched() const;
-    void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const std::vector<PlanePatch>& planes,
-                      const RenderScene& looks) const;
-    void set_window(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
-                    const RenderScene& looks, const Snapshot& snapshot, const Camera& view) const;
+    std::vector<std::string> occluded() const;
+    void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const FrameContext& frame) const;
+    void set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
+                  const FrameContext& frame) const;
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
     void draw_polygon(const std::vector<glm::vec3>& corners) const;
 

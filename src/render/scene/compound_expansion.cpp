@@ -4,47 +4,60 @@
 #include <utility>
 
 namespace tumble {
+namespace {
 
-CompoundExpansion::CompoundExpansion(const SceneDescription& scene) : scene_(scene) {
-    const auto compound = [](const BodyDescription& body) { return std::holds_alternative<CompoundShape>(body.shape); };
-    if (std::none_of(scene.bodies.begin(), scene.bodies.end(), compound)) return;
-    scene_.bodies.clear();
-    std::vector<std::size_t> first;  // first drawn body of each body
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const BodyDescription& body = scene.bodies[i];
-        first.push_back(scene_.bodies.size());
-        const auto* whole = std::get_if<CompoundShape>(&body.shape);
-        if (!whole) {
-            scene_.bodies.push_back(body);
-            parts_.push_back({i});
-            continue;
-        }
-        for (const CompoundPart& part : *whole->parts) {
-            BodyDescription drawn = body;
-            drawn.shape = part.shape;
-            drawn.position = body.position + body.rotation * part.position;
-            drawn.rotation = body.rotation * part.rotation;
-            drawn.keyframes.clear();
-            if (part.color) drawn.appearance.color = *part.color;
-            scene_.bodies.push_back(std::move(drawn));
-            parts_.push_back({i, part.position, part.rotation});
-        }
+const CompoundShape* compound_of(const BodyDescription& body) { return std::get_if<CompoundShape>(&body.shape); }
+
+bool has_compounds(const SceneDescription& scene) {
+    return std::any_of(scene.bodies.begin(), scene.bodies.end(),
+                       [](const BodyDescription& body) { return compound_of(body) != nullptr; });
+}
+
+BodyDescription part_as_body(const BodyDescription& body, const CompoundPart& part) {
+    BodyDescription drawn = body;
+    drawn.shape = part.shape;
+    drawn.position = body.position + body.rotation * part.position;
+    drawn.rotation = body.rotation * part.rotation;
+    drawn.keyframes.clear();
+    if (part.color) drawn.appearance.color = *part.color;
+    return drawn;
+}
+
+}  // namespace
+
+SceneDescription expand_compounds(const SceneDescription& scene) {
+    SceneDescription expanded = scene;
+    if (!has_compounds(scene)) return expanded;
+    expanded.bodies.clear();
+    std::vector<std::size_t> first;  // first part of each body
+    for (const BodyDescription& body : scene.bodies) {
+        first.push_back(expanded.bodies.size());
+        if (const CompoundShape* compound = compound_of(body))
+            for (const CompoundPart& part : *compound->parts) expanded.bodies.push_back(part_as_body(body, part));
+        else
+            expanded.bodies.push_back(body);
     }
-    for (CordDescription& cord : scene_.cords) {
+    for (CordDescription& cord : expanded.cords) {
+        if (const CompoundShape* compound = compound_of(scene.bodies[cord.body])) {
+            const CompoundPart& part = compound->parts->front();
+            cord.point = part.rotation.conjugate() * (cord.point - part.position);
+        }
         cord.body = first[cord.body];
-        const Part& part = parts_[cord.body];
-        cord.point = part.rotation.conjugate() * (cord.point - part.position);
     }
-    for (ForceDescription& force : scene_.forces) force.body = first[force.body];
+    for (ForceDescription& force : expanded.forces) force.body = first[force.body];
+    return expanded;
 }
 
-void CompoundExpansion::forget_bodies() {
-    for (const BodyDescription& body : scene_.bodies)
-        if (const auto* mesh = std::get_if<MeshShape>(&body.shape)) assets_.insert(mesh->asset);
-    scene_.bodies = std::vector<BodyDescription>();
+PartPoses::PartPoses(const SceneDescription& scene) {
+    if (!has_compounds(scene)) return;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (const CompoundShape* compound = compound_of(scene.bodies[i]))
+            for (const CompoundPart& part : *compound->parts) parts_.push_back({i, part.position, part.rotation});
+        else
+            parts_.push_back({i});
 }
 
-const Snapshot& CompoundExpansion::snapshot(const Snapshot& whole) {
+const Snapshot& PartPoses::snapshot(const Snapshot& whole) {
     if (parts_.empty()) return whole;
     snapshot_.frame = whole.frame;
     snapshot_.time = whole.time;

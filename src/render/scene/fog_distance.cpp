@@ -23,63 +23,63 @@ constexpr double large_part = 0.01;
 constexpr double beyond_large = 2.0;
 
 // Distance from a point to the bounding box of a body, m; 0 inside.
-double gap_to(const Vec3& eye, const RenderBody& look, const Vec3& origin, const Quat& rotation,
-              const RenderScene& looks) {
-    const Vec3& half_size = look.kind == DrawKind::mesh ? looks.meshes[look.mesh].half_extent : look.half_size;
-    const Vec3 from = rotation.conjugate() * (eye - origin) - look.bound_center;
+double gap_to(const Vec3& eye, const RenderBody& proxy, const Vec3& origin, const Quat& rotation,
+              const RenderScene& scene) {
+    const Vec3& half_size = proxy.kind == DrawKind::mesh ? scene.meshes[proxy.mesh].half_extent : proxy.half_size;
+    const Vec3 from = rotation.conjugate() * (eye - origin) - proxy.bound_center;
     return (from.cwiseAbs() - half_size).cwiseMax(0.0).norm();
 }
 
 }  // namespace
 
-double viewing_distance(const SceneDescription& scene, const RenderScene& looks) {
+double viewing_distance(const SceneDescription& description, const RenderScene& scene) {
     double to_target = 0.0, to_bodies = 0.0;
     std::vector<double> distances;
     const auto add = [&](const Vec3& eye, const Vec3& target) {
         to_target = std::max(to_target, (target - eye).norm());
         distances.clear();
-        for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-            const RenderBody& look = looks.bodies[i];
-            if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-            const BodyDescription& body = scene.bodies[i];
-            distances.push_back((body.position + body.rotation * look.bound_center - eye).norm());
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            const RenderBody& proxy = scene.bodies[i];
+            if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+            const BodyDescription& body = description.bodies[i];
+            distances.push_back((body.position + body.rotation * proxy.bound_center - eye).norm());
         }
         if (distances.empty()) return;
         to_bodies = std::max(to_bodies, lower_median(distances));
     };
-    if (scene.camera.keyframes.empty()) add(scene.camera.eye, scene.camera.target);
-    for (const CameraKeyframe& key : scene.camera.keyframes) add(key.eye, key.target);
+    if (description.camera.keyframes.empty()) add(description.camera.eye, description.camera.target);
+    for (const CameraKeyframe& key : description.camera.keyframes) add(key.eye, key.target);
     if (to_bodies > 0.0) to_target = std::clamp(to_target, to_bodies / about_there, to_bodies * about_there);
     return to_target > 0.0 ? to_target : 1.0;
 }
 
-double fog_distance(const SceneDescription& scene, const RenderScene& looks, double viewing_distance) {
-    double haze = half_fog * viewing_distance;
+double fog_distance(const SceneDescription& description, const RenderScene& scene, double viewing_distance) {
+    double distance = half_fog * viewing_distance;
     const auto seen_from = [&](const CameraDescription& camera) {
-        const Camera view(camera, scene.output.width, scene.output.height);
+        const Camera view(camera, description.output.width, description.output.height);
         const double least_slope = large_part * view.pixel_size() * view.height();  // of a body's width to its distance
-        const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation) {
-            const Vec3 center = view.relative(origin + rotation * look.bound_center);
-            const bool large = 2.0 * look.bound_radius >= least_slope * center.norm();
-            if (large && (camera.moves() || view.sees(center, look.bound_radius)))
-                haze = std::max(haze, beyond_large * gap_to(camera.eye, look, origin, rotation, looks));
+        const auto add = [&](const RenderBody& proxy, const Vec3& origin, const Quat& rotation) {
+            const Vec3 center = view.relative(origin + rotation * proxy.bound_center);
+            const bool large = 2.0 * proxy.bound_radius >= least_slope * center.norm();
+            if (large && (camera.moves() || view.sees(center, proxy.bound_radius)))
+                distance = std::max(distance, beyond_large * gap_to(camera.eye, proxy, origin, rotation, scene));
         };
-        for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-            const RenderBody& look = looks.bodies[i];
-            if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-            add(look, scene.bodies[i].position, scene.bodies[i].rotation);
-            for (const Keyframe& key : scene.bodies[i].keyframes) add(look, key.position, key.rotation);
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            const RenderBody& proxy = scene.bodies[i];
+            if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+            add(proxy, description.bodies[i].position, description.bodies[i].rotation);
+            for (const Keyframe& key : description.bodies[i].keyframes) add(proxy, key.position, key.rotation);
         }
     };
-    if (scene.camera.keyframes.empty()) seen_from(scene.camera);
-    for (const CameraKeyframe& key : scene.camera.keyframes) {
-        CameraDescription camera = scene.camera;
+    if (description.camera.keyframes.empty()) seen_from(description.camera);
+    for (const CameraKeyframe& key : description.camera.keyframes) {
+        CameraDescription camera = description.camera;
         camera.eye = key.eye;
         camera.target = key.target;
         camera.vertical_fov = key.vertical_fov;
         seen_from(camera);
     }
-    return haze;
+    return distance;
 }
 
 }  // namespace tumble

@@ -11,14 +11,14 @@ namespace {
 
 // A large receiver is this many times as wide as the space that all smaller bodies occupy. A shadow map around it would
 // be twice as coarse as one around them.
-constexpr double ground_of_rest = 1.5;
+constexpr double receiver_of_rest = 1.5;
 
 // Lower limit of that space, in half edges of the largest of these bodies: shadows are not needed finer
 // (shadow_cascades.cpp).
 constexpr double least_rest = 15.0;
 
 // More large bodies than this are the subject of the scene, not receivers.
-constexpr std::size_t most_grounds = 32;
+constexpr std::size_t most_receivers = 32;
 
 struct ReceiverExtent {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
@@ -29,49 +29,50 @@ struct ReceiverExtent {
     double size() const { return (high - low).maxCoeff(); }
 };
 
-bool is_solid(const RenderBody& look) { return look.kind != DrawKind::hidden && look.kind != DrawKind::plane; }
+bool is_solid(const RenderBody& proxy) { return proxy.kind != DrawKind::hidden && proxy.kind != DrawKind::plane; }
 
 }  // namespace
 
-void find_large_receivers(const SceneDescription& scene, RenderScene& looks) {
+void find_large_receivers(const SceneDescription& description, RenderScene& scene) {
     std::vector<std::size_t> by_size;
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i)
-        if (is_solid(looks.bodies[i])) by_size.push_back(i);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (is_solid(scene.bodies[i])) by_size.push_back(i);
     std::stable_sort(by_size.begin(), by_size.end(), [&](std::size_t a, std::size_t b) {
-        return looks.bodies[a].bound_radius < looks.bodies[b].bound_radius;
+        return scene.bodies[a].bound_radius < scene.bodies[b].bound_radius;
     });
-    std::vector<std::size_t> grounds;
+    std::vector<std::size_t> receivers;
     ReceiverExtent rest;
-    double largest_reach = std::numeric_limits<double>::infinity();  // the smallest body is no receiver
+    double largest_ao_radius = std::numeric_limits<double>::infinity();  // the smallest body is no receiver
     for (const std::size_t i : by_size) {
-        const RenderBody& look = looks.bodies[i];
-        if (2.0 * look.bound_radius > ground_of_rest * std::max(rest.size(), least_rest * largest_reach)) {
-            grounds.push_back(i);
+        const RenderBody& proxy = scene.bodies[i];
+        if (2.0 * proxy.bound_radius > receiver_of_rest * std::max(rest.size(), least_rest * largest_ao_radius)) {
+            receivers.push_back(i);
             continue;
         }
-        const BodyDescription& body = scene.bodies[i];
-        rest.add(body.position + body.rotation * look.bound_center, look.bound_radius);
+        const BodyDescription& body = description.bodies[i];
+        rest.add(body.position + body.rotation * proxy.bound_center, proxy.bound_radius);
         for (const Keyframe& key : body.keyframes)
-            rest.add(key.position + key.rotation * look.bound_center, look.bound_radius);
-        largest_reach = std::isfinite(largest_reach) ? std::max(largest_reach, look.reach) : look.reach;
+            rest.add(key.position + key.rotation * proxy.bound_center, proxy.bound_radius);
+        largest_ao_radius =
+            std::isfinite(largest_ao_radius) ? std::max(largest_ao_radius, proxy.ao_radius) : proxy.ao_radius;
     }
-    if (grounds.size() <= most_grounds)
-        for (const std::size_t i : grounds) looks.bodies[i].ground = true;
+    if (receivers.size() <= most_receivers)
+        for (const std::size_t i : receivers) scene.bodies[i].large_receiver = true;
 }
 
-RestHeightEstimate::RestHeightEstimate(const SceneDescription& scene, const RenderScene& looks) {
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const RenderBody& look = looks.bodies[i];
-        const BodyDescription& body = scene.bodies[i];
-        if (look.kind == DrawKind::plane) {
+RestHeightEstimate::RestHeightEstimate(const SceneDescription& description, const RenderScene& scene) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const RenderBody& proxy = scene.bodies[i];
+        const BodyDescription& body = description.bodies[i];
+        if (proxy.kind == DrawKind::plane) {
             BodyState state;
             state.origin = body.position;
             state.orientation = body.rotation;
-            planes_.push_back(plane_in_world(look, state));
-        } else if (look.ground) {
-            const bool mesh = look.kind == DrawKind::mesh;
-            blocks_.push_back({body.position + body.rotation * look.bound_center,
-                               mesh ? looks.meshes[look.mesh].half_extent : look.half_size, body.rotation, mesh});
+            planes_.push_back(plane_in_world(proxy, state));
+        } else if (proxy.large_receiver) {
+            const bool mesh = proxy.kind == DrawKind::mesh;
+            blocks_.push_back({body.position + body.rotation * proxy.bound_center,
+                               mesh ? scene.meshes[proxy.mesh].half_extent : proxy.half_size, body.rotation, mesh});
         }
     }
 }

@@ -8,13 +8,13 @@
 namespace tumble {
 
 /// Sets RenderBody::ground of bodies that are much larger than all smaller bodies together, at the initial poses.
-void find_large_receivers(const SceneDescription& scene, RenderScene& looks);
+void find_large_receivers(const SceneDescription& description, RenderScene& scene);
 
 /// Fall height of a point above the nearest plane or large receiver below it, at the initial poses, m; 0 without one.
 /// `down`: unit.
 class RestHeightEstimate {
 public:
-    RestHeightEstimate(const SceneDescription& scene, const RenderScene& looks);
+    RestHeightEstimate(const SceneDescription& description, const RenderScene& scene);
     double fall(const Vec3& point, const Vec3& down) const;
 
 private:

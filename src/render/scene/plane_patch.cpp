@@ -1,7 +1,6 @@
 #include "render/scene/plane_patch.h"
 
 #include "render/gl/glm_conversion.h"
-#include "render/scene/plane_axes.h"
 
 #include <cmath>
 #include <optional>
@@ -41,17 +40,17 @@ glm::vec4 axis(const Vec3& direction, const Vec3& eye_from_origin, double cell) 
 
 }  // namespace
 
-PlaneShape plane_in_world(const RenderBody& look, const BodyState& state) {
-    const Vec3 normal = state.orientation * look.plane.normal;
-    return {normal, look.plane.offset + normal.dot(state.origin)};
+PlaneShape plane_in_world(const RenderBody& proxy, const BodyState& state) {
+    const Vec3 normal = state.orientation * proxy.plane.normal;
+    return {normal, proxy.plane.offset + normal.dot(state.origin)};
 }
 
 double pattern_cell(double viewing_distance) {
-    const double wanted = viewing_distance / 15.0;
+    const double target = viewing_distance / 15.0;
     double power = 1.0;
-    while (power > wanted) power /= 10.0;
-    while (power * 10.0 <= wanted) power *= 10.0;
-    const double digits = wanted / power;  // 1 .. 10; the borders are the geometric means of 1, 2, 5, 10
+    while (power > target) power /= 10.0;
+    while (power * 10.0 <= target) power *= 10.0;
+    const double digits = target / power;  // 1 .. 10; the borders are the geometric means of 1, 2, 5, 10
     return power * (digits < std::sqrt(2.0)    ? 1.0
                     : digits < std::sqrt(10.0) ? 2.0
                     : digits < std::sqrt(50.0) ? 5.0
@@ -60,9 +59,9 @@ double pattern_cell(double viewing_distance) {
 
 namespace {
 
-std::optional<PlanePatch> make_plane_patch(const RenderBody& look, const BodyState& state, std::size_t body,
+std::optional<PlanePatch> make_plane_patch(const RenderBody& proxy, const BodyState& state, std::size_t body,
                                            const Camera& view, double near_distance, double cell) {
-    const PlaneShape plane = plane_in_world(look, state);
+    const PlaneShape plane = plane_in_world(proxy, state);
     PlanePatch patch;
     patch.normal = plane.normal;
     patch.height = plane.normal.dot(view.eye()) - plane.offset;
@@ -77,7 +76,7 @@ std::optional<PlanePatch> make_plane_patch(const RenderBody& look, const BodySta
     if (patch.corners.size() < 3) return std::nullopt;
 
     // The pattern's axes are those of the body, so that it moves with the body.
-    const PlaneAxes axes = plane_axes(look.plane.normal);
+    const PlaneAxes axes = plane_axes(proxy.plane.normal);
     const Vec3 from_origin = view.eye() - state.origin;
     patch.u = axis(state.orientation * axes.u, from_origin, cell);
     patch.v = axis(state.orientation * axes.v, from_origin, cell);
@@ -86,13 +85,13 @@ std::optional<PlanePatch> make_plane_patch(const RenderBody& look, const BodySta
 
 }  // namespace
 
-std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+std::vector<PlanePatch> make_plane_patches(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
                                            double near_distance) {
     const double cell = pattern_cell(view.viewing_distance());
     std::vector<PlanePatch> patches;
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        if (looks.bodies[i].kind != DrawKind::plane) continue;
-        if (auto patch = make_plane_patch(looks.bodies[i], snapshot.bodies[i], i, view, near_distance, cell))
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].kind != DrawKind::plane) continue;
+        if (auto patch = make_plane_patch(scene.bodies[i], snapshot.bodies[i], i, view, near_distance, cell))
             patches.push_back(std::move(*patch));
     }
     return patches;

@@ -3,6 +3,7 @@
 // depth is linear as well, so a flat polygon in clip space carries the exact depth out to infinity.
 #pragma once
 
+#include "core/vector.h"
 #include "render/camera/camera.h"
 #include "render/scene/render_scene.h"
 #include "sim/snapshot/snapshot.h"
@@ -10,9 +11,21 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <cmath>
 #include <vector>
 
 namespace tumble {
+
+/// The axes of a plane's pattern and of its tile in the AO atlas.
+struct PlaneAxes {
+    Vec3 u, v;  // unit, in the plane, u x v = normal
+};
+
+inline PlaneAxes plane_axes(const Vec3& normal) {
+    const Vec3 across = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
+    const Vec3 u = (across - normal * normal.dot(across)).normalized();
+    return {u, normal.cross(u)};
+}
 
 struct PlanePatch {
     std::vector<glm::vec3> corners;  // clip space (w = 1), a convex polygon
@@ -23,7 +36,7 @@ struct PlanePatch {
 };
 
 /// The planes that are visible from their open side; from behind, a plane is transparent.
-std::vector<PlanePatch> make_plane_patches(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+std::vector<PlanePatch> make_plane_patches(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
                                            double near_distance);
 
 /// The part of the screen without planes (enlarged by two pixels across each horizon), in clip space.
@@ -33,6 +46,6 @@ std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const 
 double pattern_cell(double viewing_distance);
 
 /// The plane in the world: unit normal and offset (points p with normal . p = offset).
-PlaneShape plane_in_world(const RenderBody& look, const BodyState& state);
+PlaneShape plane_in_world(const RenderBody& proxy, const BodyState& state);
 
 }  // namespace tumble

@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -25,18 +26,17 @@ struct RenderBody {
     Vec3 half_size = Vec3::Ones();     // scale of the unit box or ball, m; 1 for meshes
     Vec3 bound_center = Vec3::Zero();  // of the bounding ball, body frame from its origin, m
     double bound_radius = 0.0;         // m
-    double reach = 0.0;                // AO radius, for occluding and being occluded, m
+    double ao_radius = 0.0;            // AO radius, for occluding and being occluded, m
     double bevel = 0.0;                // m
     double pattern_cell = 1.0;         // m; a plane's follows the reference distance instead
     PlaneShape plane;                  // planes only
     glm::vec3 color{1.0f};             // linear light
     float roughness = 0.6f, metallic = 0.0f;
     Pattern pattern = Pattern::plain;
-    bool ground = false;      // a large receiver, see large_receivers.h
-    bool fixed = false;       // never moves
-    bool undarkened = false;  // without AO: too large for its number of texels, which would give wrong values
-    std::ptrdiff_t fine_surface =
-        -1;  // index into RenderScene::fine_surfaces; -1: none. A mesh with a lightmap has charts
+    bool large_receiver = false;     // a large receiver, see large_receivers.h
+    bool fixed = false;              // never moves
+    bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
+    std::ptrdiff_t lightmap = -1;    // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
 };
 
 /// A box inside a mesh, which stands for it as an occluder; body frame.
@@ -52,41 +52,48 @@ struct VertexSample {
 };
 
 struct RenderMesh {
-    const MeshAsset* asset = nullptr;
+    std::shared_ptr<const MeshAsset> asset;
     bool closed = true;  // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
-    std::vector<VertexSample> probes;
-    std::vector<std::uint32_t> probe_of_vertex;
-    std::vector<VertexSample> coarse_probes;  // for meshes that are small on the screen
-    std::vector<std::uint32_t> coarse_of_probe;
+    std::vector<VertexSample> vertex_samples;
+    std::vector<std::uint32_t> sample_of_vertex;
+    std::vector<VertexSample> coarse_samples;  // for meshes that are small on the screen
+    std::vector<std::uint32_t> coarse_of_sample;
     std::optional<ChartedMesh> charts;  // drawn with these and shaded with its lightmap
 };
 
 struct RenderScene {
+    LightDescription light;
+    bool sun_up = true;              // false disables sunlight, see sun_is_up()
     std::vector<RenderBody> bodies;  // in scene order
     std::vector<RenderMesh> meshes;  // without repetition, in order of first use
-    std::vector<OcclusionLightmap> fine_surfaces;
+    std::vector<OcclusionLightmap> lightmaps;
+    std::vector<CordDescription> cords;
     std::vector<std::size_t> planes;  // indices of the planes
-    double typical_reach = 1.0;       // m, median AO radius of the bodies without large receivers
+    double typical_ao_radius = 1.0;   // m, median AO radius of the bodies without large receivers
     std::size_t mesh_triangles = 0;   // of all bodies together
-    double window_cell = 0.25;        // m, texel size of plane tiles; a power of two
+    double plane_cell = 0.25;         // m, texel size of plane tiles; a power of two
 };
 
 /// From this number of bodies on, small ones are culled per pixel and get coarse AO; with fewer bodies this saves
 /// little.
-inline constexpr std::size_t crowd = 2000;
+inline constexpr std::size_t large_scene = 2000;
 
-/// Shapes, bounds, colors, large receivers and the typical reach: all but the data of ambient occlusion, which
+/// Shapes, bounds, colors, large receivers and the typical ao_radius: all but the data of ambient occlusion, which
 /// make_render_scene() of render_scene_builder.h adds.
-RenderScene describe_bodies(const SceneDescription& scene);
+RenderScene describe_bodies(const SceneDescription& description);
+
+/// False if the sun is below a fixed plane that bodies can rest on. Planes cast no shadows: a plane is the surface of a
+/// half-space, which would block either all sunlight or none.
+bool sun_is_up(const SceneDescription& description);
 
 /// Bounding ball of a body, m, relative to the eye.
 struct BoundingBall {
     Vec3 center;
     double radius;
 };
-BoundingBall bounding_ball(const RenderBody& look, const BodyState& state, const Camera& view);
+BoundingBall bounding_ball(const RenderBody& proxy, const BodyState& state, const Camera& view);
 
 /// A pattern as the index that shaders use.
 float pattern_number(Pattern pattern);

@@ -12,29 +12,30 @@ constexpr double texel_margin = 0.5;   // texels; rasterization rounds to 1/256,
 constexpr double depth_margin = 5e-4;  // of the depth range; interpolation on steep faces has smaller errors
 constexpr std::size_t fewest = 200;    // casters: in a heap of a hundred none is hidden
 
-Vec3 to_map(const ShadowCascades& fit, const Vec3& v) {
+Vec3 to_map(const ShadowCascades& cascades, const Vec3& v) {
     const auto dot = [&](const glm::vec4& row) { return row.x * v.x() + row.y * v.y() + row.z * v.z(); };
-    return {fit.texels * dot(fit.x), fit.texels * dot(fit.y), dot(fit.z)};
+    return {cascades.texels * dot(cascades.x), cascades.texels * dot(cascades.y), dot(cascades.z)};
 }
 
 }  // namespace
 
-CasterCulling::CasterCulling(const ShadowCascades& fit)
-    : fit_(&fit),
-      count_((fit.texels + cell - 1) / cell),
+CasterCulling::CasterCulling(const ShadowCascades& cascades)
+    : cascades_(&cascades),
+      count_((cascades.texels + cell - 1) / cell),
       depths_(std::size_t(count_) * std::size_t(count_), infinity) {}
 
 Vec3 CasterCulling::place(const Vec3& point) const {
-    return to_map(*fit_, point) +
-           Vec3(fit_->texels * double(fit_->x.w), fit_->texels * double(fit_->y.w), double(fit_->z.w));
+    return to_map(*cascades_, point) + Vec3(cascades_->texels * double(cascades_->x.w),
+                                            cascades_->texels * double(cascades_->y.w), double(cascades_->z.w));
 }
 
 CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const {
     std::array<Vec3, 3> axes;
-    for (int k = 0; k < 3; ++k) axes[std::size_t(k)] = to_map(*fit_, item.half_axes.col(k));
+    for (int k = 0; k < 3; ++k) axes[std::size_t(k)] = to_map(*cascades_, item.half_axes.col(k));
     const Vec3 center = place(item.center);
-    const Vec3 reach = axes[0].cwiseAbs() + axes[1].cwiseAbs() + axes[2].cwiseAbs();
-    Outline o{center.x(), center.y(), reach.y(), center.z() - reach.z(), center.z() + reach.z(), {}, {}};
+    const Vec3 half_extent = axes[0].cwiseAbs() + axes[1].cwiseAbs() + axes[2].cwiseAbs();
+    Outline o{center.x(), center.y(), half_extent.y(), center.z() - half_extent.z(), center.z() + half_extent.z(),
+              {},         {}};
     for (std::size_t k = 0; k < 3; ++k) {
         const Vec3 &a = axes[(k + 1) % 3], &b = axes[(k + 2) % 3];
         const double length = std::hypot(axes[k].x(), axes[k].y());
@@ -54,8 +55,8 @@ CasterCulling::Outline CasterCulling::outline(const DrawableBounds& item) const 
 
 template <class See>
 bool CasterCulling::for_each_row(const Outline& o, bool wholly, See see) {
-    const int first_row = int(std::floor((o.v - o.reach_v - texel_margin) / cell)),
-              last_row = int(std::floor((o.v + o.reach_v + texel_margin) / cell));
+    const int first_row = int(std::floor((o.v - o.half_v - texel_margin) / cell)),
+              last_row = int(std::floor((o.v + o.half_v + texel_margin) / cell));
     for (int row = first_row; row <= last_row; ++row) {
         const double y = (row + 0.5) * cell - o.v;
         double low = -infinity, high = infinity;  // range of cell centers, texels from the center of the hexagon
@@ -115,25 +116,29 @@ bool CasterCulling::hides(const DrawableBounds& item) const {
     });
 }
 
-void drop_hidden_casters(const RenderScene& looks, const std::vector<DrawableBounds>& items, const ShadowCascades& fit,
-                         std::vector<char>& casting) {
+void drop_hidden_casters(const RenderScene& scene, const PerDrawable<DrawableBounds>& drawables,
+                         const ShadowCascades& cascades, DrawableMask& casters) {
     struct Caster {
         double depth;
-        std::uint32_t item;
+        const DrawableBounds* bounds;
+        char* mask;
+        bool box;
     };
-    std::vector<Caster> casters;
-    for (std::size_t i = 0; i < items.size(); ++i)
-        if (casting[i] != 0) casters.push_back({to_map(fit, items[i].center).z(), std::uint32_t(i)});
-    if (casters.size() < fewest) return;
-    std::sort(casters.begin(), casters.end(), [](const Caster& a, const Caster& b) {
-        return a.depth != b.depth ? a.depth < b.depth : a.item < b.item;
-    });
-    CasterCulling cover(fit);
-    for (const Caster& caster : casters) {
-        if (cover.hides(items[caster.item]))
-            casting[caster.item] = 0;
-        else if (caster.item < looks.bodies.size() && looks.bodies[caster.item].kind == DrawKind::box)
-            cover.add(items[caster.item]);
+    std::vector<Caster> sorted;
+    const auto add = [&](const DrawableBounds& bounds, char& mask, bool box) {
+        if (mask != 0) sorted.push_back({to_map(cascades, bounds.center).z(), &bounds, &mask, box});
+    };
+    for (std::size_t i = 0; i < drawables.bodies.size(); ++i)
+        add(drawables.bodies[i], casters.bodies[i], scene.bodies[i].kind == DrawKind::box);
+    for (std::size_t i = 0; i < drawables.cords.size(); ++i) add(drawables.cords[i], casters.cords[i], false);
+    if (sorted.size() < fewest) return;
+    std::stable_sort(sorted.begin(), sorted.end(), [](const Caster& a, const Caster& b) { return a.depth < b.depth; });
+    CasterCulling cover(cascades);
+    for (const Caster& caster : sorted) {
+        if (cover.hides(*caster.bounds))
+            *caster.mask = 0;
+        else if (caster.box)
+            cover.add(*caster.bounds);
     }
 }
 

@@ -15,7 +15,7 @@ namespace tumble {
 
 class CasterCulling {
 public:
-    explicit CasterCulling(const ShadowCascades& fit);
+    explicit CasterCulling(const ShadowCascades& cascades);
 
     void add(const DrawableBounds& box);
 
@@ -31,7 +31,7 @@ private:
         struct Front {
             double depth, du, dv;  // 0 to 1; at the center, and its derivatives per texel
         };
-        double u, v, reach_v;  // texels
+        double u, v, half_v;  // texels
         double nearest, furthest;
         std::array<Strip, 3> strips;
         std::array<Front, 3> fronts;
@@ -44,13 +44,13 @@ private:
     template <class See>
     static bool for_each_row(const Outline& o, bool wholly, See see);
 
-    const ShadowCascades* fit_;
+    const ShadowCascades* cascades_;
     int count_;  // cells per side
     std::vector<double> depths_;
 };
 
-/// Removes casters from the mask `casting` (by item) that are hidden from the sun by boxes of the mask.
-void drop_hidden_casters(const RenderScene& looks, const std::vector<DrawableBounds>& items, const ShadowCascades& fit,
-                         std::vector<char>& casting);
+/// Removes casters from the mask that are hidden from the sun by boxes of the mask.
+void drop_hidden_casters(const RenderScene& scene, const PerDrawable<DrawableBounds>& drawables,
+                         const ShadowCascades& cascades, DrawableMask& casters);
 
 }  // namespace tumble

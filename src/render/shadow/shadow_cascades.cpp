@@ -15,7 +15,7 @@ constexpr double near_margin = 1.3;
 
 // A shadow's edge is about three texels wide. Around few bodies the map could be so fine that edges look unnaturally
 // sharp, so a texel has at least this part of the bodies' typical AO radius (their half edge).
-constexpr double least_texel_of_reach = 0.02;
+constexpr double least_texel_of_ao_radius = 0.02;
 
 // In small frames a texel may be much smaller than a pixel. Texels below the first part of a pixel (at the bodies'
 // median distance) are filtered by the pixel's width. Texels are never made smaller than the second part: a pixel seen
@@ -88,7 +88,7 @@ double ShadowCascades::far_along() const {
 
 bool ShadowCascades::near_holds(const Vec3& center, double radius) const {
     // the filter's margin, and the normal offset
-    const double room = 0.5 - radius / (near_texel * texels) - 2.0 * filter.reach / texels;
+    const double room = 0.5 - radius / (near_texel * texels) - 2.0 * filter.extent / texels;
     for (const glm::vec4& row : {x, y})
         if (std::abs(row.x * center.x() + row.y * center.y() + row.z * center.z() + double(row.w) - 0.5) > room)
             return false;
@@ -99,33 +99,34 @@ bool ShadowCascades::spans_maps(const Vec3& center, double radius) const {
     return 2.0 * radius > least_span * near_texel * texels && !near_holds(center, radius);
 }
 
-CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& looks, const Camera& view, int texels)
+CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderScene& scene, const Camera& view,
+                             int texels)
     : texels_(texels) {
-    z_axis_ = scene.light.direction.normalized();
+    z_axis_ = description.light.direction.normalized();
     const Vec3 across = std::abs(z_axis_.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitZ();
     x_axis_ = (across - z_axis_ * z_axis_.dot(across)).normalized();
     y_axis_ = z_axis_.cross(x_axis_);
 
-    const double gravity = scene.simulation.gravity.norm();
-    const Vec3 down = gravity > 0.0 ? Vec3(scene.simulation.gravity / gravity) : Vec3::Zero();
-    const RestHeightEstimate landing(scene, looks);
+    const double gravity = description.simulation.gravity.norm();
+    const Vec3 down = gravity > 0.0 ? Vec3(description.simulation.gravity / gravity) : Vec3::Zero();
+    const RestHeightEstimate landing(description, scene);
     std::vector<CascadePlace> places;
     // bodies outside the view may become visible
-    const bool turns = !scene.camera.keyframes.empty() || scene.camera.orbit != 0.0;
-    const auto add = [&](const RenderBody& look, const Vec3& origin, const Quat& rotation, bool falls) {
-        const Vec3 center = origin + rotation * look.bound_center;
+    const bool camera_turns = !description.camera.keyframes.empty() || description.camera.orbit != 0.0;
+    const auto add = [&](const RenderBody& proxy, const Vec3& origin, const Quat& rotation, bool falls) {
+        const Vec3 center = origin + rotation * proxy.bound_center;
         const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
         for (const Vec3& p : {center, landed})
-            if (turns || view.sees_swept(view.relative(p), look.bound_radius, z_axis_))
-                places.push_back({p, look.bound_radius, view.relative(p).norm()});
+            if (camera_turns || view.sees_swept(view.relative(p), proxy.bound_radius, z_axis_))
+                places.push_back({p, proxy.bound_radius, view.relative(p).norm()});
     };
     // A large receiver does not widen the map: its caster is at the same place of the map as the shadow.
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const RenderBody& look = looks.bodies[i];
-        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane || look.ground) continue;
-        const BodyDescription& body = scene.bodies[i];
-        add(look, body.position, body.rotation, body.type == BodyType::dynamic);
-        for (const Keyframe& key : body.keyframes) add(look, key.position, key.rotation, false);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const RenderBody& proxy = scene.bodies[i];
+        if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane || proxy.large_receiver) continue;
+        const BodyDescription& body = description.bodies[i];
+        add(proxy, body.position, body.rotation, body.type == BodyType::dynamic);
+        for (const Keyframe& key : body.keyframes) add(proxy, key.position, key.rotation, false);
     }
 
     std::vector<double> distances;
@@ -133,7 +134,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
     const double limit = far_limit(distances);
     std::erase_if(places, [&](const CascadePlace& p) { return p.distance + p.radius > limit; });
     double least = 0.0;  // of the near map: bodies outside it must be within the far one
-    if (!turns) {
+    if (!camera_turns) {
         std::stable_sort(places.begin(), places.end(),
                          [](const CascadePlace& a, const CascadePlace& b) { return a.distance < b.distance; });
         const Held held = places_to_hold(places, x_axis_, y_axis_, view.pixel_size(), texels);
@@ -153,24 +154,24 @@ CascadeFitter::CascadeFitter(const SceneDescription& scene, const RenderScene& l
         y.add(y_axis_.dot(target), 0.5 * view.target_distance());
     }
     const double pixel = view.pixel_size() * (distances.empty() ? view.target_distance() : lower_median(distances));
-    const double softest = texels * std::min(least_texel_of_reach * looks.typical_reach, fine_pixels * pixel);
+    const double softest = texels * std::min(least_texel_of_ao_radius * scene.typical_ao_radius, fine_pixels * pixel);
     size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least, finest_pixels * pixel * texels});
     if (size_ < filtered_by_pixel * pixel * texels) filter_ = pixel_filter;
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
 }
 
-ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
                                   const Vec3& carried) const {
     const double texel = size_ / texels_;
     const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
     const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
     CascadeExtent x, y,
         z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
-    for (std::size_t i = 0; i < looks.bodies.size(); ++i) {
-        const RenderBody& look = looks.bodies[i];
-        if (look.kind == DrawKind::hidden || look.kind == DrawKind::plane) continue;
-        const BoundingBall ball = bounding_ball(look, snapshot.bodies[i], view);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const RenderBody& proxy = scene.bodies[i];
+        if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+        const BoundingBall ball = bounding_ball(proxy, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
         const Vec3 center = view.eye() + ball.center;
         x.add((x_axis_.dot(center) - low_x) / size_, ball.radius / size_);
@@ -195,10 +196,11 @@ ShadowCascades CascadeFitter::fit(const RenderScene& looks, const Snapshot& snap
     const double low_z = depth_step * std::floor(z.low / depth_step);
     fit.z = row(z_axis_, low_z, depth_step * (std::floor(z.high / depth_step) + 1.0) - low_z);
 
-    const double reach =
+    const double farthest =
         std::max({0.5 - x.low, x.high - 0.5, 0.5 - y.low, y.high - 0.5});  // from the near map's center
-    fit.has_far = reach > 0.5 - 8.0 / texels_;                             // the filter's margin
-    const double growth = fit.has_far ? std::min(most_growth, power_of_two_at_least(std::max(2.0, 2.1 * reach))) : 1.0;
+    fit.has_far = farthest > 0.5 - 8.0 / texels_;                          // the filter's margin
+    const double growth =
+        fit.has_far ? std::min(most_growth, power_of_two_at_least(std::max(2.0, 2.1 * farthest))) : 1.0;
     fit.far =
         glm::vec4(float(1.0 / growth), float(0.5 - 0.5 / growth), float(0.5 - 0.5 / growth), fit.has_far ? 1.0f : 0.0f);
     fit.far_texel = growth * fit.near_texel;

@@ -13,13 +13,16 @@
 
 namespace tumble {
 
+/// Texels across one map. A finer one costs more (1024: 1.3 ms a frame more) and has sharper edges.
+inline constexpr int shadow_map_texels = 768;
+
 /// Sampling of a shadow map (shaders/shadow.glsl). Lengths in texels.
 struct ShadowFilter {
     bool by_pixel;  // true if a texel is smaller than a pixel, so that the filter width is that of the pixel
     double along;   // PCF kernel radius along each axis, texels
     double across;  // PCF kernel radius over both axes, texels
     double offset;  // normal offset bias, texels, against acne without gaps at contacts
-    double reach;   // distance from a shadow's outline within which a point may be affected, texels
+    double extent;  // distance from a shadow's outline within which a point may be affected, texels
     friend bool operator==(const ShadowFilter&, const ShadowFilter&) = default;
 };
 
@@ -52,10 +55,10 @@ struct ShadowCascades {
 class CascadeFitter {
 public:
     /// `texels`: across each map; `view`: at the start.
-    CascadeFitter(const SceneDescription& scene, const RenderScene& looks, const Camera& view, int texels);
+    CascadeFitter(const SceneDescription& description, const RenderScene& scene, const Camera& view, int texels);
 
     /// `carried`: displacement of the camera with a followed body, m; the near map moves with it, by whole texels.
-    ShadowCascades fit(const RenderScene& looks, const Snapshot& snapshot, const Camera& view,
+    ShadowCascades fit(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
                        const Vec3& carried = Vec3::Zero()) const;
 
     const ShadowFilter& filter() const { return filter_; }

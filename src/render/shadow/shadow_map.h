@@ -4,13 +4,11 @@
 #include "core/rectangle.h"
 #include "render/gl/shader_program.h"
 #include "render/mesh/gpu_mesh_cache.h"
+#include "render/shadow/shadow_cascades.h"
 
 #include <filesystem>
 
 namespace tumble {
-
-/// Texels across one map. A finer one costs more (1024: 1.3 ms a frame more) and has sharper edges.
-inline constexpr int shadow_map_texels = 768;
 
 class ShadowMap {
 public:

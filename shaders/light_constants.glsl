@@ -9,7 +9,7 @@ const vec3 bounce_light = vec3(0.195, 0.185, 0.170);      // from below: a dim r
 const vec3 sky_horizon = vec3(0.80, 0.86, 0.92);          // radiance: background, and mirrored by glossy surfaces
 const vec3 sky_zenith = vec3(0.20, 0.38, 0.66);
 const vec3 sky_nadir = vec3(0.33, 0.39, 0.48);
-const float sky_haze = 5.0;                               // rate at which the haze at the horizon thins with height (1 / sine)
+const float horizon_falloff = 5.0;                               // rate at which the haze at the horizon thins with height (1 / sine)
 const vec3 sun_glow = vec3(0.30, 0.24, 0.14);             // added to the sky around the sun
 
 const float dielectric_reflectance = 0.04;                // at normal incidence, of plastic, wood, stone

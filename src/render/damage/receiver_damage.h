@@ -1,7 +1,9 @@
-// Damage by a body's shadow on a large fixed box: face by face, as on planes.
+// Damage by a body's shadow on a large fixed receiver: on a box face by face, as on planes; on a mesh or ball where the
+// shadow passes through the boxes around its surface.
 #pragma once
 
 #include "render/damage/plane_damage.h"
+#include "render/frame/frame_context.h"
 
 #include <array>
 #include <cstdint>
@@ -10,6 +12,7 @@
 
 namespace tumble {
 
+/// On a box.
 class FaceDamage {
 public:
     /// `faces`: the visible faces of the box, bits as in Visibility.
@@ -19,7 +22,7 @@ public:
     static bool suits(const DrawableBounds& box, const ShadowCascades& shadows);
 
     /// Marks the caster's shadow on each face.
-    void mark_shadow(const DrawableBounds& caster, DirtyTiles& marks) const;
+    void mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const;
 
 private:
     struct Face {
@@ -31,7 +34,7 @@ private:
         bool meets(std::span<const Vec3> points, double around) const;
         std::array<Vec3, 4> corners() const;
     };
-    void mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& marks) const;
+    void mark_in_far_map(const Face& face, const DrawableBounds& caster, DirtyTiles& dirty) const;
 
     ShadowLight light_;
     const Camera* view_;
@@ -39,9 +42,27 @@ private:
     bool two_maps_;
 };
 
-/// The corners of a part of a box's face. `low`, `high`: on its axes (the two axes after that of the face), from -1 to
-/// 1.
-std::array<Vec3, 4> face_part(const DrawableBounds& box, int face, const Eigen::Vector2d& low = {-1.0, -1.0},
-                              const Eigen::Vector2d& high = {1.0, 1.0});
+/// On a mesh or ball.
+class VolumeDamage {
+public:
+    /// `state`: of the item's body.
+    VolumeDamage(const DrawableBounds& item, const RenderBody& proxy, const FrameContext& frame, const BodyState& state,
+                 const ShadowLight& light);
+
+    /// Marks the caster's shadow.
+    void mark_shadow(const DrawableBounds& caster, DirtyTiles& dirty) const;
+
+private:
+    struct Box {
+        Vec3 center, half_size;  // m, relative to the eye; m, along the axes
+    };
+    void mark_in(const Box& box, const DrawableBounds& caster, double margin, DirtyTiles& dirty) const;
+
+    ShadowLight light_;
+    const Camera* view_;
+    Mat3 axes_;  // columns
+    std::vector<Box> boxes_;
+    bool two_maps_;
+};
 
 }  // namespace tumble

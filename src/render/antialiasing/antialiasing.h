@@ -1,0 +1,29 @@
+// From the image as drawn, with surface ids in alpha, to the result: opaque, and smooth where edges are known.
+#pragma once
+
+#include "core/image.h"
+#include "render/antialiasing/screen_edges.h"
+#include "render/damage/damage_tracker.h"
+
+namespace tumble {
+
+class Antialiasing {
+public:
+    /// `lods` must outlive it. `analytic`: false leaves the image as drawn, with the samples of each pixel averaged.
+    Antialiasing(MeshLods& lods, int width, int height, bool analytic)
+        : edges_(lods), drawn_(width, height), analytic_(analytic) {}
+
+    /// The image as drawn; to be updated in the changed regions of each frame.
+    Image& drawn() { return drawn_; }
+
+    /// Updates the changed regions of the result. `visible`: with hidden bodies left out, even if they were drawn.
+    /// They have no edges: surfaces share ids, and one might be mistaken for the surface in front of it.
+    void apply(const FrameContext& frame, const Damage& damage, const Visibility& visible, Image& result);
+
+private:
+    EdgeFinder edges_;
+    Image drawn_;
+    bool analytic_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,105 @@
+#include "render/passes/frame_passes.h"
+
+#include "render/gl/shader_compile_schedule.h"
+#include "render/passes/frame_uniforms.h"
+
+#include <functional>
+#include <utility>
+
+namespace tumble {
+
+FramePasses::FramePasses(const GlFunctions& gl, const RenderScene& scene, const ShadowFilter& filter,
+                         const PassOptions& options)
+    : gl_(&gl),
+      scene_(&scene),
+      framebuffer_(gl, options.width, options.height, options.samples),
+      uniforms_(gl, GlKind::buffer),
+      meshes_(gl, scene),
+      occlusion_texture_(gl),
+      shadow_map_(gl, options.shaders, frame_block),
+      bodies_(gl, options.shaders, scene, filter),
+      planes_(gl, options.shaders, scene, filter),
+      widen_rods_(options.widen_rods),
+      schedule_(options.schedule) {
+    gl.FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
+    gl.Enable(GL_DEPTH_TEST);
+    gl.Enable(GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
+    gl.DepthFunc(GL_LEQUAL);
+}
+
+void FramePasses::upload(const FrameContext& frame, const DrawList& list, const AmbientOcclusion& occlusion,
+                         MeshLods& lods) {
+    occlusion_texture_.upload(occlusion.atlas(), occlusion.changes().first_row, occlusion.changes().end_row);
+    meshes_.upload(list, lods);
+    const FrameUniforms uniforms = make_frame_uniforms(frame, occlusion_texture_.height(), widen_rods_);
+    gl_->BindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
+    gl_->BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, frame_block, uniforms_.name());
+}
+
+// Draws with all output masked. The slowest shaders come first: see ShaderCompileSchedule.
+void FramePasses::compile_shaders(const DrawList& list) {
+    if (schedule_ == nullptr) return;
+    bind_textures();
+    framebuffer_.begin_whole();
+    gl_->Enable(GL_SCISSOR_TEST);
+    gl_->Scissor(0, 0, 0, 0);
+    std::vector<std::function<void()>> all = bodies_.compilations(meshes_, list.visible);
+    for (auto& one : planes_.compilations()) all.push_back(std::move(one));
+    if (scene_->light.shadows) all.emplace_back([&] { shadow_map_.compile(meshes_, list.casters); });
+    std::exchange(schedule_, nullptr)->run(all);
+    gl_->Disable(GL_SCISSOR_TEST);
+}
+
+void FramePasses::bind_textures() const {
+    gl_->ActiveTexture(GL_TEXTURE0 + occlusion_unit);
+    gl_->BindTexture(GL_TEXTURE_2D, occlusion_texture_.name());
+    gl_->ActiveTexture(GL_TEXTURE0 + shadow_unit);
+    gl_->BindTexture(GL_TEXTURE_2D, shadow_map_.texture());
+}
+
+// While the camera stands still, the background is stored. With a moving camera it is drawn after the bodies.
+void FramePasses::begin_frame(const FrameContext& frame, const Damage& damage) {
+    background_kept_ = background_kept_ && !damage.background;
+    if (frame.camera_moved) {
+        framebuffer_.begin_whole();
+        planes_.draw_sky(frame);
+        return;
+    }
+    if (!background_kept_) {
+        framebuffer_.begin_background();
+        planes_.draw_sky(frame);
+        planes_.draw_background(frame);
+        background_kept_ = true;
+    }
+    framebuffer_.begin(damage.changed, damage.previous);
+}
+
+void FramePasses::draw(const FrameContext& frame, const Damage& damage, const DrawList& list,
+                       const OcclusionAtlas& atlas, PassTimer& timer) {
+    compile_shaders(list);
+    if (scene_->light.shadows && !damage.shadow_tiles.none())
+        shadow_map_.draw(meshes_, list.casters, damage.shadow_tiles.rectangles(), frame.cascades.has_far);
+    timer.ends(Pass::shadow);
+
+    begin_frame(frame, damage);
+    timer.ends(Pass::background);
+
+    bind_textures();
+    bodies_.draw(meshes_, list.visible);
+    timer.ends(Pass::bodies);
+
+    planes_.draw_regions(frame, damage.plane_regions, atlas);
+    timer.ends(Pass::planes);
+
+    if (frame.camera_moved)
+        planes_.draw_background(frame);  // last, so that pixels of bodies and their shadows are skipped
+    timer.ends(Pass::background);
+}
+
+void FramePasses::read(const std::vector<Rectangle>& rectangles, Image& image) const {
+    framebuffer_.resolve(rectangles);
+    framebuffer_.read(rectangles, image);
+}
+
+}  // namespace tumble

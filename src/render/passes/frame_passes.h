@@ -1,0 +1,65 @@
+// The passes that draw a frame: shadow maps, background, bodies, planes.
+#pragma once
+
+#include "core/image.h"
+#include "render/ambient_occlusion/occlusion_texture.h"
+#include "render/damage/damage_tracker.h"
+#include "render/gl/framebuffer.h"
+#include "render/mesh/gpu_mesh_cache.h"
+#include "render/passes/body_pass.h"
+#include "render/passes/pass_timer.h"
+#include "render/passes/plane_pass.h"
+#include "render/shadow/shadow_map.h"
+
+#include <filesystem>
+
+namespace tumble {
+
+class ShaderCompileSchedule;
+
+struct PassOptions {
+    std::filesystem::path shaders;
+    int width = 1, height = 1;                  // pixels
+    int samples = 1;                            // per pixel; the driver may limit them
+    bool widen_rods = false;                    // see make_frame_uniforms()
+    ShaderCompileSchedule* schedule = nullptr;  // or null
+};
+
+class FramePasses {
+public:
+    /// `scene` must outlive it.
+    FramePasses(const GlFunctions& gl, const RenderScene& scene, const ShadowFilter& filter,
+                const PassOptions& options);
+
+    bool one_sample() const { return framebuffer_.samples() <= 1; }
+
+    /// Sends the data of the frame to the GPU.
+    void upload(const FrameContext& frame, const DrawList& list, const AmbientOcclusion& occlusion, MeshLods& lods);
+
+    /// The shaders are compiled before the first frame.
+    void draw(const FrameContext& frame, const Damage& damage, const DrawList& list, const OcclusionAtlas& atlas,
+              PassTimer& timer);
+
+    /// Reads the rectangles as drawn: with surface ids in alpha.
+    void read(const std::vector<Rectangle>& rectangles, Image& image) const;
+
+private:
+    void compile_shaders(const DrawList& list);
+    void bind_textures() const;
+    void begin_frame(const FrameContext& frame, const Damage& damage);
+
+    const GlFunctions* gl_;
+    const RenderScene* scene_;
+    Framebuffer framebuffer_;
+    GlObject uniforms_;
+    GpuMeshCache meshes_;
+    OcclusionTexture occlusion_texture_;
+    ShadowMap shadow_map_;
+    BodyPass bodies_;
+    PlanePass planes_;
+    bool widen_rods_;
+    bool background_kept_ = false;     // the stored background is that of this camera
+    ShaderCompileSchedule* schedule_;  // until the shaders are compiled
+};
+
+}  // namespace tumble

@@ -1,0 +1,20 @@
+// Settings of a renderer that are no part of its interface: for tests, measurements and the render processes.
+#pragma once
+
+#include "render/renderer.h"
+
+namespace tumble {
+
+class ShaderCompileSchedule;
+struct PassTimes;
+
+struct RenderSwitches : RenderOptions {
+    bool full_redraw = false;             // redraw every frame completely, with the same bytes
+    bool draw_hidden = false;             // draw bodies behind boxes as well, with the same bytes
+    bool multisample = false;             // several samples per pixel, as in scenes with cords
+    double shift_x = 0.0, shift_y = 0.0;  // displacement of the frame, below 1 pixel: for averages of many frames
+    PassTimes* times = nullptr;           // sums of the costs of passes; must outlive the renderer
+    ShaderCompileSchedule* compile_schedule = nullptr;  // shared with the other processes that draw this scene, or null
+};
+
+}  // namespace tumble
