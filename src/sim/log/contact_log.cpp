@@ -121,7 +121,7 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
         };
         const auto place = [&](int i) {
             const ContactPoint& p = m.points[std::size_t(i)];
-            return acting_place(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
+            return acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
         };
         // The moment that forces at the points leave over, about the center of a body that moves.
         const bool about_b = b.dynamic();
@@ -170,7 +170,7 @@ void ContactLog::add_touching(const std::vector<Manifold>& touching, const std::
             const Key key{m.a, m.b, m.part, p.feature};
             if (asleep_.contains(key) && at_rest(key, bodies)) continue;
             ContactRecord& r = sums_[key].last;
-            const Vec3 at = acting_place(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
+            const Vec3 at = acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
             r.a = m.a;
             r.b = m.b;
             r.point = origin_ + at;
