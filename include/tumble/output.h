@@ -2,6 +2,7 @@
 // (run) with the path, unless a comment says otherwise.
 #pragma once
 
+#include "contacts.h"
 #include "image.h"
 #include "scene.h"
 #include "snapshot.h"
@@ -100,6 +101,39 @@ public:
 
     /// The energies of a frame at that time in s.
     void add(std::int64_t frame, double time, const Energies& energies);
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The table of `tumble simulate --impacts`: one row per impulse.
+class ImpactTable {
+public:
+    /// `file` with the ending .npz: one array per column (see docs/reference/tables.md); else CSV.
+    ImpactTable(const std::string& file, const Scene& scene);
+    ~ImpactTable();
+    ImpactTable(ImpactTable&&) noexcept;
+    ImpactTable& operator=(ImpactTable&&) noexcept;
+
+    void add(const FrameContacts& contacts);
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The table of `tumble simulate --contacts`: one row per frame and contact point.
+class ContactTable {
+public:
+    ContactTable(const std::string& file, const Scene& scene);
+    ~ContactTable();
+    ContactTable(ContactTable&&) noexcept;
+    ContactTable& operator=(ContactTable&&) noexcept;
+
+    void add(std::int64_t frame, double time, const FrameContacts& contacts);  // s
     void finish();
 
 private:

@@ -24,12 +24,17 @@ struct Snapshot {
 
 /// Over all dynamic bodies.
 struct Energies {
-    double kinetic = 0.0;          // J
-    double potential = 0.0;        // J, -sum m g.x
-    Vec3 momentum;                 // kg m/s
-    Vec3 angular_momentum;         // kg m^2/s, about the world origin
-    int contacts = 0;              // touching contact points
-    double max_penetration = 0.0;  // m, deepest overlap
+    double kinetic = 0.0;                                // J
+    double potential = 0.0;                              // J, -sum m g.x
+    Vec3 momentum;                                       // kg m/s
+    Vec3 angular_momentum;                               // kg m^2/s, about the world origin
+    int contacts = 0;                                    // touching contact points
+    double max_penetration = 0.0;                        // m, deepest overlap
+    double kinetic_linear = 0.0, kinetic_angular = 0.0;  // J, of translation and of rotation
+    // J, from the start on; zero without World::record_contacts(). total + losses - work stays constant.
+    double work = 0.0;  // by wind, forces at points and kinematic bodies
+    double impact_loss = 0.0, friction_loss = 0.0;
+    double elastic = 0.0;  // in joints' springs
 };
 
 TUMBLE_END

@@ -1,6 +1,7 @@
 // The simulation.
 #pragma once
 
+#include "contacts.h"
 #include "scene.h"
 #include "snapshot.h"
 
@@ -29,6 +30,11 @@ public:
     /// state is not finite; the world cannot advance after that.
     void advance_step();
     void advance_frame();
+
+    /// Records impacts, contacts and energy losses from now on. Call it at time 0. The motion is the same.
+    void record_contacts();
+    /// Of the last advance_frame(), or of the start. Throws Error (input) without record_contacts().
+    FrameContacts contacts() const;
 
     /// The state of all bodies: at time 0 that of the scene.
     Snapshot snapshot() const;

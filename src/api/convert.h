@@ -4,7 +4,9 @@
 #include "core/error.h"
 #include "core/image.h"
 #include "core/vector.h"
+#include "sim/snapshot/contact_records.h"
 #include "sim/snapshot/snapshot.h"
+#include "tumble/contacts.h"
 #include "tumble/image.h"
 #include "tumble/snapshot.h"
 #include "tumble/vector.h"
@@ -26,6 +28,19 @@ inline Snapshot to_public(const tumble::Snapshot& from) {
     for (const tumble::BodyState& b : from.bodies)
         to.bodies.push_back({to_public(b.origin), to_public(b.center_of_mass), to_public(b.orientation),
                              to_public(b.velocity), to_public(b.angular_velocity)});
+    return to;
+}
+
+inline FrameContacts to_public(const ContactRecords& from) {
+    FrameContacts to;
+    for (const ImpactRecord& r : from.impacts)
+        to.impacts.push_back({r.when.time, r.when.exact, r.when.frame, r.a, r.b, to_public(r.point),
+                              to_public(r.normal), ContactFeatures(r.features), r.speed_before, r.speed_after,
+                              r.restitution, r.impulse, to_public(r.friction), r.pass});
+    for (const ContactRecord& r : from.contacts)
+        to.contacts.push_back({r.a, r.b, to_public(r.point), to_public(r.normal), ContactFeatures(r.features), r.gap,
+                               r.normal_force, to_public(r.tangential_force), r.torsion, to_public(r.slip),
+                               Contact::State(r.state)});
     return to;
 }
 

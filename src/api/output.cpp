@@ -6,7 +6,6 @@
 #include "output/image_compare.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
-#include "output/table_writer.h"
 #include "output/video_writer.h"
 
 #include <fmt/format.h>
@@ -45,8 +44,6 @@ void check_settings(const OutputSettings& output) {
             fmt::format("a clip needs a size of at least 1 x 1 pixels (given {} x {})", output.width, output.height));
     if (!(output.fps > 0.0)) throw InputError(fmt::format("a clip needs a frame rate above 0 (given {})", output.fps));
 }
-
-void write_vector(TableWriter& table, const Vec3& v) { table.number(v.x).number(v.y).number(v.z); }
 
 }  // namespace
 
@@ -108,79 +105,6 @@ void ClipWriter::finish() {
         if (state_->frames == 0) throw InputError("a clip needs at least one frame");
         state_->writer.finish();
     });
-}
-
-// -- TrajectoryTable
-
-struct TrajectoryTable::State {
-    State(const std::string& file, const Scene& whole)
-        : scene(whole), table(file, "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz") {}
-
-    Scene scene;
-    TableWriter table;
-};
-
-TrajectoryTable::TrajectoryTable(const std::string& file, const Scene& scene) {
-    guarded([&] { state_ = std::make_unique<State>(file, scene); });
-}
-TrajectoryTable::~TrajectoryTable() = default;
-TrajectoryTable::TrajectoryTable(TrajectoryTable&&) noexcept = default;
-TrajectoryTable& TrajectoryTable::operator=(TrajectoryTable&&) noexcept = default;
-
-void TrajectoryTable::add(const Snapshot& snapshot) {
-    guarded([&] {
-        const Scene& scene = state_->scene;
-        TableWriter& table = state_->table;
-        if (snapshot.bodies.size() != scene.body_count())
-            throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})",
-                                         scene.body_count(), snapshot.bodies.size()));
-        for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-            if (scene.body_type(i) == BodyType::fixed) continue;
-            const BodyState& body = snapshot.bodies[i];
-            table.integer(snapshot.frame).number(snapshot.time).text(scene.body_name(i));
-            write_vector(table, body.center_of_mass);
-            const Quat& q = body.orientation;
-            table.number(q.w).number(q.x).number(q.y).number(q.z);
-            write_vector(table, body.velocity);
-            write_vector(table, body.angular_velocity);
-            table.end_row();
-        }
-    });
-}
-
-void TrajectoryTable::finish() {
-    guarded([&] { state_->table.finish(); });
-}
-
-// -- EnergyTable
-
-struct EnergyTable::State {
-    explicit State(const std::string& file)
-        : table(file, "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration") {}
-
-    TableWriter table;
-};
-
-EnergyTable::EnergyTable(const std::string& file) {
-    guarded([&] { state_ = std::make_unique<State>(file); });
-}
-EnergyTable::~EnergyTable() = default;
-EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;
-EnergyTable& EnergyTable::operator=(EnergyTable&&) noexcept = default;
-
-void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
-    guarded([&] {
-        TableWriter& table = state_->table;
-        table.integer(frame).number(time).number(e.kinetic).number(e.potential).number(e.kinetic + e.potential);
-        write_vector(table, e.momentum);
-        write_vector(table, e.angular_momentum);
-        table.integer(e.contacts).number(e.max_penetration);
-        table.end_row();
-    });
-}
-
-void EnergyTable::finish() {
-    guarded([&] { state_->table.finish(); });
 }
 
 }  // namespace tumble::v0

@@ -34,6 +34,18 @@ void World::advance_frame() {
     guarded([&] { state_->world.advance_frame(); });
 }
 
+void World::record_contacts() {
+    guarded([&] { state_->world.record_contacts(); });
+}
+
+FrameContacts World::contacts() const {
+    return guarded([&] {
+        if (!state_->world.records_contacts())
+            throw InputError("contacts are not recorded: call record_contacts() before the first step");
+        return to_public(state_->world.contact_records());
+    });
+}
+
 Snapshot World::snapshot() const {
     return guarded([&] { return to_public(state_->world.snapshot()); });
 }
@@ -41,8 +53,18 @@ Snapshot World::snapshot() const {
 Energies World::energies() const {
     return guarded([&] {
         const Measurement m = state_->world.measure();
-        return Energies{m.kinetic,  m.potential,      to_public(m.momentum), to_public(m.angular_momentum),
-                        m.contacts, m.max_penetration};
+        const EnergyLedger ledger = state_->world.contact_records().energy;
+        return Energies{.kinetic = m.kinetic,
+                        .potential = m.potential,
+                        .momentum = to_public(m.momentum),
+                        .angular_momentum = to_public(m.angular_momentum),
+                        .contacts = m.contacts,
+                        .max_penetration = m.max_penetration,
+                        .kinetic_linear = m.kinetic_linear,
+                        .kinetic_angular = m.kinetic_angular,
+                        .work = ledger.work,
+                        .impact_loss = ledger.impact_loss,
+                        .friction_loss = ledger.friction_loss};
     });
 }
 

@@ -198,6 +198,7 @@ void World::record_contacts() {
 }
 
 const ContactRecords& World::contact_records() const { return state_->records; }
+bool World::records_contacts() const { return state_->log != nullptr; }
 
 Snapshot World::snapshot() const {
     const State& s = *state_;

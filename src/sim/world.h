@@ -29,6 +29,7 @@ public:
     void record_contacts();
     /// Of the last advance_frame(), or of the start. Precondition: record_contacts().
     const ContactRecords& contact_records() const;
+    bool records_contacts() const;
 
     Snapshot snapshot() const;
     Measurement measure() const;

@@ -9,8 +9,8 @@
 #include <cmath>
 #include <memory>
 
-
 namespace tumble::limits_test {
+using namespace tumble::testing;
 namespace {
 
 constexpr double g = 9.81, mu = 0.4;

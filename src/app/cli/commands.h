@@ -34,7 +34,7 @@ void run_render(const RenderCommand& command);
 
 struct SimulateCommand {
     std::filesystem::path scene;
-    std::optional<std::filesystem::path> trajectory, energy;
+    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts;
     SceneOverrides overrides;
     int threads = 1;
     bool quiet = false;

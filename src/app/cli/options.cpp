@@ -236,6 +236,20 @@ CLI::Validator or_standard_output() {
             ""};
 }
 
+/// The mode of impacts, or the file of their table.
+void read_impacts(const std::string& text, SimulateCommand& c) {
+    const std::filesystem::path file = text == "-" ? "/dev/stdout" : text;
+    const bool is_file =
+        file.extension() == ".csv" || file.extension() == ".npz" || text.find('/') != std::string::npos;
+    if (text == "-" || is_file)
+        c.impacts = file;
+    else if (text == "stepped" || text == "exact")
+        c.overrides.impacts = text;
+    else
+        throw InputError(fmt::format(
+            "--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}')", safe_text(text)));
+}
+
 CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     SimulateCommand& c = line.simulate;
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
@@ -268,8 +282,22 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->add_option("--method", c.overrides.method,
                      "tumble: the whole simulation; notes: the course notes to the letter, for teaching")
         ->type_name("NAME");
-    command->add_option("--impacts", c.overrides.impacts, "stepped: resolved at the step; exact: each at its own time")
-        ->type_name("MODE");
+    command
+        ->add_option_function<std::string>(
+            "--impacts", [&c](const std::string& text) { read_impacts(text, c); },
+            "stepped: resolved at the step; exact: each at its own time. Or a table: a row for each\nimpulse, as CSV "
+            "or "
+            ".npz; - is standard output. Give it twice for both")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->type_name("MODE|I.csv");
+    command
+        ->add_option("--contacts", c.contacts,
+                     "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("C.csv");
     command
         ->add_option("--impact-law", c.overrides.impact_law,
                      "propagating or simultaneous: the rule for several contacts at once")

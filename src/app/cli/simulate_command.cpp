@@ -49,6 +49,8 @@ void run_simulate(const SimulateCommand& command) {
     for (const auto& file : inputs) plan.add_input(file);
     if (command.trajectory) plan.add("--trajectory", *command.trajectory);
     if (command.energy) plan.add("--energy", *command.energy);
+    if (command.impacts) plan.add("--impacts", *command.impacts);
+    if (command.contacts) plan.add("--contacts", *command.contacts);
     const v0::Scene scene = v0::make_scene(std::move(description), std::move(inputs));
     const std::int64_t frames = scene.frame_count();
     const double fps = scene.output().fps;
@@ -59,19 +61,28 @@ void run_simulate(const SimulateCommand& command) {
         if (command.trajectory) trajectory.emplace(*command.trajectory, scene);
         std::optional<v0::EnergyTable> energy;
         if (command.energy) energy.emplace(*command.energy);
+        std::optional<v0::ImpactTable> impacts;
+        if (command.impacts) impacts.emplace(*command.impacts, scene);
+        std::optional<v0::ContactTable> contacts;
+        if (command.contacts) contacts.emplace(*command.contacts, scene);
+        if (energy || impacts || contacts) world.record_contacts();
 
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
             if (trajectory) trajectory->add(world.snapshot());
             if (energy) energy->add(n, double(n) / fps, world.energies());
+            if (impacts) impacts->add(world.contacts());
+            if (contacts) contacts->add(n, double(n) / fps, world.contacts());
             monitor.update(n + 1);
         }
         if (trajectory) trajectory->finish();
         if (energy) energy->finish();
+        if (impacts) impacts->finish();
+        if (contacts) contacts->finish();
     }
     if (command.quiet) return;
     const double seconds = wall_seconds() - start;
-    for (const auto& file : {command.trajectory, command.energy})
+    for (const auto& file : {command.trajectory, command.energy, command.impacts, command.contacts})
         if (file) say("wrote {}\n", safe_path(*file));
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
         (frames - 1) * scene.steps_per_frame(), scene.step(), seconds, double(frames - 1) / fps / seconds);

@@ -15,6 +15,8 @@ Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity,
     for (const Body& body : bodies) {
         if (!body.dynamic()) continue;
         m.kinetic += body.kinetic_energy();
+        m.kinetic_linear += 0.5 * body.momentum.dot(body.velocity);
+        m.kinetic_angular += 0.5 * body.angular_momentum.dot(body.angular_velocity);
         const Vec3 place = origin + body.position;
         m.potential -= body.mass * gravity.dot(place);
         m.momentum += body.momentum;

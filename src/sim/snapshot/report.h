@@ -10,6 +10,8 @@ namespace tumble {
 /// A row of the energy table: sums over all dynamic bodies, world frame.
 struct Measurement {
     double kinetic = 0.0;                  // J
+    double kinetic_linear = 0.0;           // J, of translation
+    double kinetic_angular = 0.0;          // J, of rotation
     double potential = 0.0;                // J, -sum m g.x
     Vec3 momentum = Vec3::Zero();          // kg m/s
     Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s about the world origin

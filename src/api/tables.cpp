@@ -1,0 +1,179 @@
+// Tables: one class for each table of `tumble simulate`.
+#include "tumble/output.h"
+
+#include "api/convert.h"
+#include "api/guard.h"
+#include "api/record_table.h"
+#include "api/scene_data.h"
+#include "output/table_writer.h"
+
+#include <fmt/format.h>
+
+namespace tumble::v0 {
+namespace {
+
+void write_vector(TableWriter& table, const Vec3& v) { table.number(v.x).number(v.y).number(v.z); }
+
+const char* name_of(ContactFeatures features) {
+    static constexpr const char* names[] = {"vertex-face", "face-vertex", "edge-edge", "face-face", "sphere", "mesh"};
+    return names[std::size_t(features)];
+}
+
+const char* name_of(Contact::State state) {
+    static constexpr const char* names[] = {"stick", "slip", "asleep", "open"};
+    return names[std::size_t(state)];
+}
+
+}  // namespace
+
+// -- TrajectoryTable
+
+struct TrajectoryTable::State {
+    State(const std::string& file, const Scene& whole)
+        : scene(whole), table(file, "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz") {}
+
+    Scene scene;
+    TableWriter table;
+};
+
+TrajectoryTable::TrajectoryTable(const std::string& file, const Scene& scene) {
+    guarded([&] { state_ = std::make_unique<State>(file, scene); });
+}
+TrajectoryTable::~TrajectoryTable() = default;
+TrajectoryTable::TrajectoryTable(TrajectoryTable&&) noexcept = default;
+TrajectoryTable& TrajectoryTable::operator=(TrajectoryTable&&) noexcept = default;
+
+void TrajectoryTable::add(const Snapshot& snapshot) {
+    guarded([&] {
+        const Scene& scene = state_->scene;
+        TableWriter& table = state_->table;
+        if (snapshot.bodies.size() != scene.body_count())
+            throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})",
+                                         scene.body_count(), snapshot.bodies.size()));
+        for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+            if (scene.body_type(i) == BodyType::fixed) continue;
+            const BodyState& body = snapshot.bodies[i];
+            table.integer(snapshot.frame).number(snapshot.time).text(scene.body_name(i));
+            write_vector(table, body.center_of_mass);
+            const Quat& q = body.orientation;
+            table.number(q.w).number(q.x).number(q.y).number(q.z);
+            write_vector(table, body.velocity);
+            write_vector(table, body.angular_velocity);
+            table.end_row();
+        }
+    });
+}
+
+void TrajectoryTable::finish() {
+    guarded([&] { state_->table.finish(); });
+}
+
+// -- EnergyTable
+
+struct EnergyTable::State {
+    explicit State(const std::string& file)
+        : table(file,
+                "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration,"
+                "kinetic_linear,kinetic_angular,work,impact_loss,friction_loss,elastic") {}
+
+    TableWriter table;
+};
+
+EnergyTable::EnergyTable(const std::string& file) {
+    guarded([&] { state_ = std::make_unique<State>(file); });
+}
+EnergyTable::~EnergyTable() = default;
+EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;
+EnergyTable& EnergyTable::operator=(EnergyTable&&) noexcept = default;
+
+void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
+    guarded([&] {
+        TableWriter& table = state_->table;
+        table.integer(frame).number(time).number(e.kinetic).number(e.potential).number(e.kinetic + e.potential);
+        write_vector(table, e.momentum);
+        write_vector(table, e.angular_momentum);
+        table.integer(e.contacts).number(e.max_penetration);
+        table.number(e.kinetic_linear).number(e.kinetic_angular);
+        table.number(e.work).number(e.impact_loss).number(e.friction_loss).number(e.elastic);
+        table.end_row();
+    });
+}
+
+void EnergyTable::finish() {
+    guarded([&] { state_->table.finish(); });
+}
+
+// -- ImpactTable
+
+struct ImpactTable::State {
+    State(const std::string& file, const Scene& whole)
+        : scene(whole),
+          table(file,
+                "time,exact,frame,a,b,px,py,pz,nx,ny,nz,feature,v_before,v_after,restitution,impulse,fx,fy,fz,pass") {}
+
+    Scene scene;
+    RecordTable table;
+};
+
+ImpactTable::ImpactTable(const std::string& file, const Scene& scene) {
+    guarded([&] { state_ = std::make_unique<State>(file, scene); });
+}
+ImpactTable::~ImpactTable() = default;
+ImpactTable::ImpactTable(ImpactTable&&) noexcept = default;
+ImpactTable& ImpactTable::operator=(ImpactTable&&) noexcept = default;
+
+void ImpactTable::add(const FrameContacts& contacts) {
+    guarded([&] {
+        RecordTable& table = state_->table;
+        for (const Impact& i : contacts.impacts) {
+            table.number(i.time).integer(i.exact_time).integer(i.frame);
+            table.text(state_->scene.body_name(i.a)).text(state_->scene.body_name(i.b));
+            table.vector(i.point).vector(i.normal).text(name_of(i.features));
+            table.number(i.speed_before).number(i.speed_after).number(i.restitution).number(i.impulse);
+            table.vector(i.friction).integer(i.pass);
+            table.end_row();
+        }
+    });
+}
+
+void ImpactTable::finish() {
+    guarded([&] { state_->table.finish(); });
+}
+
+// -- ContactTable
+
+struct ContactTable::State {
+    State(const std::string& file, const Scene& whole)
+        : scene(whole),
+          table(file, "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state") {}
+
+    Scene scene;
+    RecordTable table;
+};
+
+ContactTable::ContactTable(const std::string& file, const Scene& scene) {
+    guarded([&] { state_ = std::make_unique<State>(file, scene); });
+}
+ContactTable::~ContactTable() = default;
+ContactTable::ContactTable(ContactTable&&) noexcept = default;
+ContactTable& ContactTable::operator=(ContactTable&&) noexcept = default;
+
+void ContactTable::add(std::int64_t frame, double time, const FrameContacts& contacts) {
+    guarded([&] {
+        RecordTable& table = state_->table;
+        for (const Contact& c : contacts.contacts) {
+            table.integer(frame).number(time);
+            table.text(c.a == Contact::nobody ? std::string() : state_->scene.body_name(c.a));
+            table.text(state_->scene.body_name(c.b));
+            table.vector(c.point).vector(c.normal).number(c.gap).number(c.normal_force);
+            table.vector(c.tangential_force).number(c.torsion).vector(c.slip).text(name_of(c.state));
+            table.end_row();
+        }
+    });
+}
+
+void ContactTable::finish() {
+    guarded([&] { state_->table.finish(); });
+}
+
+}  // namespace tumble::v0
