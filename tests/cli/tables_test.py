@@ -6,7 +6,8 @@ import struct
 import program
 
 TRAJECTORY = "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz"
-ENERGY = "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration"
+ENERGY = "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration," \
+         "kinetic_linear,kinetic_angular,work,impact_loss,friction_loss,elastic"
 
 FALL = """\
 format = 1

@@ -72,10 +72,10 @@ TEST(SetValues, ErrorsNameTheOptionAndSuggest) {
     EXPECT_EQ(error_of("body.7.mass=2"),
               "error: --set body.7.mass=2: there is no element \"7\" in an array of 2 (known: "
               "\"floor\", \"crate.1\")");
-    EXPECT_EQ(error_of("simulation.duration=-1").substr(0, 45), "error: --set simulation.duration: must be in ");
+    EXPECT_EQ(error_of("simulation.duration=-1").find("error: --set simulation.duration: must be"), 0u);
     EXPECT_EQ(error_of("simulation.gravity=[0, 1]"),
               "error: --set simulation.gravity: must be an array of 3 numbers (given [0, 1])");
-    EXPECT_EQ(error_of("title.x=1"), "error: --set title.x=1: unknown key");
+    EXPECT_EQ(error_of("title.x=1"), "error: --set title.x=1: \"title\" is neither a table nor an array");
     EXPECT_EQ(error_of("simulation.duration"),
               "error: --set simulation.duration: has no value; write PATH=VALUE, as in simulation.duration=2");
     EXPECT_EQ(error_of(".duration=2"),

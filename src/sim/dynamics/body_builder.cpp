@@ -59,8 +59,7 @@ CollisionShape BodyBuilder::mesh_collider(const MeshAsset& asset, bool as_triang
     Mesh& made = meshes_[&asset];
     try {
         if (as_triangles) {
-            if (!made.surface)
-                made.surface = std::make_shared<CollisionMesh>(make_collision_mesh(asset.mesh, origin));
+            if (!made.surface) made.surface = std::make_shared<CollisionMesh>(make_collision_mesh(asset.mesh, origin));
             return made.surface;
         }
         if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.mesh.vertices, origin));

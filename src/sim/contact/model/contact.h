@@ -18,7 +18,7 @@ namespace tumble {
 struct Contact {
     std::uint32_t a = 0, b = 0, part = 0;  // body indices, and the triangle index of a mesh
     std::uint64_t feature = 0;
-    int points = 1;  // of its manifold
+    int points = 1;           // of its manifold
     Vec3 normal;              // away from A
     Vec3 arm_a, arm_b;        // r = p - x, world
     Vec3 rub = Vec3::Zero();  // m, world: from the contact to the point where its friction acts (contact_area.h)
