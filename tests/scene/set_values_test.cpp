@@ -75,7 +75,7 @@ TEST(SetValues, ErrorsNameTheOptionAndSuggest) {
     EXPECT_EQ(error_of("simulation.duration=-1").find("error: --set simulation.duration: must be"), 0u);
     EXPECT_EQ(error_of("simulation.gravity=[0, 1]"),
               "error: --set simulation.gravity: must be an array of 3 numbers (given [0, 1])");
-    EXPECT_EQ(error_of("title.x=1"), "error: --set title.x=1: \"title\" is neither a table nor an array");
+    EXPECT_EQ(error_of("title.x=1"), "error: --set title: must be a string (given a table)");
     EXPECT_EQ(error_of("simulation.duration"),
               "error: --set simulation.duration: has no value; write PATH=VALUE, as in simulation.duration=2");
     EXPECT_EQ(error_of(".duration=2"),

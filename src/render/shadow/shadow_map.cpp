@@ -40,7 +40,7 @@ void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& textu
     gl_->DrawBuffer(GL_NONE);
     gl_->ReadBuffer(GL_NONE);
     if (gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw RunError("the OpenGL driver refuses a shadow map");
+        throw RunError("the OpenGL driver refuses the shadow map; it may lack memory");
 }
 
 void ShadowMap::compile(const GpuMeshCache& meshes, const std::vector<Batch>& casters) const {
