@@ -11,8 +11,8 @@ namespace tumble {
 
 enum class Pass { preparation, upload, shadow, background, bodies, planes, edges, read };
 inline constexpr std::size_t pass_count = 8;
-inline constexpr std::array<const char*, pass_count> pass_names = {
-    "preparation", "upload", "shadow", "background", "bodies", "planes", "edges", "read"};
+inline constexpr std::array<const char*, pass_count> pass_names = {"preparation", "upload", "shadow", "background",
+                                                                   "bodies",      "planes", "edges",  "read"};
 
 /// CPU seconds of the process, summed over all frames.
 struct PassTimes {
