@@ -24,6 +24,38 @@ TEST(World, AFrameIsItsSteps) {
     EXPECT_NEAR(by_steps.snapshot().time, 1.0 + scene.step(), 1e-15);
 }
 
+TEST(World, RecordsImpactsAndContactsWithoutChangingTheMotion) {
+    const Scene scene(crate_and_ball());
+    World plain(scene), recording(scene);
+    EXPECT_THROW(recording.contacts(), Error);
+    recording.record_contacts();
+    std::size_t impacts = 0;
+    double vertical = 0.0;  // N s on all dynamic bodies
+    double mass = 0.0;
+    for (std::size_t i = 0; i < scene.body_count(); ++i)
+        if (scene.body_type(i) == BodyType::dynamic) mass += recording.properties(i).mass;
+    const int frames = 60;
+    const double duration = 1.0 / scene.output().fps;
+    for (int frame = 1; frame <= frames; ++frame) {
+        plain.advance_frame();
+        recording.advance_frame();
+        ASSERT_TRUE(same(plain.snapshot(), recording.snapshot())) << frame;
+        const FrameContacts found = recording.contacts();
+        impacts += found.impacts.size();
+        for (const Impact& i : found.impacts)
+            if (scene.body_type(i.a) == BodyType::fixed) vertical += i.impulse * i.normal.y + i.friction.y;
+        for (const Contact& c : found.contacts)
+            if (c.a == Contact::nobody || scene.body_type(c.a) == BodyType::fixed)
+                vertical += duration * (c.normal_force * c.normal.y + c.tangential_force.y);
+    }
+    EXPECT_GT(impacts, 0u);
+    const Energies energies = recording.energies();
+    EXPECT_GT(energies.impact_loss, 0.0);
+    EXPECT_NEAR(energies.kinetic_linear + energies.kinetic_angular, energies.kinetic, 1e-9);
+    const double gravity = 9.81 * mass * frames * duration;
+    EXPECT_NEAR(vertical, gravity + energies.momentum.y - World(scene).energies().momentum.y, 1e-9 * gravity);
+}
+
 TEST(World, SeveralAreIndependentAndAnyNumberOfThreadsGivesTheSameBytes) {
     const Scene scene(crate_and_ball());
     World first(scene), second(scene, 3);

@@ -1,7 +1,9 @@
 """`simulate`: the documented columns, rows and numbers."""
 
+import ast
 import math
 import struct
+import zipfile
 
 import program
 
@@ -149,6 +151,74 @@ class Tables(program.ProgramTest):
         for row in self.simulate()[0]:
             value = float(row["qx"])
             self.assertEqual(struct.pack("d", value), struct.pack("d", float(f"{value:.17g}")))
+
+    BOUNCE = """format = 1
+[simulation]
+duration = 2
+[[body]]
+name = "floor"
+type = "fixed"
+shape = { type = "plane" }
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.5 }
+mass = 2
+position = [0, 1.5, 0]
+restitution = 0.5
+"""
+
+    def test_impacts_and_contacts(self):
+        self.write("scene.toml", self.BOUNCE)
+        self.check(0, "simulate", "scene.toml", "--impacts", "exact", "--impacts", "i.csv", "--contacts", "c.csv")
+        impacts, contacts = self.rows("i.csv"), self.rows("c.csv")
+        self.assertEqual(",".join(impacts[0]), "time,exact,frame,a,b,px,py,pz,nx,ny,nz,feature,v_before,v_after,restitution,impulse,fx,fy,fz,pass")
+        self.assertEqual(",".join(contacts[0]), "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state")
+        first = impacts[0]
+        self.assertAlmostEqual(float(first["time"]), math.sqrt(2 / 9.81), delta=1e-12)
+        self.assertEqual([first[key] for key in ("exact", "frame", "a", "b", "feature", "pass")], ["1", "27", "floor", "ball", "sphere", "0"])
+        self.assertAlmostEqual(float(first["impulse"]), 3 * math.sqrt(2 * 9.81), delta=1e-11)
+        rest = contacts[-1]
+        self.assertEqual([rest[key] for key in ("frame", "a", "b", "state")], ["120", "floor", "ball", "asleep"])
+        self.assertAlmostEqual(float(rest["normal_force"]), 2 * 9.81, delta=1e-9)
+
+    def test_impacts_of_steps(self):
+        self.write("scene.toml", self.BOUNCE)
+        self.check(0, "simulate", "scene.toml", "--impacts", "i.csv")
+        first = self.rows("i.csv")[0]
+        self.assertEqual(first["exact"], "0")
+        self.assertAlmostEqual(float(first["time"]) * 960, round(float(first["time"]) * 960), delta=1e-9)
+        self.assertAlmostEqual(float(first["v_after"]), -0.5 * float(first["v_before"]), delta=1e-12)
+
+    def test_arrays(self):
+        self.write("scene.toml", self.BOUNCE)
+        self.check(0, "simulate", "scene.toml", "--impacts", "i.csv", "--contacts", "c.csv")
+        self.check(0, "simulate", "scene.toml", "--impacts", "i.npz", "--contacts", "c.npz")
+        for name in ("i", "c"):
+            rows = self.rows(name + ".csv")
+            with zipfile.ZipFile(self.folder / (name + ".npz")) as archive:
+                for key in rows[0]:
+                    kind, values = npy(archive.read(key + ".npy"))
+                    if key in ("a", "b", "feature", "state"):
+                        _, texts = npy(archive.read(key + "_names.npy"))
+                        length = len(texts) // (max(values) + 1)
+                        texts = [bytes(texts[i:i + length]).rstrip(b"\0").decode() for i in range(0, len(texts), length)]
+                        self.assertEqual([texts[value] for value in values], [row[key] for row in rows])
+                    else:
+                        self.assertEqual(list(values), [float(row[key]) for row in rows], key)
+
+    def test_a_wrong_mode_or_file_of_impacts(self):
+        run = self.check(2, "simulate", "scene.toml", "--impacts", "exakt")
+        self.assertIn("--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was 'exakt')", run.stderr)
+        self.check(2, "simulate", "scene.toml", "--impacts", "x.csv", "--contacts", "x.csv")
+
+
+def npy(content):
+    """Kind and values of an array file."""
+    length = struct.unpack("<H", content[8:10])[0]
+    header = ast.literal_eval(content[10:10 + length].decode())
+    kind = {"<f8": "d", "<i4": "i", "|u1": "B"}[header["descr"]]
+    body = content[10 + length:]
+    return kind, struct.unpack(f"<{len(body) // struct.calcsize(kind)}{kind}", body)
 
 
 if __name__ == "__main__":
