@@ -12,8 +12,6 @@ namespace {
 constexpr double stick_share = 1e-3;
 // Corrections below this fraction of a body's impulses in the frame are rounding.
 constexpr double correction_rounding = 1e-13;
-// The forces that hold a sleeping body are those of its last frame, in which it still moved by the solver's tolerance.
-constexpr double sleeping_rounding = 1e-9;
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
@@ -216,7 +214,7 @@ void ContactLog::add_corrections(const std::vector<Body>& bodies, const ForceFie
         const Vec3 left = body.momentum - account.momentum - account.external - account.contact;
         const double size =
             body.momentum.norm() + account.momentum.norm() + account.external.norm() + account.contact.norm();
-        if (left.norm() <= (body.asleep ? sleeping_rounding : correction_rounding) * size) continue;
+        if (left.norm() <= correction_rounding * size) continue;
         ContactRecord r;
         r.a = ContactRecord::nobody;
         r.b = i;
