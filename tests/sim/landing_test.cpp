@@ -133,7 +133,8 @@ TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
         // Whether the ball is over a face, and whether the gap ends on a line.
         const auto feature = [&](double t) {
             const auto m = on(t);
-            const auto* gap = std::get_if<CurvedGap>(&m->geometry);
+            const PointGeometry geometry = m->geometry();
+            const auto* gap = std::get_if<CurvedGap>(&geometry);
             return std::pair(gap == nullptr, gap && !gap->line.isZero(0.0));
         };
         if (feature(-1e-4) != feature(1e-4)) continue;

@@ -109,7 +109,7 @@ TEST(Manifold, RemovedPointsAreNoCurve) {
     m.points[1] = {Vec3::Zero(), 1.0, 2};
     m.points[3].position = b.position;
     EXPECT_EQ(predicted_gap(m, 0, {a, b, still, passes}, h).gap, gap);
-    m.geometry = CurvedGap{1.0, Vec3::Zero(), a.position, b.position};
+    m.set_geometry(CurvedGap{1.0, Vec3::Zero(), a.position, b.position});
     EXPECT_GT(predicted_gap(m, 0, {a, b, still, passes}, h).gap, gap);
 }
 

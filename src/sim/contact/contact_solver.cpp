@@ -36,8 +36,7 @@ bool ContactSolver::turns_fast(std::span<const std::uint32_t> bodies) const {
 bool ContactSolver::rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const {
     return !manifolds.empty() && std::all_of(manifolds.begin(), manifolds.end(), [&](std::uint32_t k) {
         const Manifold& m = problem.manifolds[k];
-        return std::holds_alternative<BallOverFace>(m.geometry) &&
-               pair_friction(problem.bodies[m.a], problem.bodies[m.b]) > 0.0;
+        return m.has_ball_over_face() && pair_friction(problem.bodies[m.a], problem.bodies[m.b]) > 0.0;
     });
 }
 

@@ -52,7 +52,7 @@ void collide_half_space_ball(const HalfSpace& a, const Ball& b, const CollisionQ
     const double separation = height - b.radius;
     if (separation > query.margin) return;
     add_point(normal, query.pose_b.position - (b.radius + 0.5 * separation) * normal, separation, query.out);
-    query.out.back().geometry = BallOverFace{false, query.pose_b.position};
+    query.out.back().set_geometry(BallOverFace{false, query.pose_b.position});
 }
 
 void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query) {
@@ -64,7 +64,7 @@ void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query) {
     const Vec3 normal = distance > 1e-140 ? Vec3(d / distance) : Vec3::UnitY();
     const double separation = distance - a.radius - b.radius;
     add_point(normal, query.pose_a.position + (a.radius + 0.5 * separation) * normal, separation, query.out);
-    query.out.back().geometry = CurvedGap{distance, Vec3::Zero(), query.pose_a.position, query.pose_b.position};
+    query.out.back().set_geometry(CurvedGap{distance, Vec3::Zero(), query.pose_a.position, query.pose_b.position});
 }
 
 void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const CollisionQuery& query) {
@@ -87,7 +87,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const Collision
         const Vec3 normal = query.pose_a.rotation * face->normal;
         const double separation = most - b.radius;
         add_point(normal, query.pose_b.position - (b.radius + 0.5 * separation) * normal, separation, query.out);
-        query.out.back().geometry = BallOverFace{false, query.pose_b.position};
+        query.out.back().set_geometry(BallOverFace{false, query.pose_b.position});
         return;
     }
     // Only faces with the center on their outer side can hold the nearest point.
@@ -113,10 +113,10 @@ void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const Collision
     const Vec3 point = query.pose_a.to_world(nearest.point);
     add_point(normal, point + 0.5 * separation * normal, separation, query.out);
     if (of_face)
-        query.out.back().geometry = BallOverFace{false, query.pose_b.position};
+        query.out.back().set_geometry(BallOverFace{false, query.pose_b.position});
     else
-        query.out.back().geometry =
-            CurvedGap{distance, query.pose_a.rotation * nearest.edge, point, query.pose_b.position};
+        query.out.back().set_geometry(
+            CurvedGap{distance, query.pose_a.rotation * nearest.edge, point, query.pose_b.position});
 }
 
 void collide_half_space_polyhedron(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query) {

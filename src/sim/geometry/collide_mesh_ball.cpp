@@ -86,9 +86,9 @@ void collide_mesh_ball(const CollisionMesh& a, const Ball& b, const CollisionQue
             const int k = hit.feature - 1;
             const Vec3 edge =
                 hit.feature < 4 ? Vec3((corner((k + 1) % 3) - corner(k)).normalized()) : Vec3(Vec3::Zero());
-            m.geometry = CurvedGap{hit.distance, query.pose_a.rotation * edge, point, query.pose_b.position};
+            m.set_geometry(CurvedGap{hit.distance, query.pose_a.rotation * edge, point, query.pose_b.position});
         } else {
-            m.geometry = BallOverFace{false, query.pose_b.position};
+            m.set_geometry(BallOverFace{false, query.pose_b.position});
         }
         query.out.push_back(m);
     }

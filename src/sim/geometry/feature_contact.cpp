@@ -85,7 +85,7 @@ void add_edge_manifold(const EdgeSegment& a, const EdgeSegment& b, const Vec3& n
     m.count = 1;
     m.points[0] = {frame.to_world(0.5 * (a.tail + s * u + b.tail + t * v)), separation,
                    (std::uint64_t(1) << 62) | (a.index << 24) | b.index};
-    m.geometry = CrossingEdges{frame.rotation * u, frame.rotation * v};
+    m.set_geometry(CrossingEdges{frame.rotation * u, frame.rotation * v});
     sink.out.push_back(m);
 }
 

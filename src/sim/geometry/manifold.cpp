@@ -47,6 +47,41 @@ struct Swap {
 
 PointGeometry swapped(const PointGeometry& geometry) { return std::visit(Swap{}, geometry); }
 
+PointGeometry Manifold::geometry() const {
+    switch (kind) {
+        case GeometryKind::ball_of_a:
+            return BallOverFace{true, points[2].position};
+        case GeometryKind::ball_of_b:
+            return BallOverFace{false, points[2].position};
+        case GeometryKind::curved_gap:
+            return CurvedGap{points[1].separation, points[1].position, points[2].position, points[3].position};
+        case GeometryKind::crossing_edges:
+            if (count == 1) return CrossingEdges{points[1].position, points[2].position};
+            break;  // further points have taken their places
+        case GeometryKind::none:
+            break;
+    }
+    return NoCurve{};
+}
+
+void Manifold::set_geometry(const PointGeometry& geometry) {
+    kind = GeometryKind::none;
+    if (const auto* ball = std::get_if<BallOverFace>(&geometry)) {
+        kind = ball->ball_of_a ? GeometryKind::ball_of_a : GeometryKind::ball_of_b;
+        points[2].position = ball->center;
+    } else if (const auto* gap = std::get_if<CurvedGap>(&geometry)) {
+        kind = GeometryKind::curved_gap;
+        points[1].position = gap->line;
+        points[1].separation = gap->distance;
+        points[2].position = gap->on_a;
+        points[3].position = gap->on_b;
+    } else if (const auto* edges = std::get_if<CrossingEdges>(&geometry)) {
+        kind = GeometryKind::crossing_edges;
+        points[1].position = edges->of_a;
+        points[2].position = edges->of_b;
+    }
+}
+
 std::vector<BodyPair> body_pairs(const std::vector<Manifold>& manifolds) {
     std::vector<BodyPair> pairs;
     for (const Manifold& m : manifolds) pairs.push_back({m.a, m.b});

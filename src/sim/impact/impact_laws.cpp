@@ -59,9 +59,13 @@ struct Change {
 void apply(ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, const std::vector<double>& lambda,
            double factor, std::span<const double> restitution = {}) {
     if (!(factor > 0.0)) return;
-    std::vector<ImpactSystem::Push> pushes;
-    for (std::size_t i = 0; i < set.size(); ++i) pushes.push_back({set[i].row, factor * lambda[i]});
-    cluster.push_all(pushes, restitution);
+    if (cluster.traced())
+        for (std::size_t i = 0; i < set.size(); ++i)
+            if (lambda[i] > 0.0)
+                cluster.announce(set[i].row, factor * lambda[i], restitution.empty() ? 0.0 : restitution[i]);
+    for (std::size_t i = 0; i < set.size(); ++i)
+        if (lambda[i] > 0.0) cluster.push(set[i].row, factor * lambda[i]);
+    if (cluster.traced()) cluster.end_pass();
 }
 
 class Propagation {

@@ -109,20 +109,15 @@ double ImpactSystem::offset(const Contact& c, const Vec3& direction) const {
     return sum;
 }
 
-void ImpactSystem::push_all(std::span<const Push> pushes, std::span<const double> restitution) {
-    const std::size_t first = trace_ ? trace_->entries.size() : 0;
-    if (trace_)
-        for (std::size_t k = 0; k < pushes.size(); ++k)
-            if (pushes[k].amount > 0.0)
-                trace_->entries.push_back({index_[pushes[k].row], trace_->passes, speed(pushes[k].row), 0.0,
-                                           restitution.empty() ? 0.0 : restitution[k],
-                                           pushes[k].amount / length_[pushes[k].row]});
-    for (const Push& one : pushes)
-        if (one.amount > 0.0) push(one.row, one.amount);
-    if (!trace_) return;
-    std::size_t entry = first;
-    for (const Push& one : pushes)
-        if (one.amount > 0.0) trace_->entries[entry++].speed_after = speed(one.row);
+void ImpactSystem::announce(std::size_t i, double amount, double restitution) {
+    trace_->entries.push_back({index_[i], trace_->passes, speed(i), 0.0, restitution, amount / length_[i]});
+    announced_.push_back(i);
+}
+
+void ImpactSystem::end_pass() {
+    std::size_t entry = trace_->entries.size() - announced_.size();
+    for (const std::size_t i : announced_) trace_->entries[entry++].speed_after = speed(i);
+    announced_.clear();
     ++trace_->passes;
 }
 

@@ -7,7 +7,6 @@
 #include "sim/impact/velocity_row.h"
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
 namespace tumble {
@@ -79,13 +78,10 @@ public:
     void push_along(const VelocityRow& row, double amount) { row.add_to(velocity_, amount); }
     double impulse(std::size_t i) const { return impulse_[i]; }  // N s, sum of all pushes
 
-    /// One pass of a law: adds the amounts, where positive, along the rows of their contacts. `restitution` by entry, for
-    /// the trace; empty: zero.
-    struct Push {
-        std::uint32_t row;
-        double amount;
-    };
-    void push_all(std::span<const Push> pushes, std::span<const double> restitution);
+    /// For the trace of a pass: announce() its pushes before the first of them, end_pass() after the last.
+    bool traced() const { return trace_ != nullptr; }
+    void announce(std::size_t i, double amount, double restitution);
+    void end_pass();
 
     /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel.
     void store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const;
@@ -103,6 +99,7 @@ private:
     std::vector<double> length_, offset_, impulse_;
     double rounding_ = 0.0, wall_velocity_ = 0.0;
     ImpactTrace* trace_ = nullptr;
+    std::vector<std::size_t> announced_;  // rows of this pass, for the trace
 };
 
 }  // namespace tumble

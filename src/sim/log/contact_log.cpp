@@ -144,7 +144,7 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
             r.point = origin_ + place(i);
             r.normal = m.normal;
             r.gap = p.separation;
-            r.features = features_of(m.corners, m.geometry, m.count, a, b);
+            r.features = features_of(m.corners, m.geometry(), m.count, a, b);
             r.slip = slip_of(r, place(i), a, b);
             friction_ -= share(i) * (across(total.on_b, m.normal).dot(r.slip) + torsion * turn);
         }
@@ -176,7 +176,7 @@ void ContactLog::add_touching(const std::vector<Manifold>& touching, const std::
             r.point = origin_ + at;
             r.normal = m.normal;
             r.gap = p.separation;
-            r.features = features_of(m.corners, m.geometry, m.count, a, b);
+            r.features = features_of(m.corners, m.geometry(), m.count, a, b);
             r.slip = slip_of(r, at, a, b);
         }
     }

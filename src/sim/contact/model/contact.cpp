@@ -66,9 +66,9 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     c.friction = pair_friction(a, b);
     c.touch_distance = touch_distance(a.radius, b.radius);
     c.corners = m.corners;
-    c.geometry = m.geometry;
-    const auto* gap = std::get_if<CurvedGap>(&m.geometry);
-    const auto* ball = std::get_if<BallOverFace>(&m.geometry);
+    c.geometry = m.geometry();
+    const auto* gap = std::get_if<CurvedGap>(&c.geometry);
+    const auto* ball = std::get_if<BallOverFace>(&c.geometry);
     if (gap || ball) {
         c.gap_arm_a = (gap ? gap->on_a : ball->center) - a.position;
         c.gap_arm_b = (gap ? gap->on_b : ball->center) - b.position;

@@ -128,8 +128,7 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
     const auto& [a, b, before_a, before_b] = bodies;
     const ContactPoint& p = m.points[std::size_t(index)];
     const PredictedGap as_it_is{p.position, p.separation, 0.0};
-    if (const auto* curve = std::get_if<CurvedGap>(&m.geometry))
-        return {p.position, gap_of_curve(m, *curve, bodies, h), 0.0};
+    if (m.has_curved_gap()) return {p.position, gap_of_curve(m, std::get<CurvedGap>(m.geometry()), bodies, h), 0.0};
     if (m.corners == Corners::neither) return as_it_is;
     const double least = tuning::fast_rotation_turn * tuning::fast_rotation_turn, square = h * h;
     if (square * before_a.angular_velocity.squaredNorm() < least &&
@@ -160,14 +159,14 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
 // With r = r_e + r_x along and across the unit vector e of w:
 //   r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
 Vec3 arc_velocity(const Manifold& m, const BodiesInStep& bodies, double h) {
-    const auto* ball = std::get_if<BallOverFace>(&m.geometry);
-    if (!ball) return Vec3::Zero();
+    if (!m.has_ball_over_face()) return Vec3::Zero();
+    const auto ball = std::get<BallOverFace>(m.geometry());
     const auto& [a, b, before_a, before_b] = bodies;
-    const bool of_a = ball->ball_of_a;
+    const bool of_a = ball.ball_of_a;
     const Body &body = of_a ? a : b, &face = of_a ? b : a;
     const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity,
                &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
-    const Vec3 arm = ball->center - body.position;
+    const Vec3 arm = ball.center - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();
     if (face.moves() && h * face_turn.norm() > tuning::fast_rotation_turn)

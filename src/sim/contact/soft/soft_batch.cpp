@@ -194,7 +194,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     std::size_t count = 0;
     const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
     const BodiesInStep bodies{body_a, body_b, problem.before[m.a], problem.before[m.b]};
-    const bool predicts_gaps = a.rotates_fast || b.rotates_fast || std::holds_alternative<CurvedGap>(m.geometry);
+    const bool predicts_gaps = a.rotates_fast || b.rotates_fast || m.has_curved_gap();
     const auto order = deepest_last(m);
     for (int k = 0; k < m.count; ++k) {
         const int i = order[std::size_t(k)];
