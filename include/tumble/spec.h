@@ -18,6 +18,7 @@ TUMBLE_BEGIN
 
 // Names of the scene file: '-' becomes '_'.
 enum class Integrator { explicit_euler, symplectic_euler, splitting, rk4, exact };
+enum class Method { tumble, notes };  // notes: the course notes to the letter, for teaching
 enum class ImpactMode { stepped, exact };
 enum class ImpactLaw { propagating, simultaneous };
 enum class ContactSolver { by_island, soft, direct };
@@ -31,6 +32,8 @@ struct SimulationSettings {
     int steps_per_frame = 16;       // the fixed step is 1 / (fps * steps_per_frame) s
     std::optional<double> step;     // s, in place of steps_per_frame; divides 1 / fps to within 1e-9 s
     Vec3 gravity{0.0, -9.81, 0.0};  // m/s^2
+    Method method = Method::tumble;
+    bool push_out = false;  // with Method::notes only: overlapping bodies are moved apart in each step
     Integrator integrator = Integrator::symplectic_euler;
     ImpactMode impacts = ImpactMode::stepped;
     ImpactLaw impact_law = ImpactLaw::propagating;

@@ -22,6 +22,7 @@ std::string name_of(ContactSolver solver) {
     return choice(solver, "ContactSolver", std::array{"by-island", "soft", "direct"});
 }
 std::string name_of(RotationForm form) { return choice(form, "RotationForm", std::array{"quaternion", "matrix"}); }
+std::string name_of(Method method) { return choice(method, "Method", std::array{"tumble", "notes"}); }
 std::string name_of(BodyType type) { return choice(type, "BodyType", std::array{"dynamic", "fixed", "kinematic"}); }
 std::string name_of(Pattern pattern) { return choice(pattern, "Pattern", std::array{"plain", "grid", "checker"}); }
 std::string name_of(Interpolation form) { return choice(form, "Interpolation", std::array{"smooth", "linear"}); }
@@ -113,6 +114,8 @@ private:
         else
             value("steps_per_frame", "steps_per_frame", std::to_string(s.steps_per_frame));
         set("gravity", s.gravity);
+        name("method", name_of(s.method));
+        if (s.push_out) set("push_out", s.push_out);
         name("integrator", v0::name_of(s.integrator));
         name("impacts", v0::name_of(s.impacts));
         name("impact_law", v0::name_of(s.impact_law));

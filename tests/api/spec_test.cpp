@@ -161,6 +161,25 @@ TEST(Spec, AFileCannotNameAMeshInMemory) {
     }
 }
 
+TEST(Spec, HasTheMethodOfTheNotes) {
+    SceneSpec spec = crate_and_ball();
+    const Snapshot standard = after(Scene(spec), 15);
+    spec.simulation.method = Method::notes;
+    const Snapshot notes = after(Scene(spec), 15);
+    spec.simulation.push_out = true;
+    const Snapshot pushed = after(Scene(spec), 15);
+    EXPECT_FALSE(same(standard, notes));
+    EXPECT_FALSE(same(notes, pushed));
+    spec.simulation.method = Method::tumble;
+    try {
+        const Scene scene(spec);
+        FAIL() << "push_out has no effect with this method";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::input);
+        EXPECT_NE(std::string(error.what()).find("push_out"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Spec, HasTheDefaultsOfTheFormat) {
     const TestFolder folder;
     const std::string file = folder / "scene.toml";

@@ -112,6 +112,10 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
 
 void add_values(CLI::App& command, SceneOverrides& overrides) {
     command
+        .add_option("--method", overrides.method,
+                    "tumble: the whole simulation; notes: the course notes to the letter, for teaching")
+        ->type_name("NAME");
+    command
         .add_option("--set", overrides.set,
                     "Any key of the scene by its path, in place of the scene's, as in\nsimulation.sleep=false or "
                     "body.crate.restitution=0.8; may be repeated")
@@ -277,10 +281,6 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     command
         ->add_option("--integrator", c.overrides.integrator,
                      "symplectic-euler, explicit-euler, splitting, rk4 or exact")
-        ->type_name("NAME");
-    command
-        ->add_option("--method", c.overrides.method,
-                     "tumble: the whole simulation; notes: the course notes to the letter, for teaching")
         ->type_name("NAME");
     command
         ->add_option_function<std::string>(
