@@ -46,8 +46,8 @@ struct Contact {
     State state = State::open;
 };
 
-/// Over the frame that ends now the change of a body's momentum is the sum of its impulses, its contact forces times the
-/// frame's duration, and the impulses of gravity, wind and forces at points.
+/// Over the frame that ends now, the change of a body's momentum is the sum of its impulses, its contact forces times
+/// the frame's duration, and the impulses of gravity, wind and forces at points.
 struct FrameContacts {
     std::vector<Impact> impacts;    // in order of time
     std::vector<Contact> contacts;  // ascending by bodies

@@ -48,7 +48,7 @@ public:
     Canvas& operator=(const Canvas&) = delete;
 
     void fill(const Box2& box, const Paint& paint, double corner_radius = 0.0);
-    /// A line through the points; a point that is not finite interrupts it. `dash`: length of dashes and gaps; 0: solid.
+    /// A line through the points; a point that is not finite interrupts it. `dash`: length of dashes and gaps; 0: none.
     void polyline(std::span<const Point2> points, const Paint& paint, double width, double dash = 0.0);
     void disc(const Point2& center, double radius, const Paint& paint);
     /// Draws inside the box only, until unclip().

@@ -16,8 +16,8 @@ struct Variant {
     std::string label;  // that tells it from the others: the scene's file name, the varied values
 };
 
-/// Every scene with every combination of the varied values, the last one varying fastest. Commas in brackets, braces and
-/// quotes belong to a value. Throws InputError for a text without values.
+/// Every scene with every combination of the varied values, the last one varying fastest. Commas in brackets,
+/// braces and quotes belong to a value. Throws InputError for a text without values.
 std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes, const SceneOverrides& overrides,
                                    std::span<const std::string> vary);
 

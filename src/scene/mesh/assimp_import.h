@@ -1,5 +1,6 @@
-// Import by assimp of the mesh formats that Tumble does not read itself (.dae, .3ds, .off, .fbx, ...). It runs in a child
-// process with limits of memory and time: assimp allocates as much as a file claims, and a malformed file can crash it.
+// Import by assimp of the mesh formats that Tumble does not read itself (Collada, 3D Studio, OFF, FBX and more). It runs in
+// a child process with limits of memory and time: assimp allocates as much as a file claims, and a malformed file can
+// crash it.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"

@@ -34,8 +34,9 @@ ContactFeatures swapped(ContactFeatures features) {
     return features;
 }
 
-Vec3 slip_of(const ContactRecord& r, const Vec3& at, const Body& a, const Body& b) {
-    return across(b.point_velocity(at - b.position) - a.point_velocity(at - a.position), r.normal);
+Vec3 acting_point_of(const Manifold& m, int i, const Body& a, const Body& b) {
+    const ContactPoint& p = m.points[std::size_t(i)];
+    return acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
 }
 
 }  // namespace
@@ -101,6 +102,18 @@ void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>
     }
 }
 
+void ContactLog::set_place(ContactRecord& record, const Manifold& m, int i, const std::vector<Body>& bodies) const {
+    const Body &a = bodies[m.a], &b = bodies[m.b];
+    const Vec3 at = acting_point_of(m, i, a, b);
+    record.a = m.a;
+    record.b = m.b;
+    record.point = origin_ + at;
+    record.normal = m.normal;
+    record.gap = m.points[std::size_t(i)].separation;
+    record.features = features_of(m.corners, m.geometry(), m.count, a, b);
+    record.slip = across(b.point_velocity(at - b.position) - a.point_velocity(at - a.position), m.normal);
+}
+
 void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
                               const std::vector<ManifoldImpulse>& totals) {
     for (const std::uint32_t k : manifolds) {
@@ -119,34 +132,22 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
         const auto share = [&](int i) {
             return sum > 0.0 ? m.points[std::size_t(i)].impulse / sum : 1.0 / double(m.count);
         };
-        const auto place = [&](int i) {
-            const ContactPoint& p = m.points[std::size_t(i)];
-            return acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
-        };
+        const auto place = [&](int i) { return acting_point_of(m, i, a, b); };
         // The moment that forces at the points leave over, about the center of a body that moves.
         const bool about_b = b.dynamic();
         double torsion = m.normal.dot(about_b ? total.turn_b : Vec3(-total.turn_a));
         for (int i = 0; i < m.count; ++i)
             torsion -= m.normal.dot((place(i) - (about_b ? b.position : a.position)).cross(share(i) * total.on_b));
-        const double normal = m.normal.dot(total.on_b), turn = m.normal.dot(b.angular_velocity - a.angular_velocity);
+        const double turn = m.normal.dot(b.angular_velocity - a.angular_velocity);
         for (int i = 0; i < m.count; ++i) {
             if (!(share(i) > 0.0)) continue;
-            const ContactPoint& p = m.points[std::size_t(i)];
-            Sum& point = sums_[{m.a, m.b, m.part, p.feature}];
-            point.normal += share(i) * normal;
+            Sum& point = sums_[key_of(m, i)];
             point.impulse += share(i) * total.on_b;
             point.torsion += share(i) * torsion;
             point.span += problem.settings.h;
             point.stick_speed = stick_share * gravity_.norm() * problem.settings.h;
-            ContactRecord& r = point.last;
-            r.a = m.a;
-            r.b = m.b;
-            r.point = origin_ + place(i);
-            r.normal = m.normal;
-            r.gap = p.separation;
-            r.features = features_of(m.corners, m.geometry(), m.count, a, b);
-            r.slip = slip_of(r, place(i), a, b);
-            friction_ -= share(i) * (across(total.on_b, m.normal).dot(r.slip) + torsion * turn);
+            set_place(point.last, m, i, problem.bodies);
+            friction_ -= share(i) * (across(total.on_b, m.normal).dot(point.last.slip) + torsion * turn);
         }
     }
 }
@@ -163,23 +164,12 @@ bool ContactLog::at_rest(const Key& key, const std::vector<Body>& bodies) const 
 
 // Gives known points their present places, and adds those without load.
 void ContactLog::add_touching(const std::vector<Manifold>& touching, const std::vector<Body>& bodies) {
-    for (const Manifold& m : touching) {
-        const Body &a = bodies[m.a], &b = bodies[m.b];
+    for (const Manifold& m : touching)
         for (int i = 0; i < m.count; ++i) {
-            const ContactPoint& p = m.points[std::size_t(i)];
-            const Key key{m.a, m.b, m.part, p.feature};
+            const Key key = key_of(m, i);
             if (asleep_.contains(key) && at_rest(key, bodies)) continue;
-            ContactRecord& r = sums_[key].last;
-            const Vec3 at = acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
-            r.a = m.a;
-            r.b = m.b;
-            r.point = origin_ + at;
-            r.normal = m.normal;
-            r.gap = p.separation;
-            r.features = features_of(m.corners, m.geometry(), m.count, a, b);
-            r.slip = slip_of(r, at, a, b);
+            set_place(sums_[key].last, m, i, bodies);
         }
-    }
 }
 
 // The forces of a point: means over the frame, or over its time with contact if it sleeps from now on.

@@ -52,11 +52,11 @@ private:
         auto operator<=>(const Key&) const = default;
     };
     struct Sum {
-        ContactRecord last;                  // place and features at the last step
-        Vec3 impulse = Vec3::Zero();         // N s on B
-        double normal = 0.0, torsion = 0.0;  // N s, N m s
-        double span = 0.0;                   // s, with contact
-        double stick_speed = 0.0;            // m/s: slower counts as sticking
+        ContactRecord last;           // place and features at the last step
+        Vec3 impulse = Vec3::Zero();  // N s on B
+        double torsion = 0.0;         // N m s
+        double span = 0.0;            // s, with contact
+        double stick_speed = 0.0;     // m/s: slower counts as sticking
     };
     /// Of a body, in this frame.
     struct Account {
@@ -65,7 +65,10 @@ private:
         double work = 0.0;                                                              // J, from outside
         bool touched = false;                                                           // by an impact or a contact
     };
+    static Key key_of(const Manifold& m, int i) { return {m.a, m.b, m.part, m.points[std::size_t(i)].feature}; }
     double energy(const Body& body) const;
+    /// Bodies, place, normal, gap, features and slip of a manifold's point.
+    void set_place(ContactRecord& record, const Manifold& m, int i, const std::vector<Body>& bodies) const;
     bool at_rest(const Key& key, const std::vector<Body>& bodies) const;
     void add_touching(const std::vector<Manifold>& touching, const std::vector<Body>& bodies);
     ContactRecord mean(const Key& key, Sum& sum, const std::vector<Body>& bodies, double duration);

@@ -12,7 +12,8 @@
 namespace tumble {
 
 struct BodySet {
-    /// With the method of the notes the bodies are in the scene's order. With exact impacts the bodies' coordinates and order follow from the scene alone: see local_frame.h.
+    /// With the method of the notes the bodies are in the order of the scene. With exact impacts their coordinates and
+    /// their order follow from the scene alone: see local_frame.h.
     explicit BodySet(const SceneDescription& scene);
 
     Vec3 origin = Vec3::Zero();              // m, world: origin of the bodies' coordinates
