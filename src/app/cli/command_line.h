@@ -1,0 +1,91 @@
+// The options of all commands: a function that declares those of each command, and the parts that several share.
+#pragma once
+
+#include "app/cli/commands.h"
+#include "app/threads/thread_budget.h"
+#include "core/safe_text.h"
+
+#include <fmt/format.h>
+#include <CLI/CLI.hpp>
+
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+
+/// All options of the command line; each command uses those that it declares.
+struct CommandLine {
+    RenderCommand render;
+    SimulateCommand simulate;
+    PlotCommand plot;
+    EncodeCommand encode;
+    CompareCommand compare;
+    InfoCommand info;
+    DoctorCommand doctor;
+};
+
+CLI::App* add_render(CLI::App& app, CommandLine& line);
+CLI::App* add_simulate(CLI::App& app, CommandLine& line);
+CLI::App* add_plot(CLI::App& app, CommandLine& line);
+CLI::App* add_encode(CLI::App& app, CommandLine& line);
+CLI::App* add_compare(CLI::App& app, CommandLine& line);
+CLI::App* add_info(CLI::App& app, CommandLine& line);
+void add_doctor(CLI::App& app, CommandLine& line);
+
+/// A number in a range; CLI::Range lets NaN through.
+CLI::Validator number_within(double least, double most);
+/// Not empty: an empty name comes from an unset variable of a script.
+CLI::Validator some_name();
+/// Takes "-" as the file of standard output.
+CLI::Validator or_standard_output();
+
+void add_scene(CLI::App& command, std::filesystem::path& scene);
+/// "1280x720" to a width and a height. Their range is checked elsewhere. Throws InputError.
+std::pair<int, int> read_size(const std::string& text);
+/// --size.
+template <class Number>
+CLI::Option* add_size(CLI::App& command, Number& width, Number& height, const std::string& help) {
+    return command
+        .add_option_function<std::string>(
+            "--size", [&](const std::string& text) { std::tie(width, height) = read_size(text); }, help)
+        ->check(some_name())
+        ->type_name("WxH");
+}
+/// --method, --set and --seed.
+void add_values(CLI::App& command, SceneOverrides& overrides);
+/// The same with --fps and --duration.
+void add_frames_of_time(CLI::App& command, SceneOverrides& overrides);
+void add_quality(CLI::App& command, VideoQuality& quality);
+
+/// An option with one of a list of names as its value.
+template <class T>
+CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value,
+                        const std::vector<std::pair<std::string, T>>& choices, const std::string& help) {
+    return command.add_option_function<std::string>(
+        option,
+        [=, &value](const std::string& text) {
+            std::string names;
+            for (const auto& [name, choice] : choices) {
+                if (name == text) {
+                    value = choice;
+                    return;
+                }
+                names += (names.empty() ? "" : ", ") + name;
+            }
+            throw CLI::ValidationError(option, fmt::format("must be one of {} (was '{}')", names, safe_text(text)));
+        },
+        help);
+}
+
+/// --threads and --quiet.
+template <class Threads>
+void add_run(CLI::App& command, Threads& threads, const std::string& unless_told, bool& quiet) {
+    command.add_option("--threads", threads, "Threads of the simulation; the result is the same for any number")
+        ->check(CLI::Range(1, most_threads))
+        ->option_text(fmt::format("N [{}]", unless_told));
+    command.add_flag("--quiet", quiet, "Print errors only");
+}
+
+}  // namespace tumble

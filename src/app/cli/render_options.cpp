@@ -1,0 +1,104 @@
+#include "app/cli/command_line.h"
+#include "core/error.h"
+#include "scene/toml/limits.h"
+#include "sim/frames/clip_timing.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr int enough_workers = 8;  // 65 MiB each; the simulation and the encoder cannot keep more busy
+
+/// "depth,normal" to a set.
+AovSet read_aovs(const std::string& text) {
+    AovSet aovs, all;
+    for (const Aov aov : all_aovs) all.add(aov);
+    for (std::size_t first = 0; first <= text.size();) {
+        const std::size_t end = std::min(text.find(',', first), text.size());
+        const std::string name = text.substr(first, end - first);
+        const std::optional<Aov> aov = aov_named(name);
+        if (!aov) throw InputError(fmt::format("--aov: unknown name '{}' (known: {})", safe_text(name), names_of(all)));
+        aovs.add(*aov);
+        first = end + 1;
+    }
+    return aovs;
+}
+
+}  // namespace
+
+CLI::App* add_render(CLI::App& app, CommandLine& line) {
+    RenderCommand& c = line.render;
+    CLI::App* command =
+        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+    add_scene(*command, c.scene);
+    command
+        ->add_option("-o,--output", c.clip,
+                     "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
+                     ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
+                     "name with .mp4, in this folder")
+        ->check(some_name())
+        ->type_name("CLIP");
+    command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")
+        ->check(some_name())
+        ->type_name("DIR");
+    command
+        ->add_option_function<std::string>(
+            "--aov", [&c](const std::string& text) { c.aovs = read_aovs(text); },
+            "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
+            "DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
+        ->type_name("LIST");
+    command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
+        ->check(some_name())
+        ->type_name("DIR");
+    add_size(*command, c.overrides.width, c.overrides.height, "Picture size, in place of the scene's");
+    add_frames_of_time(*command, c.overrides);
+    command
+        ->add_option("--start", c.start,
+                     "Seconds that are simulated and not drawn. Frames keep their numbers and their pixels")
+        ->check(number_within(limits::duration.min, limits::duration.max))
+        ->option_text("S [0]");
+    command
+        ->add_option("--samples", c.overrides.samples,
+                     "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
+        ->type_name("N");
+    add_choice<GlBackend>(*command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+                          "OpenGL backend: osmesa (the default) draws on the CPU; egl uses a GPU if there is\none, "
+                          "else it draws the same pixels on the CPU")
+        ->option_text("osmesa|egl");
+    command
+        ->add_option("--speed", c.speed,
+                     "Speed of the motion: 0.25 is slow motion (the clip lasts four times as long,\n"
+                     "at the same frames per second), 2 twice as fast")
+        ->check(number_within(slowest_speed, fastest_speed))
+        ->option_text("X [1]");
+    command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
+        ->check(number_within(0.0, 360.0))
+        ->option_text("DEGREES [0]");
+    command->add_option("--blur-samples", c.blur_samples, "Moments averaged while the shutter is open")
+        ->check(CLI::Range(2, most_blur_samples))
+        ->option_text(fmt::format("N [{}]", c.blur_samples));
+    add_quality(*command, c.clip_options.quality);
+    command->add_flag_callback(
+        "--variable-rate", [&c] { c.clip_options.times = FrameTimes::longer_frames; },
+        "Store an unchanged picture once and show it longer, which costs nothing; players show\n"
+        "the same, but tools that count stored frames find fewer");
+    c.workers = std::min(machine_threads(), enough_workers);
+    command->add_option("--workers", c.workers, "Render processes, one per core; the result is the same for any number")
+        ->check(CLI::Range(1, most_threads))
+        ->option_text(fmt::format("N [{}]", c.workers));
+    add_run(*command, c.threads, "by the bodies", c.quiet);
+    command->footer(
+        "Examples:\n"
+        "  tumble render scene.toml                          writes scene.mp4\n"
+        "  tumble render scene.toml -o clip.webm --size 640x360\n"
+        "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
+        "  tumble render scene.toml --speed 0.25             slow motion\n"
+        "  tumble render scene.toml --frames one --duration 0  writes the first frame only\n"
+        "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"
+        "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"
+        "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all");
+    return command;
+}
+
+}  // namespace tumble

@@ -1,0 +1,119 @@
+#include "app/cli/command_line.h"
+#include "app/plots/quantities.h"
+#include "core/error.h"
+
+namespace tumble {
+namespace {
+
+/// The mode of impacts, or the file of their table.
+void read_impacts(const std::string& text, SimulateCommand& c) {
+    const std::filesystem::path file = text == "-" ? "/dev/stdout" : text;
+    const bool is_file =
+        file.extension() == ".csv" || file.extension() == ".npz" || text.find('/') != std::string::npos;
+    if (text == "-" || is_file)
+        c.impacts = file;
+    else if (text == "stepped" || text == "exact")
+        c.overrides.impacts = text;
+    else
+        throw InputError(fmt::format(
+            "--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}')", safe_text(text)));
+}
+
+}  // namespace
+
+CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
+    SimulateCommand& c = line.simulate;
+    CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
+    add_scene(*command, c.scene);
+    command
+        ->add_option("--trajectory", c.trajectory,
+                     "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
+                     "is standard output")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("T.csv");
+    command
+        ->add_option("--energy", c.energy,
+                     "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("E.csv");
+    CLI::Option* step = command
+                            ->add_option("--step", c.overrides.step,
+                                         "The fixed step in s, in place of the scene's; it must divide 1/fps")
+                            ->type_name("H");
+    command->add_option("--steps-per-frame", c.overrides.steps_per_frame, "The same as a number of steps per frame")
+        ->excludes(step)
+        ->type_name("N");
+    command
+        ->add_option("--integrator", c.overrides.integrator,
+                     "symplectic-euler, explicit-euler, splitting, rk4 or exact")
+        ->type_name("NAME");
+    command
+        ->add_option_function<std::string>(
+            "--impacts", [&c](const std::string& text) { read_impacts(text, c); },
+            "stepped: resolved at the step; exact: each at its own time. Or a table: a row for each\nimpulse, as CSV "
+            "or "
+            ".npz; - is standard output. Give it twice for both")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->type_name("MODE|I.csv");
+    command
+        ->add_option("--contacts", c.contacts,
+                     "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("C.csv");
+    command
+        ->add_option("--impact-law", c.overrides.impact_law,
+                     "propagating or simultaneous: the rule for several contacts at once")
+        ->type_name("NAME");
+    add_frames_of_time(*command, c.overrides);
+    c.threads = machine_threads();
+    add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
+    command->footer(
+        "Examples:\n"
+        "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
+        "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row");
+    return command;
+}
+
+CLI::App* add_plot(CLI::App& app, CommandLine& line) {
+    PlotCommand& c = line.plot;
+    CLI::App* command = app.add_subcommand("plot", "Simulate, and plot quantities over time");
+    command->add_option("scenes", c.scenes, "Scene files (TOML); several are drawn into one plot")
+        ->required()
+        ->check(some_name())
+        ->type_name("SCENE");
+    command->add_option("--of", c.quantities, "Quantities, separated by commas, as in energy,body.ball.y")
+        ->required()
+        ->check(some_name())
+        ->type_name("LIST");
+    command->add_option("-o,--output", c.output, "The plot to write: .svg .png or .pdf")
+        ->required()
+        ->check(some_name())
+        ->type_name("FILE");
+    command
+        ->add_option(
+            "--vary", c.vary,
+            "A run for each value of a key, as in\nsimulation.integrator=explicit-euler,symplectic-euler; may be "
+            "repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUES");
+    command->add_flag("--difference", c.difference, "Plot the difference of each run to the first one");
+    command->add_flag("--log", c.log, "Logarithmic vertical axes; of differences the absolute value");
+    command->add_option("--title", c.title, "Title, in place of the first scene's")->type_name("TEXT");
+    add_size(*command, c.width, c.height, "Size in pixels (points of a PDF)")->option_text("WxH [900x540]");
+    add_frames_of_time(*command, c.overrides);
+    add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
+    command->footer(
+        quantity_help() +
+        "\nExamples:\n"
+        "  tumble plot scene.toml --of energy,contacts -o energy.svg\n"
+        "  tumble plot scene.toml --of body.ball.y --vary simulation.integrator=explicit-euler,exact -o y.png");
+    return command;
+}
+
+}  // namespace tumble
