@@ -4,6 +4,7 @@
 #include "scene/keys/bodies.h"
 #include "scene/keys/forces_and_cords.h"
 #include "scene/keys/materials.h"
+#include "scene/keys/overlay.h"
 #include "scene/keys/settings.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"
@@ -56,8 +57,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys(
-        {"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body", "force", "cord"});
+    root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body",
+                      "force", "cord", "overlay", "caption"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -76,6 +77,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_forces(root, scene);
     read_cords(root, scene);
     scene.camera = read_camera(root, scene);
+    scene.overlay = read_overlay(root, scene.bodies, overrides);
     return scene;
 }
 

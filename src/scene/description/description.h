@@ -6,6 +6,7 @@
 #include "core/color.h"
 #include "core/triangle_mesh.h"
 #include "core/vector.h"
+#include "scene/description/overlay.h"
 
 #include <cstdint>
 #include <memory>
@@ -206,6 +207,7 @@ struct SceneDescription {
     std::vector<ForceDescription> forces;
     std::vector<BodyDescription> bodies;  // with grids and scatters expanded
     std::vector<CordDescription> cords;
+    OverlayDescription overlay;
 
     FrameTiming timing() const { return {output.fps, simulation.steps_per_frame}; }
     double step() const { return timing().step(); }  // s

@@ -64,6 +64,10 @@ inline constexpr Range restitution{0.0, 1.0, ""};
 inline constexpr Range friction{0.0, 1e6, ""};  // a coefficient of 1e6 never slips
 inline constexpr Range fraction{0.0, 1.0, ""};  // roughness, metallic
 
+// -- Overlays
+inline constexpr Range arrow_scale{0.0, 1e15, "m per SI unit",
+                                   true};  // an arrow of 1 m for the weakest force of interest
+
 // -- Angles and directions
 inline constexpr Range angle{-1e6, 1e6, "degrees"};    // the reduction of sincos keeps all its digits far beyond
 inline constexpr Range orbit{-1e6, 1e6, "degrees/s"};  // three thousand turns per second: more is a mistake

@@ -1,0 +1,143 @@
+#include "scene/keys/overlay.h"
+
+#include "scene/keys/body_index.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+constexpr Choice<PlotPlace> plot_places[] = {
+    {"inset", PlotPlace::inset},
+    {"beside", PlotPlace::beside},
+    {"below", PlotPlace::below},
+};
+constexpr Choice<ArrowQuantity> arrow_quantities[] = {
+    {"force", ArrowQuantity::force},       {"impulse", ArrowQuantity::impulse},
+    {"velocity", ArrowQuantity::velocity}, {"omega", ArrowQuantity::omega},
+    {"momentum", ArrowQuantity::momentum}, {"angular-momentum", ArrowQuantity::angular_momentum},
+};
+
+void add_overlay(std::string_view name, const SourcePosition& origin, OverlaySet& set) {
+    const auto known = std::find_if(overlay_names.begin(), overlay_names.end(),
+                                    [&](const OverlayName& overlay) { return overlay.name == name; });
+    if (known != overlay_names.end()) return set.add(known->overlay);
+    std::vector<std::string_view> names;
+    for (const OverlayName& overlay : overlay_names) names.push_back(overlay.name);
+    std::string hint = suggestion(name, names);
+    if (hint.empty()) hint = fmt::format(" (known: {})", quoted_list(names));
+    origin.fail(fmt::format("\"{}\" is not the name of an overlay{}", safe_text(name), hint));
+}
+
+/// Of the command line: names separated by commas, or "none".
+OverlaySet read_list(std::string_view list) {
+    OverlaySet set;
+    if (list == "none") return set;
+    for (std::size_t first = 0; first <= list.size();) {
+        const std::size_t end = std::min(list.find(',', first), list.size());
+        add_overlay(list.substr(first, end - first), {"--overlay", {}}, set);
+        first = end + 1;
+    }
+    return set;
+}
+
+/// A body, or all copies of a grid or scatter.
+void add_bodies(const TomlValue& value, const std::vector<BodyDescription>& bodies, const BodyIndex& index,
+                std::vector<std::size_t>& shown) {
+    const std::string copies = fmt::format("{}.", value.text());
+    const std::size_t before = shown.size();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].name.starts_with(copies)) shown.push_back(i);
+    if (shown.size() == before) shown.push_back(index.find(value));
+}
+
+void read_trail_points(const TomlTable& table, const BodyIndex& index, std::vector<TrailPoint>& points) {
+    const auto list = table.find("trail_points");
+    if (!list) return;
+    for (const TomlTable& one : list->tables("; write trail_points = [{ body = \"ball\", point = [0, 0, 0] }]")) {
+        one.expect_keys({"body", "point"});
+        TrailPoint point;
+        point.body = index.find(one.require("body"));
+        one.read("point", point.point, limits::coordinate);
+        points.push_back(point);
+    }
+}
+
+/// A table with a value for each quantity.
+template <class Value, class Read>
+void read_by_quantity(const TomlTable& table, std::string_view key,
+                      std::array<std::optional<Value>, arrow_quantity_count>& values, const Read& read) {
+    const auto by_quantity = table.find_table(key);
+    if (!by_quantity) return;
+    by_quantity->expect_keys({"force", "impulse", "velocity", "omega", "momentum", "angular-momentum"});
+    for (const auto& quantity : arrow_quantities)
+        if (const auto value = by_quantity->find(quantity.name)) values[std::size_t(quantity.value)] = read(*value);
+}
+
+void read_span(const TomlTable& table, double& start, double& end) {
+    table.read("start", start, limits::time);
+    table.read("end", end, limits::time);
+    if (end <= start)
+        table.find(table.has("end") ? "end" : "start")
+            ->fail(fmt::format("makes the time span end before it starts, at {} s", number_text(start)));
+}
+
+void read_table(const TomlTable& table, const std::vector<BodyDescription>& bodies, OverlayDescription& overlay) {
+    table.expect_keys({"show", "bodies", "start", "end", "impulse_time", "trail_time", "trail_points", "ghost_every",
+                       "legend", "scale", "color", "plot", "plot_place"});
+    if (const auto show = table.find("show"))
+        for (const TomlValue& name : show->items()) add_overlay(name.text(), name.origin(), overlay.show);
+    const BodyIndex index(bodies);
+    if (const auto list = table.find("bodies"))
+        for (const TomlValue& name : list->items()) add_bodies(name, bodies, index, overlay.bodies);
+    read_span(table, overlay.start, overlay.end);
+    table.read("impulse_time", overlay.impulse_time, limits::time);
+    table.read("trail_time", overlay.trail_time, limits::time);
+    read_trail_points(table, index, overlay.trail_points);
+    if (const auto every = table.find("ghost_every")) overlay.ghost_every = int(every->integer(1, limits::frames));
+    table.read("legend", overlay.legend);
+    read_by_quantity(table, "scale", overlay.scale,
+                     [](const TomlValue& value) { return value.number(limits::arrow_scale); });
+    read_by_quantity(table, "color", overlay.color, [](const TomlValue& value) { return value.color(); });
+    if (const auto plot = table.find("plot"))
+        for (const TomlValue& quantity : plot->items()) {
+            if (!overlay.plot.empty()) overlay.plot += ',';
+            overlay.plot += quantity.text();
+        }
+    table.read<PlotPlace>("plot_place", overlay.plot_place, plot_places);
+}
+
+void read_captions(const TomlTable& root, std::vector<Caption>& captions) {
+    const auto list = root.find("caption");
+    if (!list) return;
+    for (TomlTable& table : list->tables("; write [[caption]] for each")) {
+        table.set_title("[[caption]]");
+        table.expect_keys({"text", "start", "end"});
+        Caption caption;
+        caption.text = table.require("text").text();
+        read_span(table, caption.start, caption.end);
+        captions.push_back(std::move(caption));
+    }
+}
+
+}  // namespace
+
+OverlayDescription read_overlay(const TomlTable& root, const std::vector<BodyDescription>& bodies,
+                                const SceneOverrides& overrides) {
+    OverlayDescription overlay;
+    if (const auto table = root.find_table("overlay")) read_table(*table, bodies, overlay);
+    read_captions(root, overlay.captions);
+    if (overrides.overlay) {
+        overlay.show = read_list(*overrides.overlay);
+        if (*overrides.overlay == "none") overlay.captions.clear(), overlay.plot.clear();
+    }
+    if (overrides.plot) overlay.plot = *overrides.plot;
+    if (overrides.plot_place)
+        overlay.plot_place = chosen<PlotPlace>(*overrides.plot_place, plot_places, {"--plot-place", {}});
+    return overlay;
+}
+
+}  // namespace tumble
