@@ -11,6 +11,7 @@ struct PassTimes;
 struct RenderSwitches : RenderOptions {
     bool full_redraw = false;             // redraw every frame completely, with the same bytes
     bool draw_hidden = false;             // draw bodies behind boxes as well, with the same bytes
+    bool keep_depths = false;             // Renderer::depths()
     bool multisample = false;             // several samples per pixel, as in scenes with cords
     double shift_x = 0.0, shift_y = 0.0;  // displacement of the frame, below 1 pixel: for averages of many frames
     PassTimes* times = nullptr;           // sums of the costs of passes; must outlive the renderer

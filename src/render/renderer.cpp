@@ -69,7 +69,9 @@ struct Renderer::State {
           gpu(options.backend),
           passes(gpu.gl, scene, setup.shadow_filter(), pass_options(description, options)),
           antialiasing(lods, description.output.width, description.output.height, is_analytic(description, options)),
-          image(description.output.width, description.output.height) {}
+          image(description.output.width, description.output.height) {
+        if (options.keep_depths) depths = DepthImage(description.output.width, description.output.height);
+    }
 
     // The context of another renderer may be current; objects must be deleted in this one.
     ~State() {
@@ -89,6 +91,7 @@ struct Renderer::State {
     FramePasses passes;
     Antialiasing antialiasing;
     Image image;
+    DepthImage depths;  // of the switch keep_depths
     std::vector<Rectangle> changed;
 };
 
@@ -125,6 +128,7 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     timer.ends(Pass::upload);
     s.passes.draw(frame, damage, list, atlas, timer);
     s.passes.read(damage.changed, s.antialiasing.drawn());
+    if (s.switches.keep_depths) s.passes.read_depths(damage.changed, frame.near_distance, s.depths);
     timer.ends(Pass::read);
     s.antialiasing.apply(frame, damage, visible, s.image);
     timer.ends(Pass::edges);
@@ -136,6 +140,13 @@ const Image& Renderer::render(const Snapshot& snapshot) {
 }
 
 const std::vector<Rectangle>& Renderer::changed() const { return state_->changed; }
+
+const DepthImage& Renderer::depths() const {
+    TUMBLE_CHECK_EQ(state_->switches.keep_depths, true);
+    return state_->depths;
+}
+
+const Camera& Renderer::camera() const { return state_->setup.camera(); }
 
 std::string Renderer::driver() const {
     const GlFunctions& gl = state_->gpu.gl;

@@ -3,6 +3,8 @@
 
 #include "core/image.h"
 #include "core/rectangle.h"
+#include "render/camera/camera.h"
+#include "render/frame/depth_image.h"
 #include "render/gl/gl_backend.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
@@ -38,6 +40,10 @@ public:
     /// Regions in which the current image may differ from the previous one: rectangles that do not overlap. The whole
     /// image after the first render() and with full_redraw; empty if nothing moved.
     const std::vector<Rectangle>& changed() const;
+
+    /// Depths of the current image, and its camera. Precondition of depths(): the switch keep_depths.
+    const DepthImage& depths() const;
+    const Camera& camera() const;
 
     /// The OpenGL renderer and version, as the driver names itself.
     std::string driver() const;

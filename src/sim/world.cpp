@@ -209,8 +209,18 @@ Snapshot World::snapshot() const {
     snapshot.bodies.resize(set.bodies.size());
     for (std::size_t i = 0; i < set.bodies.size(); ++i) {
         const Body& body = set.bodies[i];
-        BodyState state{set.origin + body.origin(), set.origin + body.position, body.orientation, body.velocity,
-                        body.angular_velocity};
+        BodyState state{set.origin + body.origin(),
+                        set.origin + body.position,
+                        body.orientation,
+                        body.velocity,
+                        body.angular_velocity,
+                        Vec3::Zero(),
+                        Vec3::Zero(),
+                        body.asleep};
+        if (body.dynamic()) {
+            state.momentum = body.momentum;
+            state.angular_momentum = body.angular_momentum;
+        }
         if (body.track) {  // the path's own velocity at this time, not the mean over the coming step
             const BodyVelocity now = velocity_on_track(body, snapshot.time);
             state.velocity = now.velocity;

@@ -34,10 +34,13 @@ const std::map<std::string, Layer> layers = {
       {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"output", {{"core/", "output/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
     {"plot", {{"core/", "plot/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"overlay",
+     {{"core/", "scene/description/", "sim/snapshot/", "render/", "plot/", "overlay/"},
+      {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"api",
      {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
-    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "api/", "tumble/", "app/"}, {}}},
+    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "api/", "tumble/", "app/"}, {}}},
 };
 
 /// The included folders of each folder below src/.

@@ -125,4 +125,18 @@ void Framebuffer::read(const std::vector<Rectangle>& rectangles, Image& image) c
         gl_->ReadPixels(r.x, r.y, r.width, r.height, GL_RGBA, GL_UNSIGNED_BYTE, image.at(r.x, r.y));
 }
 
+void Framebuffer::read_depths(const std::vector<Rectangle>& rectangles, DepthImage& depths) {
+    const Target* source = &drawn_;
+    if (samples_ > 1) {
+        if (!resolved_depth_) resolved_depth_.emplace(make_target(height_, 1, false, true));
+        copy(drawn_, *resolved_depth_, rectangles, GL_DEPTH_BUFFER_BIT);
+        source = &*resolved_depth_;
+    }
+    gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, source->framebuffer.name());
+    gl_->PixelStorei(GL_PACK_ALIGNMENT, 4);
+    gl_->PixelStorei(GL_PACK_ROW_LENGTH, width_);
+    for (const Rectangle& r : rectangles)
+        gl_->ReadPixels(r.x, r.y, r.width, r.height, GL_DEPTH_COMPONENT, GL_FLOAT, depths.at(r.x, r.y));
+}
+
 }  // namespace tumble

@@ -6,6 +6,7 @@
 
 #include "core/image.h"
 #include "core/rectangle.h"
+#include "render/frame/depth_image.h"
 #include "render/gl/gl_object.h"
 
 #include <optional>
@@ -40,6 +41,9 @@ public:
     /// order of the image.
     void read(const std::vector<Rectangle>& rectangles, Image& image) const;
 
+    /// Copies the depths of the buffer, 0 to 1; of several samples, one of them.
+    void read_depths(const std::vector<Rectangle>& rectangles, DepthImage& depths);
+
 private:
     struct Target {
         GlObject framebuffer, color, depth;
@@ -54,8 +58,9 @@ private:
     int width_, height_, samples_;
     Target background_, drawn_;
     Target closed_;  // a strip of nearest depths, copied over pixels that are closed: a third of the cost of clearing
-    bool whole_open_ = false;         // true if the whole frame can be drawn to
-    std::optional<Target> resolved_;  // only with several samples
+    bool whole_open_ = false;               // true if the whole frame can be drawn to
+    std::optional<Target> resolved_;        // only with several samples
+    std::optional<Target> resolved_depth_;  // the same; made on first use
 };
 
 }  // namespace tumble

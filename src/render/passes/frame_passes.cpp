@@ -4,6 +4,7 @@
 #include "render/passes/frame_uniforms.h"
 
 #include <functional>
+#include <limits>
 #include <utility>
 
 namespace tumble {
@@ -95,6 +96,15 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
     if (frame.camera_moved)
         planes_.draw_background(frame);  // last, so that pixels of bodies and their shadows are skipped
     timer.ends(Pass::background);
+}
+
+// Camera::clip_from_relative(): the depth in the buffer is 1 - near / distance.
+void FramePasses::read_depths(const std::vector<Rectangle>& rectangles, double near_distance, DepthImage& depths) {
+    framebuffer_.read_depths(rectangles, depths);
+    for (const Rectangle& r : rectangles)
+        for (int y = r.y; y < r.y + r.height; ++y)
+            for (float* d = depths.at(r.x, y); d != depths.at(r.x, y) + r.width; ++d)
+                *d = *d < 1.0f ? float(near_distance) / (1.0f - *d) : std::numeric_limits<float>::infinity();
 }
 
 void FramePasses::read(const std::vector<Rectangle>& rectangles, Image& image) const {

@@ -4,6 +4,7 @@
 #include "core/image.h"
 #include "render/ambient_occlusion/occlusion_texture.h"
 #include "render/damage/damage_tracker.h"
+#include "render/frame/depth_image.h"
 #include "render/gl/framebuffer.h"
 #include "render/mesh/gpu_mesh_cache.h"
 #include "render/passes/body_pass.h"
@@ -42,6 +43,9 @@ public:
 
     /// Reads the rectangles as drawn: with surface ids in alpha.
     void read(const std::vector<Rectangle>& rectangles, Image& image) const;
+
+    /// Reads the depths of the rectangles, which were drawn with this near distance (m).
+    void read_depths(const std::vector<Rectangle>& rectangles, double near_distance, DepthImage& depths);
 
 private:
     void compile_shaders(const DrawList& list);

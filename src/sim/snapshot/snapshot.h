@@ -10,11 +10,14 @@ namespace tumble {
 
 /// One body at the snapshot's time; world frame.
 struct BodyState {
-    Vec3 origin;            // m, of the body's own origin: where its shape is drawn
-    Vec3 center_of_mass;    // m
-    Quat orientation;       // unit
-    Vec3 velocity;          // m/s, of the center of mass
-    Vec3 angular_velocity;  // rad/s
+    Vec3 origin;                           // m, of the body's own origin: where its shape is drawn
+    Vec3 center_of_mass;                   // m
+    Quat orientation;                      // unit
+    Vec3 velocity;                         // m/s, of the center of mass
+    Vec3 angular_velocity;                 // rad/s
+    Vec3 momentum = Vec3::Zero();          // kg m/s; zero of bodies that are not dynamic, as the next
+    Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s, about the center of mass
+    bool asleep = false;
 };
 
 struct Snapshot {

@@ -1,0 +1,172 @@
+#include "overlay/legend.h"
+
+#include "overlay/overlay_builder.h"
+#include "overlay/shape_raster.h"
+#include "plot/canvas.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+/// A symbol and its meaning.
+struct Entry {
+    enum class Symbol { arrow, double_arrow, marker, patch } symbol;
+    Color color;
+    std::string text;
+    MarkerShape shape = MarkerShape::disc;
+};
+
+constexpr std::array<std::string_view, arrow_quantity_count> quantity_names{
+    "contact force", "impulse", "velocity", "angular velocity", "momentum", "angular momentum"};
+constexpr std::array<std::string_view, arrow_quantity_count> quantity_units{"N",     "N s",    "m/s",
+                                                                            "rad/s", "kg m/s", "kg m²/s"};
+
+std::string scale_text(double scale, std::string_view unit) {
+    if (scale <= 0.0) return "none in this clip";
+    return fmt::format("1 m = {:g} {}", 1.0 / scale, unit);
+}
+
+using Row = std::vector<Entry>;
+
+void add_arrows(const SceneDescription& scene, const OverlayScales& scales, std::vector<Row>& rows) {
+    const OverlayDescription& overlay = scene.overlay;
+    for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
+        const auto quantity = ArrowQuantity(q);
+        if (!shows(overlay, quantity)) continue;
+        const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum;
+        rows.push_back({{axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
+                         fmt::format("{}, {}", quantity_names[q], scale_text(scales[q], quantity_units[q]))}});
+        const bool friction =
+            std::ranges::any_of(scene.bodies, [](const BodyDescription& body) { return body.friction > 0.0; });
+        if (quantity == ArrowQuantity::force && friction)
+            rows.push_back({{Entry::Symbol::arrow, friction_color, "its friction part"}});
+    }
+    if (overlay.show.has(Overlay::normals))
+        rows.push_back({{Entry::Symbol::arrow, normal_color, "contact normal, from A to B"}});
+    if (overlay.show.has(Overlay::axes))
+        rows.push_back({{Entry::Symbol::arrow, axis_colors[0], "x"},
+                        {Entry::Symbol::arrow, axis_colors[1], "y"},
+                        {Entry::Symbol::arrow, axis_colors[2], "z, axes of the body"}});
+}
+
+void add_contacts(std::vector<Row>& rows) {
+    using State = ContactRecord::State;
+    const auto of_state = [](State state, const char* text) {
+        return Entry{Entry::Symbol::marker, contact_color(state), text};
+    };
+    const auto of_features = [](ContactFeatures features, const char* text) {
+        return Entry{Entry::Symbol::marker, normal_color, text, contact_shape(features)};
+    };
+    rows.push_back({of_state(State::stick, "sticks"), of_state(State::slip, "slips")});
+    rows.push_back({of_state(State::asleep, "asleep"), of_state(State::open, "no load")});
+    rows.push_back({of_features(ContactFeatures::vertex_face, "vertex on face"),
+                    of_features(ContactFeatures::face_face, "face on face")});
+    rows.push_back(
+        {of_features(ContactFeatures::edge_edge, "edge on edge"), of_features(ContactFeatures::sphere, "sphere")});
+    rows.push_back({of_features(ContactFeatures::mesh, "triangle mesh")});
+}
+
+std::vector<Row> make_rows(const SceneDescription& scene, const OverlayScales& scales) {
+    const OverlayDescription& overlay = scene.overlay;
+    std::vector<Row> rows;
+    add_arrows(scene, scales, rows);
+    if (overlay.show.has(Overlay::contacts)) add_contacts(rows);
+    if (overlay.show.has(Overlay::com))
+        rows.push_back({{Entry::Symbol::marker, {250, 250, 250}, "center of mass", MarkerShape::center_of_mass}});
+    if (overlay.show.has(Overlay::ghosts))
+        rows.push_back({{Entry::Symbol::patch,
+                         {200, 206, 216},
+                         fmt::format("pose every {:.3g} s", overlay.ghost_every / scene.output.fps)}});
+    if (overlay.show.has(Overlay::sleep)) rows.push_back({{Entry::Symbol::patch, asleep_color, "asleep"}});
+    if (overlay.show.has(Overlay::islands))
+        rows.push_back({{Entry::Symbol::patch, {0, 158, 255}, "one color for each island of bodies in contact"}});
+    return rows;
+}
+
+// In units of the shapes' sizes.
+constexpr double row_height = 23.0, legend_margin = 11.0, column_gap = 16.0;
+constexpr double arrow_width = 30.0, marker_width = 14.0, symbol_gap = 9.0;
+
+double symbol_width(const Entry& entry) {
+    return entry.symbol == Entry::Symbol::marker || entry.symbol == Entry::Symbol::patch ? marker_width : arrow_width;
+}
+
+void draw_symbol(const Entry& entry, double left, double y, double unit, ShapeRaster& raster) {
+    const ScreenPaint paint{entry.color, 1.0, false};
+    const auto at = [&](double x) { return ScreenPoint{{(left + x) * unit, y * unit}, 1.0}; };
+    switch (entry.symbol) {
+        case Entry::Symbol::marker:
+            raster.marker(at(0.5 * marker_width), 5.5 * unit, ScreenMarker(entry.shape), paint);
+            break;
+        case Entry::Symbol::patch:
+            raster.line(std::array{at(4.0), at(marker_width - 4.0)}, 12.0 * unit, paint);
+            break;
+        default:
+            raster.arrow({at(0.0), at(arrow_width), 3.2 * unit, entry.symbol == Entry::Symbol::double_arrow ? 2 : 1},
+                         paint);
+    }
+}
+
+/// The left edge of each entry of each row, and the right edge of the last.
+std::vector<std::vector<double>> place_entries(const std::vector<Row>& rows, const TextStyle& style) {
+    const Canvas measure(1, 1, 1.0);
+    std::vector<std::vector<double>> lefts;
+    std::size_t columns = 0;
+    for (const Row& row : rows) columns = std::max(columns, row.size());
+    // Columns of markers are aligned.
+    std::vector<double> widths(columns, 0.0);
+    for (const Row& row : rows)
+        for (std::size_t k = 0; k < row.size(); ++k)
+            if (row.size() == 2)
+                widths[k] =
+                    std::max(widths[k], symbol_width(row[k]) + symbol_gap + measure.text_width(row[k].text, style));
+    for (const Row& row : rows) {
+        std::vector<double> places{legend_margin};
+        for (std::size_t k = 0; k < row.size(); ++k) {
+            const double own = symbol_width(row[k]) + symbol_gap + measure.text_width(row[k].text, style);
+            const bool last = k + 1 == row.size();
+            places.push_back(places.back() + (row.size() == 2 && !last ? widths[k] : own) + (last ? 0.0 : column_gap));
+        }
+        lefts.push_back(std::move(places));
+    }
+    return lefts;
+}
+
+}  // namespace
+
+std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, int height) {
+    const std::vector<Row> rows = make_rows(scene, scales);
+    if (rows.empty()) return std::nullopt;
+    const double unit = height / 720.0;  // pixels
+    TextStyle style;
+    style.size = 15.0;
+    style.paint = {{236, 240, 246}, 1.0};
+    const auto lefts = place_entries(rows, style);
+    double width = 0.0;
+    for (const auto& places : lefts) width = std::max(width, places.back() + legend_margin);
+    const double tall = 2.0 * legend_margin + row_height * double(rows.size()) - 4.0;
+    Canvas canvas(int(std::ceil(width * unit)), int(std::ceil(tall * unit)), unit);
+    canvas.fill({0.0, 0.0, width, tall}, {{18, 22, 30}, 0.66}, 8.0);
+    const auto for_each = [&](const auto& use) {
+        for (std::size_t r = 0; r < rows.size(); ++r)
+            for (std::size_t k = 0; k < rows[r].size(); ++k)
+                use(rows[r][k], lefts[r][k], legend_margin + row_height * double(r));
+    };
+    for_each([&](const Entry& entry, double left, double top) {
+        canvas.text({left + symbol_width(entry) + symbol_gap, top + 14.0}, entry.text, style);
+    });
+    Image image = canvas.image();
+    // The symbols are drawn like the marks themselves.
+    ShapeRaster raster(image.width, image.height, 0.0);
+    raster.begin(image, nullptr);
+    for_each([&](const Entry& entry, double left, double top) { draw_symbol(entry, left, top + 9.0, unit, raster); });
+    return image;
+}
+
+}  // namespace tumble

@@ -1,0 +1,15 @@
+// The legend of the overlays: what each mark means, and the scale of each arrow.
+#pragma once
+
+#include "core/image.h"
+#include "overlay/overlay_scales.h"
+#include "scene/description/description.h"
+
+#include <optional>
+
+namespace tumble {
+
+/// A picture with straight alpha; empty if no overlay needs an explanation. `height`: of the frame, pixels.
+std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, int height);
+
+}  // namespace tumble

@@ -1,0 +1,296 @@
+#include "overlay/overlay_builder.h"
+
+#include "scene/description/shape_bounds.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+namespace tumble {
+namespace {
+
+constexpr float ghost_opacity = 0.34f, tint_opacity = 0.5f, sleep_opacity = 0.45f;
+constexpr double rested = 0.02;           // radii of the body: a ghost that is nearer to the one before adds nothing
+constexpr double shortest_way = 2e-3;     // radii: a trail gets a point when the body has moved that far
+constexpr std::size_t most_ghosts = 400;  // of all bodies: more hide the picture, and each costs a drawing
+constexpr double normal_length = 0.35, axis_length = 1.2;  // radii of the body
+constexpr std::array<Color, arrow_quantity_count> colors{Color{255, 190, 30}, Color{255, 64, 112},
+                                                         Color{60, 196, 255}, Color{186, 140, 255},
+                                                         Color{60, 214, 130}, Color{255, 140, 212}};
+/// Neighbors in this order differ for people with color blindness as well.
+constexpr std::array<Color, 8> island_colors{Color{0, 158, 255},   Color{255, 150, 0},   Color{0, 190, 120},
+                                             Color{240, 110, 190}, Color{120, 220, 255}, Color{250, 220, 70},
+                                             Color{235, 80, 60},   Color{160, 130, 255}};
+
+Color mixed(Color a, Color b, double share) {
+    const auto channel = [&](std::uint8_t x, std::uint8_t y) {
+        return std::uint8_t(x + share * (double(y) - x) + 0.5);
+    };
+    return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
+
+double radius_about_origin(const Shape& shape) {
+    if (std::holds_alternative<PlaneShape>(shape)) return 0.0;
+    const BoundingSphere sphere = bounding_sphere(shape);
+    return sphere.center.norm() + sphere.radius;
+}
+
+/// The tight axis-aligned bounding box in the world.
+void add_bounds(const Shape& shape, const Vec3& origin, const Quat& orientation, Bounds& bounds) {
+    if (const auto* ball = std::get_if<SphereShape>(&shape)) {
+        bounds.add(Vec3(origin.array() - ball->radius));
+        bounds.add(Vec3(origin.array() + ball->radius));
+    } else if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        const Vec3 half = orientation.toRotationMatrix().cwiseAbs() * (0.5 * box->size);
+        bounds.add(Vec3(origin - half));
+        bounds.add(Vec3(origin + half));
+    } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+        const Mat3 rotation = orientation.toRotationMatrix();
+        for (const Vec3& vertex : mesh->asset->mesh.vertices) bounds.add(Vec3(origin + rotation * vertex));
+    } else if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
+        for (const CompoundPart& part : *compound->parts)
+            add_bounds(part.shape, origin + orientation * part.position, orientation * part.rotation, bounds);
+    }
+}
+
+/// Sets that are joined by their members (union-find): the islands of bodies in contact.
+class Islands {
+public:
+    explicit Islands(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
+    std::size_t root(std::size_t i) {
+        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+        return i;
+    }
+    /// The lower index stays the root: the color of an island depends on its first body alone.
+    void join(std::size_t a, std::size_t b) {
+        a = root(a), b = root(b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
+
+private:
+    std::vector<std::size_t> parent_;
+};
+
+}  // namespace
+
+Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity) {
+    return overlay.color[std::size_t(quantity)].value_or(colors[std::size_t(quantity)]);
+}
+
+Color contact_color(ContactRecord::State state) {
+    switch (state) {
+        case ContactRecord::State::stick:
+            return {72, 214, 96};
+        case ContactRecord::State::slip:
+            return {255, 122, 60};
+        case ContactRecord::State::asleep:
+            return asleep_color;
+        case ContactRecord::State::open:
+            break;
+    }
+    return {236, 240, 246};
+}
+
+MarkerShape contact_shape(ContactFeatures features) {
+    switch (features) {
+        case ContactFeatures::vertex_face:
+        case ContactFeatures::face_vertex:
+            return MarkerShape::disc;
+        case ContactFeatures::edge_edge:
+            return MarkerShape::diamond;
+        case ContactFeatures::face_face:
+            return MarkerShape::square;
+        case ContactFeatures::sphere:
+            return MarkerShape::ring;
+        case ContactFeatures::mesh:
+            break;
+    }
+    return MarkerShape::cross;
+}
+
+OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScales& scales)
+    : scene_(&scene), scales_(scales) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        radii_.push_back(radius_about_origin(scene.bodies[i].shape));
+        shown_.push_back(shows_body(scene, i) ? 1 : 0);
+    }
+    if (!shows(Overlay::trails)) return;
+    for (const TrailPoint& point : scene.overlay.trail_points) trails_.push_back({point.body, point.point, false, {}});
+    if (trails_.empty())
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+            if (shown_[i] != 0) trails_.push_back({i, Vec3::Zero(), true, {}});
+}
+
+const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const ContactRecords* records) {
+    const OverlayDescription& overlay = scene_->overlay;
+    frame_.clear();
+    if (snapshot.time < overlay.start || snapshot.time >= overlay.end) return frame_;
+    remember(snapshot, records);
+    if (shows(Overlay::ghosts)) add_ghosts(snapshot);
+    if (shows(Overlay::islands) && records != nullptr) add_islands(snapshot, *records);
+    add_trails();
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+        if (shown_[i] != 0) add_body(i, snapshot.bodies[i]);
+    if (records != nullptr) add_contacts(*records);
+    if (shows(Overlay::impulses)) add_impulses(snapshot.time);
+    frame_.damage = shows(Overlay::damage);
+    frame_.legend = overlay.legend;
+    return frame_;
+}
+
+void OverlayBuilder::remember(const Snapshot& snapshot, const ContactRecords* records) {
+    const OverlayDescription& overlay = scene_->overlay;
+    for (Trail& trail : trails_) {
+        const BodyState& body = snapshot.bodies[trail.body];
+        const Vec3 place = trail.center ? body.center_of_mass : Vec3(body.origin + body.orientation * trail.point);
+        while (!trail.places.empty() && trail.places.front().first < snapshot.time - overlay.trail_time)
+            trail.places.pop_front();
+        const double step = shortest_way * radii_[trail.body];
+        if (trail.places.empty() || (place - trail.places.back().second).norm() > step)
+            trail.places.emplace_back(snapshot.time, place);
+    }
+    if (records == nullptr || !shows(Overlay::impulses)) return;
+    while (!impacts_.empty() && impacts_.front().when.time < snapshot.time - overlay.impulse_time) impacts_.pop_front();
+    for (const ImpactRecord& impact : records->impacts)
+        if (const RecordVector v = vector_of(impact, *scene_); shown_[v.body] != 0 && v.total() != Vec3::Zero())
+            impacts_.push_back(impact);
+}
+
+void OverlayBuilder::add_ghosts(const Snapshot& snapshot) {
+    if (snapshot.frame % scene_->overlay.ghost_every == 0 && ghosts_.size() < most_ghosts)
+        for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+            if (shown_[i] == 0 || radii_[i] == 0.0) continue;
+            const BodyState& now = snapshot.bodies[i];
+            const auto last =
+                std::find_if(ghosts_.rbegin(), ghosts_.rend(), [&](const Ghost& g) { return g.body == i; });
+            const bool same = last != ghosts_.rend() && (last->state.origin - now.origin).norm() < rested * radii_[i] &&
+                              last->state.orientation.angularDistance(now.orientation) < rested;
+            if (!same) ghosts_.push_back({i, now});
+        }
+    for (const Ghost& ghost : ghosts_) {
+        const BodyState& now = snapshot.bodies[ghost.body];
+        if (ghost.state.origin == now.origin) continue;  // the body itself stands there
+        frame_.surfaces.push_back({ghost.body,
+                                   ghost.state.origin,
+                                   ghost.state.orientation,
+                                   {scene_->bodies[ghost.body].appearance.color, ghost_opacity, true},
+                                   true});
+    }
+}
+
+void OverlayBuilder::add_islands(const Snapshot& snapshot, const ContactRecords& records) {
+    Islands islands(snapshot.bodies.size());
+    const auto dynamic = [&](std::size_t i) { return scene_->bodies[i].type == BodyType::dynamic; };
+    for (const ContactRecord& r : records.contacts)
+        if (r.a != ContactRecord::nobody && dynamic(r.a) && dynamic(r.b)) islands.join(r.a, r.b);
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+        if (shown_[i] != 0 && dynamic(i))
+            frame_.surfaces.push_back({i,
+                                       snapshot.bodies[i].origin,
+                                       snapshot.bodies[i].orientation,
+                                       {island_colors[islands.root(i) % island_colors.size()], tint_opacity, true},
+                                       false});
+}
+
+void OverlayBuilder::add_trails() {
+    for (const Trail& trail : trails_) {
+        if (trail.places.size() < 2) continue;
+        OverlayLine line;
+        for (const auto& [when, place] : trail.places) line.points.push_back(place);
+        line.paint = {mixed(scene_->bodies[trail.body].appearance.color, {255, 255, 255}, 0.45), 0.95f, true};
+        line.width = 2.2f;
+        frame_.lines.push_back(std::move(line));
+    }
+}
+
+void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
+    if (shows(Overlay::sleep) && state.asleep)
+        frame_.surfaces.push_back({i, state.origin, state.orientation, {asleep_color, sleep_opacity, true}, false});
+    if (shows(Overlay::aabb)) add_box(i, state);
+    if (shows(Overlay::axes)) add_axes(i, state);
+    const Vec3& center = state.center_of_mass;
+    if (shows(Overlay::velocity)) arrow(ArrowQuantity::velocity, center, state.velocity);
+    if (shows(Overlay::omega)) arrow(ArrowQuantity::omega, center, state.angular_velocity);
+    if (shows(Overlay::momentum)) arrow(ArrowQuantity::momentum, center, state.momentum);
+    if (shows(Overlay::angular_momentum)) arrow(ArrowQuantity::angular_momentum, center, state.angular_momentum);
+    if (shows(Overlay::com))
+        frame_.markers.push_back({center, {{250, 250, 250}, 1.0f, false}, MarkerShape::center_of_mass, 6.5f});
+    if (shows(Overlay::names))
+        frame_.labels.push_back({state.origin + Vec3(0.0, 1.15 * radii_[i], 0.0),
+                                 {{250, 250, 250}, 1.0f, false},
+                                 scene_->bodies[i].name,
+                                 15.0f});
+}
+
+void OverlayBuilder::add_box(std::size_t body, const BodyState& state) {
+    Bounds bounds;
+    add_bounds(scene_->bodies[body].shape, state.origin, state.orientation, bounds);
+    if (bounds.empty()) return;
+    const auto corner = [&](unsigned bits) {
+        return Vec3((bits & 1) != 0 ? bounds.max.x() : bounds.min.x(),
+                    (bits & 2) != 0 ? bounds.max.y() : bounds.min.y(),
+                    (bits & 4) != 0 ? bounds.max.z() : bounds.min.z());
+    };
+    // One line through all twelve edges; three are passed twice.
+    OverlayLine line;
+    for (const unsigned bits : {0u, 1u, 3u, 2u, 0u, 4u, 5u, 1u, 5u, 7u, 3u, 7u, 6u, 2u, 6u, 4u})
+        line.points.push_back(corner(bits));
+    line.paint = {{255, 222, 90}, 0.9f, true};
+    line.width = 1.4f;
+    frame_.lines.push_back(std::move(line));
+}
+
+void OverlayBuilder::add_axes(std::size_t body, const BodyState& state) {
+    const Mat3 rotation = state.orientation.toRotationMatrix();
+    const double length = axis_length * radii_[body];
+    for (int k = 0; k < 3; ++k)
+        frame_.arrows.push_back({state.center_of_mass,
+                                 state.center_of_mass + length * rotation.col(k),
+                                 {axis_colors[std::size_t(k)], 1.0f, true},
+                                 2.4f,
+                                 false});
+}
+
+void OverlayBuilder::add_contacts(const ContactRecords& records) {
+    for (const ContactRecord& r : records.contacts) {
+        if (r.a == ContactRecord::nobody) continue;  // a correction of the method, not a contact
+        const RecordVector v = vector_of(r, *scene_);
+        if (shown_[r.b] == 0 && shown_[r.a] == 0) continue;
+        if (shows(Overlay::forces)) {
+            arrow(ArrowQuantity::force, r.point, v.total());
+            if (v.tangential.norm() > 0.02 * v.normal.norm()) {
+                frame_.arrows.push_back({r.point,
+                                         r.point + scales_[std::size_t(ArrowQuantity::force)] * v.tangential,
+                                         {friction_color, 1.0f, true},
+                                         2.0f,
+                                         false});
+            }
+        }
+        if (shows(Overlay::normals)) {
+            const double length = normal_length * std::max(radii_[r.a], radii_[r.b]);
+            frame_.arrows.push_back({r.point, r.point + length * r.normal, {normal_color, 1.0f, true}, 1.8f, false});
+        }
+        if (shows(Overlay::contacts))
+            frame_.markers.push_back({r.point, {contact_color(r.state), 1.0f, true}, contact_shape(r.features), 4.2f});
+    }
+}
+
+// An impulse fades over the time that it is visible.
+void OverlayBuilder::add_impulses(double time) {
+    const double visible = scene_->overlay.impulse_time;
+    for (const ImpactRecord& impact : impacts_) {
+        const double age = visible > 0.0 ? (time - impact.when.time) / visible : 0.0;
+        arrow(ArrowQuantity::impulse, impact.point, vector_of(impact, *scene_).total(),
+              float(1.0 - 0.75 * std::clamp(age, 0.0, 1.0)));
+    }
+}
+
+void OverlayBuilder::arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity) {
+    const Vec3 way = scales_[std::size_t(quantity)] * value;
+    if (way == Vec3::Zero()) return;
+    const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum;
+    frame_.arrows.push_back({from, from + way, {arrow_color(scene_->overlay, quantity), opacity, true}, 3.2f, axial});
+}
+
+}  // namespace tumble

@@ -1,0 +1,70 @@
+// Makes the shapes of each frame from the state of the bodies and the log of contacts. It keeps the history that trails,
+// ghosts and visible impulses need, so frames are given in order and once each.
+#pragma once
+
+#include "overlay/overlay_frame.h"
+#include "overlay/overlay_scales.h"
+#include "scene/description/description.h"
+#include "sim/snapshot/contact_records.h"
+#include "sim/snapshot/snapshot.h"
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace tumble {
+
+class OverlayBuilder {
+public:
+    /// `scene` must outlive it.
+    OverlayBuilder(const SceneDescription& scene, const OverlayScales& scales);
+
+    /// The shapes of the next frame. `records`: of this frame, or null if none are kept. The result is valid until the
+    /// next call.
+    const OverlayFrame& next(const Snapshot& snapshot, const ContactRecords* records);
+
+private:
+    struct Trail {
+        std::size_t body;
+        Vec3 point;   // body frame, from the body's origin; unused for the center of mass
+        bool center;  // of the center of mass
+        std::deque<std::pair<double, Vec3>> places;  // times (s) and places (m)
+    };
+    struct Ghost {
+        std::size_t body;
+        BodyState state;
+    };
+    void remember(const Snapshot& snapshot, const ContactRecords* records);
+    void add_ghosts(const Snapshot& snapshot);
+    void add_trails();
+    void add_contacts(const ContactRecords& records);
+    void add_impulses(double time);
+    void add_body(std::size_t body, const BodyState& state);
+    void add_box(std::size_t body, const BodyState& state);
+    void add_axes(std::size_t body, const BodyState& state);
+    void add_islands(const Snapshot& snapshot, const ContactRecords& records);
+    void arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity = 1.0f);
+    bool shows(Overlay overlay) const { return scene_->overlay.show.has(overlay); }
+
+    const SceneDescription* scene_;
+    OverlayScales scales_;
+    std::vector<char> shown_;    // by body
+    std::vector<double> radii_;  // m, of a ball about the origin that contains the body; 0 of planes
+    std::vector<Trail> trails_;
+    std::vector<Ghost> ghosts_;
+    std::deque<ImpactRecord> impacts_;  // those that are still visible
+    OverlayFrame frame_;
+};
+
+/// The color of the arrows of a quantity.
+Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity);
+/// Of the friction part of a contact force, and of normals.
+inline constexpr Color friction_color{255, 122, 60}, normal_color{236, 240, 246};
+/// Of contact points, by state.
+Color contact_color(ContactRecord::State state);
+MarkerShape contact_shape(ContactFeatures features);
+inline constexpr Color asleep_color{120, 140, 255};
+inline constexpr std::array<Color, 3> axis_colors{Color{255, 84, 84}, Color{72, 214, 96}, Color{84, 140, 255}};
+
+}  // namespace tumble

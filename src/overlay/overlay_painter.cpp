@@ -1,0 +1,217 @@
+#include "overlay/overlay_painter.h"
+
+#include "overlay/legend.h"
+#include "plot/canvas.h"
+#include "render/mesh/primitive_meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace tumble {
+namespace {
+
+constexpr double reference_height = 720.0;  // pixels: the picture that the sizes of shapes are made for
+constexpr double nearest = 1e-3;            // of the distance to the camera's target: nearer parts of lines are cut off
+constexpr int ball_level = 3;               // 1280 triangles: smooth as a ghost of any size
+constexpr double margin = 14.0;             // of the legend, in units of the shapes' sizes
+constexpr Color damage_color{255, 64, 200};
+
+using Vertex = std::pair<Vec3, Vec3>;
+
+void add_mesh(std::span<const MeshAsset::Vertex> vertices, std::span<const std::uint32_t> indices, const Vec3& scale,
+              const Vec3& origin, const Quat& rotation, std::vector<Vertex>& to) {
+    for (const std::uint32_t index : indices) {
+        const MeshAsset::Vertex& v = vertices[index];
+        const Vec3 position(v.position[0], v.position[1], v.position[2]), normal(v.normal[0], v.normal[1], v.normal[2]);
+        to.emplace_back(origin + rotation * position.cwiseProduct(scale), rotation * normal);
+    }
+}
+
+void add_box(const Vec3& half, const Vec3& origin, const Quat& rotation, std::vector<Vertex>& to) {
+    for (int axis = 0; axis < 3; ++axis)
+        for (const double side : {-1.0, 1.0}) {
+            Vec3 normal = Vec3::Zero(), u = Vec3::Zero(), v = Vec3::Zero();
+            normal[axis] = side;
+            u[(axis + 1) % 3] = half[(axis + 1) % 3];
+            v[(axis + 2) % 3] = half[(axis + 2) % 3];
+            const Vec3 center = side * half[axis] * Vec3::Unit(axis);
+            for (const auto& [s, t] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, -1),
+                                       std::pair(1, 1), std::pair(-1, 1)})
+                to.emplace_back(origin + rotation * (center + s * u + t * v), rotation * normal);
+        }
+}
+
+void add_shape(const Shape& shape, const Vec3& origin, const Quat& rotation, std::vector<Vertex>& to) {
+    if (const auto* box = std::get_if<BoxShape>(&shape)) {
+        add_box(0.5 * box->size, origin, rotation, to);
+    } else if (const auto* ball = std::get_if<SphereShape>(&shape)) {
+        static const DrawMesh mesh = make_ball(ball_level);
+        add_mesh(mesh.vertices, mesh.indices, Vec3::Constant(ball->radius), origin, rotation, to);
+    } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
+        add_mesh(mesh->asset->vertices, mesh->asset->indices, Vec3::Ones(), origin, rotation, to);
+    } else if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
+        for (const CompoundPart& part : *compound->parts)
+            add_shape(part.shape, origin + rotation * part.position, rotation * part.rotation, to);
+    }
+}
+
+ScreenPaint screen_paint(const OverlayPaint& paint) { return {paint.color, paint.opacity, paint.behind_bodies}; }
+
+ScreenPoint project(const Camera& camera, const Vec3& relative) {
+    return {camera.pixel(relative), relative.dot(camera.forward())};
+}
+
+/// Cuts off the part of a line behind the nearest depth. False: nothing is left. Positions relative to the eye.
+bool cut(const Camera& camera, Vec3& from, Vec3& to) {
+    const double least = nearest * camera.target_distance();
+    const double a = from.dot(camera.forward()), b = to.dot(camera.forward());
+    if (a < least && b < least) return false;
+    if (a < least) from += (least - a) / (b - a) * (to - from);
+    if (b < least) to += (least - b) / (a - b) * (from - to);
+    return true;
+}
+
+void copy(const Image& from, Image& to, const Rectangle& r) {
+    for (int y = r.y; y < r.y + r.height; ++y) std::memcpy(to.at(r.x, y), from.at(r.x, y), std::size_t(r.width) * 4);
+}
+
+}  // namespace
+
+OverlayPainter::OverlayPainter(const SceneDescription& scene, const OverlayScales& scales)
+    : scene_(&scene),
+      unit_(scene.output.height / reference_height),
+      raster_(scene.output.width, scene.output.height,
+              Camera(scene.camera, scene.output.width, scene.output.height).pixel_size()),
+      legend_(draw_legend(scene, scales, scene.output.height)),
+      image_(scene.output.width, scene.output.height),
+      previous_(scene.output.width, scene.output.height) {}
+
+const Image& OverlayPainter::draw(const PlainFrame& frame, const OverlayFrame& shapes) {
+    TouchedTiles dirty = previous_;
+    if (first_) dirty.add(Rectangle{0, 0, image_.width, image_.height});
+    for (const Rectangle& r : frame.changed) dirty.add(r);
+    for (const Rectangle& r : dirty.rectangles()) copy(frame.image, image_, r);
+    if (frame.camera.eye() != ghost_eye_ || frame.camera.clip_from_relative(1.0) != ghost_view_) ghosts_.clear();
+    ghost_eye_ = frame.camera.eye();
+    ghost_view_ = frame.camera.clip_from_relative(1.0);
+    raster_.begin(image_, &frame.depths);
+    draw_shapes(frame.camera, shapes);
+    if (shapes.damage)
+        for (const Rectangle& r : frame.changed) raster_.outline(r, {damage_color, 0.85, false});
+    if (shapes.legend && legend_) {
+        const int edge = int(margin * unit_);
+        raster_.picture(*legend_, image_.width - legend_->width - edge, image_.height - legend_->height - edge, 1.0);
+    }
+    dirty.add(raster_.touched());
+    changed_ = dirty.rectangles();
+    previous_ = raster_.touched();
+    first_ = false;
+    return image_;
+}
+
+void OverlayPainter::draw_shapes(const Camera& camera, const OverlayFrame& shapes) {
+    for (const OverlaySurface& surface : shapes.surfaces) draw_surface(camera, surface);
+    for (const OverlayLine& line : shapes.lines) draw_line(camera, line);
+    for (const OverlayArrow& arrow : shapes.arrows) {
+        Vec3 from = camera.relative(arrow.from), to = camera.relative(arrow.to);
+        if (!cut(camera, from, to)) continue;
+        raster_.arrow({project(camera, from), project(camera, to), arrow.width * unit_, arrow.double_head ? 2 : 1},
+                      screen_paint(arrow.paint));
+    }
+    for (const OverlayMarker& marker : shapes.markers) {
+        const Vec3 at = camera.relative(marker.at);
+        if (at.dot(camera.forward()) < nearest * camera.target_distance()) continue;
+        raster_.marker(project(camera, at), marker.radius * unit_, ScreenMarker(marker.shape),
+                       screen_paint(marker.paint));
+    }
+    for (const OverlayLabel& label : shapes.labels) draw_label(camera, label);
+}
+
+// Parts behind the eye are cut out, which may leave several lines.
+void OverlayPainter::draw_line(const Camera& camera, const OverlayLine& line) {
+    const auto finish = [&] {
+        raster_.line(points_, line.width * unit_, screen_paint(line.paint));
+        points_.clear();
+    };
+    points_.clear();
+    for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+        Vec3 from = camera.relative(line.points[i]), to = camera.relative(line.points[i + 1]);
+        const Vec3 whole_to = to;
+        if (!cut(camera, from, to)) continue;
+        if (points_.empty()) points_.push_back(project(camera, from));
+        points_.push_back(project(camera, to));
+        if (to != whole_to) finish();
+    }
+    finish();
+}
+
+// While the camera stands still, ghosts keep their pixels.
+void OverlayPainter::draw_surface(const Camera& camera, const OverlaySurface& surface) {
+    if (!surface.shaded) {
+        raster_.surface(cover(camera, surface), screen_paint(surface.paint));
+        return;
+    }
+    const auto& q = surface.orientation.coeffs();
+    const auto [found, added] = ghosts_.try_emplace(
+        {double(surface.body), surface.origin.x(), surface.origin.y(), surface.origin.z(), q[0], q[1], q[2], q[3]});
+    if (added) found->second = cover(camera, surface);
+    raster_.surface(found->second, screen_paint(surface.paint));
+}
+
+// Ghosts are lit from the eye and from above.
+SurfaceCover OverlayPainter::cover(const Camera& camera, const OverlaySurface& surface) {
+    corners_.clear();
+    const Vec3 center = camera.relative(surface.origin);
+    const Mat3 rotation = surface.orientation.toRotationMatrix();
+    const Vec3 light = (Vec3(0.0, 1.0, 0.0) - 1.2 * camera.forward()).normalized();
+    const double least = nearest * camera.target_distance();
+    const Triangles& all = triangles(surface.body);
+    for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
+        std::array<ScreenCorner, 3> triangle;
+        bool in_front = true;
+        for (std::size_t k = 0; k < 3 && in_front; ++k) {
+            const Vec3 place = center + rotation * all[i + k].first;
+            in_front = place.dot(camera.forward()) > least;
+            if (in_front)
+                triangle[k] = {
+                    project(camera, place),
+                    surface.shaded ? 0.25 + 0.75 * std::max(0.0, (rotation * all[i + k].second).dot(light)) : 1.0};
+        }
+        if (in_front) corners_.insert(corners_.end(), triangle.begin(), triangle.end());
+    }
+    return raster_.cover(corners_);
+}
+
+const OverlayPainter::Triangles& OverlayPainter::triangles(std::size_t body) {
+    const auto [found, added] = triangles_.try_emplace(body);
+    if (added) add_shape(scene_->bodies[body].shape, Vec3::Zero(), Quat::Identity(), found->second);
+    return found->second;
+}
+
+void OverlayPainter::draw_label(const Camera& camera, const OverlayLabel& label) {
+    const Vec3 at = camera.relative(label.at);
+    if (at.dot(camera.forward()) < nearest * camera.target_distance()) return;
+    const Eigen::Vector2d pixel = camera.pixel(at);
+    const Image& text = text_picture(label);
+    if (!(std::fabs(pixel.x()) < 1e6 && std::fabs(pixel.y()) < 1e6)) return;
+    raster_.picture(text, int(std::floor(pixel.x() - 0.5 * text.width + 0.5)),
+                    int(std::floor(pixel.y() - text.height + 0.5)), label.paint.opacity);
+}
+
+const Image& OverlayPainter::text_picture(const OverlayLabel& label) {
+    const auto [found, added] = texts_.try_emplace({label.text, label.size});
+    if (!added) return found->second;
+    TextStyle style;
+    style.size = label.size;
+    style.paint = {label.paint.color, 1.0};
+    style.anchor = 0.5;
+    const double width = Canvas(1, 1, 1.0).text_width(label.text, style) + 0.9 * label.size, height = 1.5 * label.size;
+    Canvas canvas(int(std::ceil(width * unit_)), int(std::ceil(height * unit_)), unit_);
+    canvas.fill({0.0, 0.0, width, height}, {{18, 22, 30}, 0.6}, 0.35 * label.size);
+    canvas.text({0.5 * width, 1.08 * label.size}, label.text, style);
+    return found->second = canvas.image();
+}
+
+}  // namespace tumble

@@ -1,0 +1,133 @@
+#include "overlay/overlay_scales.h"
+
+#include "core/deterministic_math.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Parts of the visible height at the camera's target.
+constexpr double common_length = 1.0 / 14.0, longest_length = 0.7;
+constexpr double noise = 1e-3;  // of the largest size: smaller ones are not counted
+
+constexpr std::array<Overlay, arrow_quantity_count> shown_by{Overlay::forces,   Overlay::impulses,
+                                                             Overlay::velocity, Overlay::omega,
+                                                             Overlay::momentum, Overlay::angular_momentum};
+
+double visible_height(const CameraDescription& camera) {
+    const SinCos half = sincos(0.5 * camera.vertical_fov * pi / 180.0);
+    return 2.0 * (camera.target - camera.eye).norm() * half.sin / half.cos;
+}
+
+/// The largest of 1, 2 and 5 times a power of ten that is not above the value.
+double rounded_down(double value) {
+    double power = 1.0;
+    while (power > value) power /= 10.0;
+    while (10.0 * power <= value) power *= 10.0;
+    for (const double step : {5.0, 2.0})
+        if (value >= step * power) return step * power;
+    return power;
+}
+
+// Eight bins in each factor of two, without logarithms: those of glibc depend on the processor.
+int bin_of(double size) {
+    int exponent = 0;
+    const double mantissa = std::frexp(size, &exponent);
+    return 8 * exponent + int(16.0 * (mantissa - 0.5));
+}
+
+double upper_end(int bin) {
+    const int part = ((bin % 8) + 8) % 8;
+    return std::ldexp(0.5 + (part + 1) / 16.0, (bin - part) / 8);
+}
+
+}  // namespace
+
+bool shows(const OverlayDescription& overlay, ArrowQuantity quantity) {
+    return overlay.show.has(shown_by[std::size_t(quantity)]);
+}
+
+bool needs_survey(const OverlayDescription& overlay) {
+    for (std::size_t q = 0; q < arrow_quantity_count; ++q)
+        if (shows(overlay, ArrowQuantity(q)) && !overlay.scale[q]) return true;
+    return false;
+}
+
+bool needs_records(const OverlayDescription& overlay) {
+    return std::ranges::any_of(
+        std::array{Overlay::contacts, Overlay::normals, Overlay::impulses, Overlay::forces, Overlay::islands},
+        [&](Overlay one) { return overlay.show.has(one); });
+}
+
+bool shows_body(const SceneDescription& scene, std::size_t body) {
+    const std::vector<std::size_t>& chosen = scene.overlay.bodies;
+    if (!chosen.empty()) return std::find(chosen.begin(), chosen.end(), body) != chosen.end();
+    const BodyDescription& description = scene.bodies[body];
+    return description.type == BodyType::dynamic || !description.keyframes.empty();
+}
+
+RecordVector vector_of(const ContactRecord& r, const SceneDescription& scene) {
+    const bool on_b = r.a == ContactRecord::nobody || scene.bodies[r.b].type == BodyType::dynamic;
+    const double sign = on_b ? 1.0 : -1.0;
+    return {on_b ? r.b : r.a, sign * r.normal_force * r.normal, sign * r.tangential_force};
+}
+
+RecordVector vector_of(const ImpactRecord& r, const SceneDescription& scene) {
+    const bool on_b = scene.bodies[r.b].type == BodyType::dynamic;
+    const double sign = on_b ? 1.0 : -1.0;
+    return {on_b ? r.b : r.a, sign * r.impulse * r.normal, sign * r.friction};
+}
+
+void ScaleSurvey::add(ArrowQuantity quantity, double size) {
+    if (!(size > 0.0)) return;
+    Sizes& sizes = sizes_[std::size_t(quantity)];
+    sizes.most = std::max(sizes.most, size);
+    ++sizes.counts[bin_of(size)];
+}
+
+void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
+    const OverlayDescription& overlay = scene_->overlay;
+    if (snapshot.time < overlay.start || snapshot.time >= overlay.end) return;
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+        if (!shows_body(*scene_, i)) continue;
+        const BodyState& body = snapshot.bodies[i];
+        add(ArrowQuantity::velocity, body.velocity.norm());
+        add(ArrowQuantity::omega, body.angular_velocity.norm());
+        add(ArrowQuantity::momentum, body.momentum.norm());
+        add(ArrowQuantity::angular_momentum, body.angular_momentum.norm());
+    }
+    if (records == nullptr) return;
+    for (const ContactRecord& r : records->contacts) add(ArrowQuantity::force, vector_of(r, *scene_).total().norm());
+    for (const ImpactRecord& r : records->impacts) add(ArrowQuantity::impulse, vector_of(r, *scene_).total().norm());
+}
+
+OverlayScales ScaleSurvey::scales() const {
+    OverlayScales scales{};
+    const double height = visible_height(scene_->camera);
+    for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
+        if (scene_->overlay.scale[q]) {
+            scales[q] = *scene_->overlay.scale[q];
+            continue;
+        }
+        const Sizes& sizes = sizes_[q];
+        if (sizes.most <= 0.0) continue;
+        const int least = bin_of(noise * sizes.most);
+        std::int64_t all = 0, smaller = 0;
+        for (const auto& [bin, count] : sizes.counts)
+            if (bin >= least) all += count;
+        double common = sizes.most;
+        for (const auto& [bin, count] : sizes.counts) {
+            if (bin < least) continue;
+            smaller += count;
+            if (2 * smaller < all) continue;
+            common = upper_end(bin);
+            break;
+        }
+        scales[q] = rounded_down(height * std::min(common_length / common, longest_length / sizes.most));
+    }
+    return scales;
+}
+
+}  // namespace tumble

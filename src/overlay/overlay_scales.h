@@ -1,0 +1,54 @@
+// The lengths of arrows: one scale for each quantity, the same for the whole clip.
+#pragma once
+
+#include "scene/description/description.h"
+#include "sim/snapshot/contact_records.h"
+#include "sim/snapshot/snapshot.h"
+
+#include <array>
+#include <cstdint>
+#include <map>
+
+namespace tumble {
+
+/// Meters in the scene for a unit of each quantity; 0: there was nothing to show.
+using OverlayScales = std::array<double, arrow_quantity_count>;
+
+/// Quantities that the arrows of these overlays show.
+bool shows(const OverlayDescription& overlay, ArrowQuantity quantity);
+/// True if a scale has to be found from a run of the simulation.
+bool needs_survey(const OverlayDescription& overlay);
+/// True if contacts and impacts have to be recorded.
+bool needs_records(const OverlayDescription& overlay);
+/// True if the overlay shows the body.
+bool shows_body(const SceneDescription& scene, std::size_t body);
+
+/// The vector of a record that an arrow shows: on B, or on A where only A is dynamic.
+struct RecordVector {
+    std::size_t body = 0;
+    Vec3 normal = Vec3::Zero(), tangential = Vec3::Zero();  // N, or N s of an impact
+    Vec3 total() const { return normal + tangential; }
+};
+RecordVector vector_of(const ContactRecord& record, const SceneDescription& scene);
+RecordVector vector_of(const ImpactRecord& record, const SceneDescription& scene);
+
+/// Chooses the scales from all frames of a run: half of the arrows get at least a fourteenth of the picture's height, if
+/// the longest then fits into the picture; rounded to 1, 2 or 5 times a power of ten.
+class ScaleSurvey {
+public:
+    explicit ScaleSurvey(const SceneDescription& scene) : scene_(&scene) {}
+    void add(const Snapshot& snapshot, const ContactRecords* records);
+    /// The scene's scales where given.
+    OverlayScales scales() const;
+
+private:
+    void add(ArrowQuantity quantity, double size);
+    struct Sizes {
+        double most = 0.0;
+        std::map<int, std::int64_t> counts;  // by bin: eight in each factor of two
+    };
+    const SceneDescription* scene_;
+    std::array<Sizes, arrow_quantity_count> sizes_;
+};
+
+}  // namespace tumble

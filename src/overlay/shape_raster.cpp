@@ -1,0 +1,381 @@
+#include "overlay/shape_raster.h"
+
+#include "render/damage/dirty_tiles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tumble {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr int tile = 16;               // pixels
+constexpr double faint = 0.38;         // opacity of hidden parts: readable, and clearly behind
+constexpr double halo_width = 1.3;     // pixels of dark outline, so that shapes are seen on bright and on dark ground
+constexpr double halo_opacity = 0.55;  // of that outline
+constexpr Color halo_color{16, 20, 28};
+// A shape that lies in a surface counts as visible: relative depth, and pixels at the surface's distance.
+constexpr double depth_tolerance = 2e-3, depth_tolerance_pixels = 4.0;
+constexpr double head_length = 4.2, head_half_width = 1.75;  // in widths of the shaft
+constexpr double second_head = 0.62;                         // distance of the second head, in lengths of a head
+
+double coverage(double distance) { return std::clamp(0.5 - distance, 0.0, 1.0); }
+
+/// An arrow in its own coordinates: along from the foot, across from the axis, in pixels.
+struct ArrowOutline {
+    ArrowOutline(double length_, double width, int heads_) : length(length_), half_width(0.5 * width), heads(heads_) {
+        const double room = length / (1.0 + second_head * (heads - 1));
+        const double scale = std::min(1.0, room / (head_length * width));
+        head = scale * head_length * width;
+        half_base = std::max(scale * head_half_width * width, half_width);
+        shaft_end = std::max(0.0, length - (0.7 + second_head * (heads - 1)) * head);
+        slope = std::hypot(head, half_base);
+        heads_start = length - (1.0 + second_head * (heads - 1)) * head - halo_width - 0.5;
+    }
+
+    double distance(double along, double across) const {
+        const double before = along - std::clamp(along, 0.0, shaft_end);
+        double d = (before == 0.0 ? across : std::sqrt(before * before + across * across)) - half_width;
+        for (int k = 0; k < heads; ++k) {
+            const double tip = length - k * second_head * head;
+            const double side = ((along - tip) * half_base + across * head) / slope;
+            d = std::min(d, std::max(tip - head - along, side));
+        }
+        return d;
+    }
+
+    double length, half_width, head, half_base, shaft_end, slope, heads_start;
+    int heads;
+};
+
+double marker_distance(ScreenMarker shape, double x, double y, double radius) {
+    const double r = std::sqrt(x * x + y * y);
+    switch (shape) {
+        case ScreenMarker::ring:
+            return std::fabs(r - 0.8 * radius) - 0.3 * radius;
+        case ScreenMarker::square:
+            return std::max(std::fabs(x), std::fabs(y)) - 0.85 * radius;
+        case ScreenMarker::diamond:
+            return (std::fabs(x) + std::fabs(y) - 1.3 * radius) / std::sqrt(2.0);
+        case ScreenMarker::cross: {
+            const double u = std::fabs(x + y) / std::sqrt(2.0), v = std::fabs(x - y) / std::sqrt(2.0);
+            const double arm = 1.15 * radius, half = 0.32 * radius;
+            return std::min(std::max(u - arm, v - half), std::max(v - arm, u - half));
+        }
+        default:
+            return r - radius;
+    }
+}
+
+/// Moves a color toward another by a share of 0 to 256.
+void mix(std::uint8_t* p, Color color, int share) {
+    const auto channel = [&](std::uint8_t from, int to) {
+        return std::uint8_t(from + (((to - from) * share + 128) >> 8));
+    };
+    p[0] = channel(p[0], color.r);
+    p[1] = channel(p[1], color.g);
+    p[2] = channel(p[2], color.b);
+    p[3] = channel(p[3], 255);  // of pictures that are transparent themselves
+}
+
+/// A paint with its shares, for a whole shape.
+struct Brush {
+    explicit Brush(const ScreenPaint& paint)
+        : color(paint.color), share(256.0 * paint.opacity), halo_share(halo_opacity * share) {}
+    /// `visibility`: 1, or less where the shape is hidden.
+    void draw(std::uint8_t* p, double cover, double halo, double visibility) const {
+        if (halo > 0.0) mix(p, halo_color, int(halo * halo_share * visibility + 0.5));
+        if (cover > 0.0) mix(p, color, int(cover * share * visibility + 0.5));
+    }
+    Color color;
+    double share, halo_share;
+};
+
+}  // namespace
+
+TouchedTiles::TouchedTiles(int width, int height)
+    : width_(width),
+      height_(height),
+      columns_((width + tile - 1) / tile),
+      rows_((height + tile - 1) / tile),
+      touched_(std::size_t(columns_) * std::size_t(rows_)) {}
+
+void TouchedTiles::clear() { std::fill(touched_.begin(), touched_.end(), char(0)); }
+
+void TouchedTiles::add(const Rectangle& r) {
+    if (r.width <= 0 || r.height <= 0) return;
+    for (int row = r.y / tile; row <= (r.y + r.height - 1) / tile; ++row)
+        for (int column = r.x / tile; column <= (r.x + r.width - 1) / tile; ++column)
+            touched_[std::size_t(row * columns_ + column)] = 1;
+}
+
+void TouchedTiles::add(const TouchedTiles& others) {
+    for (std::size_t i = 0; i < touched_.size(); ++i) touched_[i] = char(touched_[i] | others.touched_[i]);
+}
+
+std::vector<Rectangle> TouchedTiles::rectangles() const {
+    return cell_rectangles({columns_, rows_, tile, width_, height_},
+                           [&](int column, int row) { return touched_[std::size_t(row * columns_ + column)] != 0; });
+}
+
+ShapeRaster::ShapeRaster(int width, int height, double pixel_size)
+    : width_(width),
+      height_(height),
+      surface_factor_(1.0 + depth_tolerance + depth_tolerance_pixels * pixel_size),
+      touched_(width, height) {}
+
+void ShapeRaster::begin(Image& image, const DepthImage* depths) {
+    image_ = &image;
+    depths_ = depths;
+    touched_.clear();
+}
+
+// Far outside, coordinates may exceed int.
+ShapeRaster::Box ShapeRaster::clipped(double left, double top, double right, double bottom) {
+    const auto pixel = [](double value, int most) { return int(std::clamp(value, 0.0, double(most))); };
+    const Box box{pixel(std::floor(left), width_), pixel(std::floor(top), height_),
+                  pixel(std::ceil(right) + 1.0, width_), pixel(std::ceil(bottom) + 1.0, height_)};
+    return box;
+}
+
+bool ShapeRaster::hidden(int x, int y, double depth) const {
+    if (depths_ == nullptr) return false;
+    const double surface = *depths_->at(x, y);
+    return depth > surface * surface_factor_;
+}
+
+namespace {
+
+/// The pixels of a row whose centers are within `radius` of the line through both points.
+struct RowSpan {
+    RowSpan(const Vector2d& from, const Vector2d& to, double radius) : radius_(radius), x0_(from.x()), y0_(from.y()) {
+        const Vector2d way = to - from;
+        least_ = std::min(from.x(), to.x()) - radius;
+        most_ = std::max(from.x(), to.x()) + radius;
+        if (std::fabs(way.y()) < 1e-6) return;
+        slanted_ = true;
+        slope_ = way.x() / way.y();
+        half_ = radius * std::sqrt(1.0 + slope_ * slope_);
+    }
+    std::pair<double, double> at(double y) const {
+        if (!slanted_) return {least_, most_};
+        const double middle = x0_ + (y - y0_) * slope_;
+        return {std::max(least_, middle - half_), std::min(most_, middle + half_)};
+    }
+
+private:
+    double radius_, x0_, y0_, least_, most_, slope_ = 0.0, half_ = 0.0;
+    bool slanted_ = false;
+};
+
+}  // namespace
+
+void ShapeRaster::arrow(const ScreenArrow& a, const ScreenPaint& paint) {
+    const Vector2d way = a.to.pixel - a.from.pixel;
+    const double length = way.norm();
+    if (!(length > 0.0)) return;
+    const Vector2d axis = way / length;
+    const Brush brush(paint);
+    const ArrowOutline outline(length, a.width, a.heads);
+    const double radius = outline.half_base + halo_width + 0.5;
+    const RowSpan spans(a.from.pixel, a.to.pixel, radius);
+    const double near_from = 1.0 / a.from.depth, nearness = 1.0 / a.to.depth - near_from;
+    const Box rows = clipped(0.0, std::min(a.from.pixel.y(), a.to.pixel.y()) - radius, width_,
+                             std::max(a.from.pixel.y(), a.to.pixel.y()) + radius);
+    for (int y = rows.top; y < rows.bottom; ++y) {
+        const auto [first, last] = spans.at(y + 0.5);
+        const Box row = clipped(first - 0.5, y, last + 0.5, y);
+        if (row.left >= row.right) continue;
+        touched_.add({row.left, y, row.right - row.left, 1});
+        for (int x = row.left; x < row.right; ++x) {
+            const Vector2d from_foot = Vector2d(x + 0.5, y + 0.5) - a.from.pixel;
+            const double along = from_foot.dot(axis);
+            const double across = std::fabs(from_foot.x() * axis.y() - from_foot.y() * axis.x());
+            if (across > outline.half_width + halo_width + 0.5 && along < outline.heads_start) continue;
+            const double d = outline.distance(along, across);
+            const double halo = coverage(d - halo_width);
+            if (halo <= 0.0) continue;
+            const double depth = 1.0 / (near_from + nearness * std::clamp(along / length, 0.0, 1.0));
+            brush.draw(image_->at(x, y), coverage(d), halo, paint.depth_tested && hidden(x, y, depth) ? faint : 1.0);
+        }
+    }
+}
+
+void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, bool depth_tested) {
+    const Vector2d way = to.pixel - from.pixel;
+    const double squared = way.squaredNorm();
+    const double reach = radius + halo_width + 0.5;
+    const RowSpan spans(from.pixel, to.pixel, reach);
+    const double near_from = 1.0 / from.depth, nearness = 1.0 / to.depth - near_from;
+    const Box rows = clipped(0.0, std::min(from.pixel.y(), to.pixel.y()) - reach, width_,
+                             std::max(from.pixel.y(), to.pixel.y()) + reach);
+    for (int y = rows.top; y < rows.bottom; ++y) {
+        const auto [first, last] = spans.at(y + 0.5);
+        const Box row = clipped(first - 0.5, y, last + 0.5, y);
+        if (row.left >= row.right) continue;
+        touched_.add({row.left, y, row.right - row.left, 1});
+        for (int x = row.left; x < row.right; ++x) {
+            const Vector2d from_start = Vector2d(x + 0.5, y + 0.5) - from.pixel;
+            const double t = squared > 0.0 ? std::clamp(from_start.dot(way) / squared, 0.0, 1.0) : 0.0;
+            const double d = (from_start - t * way).norm() - radius;
+            const double halo = coverage(d - halo_width);
+            if (halo <= 0.0) continue;
+            const bool behind = depth_tested && hidden(x, y, 1.0 / (near_from + nearness * t));
+            const double visibility = behind ? faint : 1.0;
+            const std::size_t index = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+            Cover& cover = cover_[index];
+            if (cover.halo == 0.0f) covered_.push_back(index);
+            cover.line = std::max(cover.line, float(coverage(d) * visibility));
+            cover.halo = std::max(cover.halo, float(halo * visibility));
+        }
+    }
+}
+
+// The largest coverage of all segments counts, so that joints are not drawn twice.
+void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const ScreenPaint& paint) {
+    cover_.resize(std::size_t(width_) * std::size_t(height_));
+    for (std::size_t i = 0; i + 1 < points.size(); ++i)
+        add_cover(points[i], points[i + 1], 0.5 * width, paint.depth_tested);
+    const Brush brush(paint);
+    for (const std::size_t index : covered_) {
+        Cover& cover = cover_[index];
+        brush.draw(image_->pixels.data() + 4 * index, cover.line, cover.halo, 1.0);
+        cover = {};
+    }
+    covered_.clear();
+}
+
+void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint) {
+    const double reach = 1.4 * radius + halo_width + 0.5;
+    const Box box = clipped(at.pixel.x() - reach, at.pixel.y() - reach, at.pixel.x() + reach, at.pixel.y() + reach);
+    if (box.empty()) return;
+    touched_.add({box.left, box.top, box.right - box.left, box.bottom - box.top});
+    const Brush brush(paint), dark({{24, 28, 36}, paint.opacity, paint.depth_tested});
+    for (int y = box.top; y < box.bottom; ++y)
+        for (int x = box.left; x < box.right; ++x) {
+            const double dx = x + 0.5 - at.pixel.x(), dy = y + 0.5 - at.pixel.y();
+            const double d = marker_distance(shape, dx, dy, radius);
+            const double halo = coverage(d - halo_width);
+            if (halo <= 0.0) continue;
+            const double visibility = paint.depth_tested && hidden(x, y, at.depth) ? faint : 1.0;
+            brush.draw(image_->at(x, y), coverage(d), halo, visibility);
+            if (shape != ScreenMarker::center_of_mass) continue;
+            const double quarter = std::max(
+                d, dx * dy >= 0.0 ? -std::min(std::fabs(dx), std::fabs(dy)) : std::min(std::fabs(dx), std::fabs(dy)));
+            dark.draw(image_->at(x, y), coverage(quarter), 0.0, visibility);
+        }
+}
+
+SurfaceCover ShapeRaster::cover(std::span<const ScreenCorner> corners) {
+    SurfaceCover cover;
+    double left = width_, top = height_, right = 0.0, bottom = 0.0;
+    for (const ScreenCorner& corner : corners) {
+        left = std::min(left, corner.point.pixel.x());
+        right = std::max(right, corner.point.pixel.x());
+        top = std::min(top, corner.point.pixel.y());
+        bottom = std::max(bottom, corner.point.pixel.y());
+    }
+    const Box box = clipped(left, top, right, bottom);
+    if (box.empty()) return cover;
+    cover.box = {box.left, box.top, box.right - box.left, box.bottom - box.top};
+    const int columns = 2 * cover.box.width, rows = 2 * cover.box.height;
+    samples_.assign(std::size_t(columns) * std::size_t(rows), {});
+    const auto place = [&](const ScreenPoint& p) {  // in samples; their centers are at whole numbers
+        return Vector2d(2.0 * (p.pixel.x() - box.left) - 0.5, 2.0 * (p.pixel.y() - box.top) - 0.5);
+    };
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+        const ScreenCorner &a = corners[i], &b = corners[i + 1], &c = corners[i + 2];
+        fill({place(a.point), place(b.point), place(c.point)},
+             {CornerValue{1.0 / a.point.depth, a.light}, CornerValue{1.0 / b.point.depth, b.light},
+              CornerValue{1.0 / c.point.depth, c.light}},
+             columns, rows);
+    }
+    cover.pixels.reserve(samples_.size() / 4);
+    for (int y = 0; y < rows; y += 2)
+        for (int x = 0; x < columns; x += 2) {
+            const std::size_t at = std::size_t(y) * std::size_t(columns) + std::size_t(x);
+            SurfaceCover::Pixel pixel;
+            float nearness = 0.0f;
+            for (const std::size_t k : {at, at + 1, at + std::size_t(columns), at + std::size_t(columns) + 1}) {
+                const SurfaceSample& sample = samples_[k];
+                if (sample.nearness <= 0.0f) continue;
+                nearness = std::max(nearness, sample.nearness);
+                pixel.share += 0.25f;
+                pixel.light += 0.25f * sample.light;
+            }
+            if (pixel.share > 0.0f) {
+                pixel.depth = 1.0f / nearness;
+                pixel.light /= pixel.share;
+            }
+            cover.pixels.push_back(pixel);
+        }
+    return cover;
+}
+
+void ShapeRaster::surface(const SurfaceCover& cover, const ScreenPaint& paint) {
+    touched_.add(cover.box);
+    const SurfaceCover::Pixel* pixel = cover.pixels.data();
+    const auto lit = [&](std::uint8_t channel, float light) { return std::uint8_t(float(channel) * light + 0.5f); };
+    for (int y = cover.box.y; y < cover.box.y + cover.box.height; ++y)
+        for (int x = cover.box.x; x < cover.box.x + cover.box.width; ++x, ++pixel) {
+            if (pixel->share == 0.0f || hidden(x, y, pixel->depth)) continue;
+            const Color color{lit(paint.color.r, pixel->light), lit(paint.color.g, pixel->light),
+                              lit(paint.color.b, pixel->light)};
+            mix(image_->at(x, y), color, int(256.0 * paint.opacity * pixel->share + 0.5));
+        }
+}
+
+// Edge functions are linear: each row adds the same to them from sample to sample.
+void ShapeRaster::fill(const std::array<Vector2d, 3>& p, const std::array<CornerValue, 3>& values, int columns,
+                       int rows) {
+    const double area = (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
+    if (area == 0.0) return;
+    const int first_row = std::max(0, int(std::ceil(std::min({p[0].y(), p[1].y(), p[2].y()}))));
+    const int last_row = std::min(rows - 1, int(std::floor(std::max({p[0].y(), p[1].y(), p[2].y()}))));
+    const int first = std::max(0, int(std::ceil(std::min({p[0].x(), p[1].x(), p[2].x()}))));
+    const int last = std::min(columns - 1, int(std::floor(std::max({p[0].x(), p[1].x(), p[2].x()}))));
+    const double wa_step = -(p[2] - p[1]).y() / area, wb_step = -(p[0] - p[2]).y() / area;
+    for (int y = first_row; y <= last_row; ++y) {
+        const double wa_first = ((p[2] - p[1]).x() * (y - p[1].y()) - (p[2] - p[1]).y() * (first - p[1].x())) / area;
+        const double wb_first = ((p[0] - p[2]).x() * (y - p[2].y()) - (p[0] - p[2]).y() * (first - p[2].x())) / area;
+        SurfaceSample* sample = samples_.data() + std::size_t(y) * std::size_t(columns) + std::size_t(first);
+        for (int k = 0; k <= last - first; ++k, ++sample) {
+            const double wa = wa_first + k * wa_step, wb = wb_first + k * wb_step, wc = 1.0 - wa - wb;
+            if (wa < 0.0 || wb < 0.0 || wc < 0.0) continue;
+            const auto nearness = float(wa * values[0].nearness + wb * values[1].nearness + wc * values[2].nearness);
+            if (nearness > sample->nearness)
+                *sample = {nearness, float(wa * values[0].light + wb * values[1].light + wc * values[2].light)};
+        }
+    }
+}
+
+void ShapeRaster::picture(const Image& picture, int left, int top, double opacity) {
+    const Box box = clipped(left, top, left + picture.width - 1, top + picture.height - 1);
+    if (box.empty()) return;
+    touched_.add({box.left, box.top, box.right - box.left, box.bottom - box.top});
+    for (int y = box.top; y < box.bottom; ++y)
+        for (int x = box.left; x < box.right; ++x) {
+            const std::uint8_t* from = picture.at(x - left, y - top);
+            if (from[3] == 0) continue;
+            mix(image_->at(x, y), {from[0], from[1], from[2]}, int(from[3] * opacity * (256.0 / 255.0) + 0.5));
+        }
+}
+
+void ShapeRaster::outline(const Rectangle& r, const ScreenPaint& paint) {
+    touched_.add(r);
+    const Brush brush(paint);
+    const auto draw = [&](int x, int y) { brush.draw(image_->at(x, y), 1.0, 0.0, 1.0); };
+    const auto row = [&](int y) {
+        for (int x = r.x; x < r.x + r.width; ++x) draw(x, y);
+    };
+    row(r.y);
+    if (r.height > 1) row(r.y + r.height - 1);
+    for (int y = r.y + 1; y + 1 < r.y + r.height; ++y) {
+        draw(r.x, y);
+        if (r.width > 1) draw(r.x + r.width - 1, y);
+    }
+}
+
+}  // namespace tumble
