@@ -1,11 +1,10 @@
 #include "plot/figure.h"
 
-#include "plot/axis.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -54,6 +53,8 @@ void spread(std::vector<double>& places, double height, double top, double botto
     }
 }
 
+double y_of(const Axis& axis, const Box2& box, double value) { return box.bottom - axis.place(value) * box.height(); }
+
 class FigureDrawing {
 public:
     FigureDrawing(const Figure& figure, Canvas& canvas)
@@ -63,7 +64,7 @@ public:
           label_{size_, figure.theme.text},
           tick_{0.86 * size_, figure.theme.faint} {}
 
-    void draw(const Box2& box) {
+    FigurePlaces draw(const Box2& box) {
         canvas_.fill(box, figure_.theme.background, figure_.theme.background.opacity < 1.0 ? 0.6 * size_ : 0.0);
         Box2 inner{box.left + size_, box.top + size_, box.right - size_, box.bottom - size_};
         draw_titles(inner);
@@ -74,8 +75,8 @@ public:
         make_panel_axes(inner);
         left_ = inner.left + tick_room_ + 0.5 * size_;
         right_ = inner.right - label_room();
-        x_axis_ = Axis::linear(x.empty() ? 0.0 : x.least, x.empty() ? 1.0 : x.most,
-                               std::max(2, int((right_ - left_) / (6.0 * size_))));
+        places_.x = Axis::linear(x.empty() ? 0.0 : x.least, x.empty() ? 1.0 : x.most,
+                                 std::max(2, int((right_ - left_) / (6.0 * size_))));
         const double bottom = inner.bottom - (figure_.x_title.empty() ? 1.6 : 3.2) * size_;
         const double each = (bottom - inner.top) / double(std::max<std::size_t>(1, figure_.panels.size()));
         for (std::size_t k = 0; k < figure_.panels.size(); ++k) {
@@ -85,6 +86,7 @@ public:
                 {left_, top + 2.3 * size_, right_, top + each - (k + 1 < figure_.panels.size() ? 0.9 * size_ : 0.0)});
         }
         draw_x_axis(bottom);
+        return std::move(places_);
     }
 
 private:
@@ -123,10 +125,7 @@ private:
         return most > 0.0 ? most + 0.8 * size_ : 0.6 * size_;
     }
 
-    double x_of(double value) const { return left_ + x_axis_.place(value) * (right_ - left_); }
-    static double y_of(const Axis& axis, const Box2& box, double value) {
-        return box.bottom - axis.place(value) * box.height();
-    }
+    double x_of(double value) const { return left_ + places_.x.place(value) * (right_ - left_); }
 
     void draw_panel(const Panel& panel, const Axis& axis, const Box2& box) {
         canvas_.text({left_ - tick_room_ - 0.5 * size_, box.top - 1.1 * size_}, panel.title, label_);
@@ -138,11 +137,7 @@ private:
             style.anchor = 1.0;
             canvas_.text({box.left - 0.5 * size_, y + 0.3 * size_}, tick.label, style);
         }
-        if (figure_.cursor) {
-            const double x = x_of(*figure_.cursor);
-            const std::array<Point2, 2> line{Point2{x, box.top}, Point2{x, box.bottom}};
-            canvas_.polyline(line, figure_.theme.faint, 1.0);
-        }
+        places_.panels.push_back({axis, box});
         draw_lines(panel, axis, box);
         draw_line_labels(panel, axis, box);
     }
@@ -155,14 +150,10 @@ private:
             points.clear();
             for (std::size_t i = 0; i < series.x.size(); ++i)
                 points.push_back({x_of(series.x[i]), y_of(axis, box, series.y[i])});
-            canvas_.polyline(points, {series_color(series.color)}, width, series.dashed ? 0.5 * size_ : 0.0);
+            canvas_.polyline(points, {series_color(series.color, figure_.theme.dark)}, width,
+                             series.dashed ? 0.5 * size_ : 0.0);
         }
         canvas_.unclip();
-        if (!figure_.cursor) return;
-        for (const Series& series : panel.series)
-            if (const auto value = value_at(series, *figure_.cursor); value && std::isfinite(y_of(axis, box, *value)))
-                canvas_.disc({x_of(*figure_.cursor), y_of(axis, box, *value)}, 0.3 * size_,
-                             {series_color(series.color)});
     }
 
     void draw_line_labels(const Panel& panel, const Axis& axis, const Box2& box) {
@@ -177,7 +168,7 @@ private:
         spread(places, 1.25 * size_, box.top, box.bottom);
         for (std::size_t k = 0; k < panel.series.size(); ++k) {
             TextStyle style = label_;
-            style.paint = {series_color(panel.series[k].color)};
+            style.paint = {series_color(panel.series[k].color, figure_.theme.dark)};
             canvas_.text({box.right + 0.5 * size_, places[k] + 0.35 * size_}, panel.series[k].label, style);
         }
     }
@@ -185,7 +176,7 @@ private:
     void draw_x_axis(double bottom) {
         TextStyle style = tick_;
         style.anchor = 0.5;
-        for (const Axis::Tick& tick : x_axis_.ticks())
+        for (const Axis::Tick& tick : places_.x.ticks())
             canvas_.text({x_of(tick.value), bottom + 1.4 * size_}, tick.label, style);
         style = label_;
         style.anchor = 0.5;
@@ -197,7 +188,7 @@ private:
     double size_;
     TextStyle label_, tick_;
     std::vector<Axis> axes_;
-    Axis x_axis_ = Axis::linear(0.0, 1.0, 2);
+    FigurePlaces places_;
     double tick_room_ = 0.0, left_ = 0.0, right_ = 0.0;
 };
 
@@ -205,16 +196,42 @@ private:
 
 Theme Theme::light() { return {{{255, 255, 255}}, {{34, 38, 46}}, {{104, 110, 122}}, {{226, 229, 235}}}; }
 Theme Theme::on_picture() {
-    return {{{18, 22, 30}, 0.72}, {{240, 243, 248}}, {{176, 184, 198}}, {{255, 255, 255}, 0.14}};
+    return {{{18, 22, 30}, 0.78}, {{240, 243, 248}}, {{176, 184, 198}}, {{255, 255, 255}, 0.14}, true};
 }
 
-Color series_color(std::size_t index) {
+Color series_color(std::size_t index, bool on_dark) {
     static constexpr std::array<Color, 7> colors{Color{0, 114, 178},   Color{213, 94, 0},   Color{0, 158, 115},
                                                  Color{204, 121, 167}, Color{86, 180, 233}, Color{176, 141, 0},
                                                  Color{110, 110, 120}};
-    return colors[index % colors.size()];
+    static constexpr std::array<Color, 7> light{Color{86, 180, 233},  Color{240, 140, 60},  Color{60, 200, 150},
+                                                Color{232, 150, 196}, Color{150, 170, 255}, Color{235, 205, 80},
+                                                Color{190, 194, 204}};
+    return (on_dark ? light : colors)[index % colors.size()];
 }
 
-void draw(const Figure& figure, Canvas& canvas, const Box2& box) { FigureDrawing(figure, canvas).draw(box); }
+FigurePlaces draw(const Figure& figure, Canvas& canvas, const Box2& box) {
+    return FigureDrawing(figure, canvas).draw(box);
+}
+
+double FigurePlaces::x_of(double value) const {
+    const Box2& box = panels.front().box;
+    return box.left + x.place(value) * box.width();
+}
+
+void draw_cursor(const Figure& figure, const FigurePlaces& places, double x, Canvas& canvas, const Point2& corner) {
+    const double at = places.x_of(x) - corner.x;
+    for (std::size_t k = 0; k < places.panels.size(); ++k) {
+        const auto& [axis, box] = places.panels[k];
+        const std::array<Point2, 2> line{Point2{at, box.top - corner.y}, Point2{at, box.bottom - corner.y}};
+        canvas.polyline(line, figure.theme.faint, 0.1 * figure.text_size);
+        for (const Series& series : figure.panels[k].series) {
+            const auto value = value_at(series, x);
+            if (!value || !std::isfinite(y_of(axis, box, *value))) continue;
+            const Point2 dot{at, y_of(axis, box, *value) - corner.y};
+            canvas.disc(dot, cursor_dot * figure.text_size, {figure.theme.background.color});
+            canvas.disc(dot, 0.75 * cursor_dot * figure.text_size, {series_color(series.color, figure.theme.dark)});
+        }
+    }
+}
 
 }  // namespace tumble

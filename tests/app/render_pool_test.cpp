@@ -57,7 +57,7 @@ Snapshot at_frame(std::int64_t n) {
     return snapshot;
 }
 
-MotionBlurFrame sharp(std::int64_t n) { return {n, {at_frame(n)}, {}}; }
+MotionBlurFrame sharp(std::int64_t n) { return {n, at_frame(n).time, {{at_frame(n)}}, {}}; }
 
 /// The shutter is open while the box moves to its next place; without movement, all blur samples are the same.
 MotionBlurFrame blurred(std::int64_t n) {
@@ -67,7 +67,7 @@ MotionBlurFrame blurred(std::int64_t n) {
         Snapshot between = at_frame(n);
         between.time += double(i) / (4 * 60.0);
         between.bodies[2].origin += i / 3.0 * (next.bodies[2].origin - between.bodies[2].origin);
-        frame_poses.blur_samples.push_back(between);
+        frame_poses.panels[0].push_back(between);
     }
     return frame_poses;
 }
@@ -159,7 +159,7 @@ TEST(RenderPool, AFrameDoesNotDependOnTheFirstFrame) {
     const SceneDescription scene = two_boxes();
     const auto creeping = [](std::int64_t n) {
         MotionBlurFrame frame_poses = sharp(n);
-        frame_poses.blur_samples[0].bodies[1].origin.x() += 3e-5 * double(n);  // 0.02 pixels are 0.9e-3 m
+        frame_poses.panels[0][0].bodies[1].origin.x() += 3e-5 * double(n);  // 0.02 pixels are 0.9e-3 m
         return frame_poses;
     };
     for (const auto& frame_poses : {std::function<MotionBlurFrame(std::int64_t)>(creeping),
@@ -197,13 +197,17 @@ Snapshot trembling(std::int64_t n) {
     return snapshot;
 }
 
-MotionBlurFrame with_aovs(std::int64_t n) { return {n, {trembling(n)}, AovPoses{trembling(n), trembling(n + 1)}}; }
+MotionBlurFrame with_aovs(std::int64_t n) {
+    return {n, trembling(n).time, {{trembling(n)}}, AovPoses{trembling(n), trembling(n + 1)}};
+}
 
 TEST(RenderPool, AovsAreIndependentOfTheNumberOfProcessesAndOfPictures) {
     const SceneDescription scene = two_boxes();
     FrameOutputs with = both, alone;
     with.aovs = alone.aovs = depth_and_motion();
-    const auto without_aovs = [](std::int64_t n) { return MotionBlurFrame{n, {trembling(n)}, {}}; };
+    const auto without_aovs = [](std::int64_t n) {
+        return MotionBlurFrame{n, trembling(n).time, {{trembling(n)}}, {}};
+    };
     std::vector<Seen> pictures, first;
     {
         RenderPool render_pool(scene, {}, both, 2);
@@ -287,7 +291,7 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
         for (const Seen& s : first) {
             ImageMean mean;
             Image expected;
-            for (const Snapshot& moment : blurred(s.number).blur_samples) mean.add(renderer.render(moment));
+            for (const Snapshot& moment : blurred(s.number).panels[0]) mean.add(renderer.render(moment));
             mean.take(expected);
             if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
         }
@@ -319,7 +323,7 @@ TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
                 last = n;
             };
             draw(render_pool, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) {
-                return MotionBlurFrame{n, {at_frame(n % 8)}, {}};
+                return MotionBlurFrame{n, at_frame(n).time, {{at_frame(n % 8)}}, {}};
             });
         });
         constexpr std::string_view words = "error: cannot draw frame ";

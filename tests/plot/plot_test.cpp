@@ -127,16 +127,23 @@ TEST(Figure, LeavesAGapWhereThereIsNoValue) {
 }
 
 TEST(Figure, CursorMarksTheValueAtItsTime) {
-    Figure figure = ramp();
-    figure.cursor = 0.25;
+    const Figure figure = ramp();
     Canvas with(400, 300, 1.0), without(400, 300, 1.0);
-    draw(figure, with, {0.0, 0.0, 400.0, 300.0});
-    draw(ramp(), without, {0.0, 0.0, 400.0, 300.0});
+    const FigurePlaces places = draw(figure, with, {0.0, 0.0, 400.0, 300.0});
+    draw_cursor(figure, places, 0.25, with, {0.0, 0.0});
+    draw(figure, without, {0.0, 0.0, 400.0, 300.0});
     const Image a = with.image(), b = without.image();
     int changed = 0;
     for (std::size_t i = 0; i < a.pixels.size(); i += 4) changed += a.pixels[i] != b.pixels[i];
     EXPECT_GT(changed, 100);   // the line and the dot
     EXPECT_LT(changed, 1500);  // and nothing else
+    // On a canvas that shows a part of the figure, it is at the same place of the figure.
+    const int left = int(places.x_of(0.25)) - 20;
+    Canvas strip(40, 300, 1.0), whole(400, 300, 1.0);
+    draw_cursor(figure, places, 0.25, strip, {double(left), 0.0});
+    draw_cursor(figure, places, 0.25, whole, {0.0, 0.0});
+    const Image part = strip.image(), all = whole.image();
+    for (int y = 0; y < 300; ++y) EXPECT_TRUE(std::equal(part.at(0, y), part.at(0, y) + 160, all.at(left, y))) << y;
 }
 
 }  // namespace

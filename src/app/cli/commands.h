@@ -2,6 +2,7 @@
 // errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
+#include "app/composition/frame_layout.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
 #include "render/renderer.h"
@@ -14,12 +15,14 @@
 namespace tumble {
 
 struct RenderCommand {
-    std::filesystem::path scene;
-    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the scene's name with .mp4
+    std::vector<std::filesystem::path> scenes;    // a panel for each
+    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
+    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name with .mp4
     std::optional<std::filesystem::path> frames;  // folder
     AovSet aovs;
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     SceneOverrides overrides;
+    PanelArrangement arrangement = PanelArrangement::automatic;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
     double start = 0.0;          // s, scene time; earlier frames are not drawn

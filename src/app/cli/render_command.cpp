@@ -1,5 +1,6 @@
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
+#include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
 #include "app/pipeline/pipeline.h"
@@ -8,7 +9,6 @@
 #include "app/workers/frame_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "sim/frames/clip_timing.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -25,7 +26,7 @@ namespace fs = std::filesystem;
 
 /// Outputs of a run, and the time that its stages took.
 struct Summary {
-    const SceneDescription& scene;
+    const Composition& composition;
     const FrameRange& frames;
     const Pipeline& pipeline;
     const PipelineOutputs& outputs;
@@ -38,7 +39,7 @@ struct Summary {
     void print() const {
         if (outputs.video != nullptr)
             say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*clip), outputs.video->frames_in_clip(),
-                scene.output.width, scene.output.height, frame_step_note(), stored());
+                composition.width, composition.height, frame_step_note(), stored());
         if (outputs.folder != nullptr)
             say("wrote {} to {}\n", safe_path(frame_path(outputs.folder->path(), frames.first)),
                 frame_path(outputs.folder->path(), frames.end - 1).filename().string());
@@ -116,14 +117,13 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
 void run_render(const RenderCommand& command) {
     const double start = wall_seconds();
     const std::optional<fs::path> aovs_to = aov_folder(command);
-    FileList inputs;
-    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
-    const double clip_fps = scene.output.fps;
-    const FrameTiming timing = timing_at_speed(scene, command.speed);
-    const FrameRange frames = frames_from(timing, scene.simulation.duration, command.start);
     const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
+    RenderScenes scenes(command, shutter);
+    const Composition& composition = scenes.composition;
+    const FrameRange& frames = scenes.frames;
+    const double clip_fps = scenes.first().output.fps;
     std::optional<fs::path> clip = command.clip;
-    if (!clip && !command.frames && !aovs_to) clip = command.scene.stem().string() + ".mp4";
+    if (!clip && !command.frames && !aovs_to) clip = command.scenes.front().stem().string() + ".mp4";
 
     // All checks of the outputs come before the simulation and before anything is written.
     RenderWork work{
@@ -135,37 +135,41 @@ void run_render(const RenderCommand& command) {
         work.clip = format.kind;
         find_ffmpeg();
     }
-    check_outputs(command, inputs, frames, clip, aovs_to);
+    check_outputs(command, scenes.inputs, frames, clip, aovs_to);
     const int requested_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
-    const int workers = workers_that_fit(scene, work, requested_workers);
+    const int workers = workers_that_fit(composition, work, requested_workers);
     if (workers < requested_workers && !command.quiet)
         say("note: {} render processes in place of {}, because there is no memory for more\n", workers,
             requested_workers);
+    const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
     Interrupt interrupt;  // before any thread or process is made
+    if (outputs.image()) scenes.survey_plot(threads, interrupt);
     // Before any thread. The processes open OpenGL while the bodies are built.
-    RenderPool render_pool(scene, command.drawing, outputs, workers, shutter.blur_samples);
-    const int threads =
-        command.threads.value_or(simulation_threads_beside_drawing(scene.bodies.size(), machine_threads()));
-    World world(scene, divided(timing, shutter.intervals), threads);
+    RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
+    std::vector<World> worlds;
+    for (std::size_t i = 0; i < scenes.scenes.size(); ++i) worlds.push_back(scenes.world(i, threads));
+    std::vector<PanelSource> panels;
+    for (std::size_t i = 0; i < worlds.size(); ++i) panels.push_back({worlds[i], scenes.ends[i]});
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<FrameFolder> own_aov_folder;
     std::error_code missing;
     if (aovs_to && !(folder && fs::equivalent(*aovs_to, folder->path(), missing))) own_aov_folder.emplace(*aovs_to);
     std::optional<AovFolder> aovs;
-    if (aovs_to) aovs.emplace(*aovs_to, scene, command.aovs);
+    if (aovs_to) aovs.emplace(*aovs_to, scenes.first(), command.aovs);
     std::optional<VideoWriter> video;
-    if (clip) video.emplace(*clip, scene.output.width, scene.output.height, clip_fps, command.clip_options);
+    if (clip) video.emplace(*clip, composition.width, composition.height, clip_fps, command.clip_options);
 
     const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
-    Pipeline pipeline(world, frames, render_pool, destinations, shutter);
+    Pipeline pipeline(panels, frames, render_pool, destinations, shutter);
     {
         Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     const ProcessEnd workers_end = render_pool.finish();
     if (!command.quiet)
-        Summary{scene, frames, pipeline, destinations, render_pool, workers_end, clip, clip_fps, wall_seconds() - start}
+        Summary{composition, frames, pipeline, destinations,          render_pool,
+                workers_end, clip,   clip_fps, wall_seconds() - start}
             .print();
 }
 

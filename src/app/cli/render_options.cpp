@@ -1,5 +1,6 @@
 #include "app/cli/command_line.h"
 #include "core/error.h"
+#include "scene/description/overlay.h"
 #include "scene/toml/limits.h"
 #include "sim/frames/clip_timing.h"
 
@@ -9,6 +10,24 @@ namespace tumble {
 namespace {
 
 constexpr int enough_workers = 8;  // 65 MiB each; the simulation and the encoder cannot keep more busy
+
+/// Breaks a list after the commas into lines for the help.
+std::string broken_list(const std::string& list) {
+    constexpr std::size_t most = 72;  // characters of a line
+    std::string lines;
+    std::size_t line = 0;
+    for (std::size_t first = 0; first < list.size();) {
+        const std::size_t end = std::min(list.find(',', first), list.size() - 1) + 1;
+        if (line > 0 && line + end - first > most) {
+            lines += '\n';
+            line = 0;
+        }
+        lines += list.substr(first, end - first);
+        line += end - first;
+        first = end;
+    }
+    return lines;
+}
 
 /// "depth,normal" to a set.
 AovSet read_aovs(const std::string& text) {
@@ -25,18 +44,54 @@ AovSet read_aovs(const std::string& text) {
     return aovs;
 }
 
+void add_panels(CLI::App& command, RenderCommand& c) {
+    command
+        .add_option("--vary", c.vary,
+                    "A panel for each value of a key, side by side, as in\n"
+                    "simulation.integrator=explicit-euler,symplectic-euler; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=V,V");
+    add_choice<PanelArrangement>(command, "--layout", c.arrangement,
+                                 {{"row", PanelArrangement::row}, {"grid", PanelArrangement::grid}},
+                                 "Arrangement of several panels; by default up to three are in a row, more in a grid")
+        ->option_text("row|grid");
+}
+
+void add_text(CLI::App& command, SceneOverrides& overrides) {
+    std::string names;
+    for (const OverlayName& overlay : overlay_names)
+        names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
+    command
+        .add_option(
+            "--overlay", overrides.overlay,
+            "What is drawn over the pictures, in place of the scene's: none, or a list out of\n" + broken_list(names))
+        ->type_name("LIST");
+    command
+        .add_option("--plot", overrides.plot,
+                    "Curves of quantities in the clip, with a cursor at each frame's time: a list such as\n"
+                    "energy,body.ball.y (names: tumble plot --help)")
+        ->type_name("LIST");
+    command
+        .add_option("--plot-place", overrides.plot_place, "Place of the plot: in a corner, or a third of the picture")
+        ->option_text("inset|beside|below");
+}
+
 }  // namespace
 
 CLI::App* add_render(CLI::App& app, CommandLine& line) {
     RenderCommand& c = line.render;
     CLI::App* command =
         app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
-    add_scene(*command, c.scene);
+    command->add_option("scene", c.scenes, "The scene files (TOML); several are shown side by side")
+        ->check(some_name())
+        ->required()
+        ->type_name("SCENE...");
     command
         ->add_option("-o,--output", c.clip,
                      "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
                      ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
-                     "name with .mp4, in this folder")
+                     "name with .mp4, in this folder (of several scenes, the first one's)")
         ->check(some_name())
         ->type_name("CLIP");
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")
@@ -87,6 +142,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--workers", c.workers, "Render processes, one per core; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))
         ->option_text(fmt::format("N [{}]", c.workers));
+    add_panels(*command, c);
+    add_text(*command, c.overrides);
     add_run(*command, c.threads, "by the bodies", c.quiet);
     command->footer(
         "Examples:\n"
@@ -97,7 +154,10 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml --frames one --duration 0  writes the first frame only\n"
         "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"
         "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"
-        "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all");
+        "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all\n"
+        "  tumble render a.toml b.toml                       side by side in a.mp4\n"
+        "  tumble render scene.toml --vary simulation.integrator=explicit-euler,exact --overlay clock\n"
+        "  tumble render scene.toml --plot energy --plot-place below");
     return command;
 }
 

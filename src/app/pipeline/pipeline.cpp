@@ -20,7 +20,9 @@ constexpr std::size_t waiting_pose_bytes = 16 << 20;  // lower limit for scenes 
 constexpr std::size_t queued_frames = 2;
 constexpr auto supervision_period = std::chrono::milliseconds(50);
 
-std::size_t poses_that_may_wait(std::size_t bodies, const Shutter& shutter) {
+std::size_t poses_that_may_wait(std::span<const PanelSource> panels, const Shutter& shutter) {
+    std::size_t bodies = 0;
+    for (const PanelSource& panel : panels) bodies += panel.world.snapshot().bodies.size();
     const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.blur_samples);
     return std::clamp<std::size_t>(waiting_pose_bytes / bytes, 1, waiting_poses);
 }
@@ -41,16 +43,17 @@ void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void
     stages.finish();
 }
 
-Pipeline::Pipeline(World& world, const FrameRange& frames, RenderPool& render_pool, const PipelineOutputs& outputs,
-                   Shutter shutter)
-    : sequence_(world, shutter),
-      frames_(frames),
+Pipeline::Pipeline(std::span<const PanelSource> panels, const FrameRange& frames, RenderPool& render_pool,
+                   const PipelineOutputs& outputs, Shutter shutter)
+    : frames_(frames),
       render_pool_(render_pool),
       outputs_(outputs),
-      poses_(poses_that_may_wait(world.snapshot().bodies.size(), shutter)),
+      poses_(poses_that_may_wait(panels, shutter)),
       for_png_(queued_frames),
       for_aovs_(queued_frames),
-      for_video_(queued_frames) {}
+      for_video_(queued_frames) {
+    for (const PanelSource& panel : panels) panels_.push_back({{panel.world, shutter}, panel.end, {}});
+}
 
 void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
     TaskGroup stages;
@@ -103,7 +106,7 @@ void Pipeline::simulate() {
             return;
     }
     if (waiting) {
-        waiting->aovs->next = timed(times_.simulation, [&] { return sequence_.next_start(); });
+        waiting->aovs->next = timed(times_.simulation, [&] { return panels_.front().sequence.next_start(); });
         if (!poses_.push(std::move(*waiting))) return;
     }
     poses_.close();
@@ -111,8 +114,15 @@ void Pipeline::simulate() {
 
 MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
     const StageTimer timer(times_.simulation);
-    MotionBlurFrame frame_poses{frame, sequence_.next(), std::nullopt};
-    if (outputs_.aovs != nullptr) frame_poses.aovs = AovPoses{frame_poses.blur_samples.front(), std::nullopt};
+    MotionBlurFrame frame_poses;
+    frame_poses.frame = frame;
+    for (Panel& panel : panels_) {
+        frame_poses.panels.push_back(frame < panel.end ? panel.sequence.next() : panel.last);
+        const PanelPoses& poses = frame_poses.panels.back();
+        if (frame + 1 == panel.end && panel.end < frames_.end) panel.last.assign(1, poses.front());
+        if (frame < panel.end) frame_poses.time = poses.front().time;
+    }
+    if (outputs_.aovs != nullptr) frame_poses.aovs = AovPoses{frame_poses.panels.front().front(), std::nullopt};
     return frame_poses;
 }
 

@@ -1,6 +1,6 @@
 // The pipeline; all stages run concurrently:
 //
-//   simulation ──poses──> render processes ──frames──┬──> PNG files
+//   simulations ─poses──> render processes ──frames──┬──> PNG files
 //                                                    ├──> AOV files
 //                                                    └──> video (ffmpeg)
 //
@@ -22,6 +22,8 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <vector>
 
 namespace tumble {
 
@@ -42,12 +44,18 @@ struct PipelineOutputs {
     AovFolder* aovs = nullptr;
 };
 
+/// The simulation of a panel.
+struct PanelSource {
+    World& world;          // its frames are the intervals of the shutter
+    std::int64_t end = 0;  // one after its last frame; later frames of the clip repeat that
+};
+
 class Pipeline {
 public:
-    /// Simulates the frames up to the end of the range and draws those in it. The frames of the world are the intervals
-    /// of the shutter. All arguments must outlive run(); the render pool must make the outputs that are requested.
-    Pipeline(World& world, const FrameRange& frames, RenderPool& render_pool, const PipelineOutputs& outputs,
-             Shutter shutter = {});
+    /// Simulates the frames up to the end of the range and draws those in it. All arguments must outlive run(); the
+    /// render pool must have the same panels and make the outputs that are requested.
+    Pipeline(std::span<const PanelSource> panels, const FrameRange& frames, RenderPool& render_pool,
+             const PipelineOutputs& outputs, Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times per second with the number of finished frames. Throws the
     /// first error of any stage, or RunError after an interrupt. Frames that are published by then are complete and
@@ -65,7 +73,12 @@ private:
     bool deliver(const Frame& frame);
     std::int64_t finished() const;
 
-    FrameSequence sequence_;
+    struct Panel {
+        FrameSequence sequence;
+        std::int64_t end;
+        PanelPoses last;  // a single sample, once the frames have ended
+    };
+    std::vector<Panel> panels_;
     FrameRange frames_;
     RenderPool& render_pool_;
     PipelineOutputs outputs_;

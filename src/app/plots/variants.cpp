@@ -45,6 +45,13 @@ Varied parse(const std::string& text) {
     return {text.substr(0, equals), split_values(std::string_view(text).substr(equals + 1))};
 }
 
+/// True for a word that tells its meaning, unlike a number or a truth value.
+bool is_name(const std::string& value) {
+    const char first = value.find_first_of("\"'") == 0 && value.size() > 1 ? value[1] : value[0];
+    return ((first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z')) && value != "true" && value != "false" &&
+           value != "inf" && value != "nan";
+}
+
 }  // namespace
 
 std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes, const SceneOverrides& overrides,
@@ -58,10 +65,11 @@ std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes
         std::vector<Variant> more;
         for (const Variant& base : variants)
             for (const std::string& value : one.values) {
+                const bool with_key = varied.size() > 1 || !is_name(value);
                 Variant variant = base;
                 variant.overrides.set.push_back(one.path + "=" + value);
                 if (!variant.label.empty()) variant.label += ", ";
-                variant.label += varied.size() > 1 ? fmt::format("{} {}", one.key(), value) : value;
+                variant.label += with_key ? fmt::format("{} {}", one.key(), value) : value;
                 more.push_back(std::move(variant));
             }
         variants = std::move(more);

@@ -21,29 +21,40 @@ constexpr std::uint64_t surface = 16;  // visibility buffer: depth, surface, tri
 
 constexpr std::int64_t slots = 4;  // of a worker (render_pool.cpp); a frame takes one
 
+std::uint64_t pixels_of(int width, int height) { return std::uint64_t(width) * std::uint64_t(height); }
+
+std::uint64_t panel_memory(const SceneDescription& scene, int blur_samples) {
+    const std::uint64_t pixels = pixels_of(scene.output.width, scene.output.height);
+    const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(scene.output.samples);  // the renderer's rule
+    std::uint64_t bytes = pixels * (targets * samples * sample + image_bytes + drawing);
+    if (samples > 1) bytes += pixels * image_bytes;  // their mean
+    if (blur_samples > 1) bytes += pixels * (light + image_bytes);
+    return bytes;
+}
+
 }  // namespace
 
-RenderMemory render_memory(const SceneDescription& scene, const RenderWork& work) {
-    const OutputSettings& output = scene.output;
-    const std::uint64_t pixels = std::uint64_t(output.width) * std::uint64_t(output.height);
-    const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(output.samples);  // the renderer's rule
+RenderMemory render_memory(const Composition& composition, const RenderWork& work) {
+    const int width = composition.width, height = composition.height;
     RenderMemory memory;
     if (work.outputs.image()) {
-        memory.worker += pixels * (targets * samples * sample + image_bytes + drawing);
-        if (samples > 1) memory.worker += pixels * image_bytes;  // their mean
-        if (work.blur_samples > 1) memory.worker += pixels * (light + image_bytes);
+        for (const ClipPanel& panel : composition.panels)
+            memory.worker += panel_memory(*panel.scene, work.blur_samples);
+        if (!composition.plain()) memory.worker += pixels_of(width, height) * image_bytes;
     }
     if (work.outputs.video) {
         const auto used = std::uint64_t(std::clamp<std::int64_t>(work.frames, 1, slots));
-        memory.worker += (used + 1) * frame_bytes(*work.outputs.video, output.width, output.height);
+        memory.worker += (used + 1) * frame_bytes(*work.outputs.video, width, height);
     }
     if (!work.outputs.aovs.empty()) {
+        const OutputSettings& aov_output = composition.aov_scene->output;
+        const std::uint64_t pixels = pixels_of(aov_output.width, aov_output.height);
         memory.worker += pixels * surface;
         for (const Aov aov : all_aovs)
             if (work.outputs.aovs.has(aov))
                 memory.worker += 2 * pixels * bytes_of_pixel(aov);  // values, and space for the file
     }
-    if (work.clip) memory.encoder = encoder_memory(*work.clip, output.width, output.height);
+    if (work.clip) memory.encoder = encoder_memory(*work.clip, width, height);
     return memory;
 }
 
@@ -63,10 +74,10 @@ std::uint64_t encoder_memory(VideoKind kind, int width, int height) {
     return of_pixel * std::uint64_t(width) * std::uint64_t(height);
 }
 
-int workers_that_fit(const SceneDescription& scene, const RenderWork& work, int workers, const AvailableMemory& own,
+int workers_that_fit(const Composition& composition, const RenderWork& work, int workers, const AvailableMemory& own,
                      const AvailableMemory& shared) {
-    const RenderMemory memory = render_memory(scene, work);
-    const std::string what = fmt::format("drawing pictures of {} x {} pixels", scene.output.width, scene.output.height);
+    const RenderMemory memory = render_memory(composition, work);
+    const std::string what = fmt::format("drawing pictures of {} x {} pixels", composition.width, composition.height);
     const std::string_view remedy = "a smaller --size takes less";
     require_memory(memory.worker, own, what, remedy);
     require_memory(memory.total(1), shared, what, remedy);

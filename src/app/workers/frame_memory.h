@@ -3,10 +3,10 @@
 // on the bodies is not included.
 #pragma once
 
+#include "app/composition/composition.h"
 #include "app/workers/shared_frames.h"
 #include "core/available_memory.h"
 #include "output/video_format.h"
-#include "scene/description/description.h"
 
 #include <cstdint>
 #include <optional>
@@ -26,14 +26,14 @@ struct RenderMemory {
     std::uint64_t total(int workers) const { return std::uint64_t(workers) * worker + encoder; }
 };
 
-RenderMemory render_memory(const SceneDescription& scene, const RenderWork& work);
+RenderMemory render_memory(const Composition& composition, const RenderWork& work);
 
 /// Memory of the ffmpeg program for frames of this size, bytes.
 std::uint64_t encoder_memory(VideoKind kind, int width, int height);
 
 /// Largest number of workers, up to the given one, that fit into memory: frames do not depend on their number. `own`
 /// bounds each process, `shared` all together. Throws RunError if not even one fits.
-int workers_that_fit(const SceneDescription& scene, const RenderWork& work, int workers,
+int workers_that_fit(const Composition& composition, const RenderWork& work, int workers,
                      const AvailableMemory& own = available_memory(), const AvailableMemory& shared = shared_memory());
 
 }  // namespace tumble

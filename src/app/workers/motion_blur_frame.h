@@ -10,11 +10,15 @@
 
 namespace tumble {
 
-/// Content of one frame: its blur samples in order; a single one without motion blur. Samples that are not requested,
-/// or that equal those of the previous frame, are omitted.
+/// The blur samples of a panel in order; a single one without motion blur.
+using PanelPoses = std::vector<Snapshot>;
+
+/// Content of one frame. The poses of the panels are omitted if no image is requested, or if it equals that of the
+/// previous frame; the poses for the AOVs likewise.
 struct MotionBlurFrame {
     std::int64_t frame = 0;
-    std::vector<Snapshot> blur_samples;
+    double time = 0.0;  // s, of the first blur samples
+    std::vector<PanelPoses> panels;
     std::optional<AovPoses> aovs;  // the true poses at the frame's own time, when the shutter opens
 };
 

@@ -1,6 +1,7 @@
 #include "app/workers/render_pool.h"
 
 #include "app/workers/reorder_buffer.h"
+#include "core/check.h"
 #include "core/error.h"
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
@@ -72,15 +73,19 @@ private:
     std::shared_ptr<SharedFrames> memory_;  // lives as long as one of its slots is read
 };
 
-RenderPool::RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs,
+RenderPool::RenderPool(const Composition& composition, const RenderOptions& options, const FrameOutputs& outputs,
                        int workers, int max_blur_samples)
-    : compile_schedule_(make_compile_schedule(workers)), pose_filter_(scene), aov_changes_(scene), outputs_(outputs) {
+    : compile_schedule_(make_compile_schedule(workers)),
+      composition_(composition),
+      aov_changes_(*composition.aov_scene),
+      outputs_(outputs) {
+    for (const ClipPanel& panel : composition.panels) pose_filters_.emplace_back(*panel.scene);
     RenderSwitches with_schedule{options};
     with_schedule.compile_schedule = compile_schedule_.get();
     std::vector<int> sockets;
     for (int i = 0; i < workers; ++i) {
-        workers_.push_back(
-            std::make_unique<RenderProcess>(scene, with_schedule, outputs, slots_of_worker, max_blur_samples, sockets));
+        workers_.push_back(std::make_unique<RenderProcess>(composition_, with_schedule, outputs, slots_of_worker,
+                                                           max_blur_samples, sockets));
         sockets.push_back(workers_.back()->socket());
         slots_.push_back(std::make_shared<Slots>(workers_.back()->memory()));
     }
@@ -120,19 +125,29 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
 /// Selects the poses to draw; false: the frame equals the previous one, which is not allowed for the first frame
 /// (`anew`).
 bool RenderPool::filter(MotionBlurFrame& frame_poses, bool anew) {
-    if (!outputs_.image() || (!filter_image(frame_poses) && !anew)) frame_poses.blur_samples.clear();
+    if (!outputs_.image() || (!filter_image(frame_poses) && !anew)) frame_poses.panels.clear();
     if (frame_poses.aovs && !aov_changes_.follow(*frame_poses.aovs) && !anew) frame_poses.aovs.reset();
-    return !frame_poses.blur_samples.empty() || frame_poses.aovs;
+    return !frame_poses.panels.empty() || frame_poses.aovs;
 }
 
-/// Selects the poses to draw of the image; false: it equals that of the previous frame. If nothing moves while the
-/// shutter is open, one sample is left.
+/// Selects the poses to draw of all panels; false: the image equals that of the previous frame.
 bool RenderPool::filter_image(MotionBlurFrame& frame_poses) {
+    TUMBLE_CHECK_EQ(frame_poses.panels.size(), pose_filters_.size());
+    bool changed = composition_.changes(last_time_, frame_poses.time);
+    last_time_ = frame_poses.time;
+    for (std::size_t i = 0; i < pose_filters_.size(); ++i)
+        if (pose_filters_[i].follow(frame_poses.panels[i])) changed = true;
+    return changed;
+}
+
+/// Replaces the samples by those to draw; false: the image of the panel equals that of the previous frame. If nothing
+/// moves while the shutter is open, one sample is left.
+bool RenderPool::PanelFilter::follow(PanelPoses& samples) {
     bool first = false, later = false;
-    for (std::size_t i = 0; i < frame_poses.blur_samples.size(); ++i)
-        if (pose_filter_.follow(frame_poses.blur_samples[i])) (i == 0 ? first : later) = true;
-    if (!later) frame_poses.blur_samples.resize(1);
-    const bool moved_before = std::exchange(moves_, later);
+    for (std::size_t i = 0; i < samples.size(); ++i)
+        if (poses.follow(samples[i])) (i == 0 ? first : later) = true;
+    if (!later) samples.resize(1);
+    const bool moved_before = std::exchange(moves, later);
     return first || later || moved_before;
 }
 
@@ -146,7 +161,7 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
             const bool wanted = filter(*pose, pose->frame == first);
             if (pose->frame < first) continue;
             if (wanted) {
-                if (!pose->blur_samples.empty()) ++drawn_;
+                if (!pose->panels.empty()) ++drawn_;
                 return pose;
             }
             if (!order.add_repeated(pose->frame)) break;
@@ -168,7 +183,7 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
             frame.aov_slot = slot;
             frame.aovs = slots.memory().aovs(*slot).first(drawn.aov_bytes);
         }
-        if (pose->blur_samples.empty()) {
+        if (pose->panels.empty()) {
             order.add_with_last_image(std::move(frame));
             continue;
         }

@@ -2,16 +2,16 @@
 // process per core (render_process.h); the next free one takes the next pose. Pixels do not depend on the number of
 // processes: every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
 //
-// A frame in which nothing drawn has moved is not drawn: it repeats the previous one. AOVs (aov_renderer.h) use the
+// A frame in which nothing drawn has moved and no text has changed is not drawn: it repeats the previous one. AOVs (aov_renderer.h) use the
 // true poses: if only those have moved, the image is repeated, but not the AOVs.
 #pragma once
 
+#include "app/composition/composition.h"
 #include "app/threads/bounded_queue.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/motion_blur_frame.h"
 #include "app/workers/render_process.h"
 #include "render/scene/pose_filter.h"
-#include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <atomic>
@@ -45,8 +45,8 @@ class ReorderBuffer;
 class RenderPool {
 public:
     /// Starts the processes. Precondition: the program has no other thread. `blur_samples`: largest number per frame.
-    /// The scene must outlive it. Throws RunError.
-    RenderPool(const SceneDescription& scene, const RenderOptions& options, const FrameOutputs& outputs, int workers,
+    /// Throws RunError.
+    RenderPool(const Composition& composition, const RenderOptions& options, const FrameOutputs& outputs, int workers,
                int max_blur_samples = 1);
     ~RenderPool();
 
@@ -76,10 +76,18 @@ private:
     std::vector<std::unique_ptr<RenderProcess>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;  // of each worker
     std::mutex pose_mutex_;                      // serializes taking the next pose
-    PoseFilter pose_filter_;
+    /// The filtered poses of one panel.
+    struct PanelFilter {
+        explicit PanelFilter(const SceneDescription& scene) : poses(scene) {}
+        bool follow(PanelPoses& samples);
+        PoseFilter poses;
+        bool moves = false;  // whether bodies moved while the shutter was open for the previous frame
+    };
+    Composition composition_;
+    std::vector<PanelFilter> pose_filters_;
     AovChanges aov_changes_;
     FrameOutputs outputs_;
-    bool moves_ = false;  // whether bodies moved while the shutter was open for the previous frame
+    double last_time_ = 0.0;  // s, of the last filtered frame
     std::int64_t drawn_ = 0;
 };
 

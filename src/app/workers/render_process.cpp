@@ -1,9 +1,10 @@
 #include "app/workers/render_process.h"
 
+#include "app/composition/frame_composer.h"
 #include "app/files/aov_file.h"
 #include "app/threads/stage_timer.h"
+#include "app/workers/panel_drawing.h"
 #include "core/error.h"
-#include "core/image_mean.h"
 #include "core/memory_limit.h"
 #include "output/png_writer.h"
 #include "output/video_pixels.h"
@@ -21,6 +22,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <new>
 #include <string_view>
 #include <system_error>
@@ -35,9 +37,9 @@ constexpr auto longest_end = std::chrono::seconds(1);
 
 struct Job {
     std::int64_t frame = 0;
+    double time = 0.0;  // s
     int slot = 0;
-    std::size_t blur_samples = 1;  // 0: no image is requested
-    bool aovs = false;
+    bool image = true, aovs = false;
 };
 
 /// Messages arrive completely or not at all (SOCK_SEQPACKET). False: the other end is closed.
@@ -67,22 +69,23 @@ WorkTime timed(const Work& work) {
     return {time.wall.load(), time.cpu.load()};
 }
 
-/// The child process: its OpenGL context, and its previous frame with all outputs.
+/// The child process: its OpenGL contexts, and its previous frame with all outputs.
 class FrameMaker {
 public:
-    FrameMaker(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs,
+    FrameMaker(const Composition& composition, const RenderSwitches& options, const FrameOutputs& outputs,
                SharedFrames& memory)
         : memory_(memory) {
-        if (outputs.image()) renderer_.emplace(scene, options);
-        if (!outputs.aovs.empty()) aovs_.emplace(scene, outputs.aovs);
-        if (outputs.video) video_.emplace(*outputs.video, scene.output.width, scene.output.height);
+        if (outputs.image()) open_panels(composition, options);
+        if (outputs.image() && !composition.plain()) composer_.emplace(composition);
+        if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs);
+        if (outputs.video) video_.emplace(*outputs.video, composition.width, composition.height);
         if (outputs.png) png_.emplace();
     }
 
     DrawnFrame make(const Job& job) {
         DrawnFrame drawn;
-        drawn.frame = snapshot_.frame = job.frame;
-        if (job.blur_samples > 0) make_image(job, drawn);
+        drawn.frame = job.frame;
+        if (job.image) make_image(job, drawn);
         if (job.aovs)
             drawn.aovs = timed([&] {
                 memory_.read_aov_poses(aov_poses_);
@@ -94,13 +97,17 @@ public:
     }
 
 private:
+    void open_panels(const Composition& composition, RenderSwitches options) {
+        for (const ClipPanel& panel : composition.panels) {
+            panels_.push_back(std::make_unique<PanelDrawing>(*panel.scene, options));
+            options.compile_schedule = nullptr;  // it distributes the shaders of one renderer of each process
+        }
+    }
+
     void make_image(const Job& job, DrawnFrame& drawn) {
-        drawn.drawing = timed([&] { draw_samples(job); });
-        const bool partly = !was_blurred_ && job.blur_samples == 1;  // otherwise the previous image was a different one
-        const Image& image = job.blur_samples == 1 ? *drawn_ : blurred_;
-        const std::vector<Rectangle> changed =
-            partly ? renderer_->changed() : std::vector{Rectangle{0, 0, image.width, image.height}};
-        was_blurred_ = job.blur_samples > 1;
+        drawn.drawing = timed([&] { draw(job); });
+        const Image& image = composer_ ? composer_->image() : panels_.front()->image();
+        const std::vector<Rectangle>& changed = composer_ ? composer_->changed() : panels_.front()->changed();
         drawn.unchanged = changed.empty();
         if (video_)
             drawn.conversion = timed([&] {
@@ -115,22 +122,17 @@ private:
         drawn.png_bytes = file_.size();
     }
 
-    void draw_samples(const Job& job) {
-        for (std::size_t i = 0; i < job.blur_samples; ++i) {
-            memory_.read_poses(i, snapshot_);
-            drawn_ = &renderer_->render(snapshot_);
-            if (job.blur_samples > 1) mean_.add(*drawn_);
-        }
-        if (job.blur_samples > 1) mean_.take(blurred_);
+    void draw(const Job& job) {
+        for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i]->draw(memory_, i, job.frame);
+        if (!composer_) return;
+        std::vector<PanelImage> images;
+        for (const auto& panel : panels_) images.push_back({panel->image(), panel->changed()});
+        composer_->compose(images, job.time);
     }
 
     SharedFrames& memory_;
-    std::optional<Renderer> renderer_;
-    Snapshot snapshot_;
-    const Image* drawn_ = nullptr;  // the last sample that was drawn; the renderer owns it
-    ImageMean mean_;
-    Image blurred_;
-    bool was_blurred_ = false;
+    std::vector<std::unique_ptr<PanelDrawing>> panels_;
+    std::optional<FrameComposer> composer_;  // absent where the image of the only panel is the frame
     std::optional<VideoPixels> video_;
     std::optional<PngEncoder> png_;
     std::span<const std::byte> file_;
@@ -146,7 +148,7 @@ std::string reason(const std::exception& error) {
     return std::string(text);
 }
 
-[[noreturn]] void work(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs,
+[[noreturn]] void work(const Composition& composition, const RenderSwitches& options, const FrameOutputs& outputs,
                        SharedFrames& memory, int socket) {
     ::setpgid(0, 0);  // Ctrl-C must reach it only through the program
     sigset_t none;
@@ -161,7 +163,7 @@ std::string reason(const std::exception& error) {
     Job job;
     bool asked = false;
     try {
-        FrameMaker maker(scene, options, outputs, memory);
+        FrameMaker maker(composition, options, outputs, memory);
         while ((asked = receive_message(socket, job)))
             if (!send_message(socket, maker.make(job))) break;
         ::_exit(
@@ -179,9 +181,9 @@ std::string reason(const std::exception& error) {
 
 }  // namespace
 
-RenderProcess::RenderProcess(const SceneDescription& scene, const RenderSwitches& options, const FrameOutputs& outputs,
+RenderProcess::RenderProcess(const Composition& composition, const RenderSwitches& options, const FrameOutputs& outputs,
                              int slots, int max_blur_samples, std::span<const int> other_sockets)
-    : memory_(std::make_shared<SharedFrames>(scene, outputs, slots, max_blur_samples)) {
+    : memory_(std::make_shared<SharedFrames>(composition, outputs, slots, max_blur_samples)) {
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         throw RunError("cannot make a socket: " + std::generic_category().message(errno));
@@ -195,7 +197,7 @@ RenderProcess::RenderProcess(const SceneDescription& scene, const RenderSwitches
         // program's end.
         ::close(ends[0]);
         for (const int socket : other_sockets) ::close(socket);
-        work(scene, options, outputs, *memory_, ends[1]);
+        work(composition, options, outputs, *memory_, ends[1]);
     }
     const int error = errno;
     ::close(ends[1]);
@@ -212,14 +214,11 @@ RenderProcess::~RenderProcess() {
 }
 
 DrawnFrame RenderProcess::draw(const MotionBlurFrame& frame_poses, int slot) {
-    for (std::size_t i = 0; i < frame_poses.blur_samples.size(); ++i)
-        memory_->write_poses(i, frame_poses.blur_samples[i]);
+    for (std::size_t i = 0; i < frame_poses.panels.size(); ++i) memory_->write_poses(i, frame_poses.panels[i]);
     if (frame_poses.aovs) memory_->write_aov_poses(*frame_poses.aovs);
     DrawnFrame drawn;
-    if (!send_message(socket_,
-                      Job{frame_poses.frame, slot, frame_poses.blur_samples.size(), frame_poses.aovs.has_value()}) ||
-        !receive_message(socket_, drawn))
-        died(frame_poses.frame);
+    const Job job{frame_poses.frame, frame_poses.time, slot, !frame_poses.panels.empty(), frame_poses.aovs.has_value()};
+    if (!send_message(socket_, job) || !receive_message(socket_, drawn)) died(frame_poses.frame);
     if (drawn.failed) throw RunError(fmt::format("cannot draw frame {}: {}", frame_poses.frame, memory_->error_text()));
     return drawn;
 }

@@ -25,24 +25,21 @@ std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * 
 
 }  // namespace
 
-SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& outputs, int slots, int max_blur_samples)
-    : followed_(scene.camera.follow),
-      motion_(outputs.aovs.has(Aov::motion)),
-      bodies_(scene.bodies.size()),
-      max_blur_samples_(std::size_t(max_blur_samples)),
-      poses_size_((numbers_of_sample + bodies_ * numbers_of_body) * sizeof(double)),
-      slots_at_(error_text_size + whole_pages((max_blur_samples_ + (outputs.aovs.empty() ? 0
-                                                                    : motion_            ? 2
-                                                                                         : 1)) *
-                                              poses_size_)),
-      video_at_(0),
-      video_size_(outputs.video ? frame_bytes(*outputs.video, scene.output.width, scene.output.height) : 0),
-      png_at_(whole_pages(video_size_)),
-      png_size_(outputs.png ? png_bytes_bound(scene.output.width, scene.output.height) : 0),
-      aovs_at_(png_at_ + whole_pages(png_size_)),
-      aovs_size_(outputs.aovs.empty() ? 0 : aov_file_bound(outputs.aovs, scene.output.width, scene.output.height)),
-      slot_size_(aovs_at_ + whole_pages(aovs_size_)),
-      size_(slots_at_ + slot_size_ * std::size_t(slots)) {
+SharedFrames::SharedFrames(const Composition& composition, const FrameOutputs& outputs, int slots, int max_blur_samples)
+    : motion_(outputs.aovs.has(Aov::motion)) {
+    for (const ClipPanel& panel : composition.panels)
+        panels_.push_back(add_region(*panel.scene, std::size_t(max_blur_samples)));
+    if (!outputs.aovs.empty()) aov_poses_ = add_region(*composition.aov_scene, motion_ ? 2 : 1);
+    const int width = composition.width, height = composition.height;
+    video_at_ = 0;
+    video_size_ = outputs.video ? frame_bytes(*outputs.video, width, height) : 0;
+    png_at_ = whole_pages(video_size_);
+    png_size_ = outputs.png ? png_bytes_bound(width, height) : 0;
+    aovs_at_ = png_at_ + whole_pages(png_size_);
+    const OutputSettings& aov_output = composition.aov_scene->output;
+    aovs_size_ = outputs.aovs.empty() ? 0 : aov_file_bound(outputs.aovs, aov_output.width, aov_output.height);
+    slot_size_ = aovs_at_ + whole_pages(aovs_size_);
+    size_ = slots_at_ + slot_size_ * std::size_t(slots);
     // Pages that are never written take no memory, so the space for a PNG file may be far larger than the file.
     void* const memory =
         mmap(nullptr, size_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -54,11 +51,24 @@ SharedFrames::SharedFrames(const SceneDescription& scene, const FrameOutputs& ou
 
 SharedFrames::~SharedFrames() { munmap(memory_, size_); }
 
-void SharedFrames::write_poses(std::size_t sample, const Snapshot& snapshot) {
-    TUMBLE_CHECK_EQ(snapshot.bodies.size(), bodies_);
-    double* to = poses(sample).data();
+std::size_t SharedFrames::PoseRegion::size_of_sample() const { return numbers_of_sample + bodies * numbers_of_body; }
+
+/// Reserves space in front of the slots.
+SharedFrames::PoseRegion SharedFrames::add_region(const SceneDescription& scene, std::size_t samples) {
+    const PoseRegion region{scene.camera.follow, scene.bodies.size(), slots_at_};
+    slots_at_ += whole_pages((1 + samples * region.size_of_sample()) * sizeof(double));
+    return region;
+}
+
+double* SharedFrames::sample(const PoseRegion& region, std::size_t index) const {
+    return count(region) + 1 + index * region.size_of_sample();
+}
+
+void SharedFrames::write(const PoseRegion& region, std::size_t index, const Snapshot& snapshot) {
+    TUMBLE_CHECK_EQ(snapshot.bodies.size(), region.bodies);
+    double* to = sample(region, index);
     *to++ = snapshot.time;
-    if (followed_) std::copy_n(snapshot.bodies[*followed_].center_of_mass.data(), 3, to);
+    if (region.followed) std::copy_n(snapshot.bodies[*region.followed].center_of_mass.data(), 3, to);
     to += 3;
     for (const BodyState& body : snapshot.bodies) {
         std::copy_n(body.origin.data(), 3, to);
@@ -67,11 +77,11 @@ void SharedFrames::write_poses(std::size_t sample, const Snapshot& snapshot) {
     }
 }
 
-void SharedFrames::read_poses(std::size_t sample, Snapshot& snapshot) const {
-    snapshot.bodies.resize(bodies_);
-    const double* from = poses(sample).data();
+void SharedFrames::read(const PoseRegion& region, std::size_t index, Snapshot& snapshot) const {
+    snapshot.bodies.resize(region.bodies);
+    const double* from = sample(region, index);
     snapshot.time = *from++;
-    if (followed_) std::copy_n(from, 3, snapshot.bodies[*followed_].center_of_mass.data());
+    if (region.followed) std::copy_n(from, 3, snapshot.bodies[*region.followed].center_of_mass.data());
     from += 3;
     for (BodyState& body : snapshot.bodies) {
         std::copy_n(from, 3, body.origin.data());
@@ -80,15 +90,26 @@ void SharedFrames::read_poses(std::size_t sample, Snapshot& snapshot) const {
     }
 }
 
+void SharedFrames::write_poses(std::size_t panel, const PanelPoses& poses) {
+    *count(panels_[panel]) = double(poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i) write(panels_[panel], i, poses[i]);
+}
+
+std::size_t SharedFrames::samples(std::size_t panel) const { return std::size_t(*count(panels_[panel])); }
+
+void SharedFrames::read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const {
+    read(panels_[panel], sample, snapshot);
+}
+
 void SharedFrames::write_aov_poses(const AovPoses& poses) {
-    write_poses(max_blur_samples_, poses.now);
+    write(*aov_poses_, 0, poses.now);
     TUMBLE_CHECK_EQ(poses.next.has_value(), motion_);
-    if (motion_) write_poses(max_blur_samples_ + 1, *poses.next);
+    if (motion_) write(*aov_poses_, 1, *poses.next);
 }
 
 void SharedFrames::read_aov_poses(AovPoses& poses) const {
-    read_poses(max_blur_samples_, poses.now);
-    if (motion_) read_poses(max_blur_samples_ + 1, poses.next.emplace());
+    read(*aov_poses_, 0, poses.now);
+    if (motion_) read(*aov_poses_, 1, poses.next.emplace());
 }
 
 void SharedFrames::write_error(const std::string& text) {

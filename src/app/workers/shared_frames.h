@@ -3,15 +3,17 @@
 // name, so that it disappears with the processes.
 #pragma once
 
+#include "app/composition/composition.h"
+#include "app/workers/motion_blur_frame.h"
 #include "output/video_format.h"
 #include "render/aov/aov_renderer.h"
-#include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -27,15 +29,16 @@ struct FrameOutputs {
 class SharedFrames {
 public:
     /// Call it before the fork, for frames with this many blur samples. Throws RunError if there is not enough memory.
-    SharedFrames(const SceneDescription& scene, const FrameOutputs& outputs, int slots, int max_blur_samples);
+    SharedFrames(const Composition& composition, const FrameOutputs& outputs, int slots, int max_blur_samples);
     ~SharedFrames();
     SharedFrames(const SharedFrames&) = delete;
     SharedFrames& operator=(const SharedFrames&) = delete;
 
-    /// Writes one sample of the next frame to draw: time, origins and orientations, and the center of mass of the body
-    /// that the camera follows. There is space for one frame.
-    void write_poses(std::size_t sample, const Snapshot& snapshot);
-    void read_poses(std::size_t sample, Snapshot& snapshot) const;
+    /// Writes the samples of a panel of the next frame to draw: times, origins and orientations, and the center of mass
+    /// of the body that the camera follows. There is space for one frame.
+    void write_poses(std::size_t panel, const PanelPoses& poses);
+    std::size_t samples(std::size_t panel) const;
+    void read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const;
 
     /// Writes poses for the AOVs: those of the next frame only if motion is requested.
     void write_aov_poses(const AovPoses& poses);
@@ -56,16 +59,24 @@ private:
         return {memory_ + slots_at_ + std::size_t(slot) * slot_size_ + at, size};
     }
 
-    std::span<double> poses(std::size_t sample) const {
-        return {reinterpret_cast<double*>(memory_ + error_text_size + sample * poses_size_),
-                poses_size_ / sizeof(double)};
-    }
+    /// The poses of one scene: the number of samples, then the samples.
+    struct PoseRegion {
+        std::optional<std::size_t> followed;
+        std::size_t bodies, at;  // `at`: bytes from the start of the memory
+        std::size_t size_of_sample() const;
+    };
+    PoseRegion add_region(const SceneDescription& scene, std::size_t samples);
+    double* count(const PoseRegion& region) const { return reinterpret_cast<double*>(memory_ + region.at); }
+    double* sample(const PoseRegion& region, std::size_t index) const;
+    void write(const PoseRegion& region, std::size_t index, const Snapshot& snapshot);
+    void read(const PoseRegion& region, std::size_t index, Snapshot& snapshot) const;
 
     static constexpr std::size_t error_text_size = 4096;
-    std::optional<std::size_t> followed_;
     bool motion_;
-    std::size_t bodies_, max_blur_samples_, poses_size_, slots_at_, video_at_, video_size_, png_at_, png_size_,
-        aovs_at_, aovs_size_, slot_size_, size_;
+    std::size_t slots_at_ = error_text_size;
+    std::vector<PoseRegion> panels_;
+    std::optional<PoseRegion> aov_poses_;
+    std::size_t video_at_, video_size_, png_at_, png_size_, aovs_at_, aovs_size_, slot_size_, size_;
     std::byte* memory_;
 };
 

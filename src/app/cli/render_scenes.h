@@ -1,0 +1,43 @@
+// The scenes of `tumble render`, their place in the frame, and the frames of the clip.
+#pragma once
+
+#include "app/cli/commands.h"
+#include "app/composition/make_composition.h"
+#include "app/pipeline/frame_range.h"
+#include "app/plots/plotted_run.h"
+#include "app/threads/interrupt.h"
+#include "sim/frames/clip_timing.h"
+#include "sim/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+class RenderScenes {
+public:
+    /// Loads and checks the scenes. Throws InputError if they do not fit together.
+    RenderScenes(const RenderCommand& command, const Shutter& shutter);
+
+    /// Simulates all scenes once, if the clip has a plot, and fills it. Leaves no thread behind.
+    void survey_plot(int threads, Interrupt& interrupt);
+
+    const SceneDescription& first() const { return *scenes.front().scene; }
+    std::size_t bodies() const;
+    World world(std::size_t index, int threads) const;
+
+    std::vector<ClipScene> scenes;   // the timing is that of the simulation, with the intervals of the shutter
+    std::vector<std::int64_t> ends;  // one after the last frame of each scene
+    FileList inputs;
+    FrameRange frames;  // of the longest scene
+    Composition composition;
+
+private:
+    void load(const RenderCommand& command);
+    void read_plot(const RenderCommand& command, CompositionOptions& options);
+
+    Shutter shutter_;
+    std::vector<PlottedRun> runs_;  // one for each scene if there is a plot
+};
+
+}  // namespace tumble

@@ -1,0 +1,28 @@
+#include "app/composition/composition.h"
+
+#include <fmt/format.h>
+
+namespace tumble {
+
+Composition::Composition(const SceneDescription& scene)
+    : width(scene.output.width),
+      height(scene.output.height),
+      panels{{std::shared_ptr<const SceneDescription>(std::shared_ptr<void>(), &scene), {0, 0, width, height}}},
+      aov_scene(panels[0].scene) {}
+
+bool Composition::changes(double from, double to) const {
+    if (from == to) return false;
+    return !plots.empty() || (text.clock && clock_text_at(from) != clock_text_at(to)) ||
+           captions_at(text.captions, from) != captions_at(text.captions, to);
+}
+
+std::string clock_text_at(double time) { return fmt::format("t = {:.3f} s", time); }
+
+std::vector<const Caption*> captions_at(const std::vector<Caption>& captions, double time) {
+    std::vector<const Caption*> shown;
+    for (const Caption& caption : captions)
+        if (caption.start <= time && time < caption.end) shown.push_back(&caption);
+    return shown;
+}
+
+}  // namespace tumble

@@ -1,0 +1,43 @@
+// Makes frames from the images of their panels, with text and plot. Only what changed is made anew: a frame is the same
+// to the last byte whichever frame was composed before it.
+#pragma once
+
+#include "app/composition/composition.h"
+#include "app/composition/plot_layer.h"
+#include "app/composition/text_layer.h"
+#include "core/image.h"
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+struct PanelImage {
+    const Image& image;
+    const std::vector<Rectangle>& changed;  // where it may differ from the image of the previous frame
+};
+
+class FrameComposer {
+public:
+    explicit FrameComposer(const Composition& composition);
+
+    /// Composes the frame of that time (s).
+    void compose(std::span<const PanelImage> panels, double time);
+
+    /// Of the last compose().
+    const Image& image() const { return frame_; }
+    /// The regions in which the image may differ from the previous one.
+    const std::vector<Rectangle>& changed() const { return changed_; }
+
+private:
+    void restore(std::span<const PanelImage> panels, const Rectangle& region);
+
+    std::vector<Rectangle> places_;  // of the panels
+    TextLayer text_;
+    std::vector<PlotLayer> plots_;
+    Image frame_;
+    bool first_ = true;  // no frame yet
+    std::vector<Rectangle> changed_;
+};
+
+}  // namespace tumble

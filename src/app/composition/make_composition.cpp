@@ -1,0 +1,140 @@
+#include "app/composition/make_composition.h"
+
+#include "core/safe_text.h"
+#include "scene/keys/settings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+constexpr double widest_view = 170.0;  // degrees, vertical
+
+std::string step_text(const FrameTiming& timing) {
+    const double rate = timing.fps * timing.steps_per_frame;
+    if (std::round(rate) == rate) return fmt::format("h = 1/{:.0f} s", rate);
+    return fmt::format("h = {:.6g} s", timing.step());
+}
+
+/// Everything that is needed to repeat the run.
+std::vector<std::string> mode_of(const ClipScene& clip_scene) {
+    const SimulationSettings& simulation = clip_scene.scene->simulation;
+    std::vector<std::string> mode;
+    if (simulation.method == SimulationMethod::notes) mode.emplace_back("method notes");
+    for (const auto& choice : integrator_choices(simulation.method))
+        if (choice.value == simulation.integrator) mode.emplace_back(choice.name);
+    if (simulation.method != SimulationMethod::notes)
+        mode.emplace_back(simulation.impacts == ImpactMode::exact ? "impacts exact" : "impacts stepped");
+    mode.push_back(step_text(clip_scene.timing));
+    mode.push_back(fmt::format("seed {}", simulation.seed));
+    return mode;
+}
+
+/// The parts of the mode that all scenes have in common; the labels tell the others.
+std::string common_mode(std::span<const ClipScene> scenes) {
+    std::vector<std::string> common = mode_of(scenes.front());
+    for (const ClipScene& other : scenes.subspan(1)) {
+        const std::vector<std::string> mode = mode_of(other);
+        std::erase_if(common, [&](const std::string& part) { return std::ranges::find(mode, part) == mode.end(); });
+    }
+    return fmt::format("{}", fmt::join(common, ", "));
+}
+
+/// The first scene that has something, or null.
+template <class Has>
+const SceneDescription* first_with(std::span<const ClipScene> scenes, const Has& has) {
+    for (const ClipScene& clip_scene : scenes)
+        if (has(*clip_scene.scene)) return clip_scene.scene.get();
+    return nullptr;
+}
+
+const SceneDescription* first_showing(std::span<const ClipScene> scenes, Overlay overlay) {
+    return first_with(scenes, [&](const SceneDescription& scene) { return scene.overlay.show.has(overlay); });
+}
+
+ClipText text_of(std::span<const ClipScene> scenes, const CompositionOptions& options) {
+    ClipText text;
+    if (const SceneDescription* scene = first_showing(scenes, Overlay::title))
+        text.title = scene->title.empty() ? std::filesystem::path(scene->file).stem().string() : scene->title;
+    text.clock = first_showing(scenes, Overlay::clock) != nullptr;
+    text.last_time = options.last_time;
+    if (first_showing(scenes, Overlay::mode) != nullptr) text.mode = common_mode(scenes);
+    if (const auto* scene = first_with(scenes, [](const SceneDescription& s) { return !s.overlay.captions.empty(); }))
+        text.captions = scene->overlay.captions;
+    return text;
+}
+
+double wider(double vertical_fov, double factor) {
+    constexpr double degrees = std::numbers::pi / 180.0;
+    const double half = std::atan(factor * std::tan(0.5 * vertical_fov * degrees)) / degrees;
+    return std::max(vertical_fov, std::min(2.0 * half, widest_view));
+}
+
+bool is_whole(const Rectangle& place, const SceneDescription& scene) {
+    return place == Rectangle{0, 0, scene.output.width, scene.output.height};
+}
+
+Figure empty_figure(double unit, PlotPlace place) {
+    Figure figure;
+    figure.x_title = "time (s)";
+    figure.theme = place == PlotPlace::inset ? Theme::on_picture() : Theme::light();
+    figure.text_size = std::max(8.0, 0.025 * unit);
+    return figure;
+}
+
+}  // namespace
+
+SceneDescription panel_scene(const SceneDescription& scene, int width, int height) {
+    SceneDescription panel = scene;
+    panel.output.width = width;
+    panel.output.height = height;
+    const double factor = double(scene.output.width) / double(scene.output.height) / (double(width) / double(height));
+    if (factor <= 1.0) return panel;
+    panel.camera.vertical_fov = wider(scene.camera.vertical_fov, factor);
+    for (CameraKeyframe& key : panel.camera.keyframes) key.vertical_fov = wider(key.vertical_fov, factor);
+    return panel;
+}
+
+Composition make_composition(std::span<const ClipScene> scenes, const CompositionOptions& options) {
+    const SceneDescription& first = *scenes.front().scene;
+    Composition composition;
+    composition.width = first.output.width;
+    composition.height = first.output.height;
+    composition.aov_scene = scenes.front().scene;
+    composition.text = text_of(scenes, options);
+    ClipText& text = composition.text;
+    LayoutRequest request{composition.width,
+                          composition.height,
+                          scenes.size(),
+                          options.arrangement,
+                          text.clock || !text.title.empty(),
+                          !text.mode.empty(),
+                          text.clock,
+                          {},
+                          options.plot_panels};
+    if (options.plot_panels > 0) request.plot = options.plot_place;
+    const FrameLayout layout = lay_out(request);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const Rectangle& place = layout.panels[i];
+        std::shared_ptr<const SceneDescription> scene = scenes[i].scene;
+        if (!is_whole(place, *scene))
+            scene = std::make_shared<const SceneDescription>(panel_scene(*scene, place.width, place.height));
+        composition.panels.push_back({std::move(scene), place});
+        if (!layout.labels.empty()) composition.labels.push_back({scenes[i].label, layout.labels[i]});
+    }
+    text.header = layout.header;
+    text.footer = layout.footer;
+    text.area = layout.area;
+    const double unit = text_unit(composition.width, composition.height);
+    for (const Rectangle& place : layout.plots) composition.plots.push_back({empty_figure(unit, *request.plot), place});
+    return composition;
+}
+
+}  // namespace tumble

@@ -1,0 +1,32 @@
+// A run of the simulation before the drawing, for what needs the whole clip: plots, and scales that hold for all frames.
+#pragma once
+
+#include "app/threads/interrupt.h"
+#include "sim/snapshot/report.h"
+#include "sim/snapshot/snapshot.h"
+#include "sim/world.h"
+
+#include <cstdint>
+#include <span>
+
+namespace tumble {
+
+/// Sees every frame of a run in order.
+class SurveyObserver {
+public:
+    virtual ~SurveyObserver() = default;
+    virtual bool needs_measurement() const { return false; }
+    /// The measurement is empty unless an observer needs it.
+    virtual void see(const Snapshot& snapshot, const Measurement& measurement) = 0;
+};
+
+/// Frames of the clip, each as many frames of the world as the shutter has intervals.
+struct SurveyFrames {
+    std::int64_t count = 1;
+    int intervals = 1;
+};
+
+/// Runs the world from its start and shows each frame to all observers. Throws RunError after an interrupt.
+void survey(World& world, const SurveyFrames& frames, std::span<SurveyObserver* const> observers, Interrupt& interrupt);
+
+}  // namespace tumble
