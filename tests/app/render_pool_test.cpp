@@ -291,7 +291,8 @@ TEST(RenderPool, MotionBlurIsTheMeanOfItsMoments) {
         for (const Seen& s : first) {
             ImageMean mean;
             Image expected;
-            for (const Snapshot& moment : blurred(s.number).panels[0]) mean.add(renderer.render(moment));
+            const PanelPoses moments = blurred(s.number).panels[0];
+            for (const Snapshot& moment : moments) mean.add(renderer.render(moment));
             mean.take(expected);
             if (!std::ranges::equal(png.encode(expected), s.png)) return 1;
         }

@@ -63,9 +63,8 @@ void add_text(CLI::App& command, SceneOverrides& overrides) {
     for (const OverlayName& overlay : overlay_names)
         names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
     command
-        .add_option(
-            "--overlay", overrides.overlay,
-            "What is drawn over the pictures, in place of the scene's: none, or a list out of\n" + broken_list(names))
+        .add_option("--overlay", overrides.overlay,
+                    "Overlays of the pictures, in place of the scene's: none, or a list out of\n" + broken_list(names))
         ->type_name("LIST");
     command
         .add_option("--plot", overrides.plot,

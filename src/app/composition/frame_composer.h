@@ -1,4 +1,4 @@
-// Makes frames from the images of their panels, with text and plot. Only what changed is made anew: a frame is the same
+// Makes frames from the images of their panels, with text and plot. Only changed regions are made anew: a frame is the same
 // to the last byte whichever frame was composed before it.
 #pragma once
 

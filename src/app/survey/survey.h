@@ -1,4 +1,4 @@
-// A run of the simulation before the drawing, for what needs the whole clip: plots, and scales that hold for all frames.
+// A run of the simulation before the drawing, for plots of the whole clip and for scales that hold for all frames.
 #pragma once
 
 #include "app/threads/interrupt.h"

@@ -16,7 +16,7 @@ void PanelDrawing::draw(const SharedFrames& memory, std::size_t panel, std::int6
     }
     if (samples > 1) mean_.take(blurred_);
     const bool blurred_before = std::exchange(blurred_last_, samples > 1);
-    // Between a sharp and a blurred image, the renderer does not know what changed.
+    // Between a sharp and a blurred image, the renderer does not know the changed regions.
     if (blurred_before || blurred_last_)
         changed_.assign(1, {0, 0, drawn_->width, drawn_->height});
     else
