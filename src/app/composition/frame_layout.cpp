@@ -16,7 +16,7 @@ constexpr int least_panel_side = 48, least_plot_width = 160, least_plot_height =
 constexpr double gap_size = 0.014, header_height = 0.09, label_height = 0.06, footer_height = 0.05, inset_margin = 0.03,
                  below_clock = 0.11;
 // Fractions of the frame or the area.
-constexpr double plot_share = 1.0 / 3.0, inset_width = 0.4, inset_height = 0.34, inset_growth = 0.17, most_inset = 0.8;
+constexpr double beside_share = 1.0 / 3.0, below_share = 0.37, inset_width = 0.4, inset_height = 0.34, inset_growth = 0.17, most_inset = 0.8;
 
 int even(double length) { return 2 * std::max(1, int(std::lround(0.5 * length))); }
 int even_part(int length, int parts) { return length / parts / 2 * 2; }
@@ -46,11 +46,11 @@ Rectangle inset_in(const Rectangle& area, const LayoutRequest& request, double u
 Rectangle cut_plot(Rectangle& space, PlotPlace place, int gap) {
     Rectangle plot = space;
     if (place == PlotPlace::beside) {
-        plot.width = even(plot_share * space.width);
+        plot.width = even(beside_share * space.width);
         plot.x = space.x + space.width - plot.width;
         space.width -= plot.width + gap;
     } else {
-        plot.height = even(plot_share * space.height);
+        plot.height = even(below_share * space.height);
         plot.y = space.y + space.height - plot.height;
         space.height -= plot.height + gap;
     }
@@ -79,7 +79,9 @@ void divide(const LayoutRequest& request, const Rectangle& space, int gap, doubl
 
 double text_unit(int width, int height) { return std::min(double(height), 0.8 * width); }
 
-FrameLayout lay_out(const LayoutRequest& request) {
+FrameLayout lay_out(const LayoutRequest& given) {
+    LayoutRequest request = given;
+    if (request.panels > 1 && request.plot == PlotPlace::inset) request.plot = PlotPlace::below;
     const double unit = text_unit(request.width, request.height);
     const bool several = request.panels > 1;
     const int gap = several ? even(gap_size * unit) : 0;
@@ -105,7 +107,8 @@ FrameLayout lay_out(const LayoutRequest& request) {
     }
     require_panel(request, layout.panels.front());
     if (!request.plot) return layout;
-    if (*request.plot == PlotPlace::inset) plot = inset_in(layout.area, request, unit);
+    layout.plots_on_picture = *request.plot == PlotPlace::inset;
+    if (layout.plots_on_picture) plot = inset_in(layout.area, request, unit);
     if (*request.plot == PlotPlace::below) {
         const auto columns = int(request.plot_panels);
         plot.width /= columns;

@@ -21,7 +21,7 @@ struct LayoutRequest {
     bool header = false;            // title or clock above several panels
     bool footer = false;            // mode below several panels
     bool clock = false;             // in the corner of an inset plot
-    std::optional<PlotPlace> plot;  // empty: no plot
+    std::optional<PlotPlace> plot;  // empty: no plot; an inset would hide a panel of several: it is below them
     std::size_t plot_panels = 1;    // axes in the plot
 };
 
@@ -29,6 +29,7 @@ struct FrameLayout {
     std::vector<Rectangle> panels, labels;  // labels: above each panel; empty for a single one
     Rectangle header, footer;               // above and below everything else; empty without one
     Rectangle area;                         // of all panels
+    bool plots_on_picture = false;          // as an inset
     std::vector<Rectangle> plots;           // below the panels one for each panel of the plot, else a single one
 };
 

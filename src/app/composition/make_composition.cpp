@@ -81,10 +81,10 @@ bool is_whole(const Rectangle& place, const SceneDescription& scene) {
     return place == Rectangle{0, 0, scene.output.width, scene.output.height};
 }
 
-Figure empty_figure(double unit, PlotPlace place) {
+Figure empty_figure(double unit, bool on_picture) {
     Figure figure;
     figure.x_title = "time (s)";
-    figure.theme = place == PlotPlace::inset ? Theme::on_picture() : Theme::light();
+    figure.theme = on_picture ? Theme::on_picture() : Theme::light();
     figure.text_size = std::max(8.0, 0.025 * unit);
     return figure;
 }
@@ -133,7 +133,7 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
     text.footer = layout.footer;
     text.area = layout.area;
     const double unit = text_unit(composition.width, composition.height);
-    for (const Rectangle& place : layout.plots) composition.plots.push_back({empty_figure(unit, *request.plot), place});
+    for (const Rectangle& place : layout.plots) composition.plots.push_back({empty_figure(unit, layout.plots_on_picture), place});
     return composition;
 }
 
