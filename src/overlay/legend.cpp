@@ -48,11 +48,11 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, std:
             rows.push_back({{Entry::Symbol::arrow, friction_color, "its friction part"}});
     }
     if (overlay.show.has(Overlay::normals))
-        rows.push_back({{Entry::Symbol::arrow, normal_color, "contact normal, from A to B"}});
+        rows.push_back({{Entry::Symbol::arrow, normal_color, "normal, from A to B"}});
     if (overlay.show.has(Overlay::axes))
         rows.push_back({{Entry::Symbol::arrow, axis_colors[0], "x"},
                         {Entry::Symbol::arrow, axis_colors[1], "y"},
-                        {Entry::Symbol::arrow, axis_colors[2], "z, axes of the body"}});
+                        {Entry::Symbol::arrow, axis_colors[2], "z of the body"}});
 }
 
 void add_contacts(std::vector<Row>& rows) {
@@ -85,7 +85,7 @@ std::vector<Row> make_rows(const SceneDescription& scene, const OverlayScales& s
                          fmt::format("pose every {:.3g} s", overlay.ghost_every / scene.output.fps)}});
     if (overlay.show.has(Overlay::sleep)) rows.push_back({{Entry::Symbol::patch, asleep_color, "asleep"}});
     if (overlay.show.has(Overlay::islands))
-        rows.push_back({{Entry::Symbol::patch, {0, 158, 255}, "one color for each island of bodies in contact"}});
+        rows.push_back({{Entry::Symbol::patch, {0, 158, 255}, "island: bodies in contact"}});
     return rows;
 }
 

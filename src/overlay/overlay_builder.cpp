@@ -134,7 +134,7 @@ const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const Contact
         if (shown_[i] != 0) add_body(i, snapshot.bodies[i]);
     if (records != nullptr) add_contacts(*records);
     if (shows(Overlay::impulses)) add_impulses(snapshot.time);
-    frame_.damage = shows(Overlay::damage);
+    if (shows(Overlay::damage)) frame_.damage = snapshot.frame;
     frame_.legend = overlay.legend;
     return frame_;
 }

@@ -73,6 +73,14 @@ void list(Stream& s, List& items, const Each& each) {
     for (auto& item : items) each(item);
 }
 
+template <class Stream, class Number>
+void number_or_none(Stream& s, Number& number) {
+    const bool given = s.count(number.has_value() ? 1 : 0) != 0;
+    if constexpr (!std::is_const_v<Number>)
+        if (given) number.emplace();
+    if (given) s.number(*number);
+}
+
 template <class Stream, class Frame>
 void members(Stream& s, Frame& frame) {
     list(s, frame.surfaces, [&](auto& surface) {
@@ -106,8 +114,8 @@ void members(Stream& s, Frame& frame) {
         list(s, label.text, [&](auto& letter) { s.number(letter); });
         s.number(label.size);
     });
-    s.number(frame.damage);
     s.number(frame.legend);
+    number_or_none(s, frame.damage);
 }
 
 }  // namespace

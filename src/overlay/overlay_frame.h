@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -66,13 +67,9 @@ struct OverlayFrame {
     std::vector<OverlayArrow> arrows;
     std::vector<OverlayMarker> markers;
     std::vector<OverlayLabel> labels;
-    bool damage = false;  // the dirty regions are outlined
-    bool legend = false;  // the legend is shown
+    bool legend = false;                 // the legend is shown
+    std::optional<std::int64_t> damage;  // the dirty regions are outlined; the frame's number: they differ each time
 
-    bool empty() const {
-        return surfaces.empty() && lines.empty() && arrows.empty() && markers.empty() && labels.empty() && !damage &&
-               !legend;
-    }
     void clear() { *this = {}; }
 };
 

@@ -79,14 +79,16 @@ void copy(const Image& from, Image& to, const Rectangle& r) {
 
 }  // namespace
 
-OverlayPainter::OverlayPainter(const SceneDescription& scene, const OverlayScales& scales)
+OverlayPainter::OverlayPainter(const SceneDescription& scene, const OverlayScales& scales,
+                               std::optional<int> legend_height)
     : scene_(&scene),
       unit_(scene.output.height / reference_height),
       raster_(scene.output.width, scene.output.height,
               Camera(scene.camera, scene.output.width, scene.output.height).pixel_size()),
-      legend_(draw_legend(scene, scales, scene.output.height)),
       image_(scene.output.width, scene.output.height),
-      previous_(scene.output.width, scene.output.height) {}
+      previous_(scene.output.width, scene.output.height) {
+    if (legend_height) legend_ = draw_legend(scene, scales, *legend_height);
+}
 
 const Image& OverlayPainter::draw(const PlainFrame& frame, const OverlayFrame& shapes) {
     TouchedTiles dirty = previous_;

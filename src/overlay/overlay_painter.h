@@ -31,7 +31,8 @@ struct PlainFrame {
 class OverlayPainter {
 public:
     /// `scene` must outlive it.
-    OverlayPainter(const SceneDescription& scene, const OverlayScales& scales);
+    /// `legend_height`: of the frame that the size of the legend suits, pixels; empty: no legend.
+    OverlayPainter(const SceneDescription& scene, const OverlayScales& scales, std::optional<int> legend_height);
 
     /// The frame with the shapes. It equals a full drawing, and is valid until the next call.
     const Image& draw(const PlainFrame& frame, const OverlayFrame& shapes);

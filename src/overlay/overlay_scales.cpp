@@ -49,6 +49,12 @@ bool shows(const OverlayDescription& overlay, ArrowQuantity quantity) {
     return overlay.show.has(shown_by[std::size_t(quantity)]);
 }
 
+bool draws_shapes(const OverlayDescription& overlay) {
+    OverlaySet shapes = overlay.show;
+    for (const Overlay text : {Overlay::title, Overlay::clock, Overlay::mode}) shapes.remove(text);
+    return !shapes.empty();
+}
+
 bool needs_survey(const OverlayDescription& overlay) {
     for (std::size_t q = 0; q < arrow_quantity_count; ++q)
         if (shows(overlay, ArrowQuantity(q)) && !overlay.scale[q]) return true;
@@ -101,6 +107,13 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
     if (records == nullptr) return;
     for (const ContactRecord& r : records->contacts) add(ArrowQuantity::force, vector_of(r, *scene_).total().norm());
     for (const ImpactRecord& r : records->impacts) add(ArrowQuantity::impulse, vector_of(r, *scene_).total().norm());
+}
+
+void ScaleSurvey::add(const ScaleSurvey& other) {
+    for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
+        sizes_[q].most = std::max(sizes_[q].most, other.sizes_[q].most);
+        for (const auto& [bin, count] : other.sizes_[q].counts) sizes_[q].counts[bin] += count;
+    }
 }
 
 OverlayScales ScaleSurvey::scales() const {

@@ -16,6 +16,8 @@ using OverlayScales = std::array<double, arrow_quantity_count>;
 
 /// Quantities that the arrows of these overlays show.
 bool shows(const OverlayDescription& overlay, ArrowQuantity quantity);
+/// True if anything but text is drawn.
+bool draws_shapes(const OverlayDescription& overlay);
 /// True if a scale has to be found from a run of the simulation.
 bool needs_survey(const OverlayDescription& overlay);
 /// True if contacts and impacts have to be recorded.
@@ -38,6 +40,10 @@ class ScaleSurvey {
 public:
     explicit ScaleSurvey(const SceneDescription& scene) : scene_(&scene) {}
     void add(const Snapshot& snapshot, const ContactRecords* records);
+    /// Counts the arrows of another panel as well, so that both have the same scales.
+    void add(const ScaleSurvey& other);
+    /// Replaces what was counted by another's.
+    void take_sizes(const ScaleSurvey& other) { sizes_ = other.sizes_; }
     /// The scene's scales where given.
     OverlayScales scales() const;
 

@@ -12,7 +12,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int tile = 16;               // pixels
-constexpr double faint = 0.38;         // opacity of hidden parts: readable, and clearly behind
+constexpr double faint = 0.5;          // opacity of hidden parts: readable, and clearly behind
 constexpr double halo_width = 1.3;     // pixels of dark outline, so that shapes are seen on bright and on dark ground
 constexpr double halo_opacity = 0.55;  // of that outline
 constexpr Color halo_color{16, 20, 28};

@@ -136,20 +136,25 @@ void run_render(const RenderCommand& command) {
         find_ffmpeg();
     }
     check_outputs(command, scenes.inputs, frames, clip, aovs_to);
-    const int requested_workers = int(std::min<std::int64_t>(command.workers, frames.count()));
+    const int requested_workers =
+        scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, frames.count()));
     const int workers = workers_that_fit(composition, work, requested_workers);
     if (workers < requested_workers && !command.quiet)
         say("note: {} render processes in place of {}, because there is no memory for more\n", workers,
             requested_workers);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
     Interrupt interrupt;  // before any thread or process is made
-    if (outputs.image()) scenes.survey_plot(threads, interrupt);
+    if (outputs.image()) scenes.survey_clip(threads, interrupt);
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     std::vector<World> worlds;
     for (std::size_t i = 0; i < scenes.scenes.size(); ++i) worlds.push_back(scenes.world(i, threads));
     std::vector<PanelSource> panels;
-    for (std::size_t i = 0; i < worlds.size(); ++i) panels.push_back({worlds[i], scenes.ends[i]});
+    std::vector<std::unique_ptr<OverlayBuilder>> overlays;
+    for (std::size_t i = 0; i < worlds.size(); ++i) {
+        overlays.push_back(outputs.image() ? scenes.overlay(i) : nullptr);
+        panels.push_back({worlds[i], scenes.ends[i], overlays.back().get()});
+    }
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<FrameFolder> own_aov_folder;

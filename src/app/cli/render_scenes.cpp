@@ -21,6 +21,15 @@ std::string name_of(const ClipScene& clip_scene) {
     return clip_scene.label.empty() ? file : fmt::format("{} ({})", file, safe_text(clip_scene.label));
 }
 
+/// The sizes of arrows over the clip.
+struct ScaleObserver : SurveyObserver {
+    explicit ScaleObserver(const SceneDescription& scene) : sizes(scene) {}
+    void see(const Snapshot& snapshot, const Measurement&, const ContactRecords* records) override {
+        sizes.add(snapshot, records);
+    }
+    ScaleSurvey sizes;
+};
+
 void require_same_rate(const std::vector<ClipScene>& scenes) {
     const ClipScene& first = scenes.front();
     for (const ClipScene& other : scenes)
@@ -51,6 +60,7 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
     options.last_time = double(frames.end - 1) / timing.fps;
     read_plot(command, options);
     composition = make_composition(scenes, options);
+    add_overlays();
 }
 
 void RenderScenes::load(const RenderCommand& command) {
@@ -81,12 +91,38 @@ void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& o
     options.plot_place = overlay.plot_place;
 }
 
-void RenderScenes::survey_plot(int threads, Interrupt& interrupt) {
-    for (std::size_t i = 0; i < runs_.size(); ++i) {
+// Legends of several panels would say the same: the last one that has an overlay shows it.
+void RenderScenes::add_overlays() {
+    ClipPanel* last = nullptr;
+    for (ClipPanel& panel : composition.panels) {
+        if (!draws_shapes(panel.scene->overlay)) continue;
+        panel.overlay.emplace();
+        last = &panel;
+    }
+    if (last != nullptr) last->overlay->legend_height = composition.height;
+}
+
+void RenderScenes::survey_clip(int threads, Interrupt& interrupt) {
+    std::vector<ScaleObserver> scales;
+    for (const ClipScene& one : scenes) scales.emplace_back(*one.scene);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        std::vector<SurveyObserver*> observers;
+        if (!runs_.empty()) observers.push_back(&runs_[i]);
+        if (composition.panels[i].overlay && needs_survey(scenes[i].scene->overlay)) observers.push_back(&scales[i]);
+        if (observers.empty()) continue;
         World simulated = world(i, threads);
-        SurveyObserver* const observers[] = {&runs_[i]};
         survey(simulated, {ends[i], shutter_.intervals}, observers, interrupt);
     }
+    // One scale for all panels, so that their arrows can be compared.
+    for (std::size_t i = 1; i < scales.size(); ++i) scales[0].sizes.add(scales[i].sizes);
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (i > 0) scales[i].sizes.take_sizes(scales[0].sizes);
+        if (composition.panels[i].overlay) composition.panels[i].overlay->scales = scales[i].sizes.scales();
+    }
+    fill_plots();
+}
+
+void RenderScenes::fill_plots() {
     if (runs_.empty()) return;
     std::vector<Panel> panels = make_panels(runs_, runs_.size() > 1);
     std::vector<ClipPlot>& plots = composition.plots;
@@ -98,6 +134,16 @@ void RenderScenes::survey_plot(int threads, Interrupt& interrupt) {
     }
 }
 
+bool RenderScenes::shows_damage() const {
+    return std::ranges::any_of(scenes,
+                               [](const ClipScene& one) { return one.scene->overlay.show.has(Overlay::damage); });
+}
+
+std::unique_ptr<OverlayBuilder> RenderScenes::overlay(std::size_t index) const {
+    const std::optional<PanelOverlay>& overlay = composition.panels[index].overlay;
+    return overlay ? std::make_unique<OverlayBuilder>(*scenes[index].scene, overlay->scales) : nullptr;
+}
+
 std::size_t RenderScenes::bodies() const {
     std::size_t count = 0;
     for (const ClipScene& one : scenes) count = std::max(count, one.scene->bodies.size());
@@ -105,7 +151,9 @@ std::size_t RenderScenes::bodies() const {
 }
 
 World RenderScenes::world(std::size_t index, int threads) const {
-    return World(*scenes[index].scene, scenes[index].timing, threads);
+    World world(*scenes[index].scene, scenes[index].timing, threads);
+    if (composition.panels[index].overlay && needs_records(scenes[index].scene->overlay)) world.record_contacts();
+    return world;
 }
 
 }  // namespace tumble

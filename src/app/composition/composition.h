@@ -3,19 +3,28 @@
 #pragma once
 
 #include "core/rectangle.h"
+#include "overlay/overlay_scales.h"
 #include "plot/figure.h"
 #include "scene/description/description.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace tumble {
 
+/// The shapes that are drawn over a scene. Their scales are found before the first frame.
+struct PanelOverlay {
+    OverlayScales scales{};
+    std::optional<int> legend_height;  // pixels: of the frame that the size of the legend suits; empty: no legend
+};
+
 /// A region of the frame that shows one scene.
 struct ClipPanel {
     std::shared_ptr<const SceneDescription> scene;  // its output size is that of the place
     Rectangle place;
+    std::optional<PanelOverlay> overlay{};  // empty: nothing is drawn over the scene
 };
 
 /// A line of text above a panel.

@@ -16,7 +16,8 @@ constexpr int least_panel_side = 48, least_plot_width = 160, least_plot_height =
 constexpr double gap_size = 0.014, header_height = 0.09, label_height = 0.06, footer_height = 0.05, inset_margin = 0.03,
                  below_clock = 0.11;
 // Fractions of the frame or the area.
-constexpr double beside_share = 1.0 / 3.0, below_share = 0.37, inset_width = 0.4, inset_height = 0.34, inset_growth = 0.17, most_inset = 0.8;
+constexpr double beside_share = 1.0 / 3.0, below_share = 0.37, inset_width = 0.4, inset_height = 0.34,
+                 inset_growth = 0.17, most_inset = 0.8;
 
 int even(double length) { return 2 * std::max(1, int(std::lround(0.5 * length))); }
 int even_part(int length, int parts) { return length / parts / 2 * 2; }

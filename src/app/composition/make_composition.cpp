@@ -133,7 +133,8 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
     text.footer = layout.footer;
     text.area = layout.area;
     const double unit = text_unit(composition.width, composition.height);
-    for (const Rectangle& place : layout.plots) composition.plots.push_back({empty_figure(unit, layout.plots_on_picture), place});
+    for (const Rectangle& place : layout.plots)
+        composition.plots.push_back({empty_figure(unit, layout.plots_on_picture), place});
     return composition;
 }
 

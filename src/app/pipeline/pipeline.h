@@ -16,6 +16,7 @@
 #include "app/threads/stage_timer.h"
 #include "app/workers/render_pool.h"
 #include "output/video_writer.h"
+#include "overlay/overlay_builder.h"
 #include "scene/description/description.h"
 #include "sim/frames/frame_sequence.h"
 
@@ -46,8 +47,9 @@ struct PipelineOutputs {
 
 /// The simulation of a panel.
 struct PanelSource {
-    World& world;          // its frames are the intervals of the shutter
-    std::int64_t end = 0;  // one after its last frame; later frames of the clip repeat that
+    World& world;                       // its frames are the intervals of the shutter
+    std::int64_t end = 0;               // one after its last frame; later frames of the clip repeat that
+    OverlayBuilder* overlay = nullptr;  // of the shapes over it, or null
 };
 
 class Pipeline {
@@ -76,7 +78,9 @@ private:
     struct Panel {
         FrameSequence sequence;
         std::int64_t end;
-        PanelPoses last;  // a single sample, once the frames have ended
+        OverlayBuilder* overlay;
+        PanelPoses last;                // a single sample, once the frames have ended
+        std::vector<std::byte> shapes;  // of the last frame: OverlayFrame as bytes
     };
     std::vector<Panel> panels_;
     FrameRange frames_;

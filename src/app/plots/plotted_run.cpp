@@ -25,7 +25,7 @@ bool PlottedRun::needs_measurement() const {
     return std::ranges::any_of(quantities, [](const Quantity& q) { return q.needs_measurement; });
 }
 
-void PlottedRun::see(const Snapshot& snapshot, const Measurement& measurement) {
+void PlottedRun::see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords*) {
     times.push_back(snapshot.time);
     for (std::size_t k = 0; k < quantities.size(); ++k)
         values[k].push_back(quantities[k].value({snapshot, measurement}));

@@ -17,7 +17,7 @@ public:
     PlottedRun(std::string label, std::vector<Quantity> quantities);
 
     bool needs_measurement() const override;
-    void see(const Snapshot& snapshot, const Measurement& measurement) override;
+    void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords*) override;
 
     /// Subtracts the values of another run at the same times; nothing is left where that has none.
     void subtract(const PlottedRun& other);

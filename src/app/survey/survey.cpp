@@ -15,7 +15,8 @@ void survey(World& world, const SurveyFrames& frames, std::span<SurveyObserver* 
             for (int i = 0; i < frames.intervals; ++i) world.advance_frame();
         const Snapshot snapshot = world.snapshot();
         const Measurement measurement = measures ? world.measure() : Measurement{};
-        for (SurveyObserver* observer : observers) observer->see(snapshot, measurement);
+        const ContactRecords* const records = world.records_contacts() ? &world.contact_records() : nullptr;
+        for (SurveyObserver* observer : observers) observer->see(snapshot, measurement, records);
         if (interrupt.pending()) throw RunError("interrupted");
     }
 }

@@ -17,7 +17,8 @@ public:
     virtual ~SurveyObserver() = default;
     virtual bool needs_measurement() const { return false; }
     /// The measurement is empty unless an observer needs it.
-    virtual void see(const Snapshot& snapshot, const Measurement& measurement) = 0;
+    /// `records`: of the last interval, if the world records contacts, else null.
+    virtual void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords* records) = 0;
 };
 
 /// Frames of the clip, each as many frames of the world as the shutter has intervals.

@@ -4,6 +4,7 @@
 #include "render/aov/aov_renderer.h"
 #include "sim/snapshot/snapshot.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,7 +20,8 @@ struct MotionBlurFrame {
     std::int64_t frame = 0;
     double time = 0.0;  // s, of the first blur samples
     std::vector<PanelPoses> panels;
-    std::optional<AovPoses> aovs;  // the true poses at the frame's own time, when the shutter opens
+    std::vector<std::vector<std::byte>> overlays;  // by panel: its OverlayFrame as bytes, or none
+    std::optional<AovPoses> aovs;                  // the true poses at the frame's own time, when the shutter opens
 };
 
 }  // namespace tumble

@@ -1,26 +1,49 @@
 #include "app/workers/panel_drawing.h"
 
-#include "render/render_switches.h"
-
 #include <utility>
 
 namespace tumble {
+namespace {
 
-void PanelDrawing::draw(const SharedFrames& memory, std::size_t panel, std::int64_t frame) {
+RenderSwitches switches_for(const ClipPanel& panel, RenderSwitches options) {
+    options.keep_depths = panel.overlay.has_value();
+    return options;
+}
+
+}  // namespace
+
+PanelDrawing::PanelDrawing(const ClipPanel& panel, RenderSwitches options)
+    : renderer_(*panel.scene, switches_for(panel, std::move(options))),
+      whole_{{0, 0, panel.scene->output.width, panel.scene->output.height}} {
+    if (panel.overlay) painter_.emplace(*panel.scene, panel.overlay->scales, panel.overlay->legend_height);
+}
+
+void PanelDrawing::draw_samples(const SharedFrames& memory, std::size_t panel, std::int64_t frame) {
     const std::size_t samples = memory.samples(panel);
     snapshot_.frame = frame;
     for (std::size_t i = 0; i < samples; ++i) {
         memory.read_poses(panel, i, snapshot_);
-        drawn_ = &renderer_.render(snapshot_);
-        if (samples > 1) mean_.add(*drawn_);
+        image_ = &renderer_.render(snapshot_);
+        if (samples == 1) break;
+        mean_.add(*image_);
+        if (i == 0 && painter_) first_depths_ = renderer_.depths();
     }
-    if (samples > 1) mean_.take(blurred_);
-    const bool blurred_before = std::exchange(blurred_last_, samples > 1);
+    if (samples > 1) {
+        mean_.take(blurred_);
+        image_ = &blurred_;
+    }
     // Between a sharp and a blurred image, the renderer does not know the changed regions.
-    if (blurred_before || blurred_last_)
-        changed_.assign(1, {0, 0, drawn_->width, drawn_->height});
-    else
-        changed_ = renderer_.changed();
+    const bool blurred_before = std::exchange(blurred_last_, samples > 1);
+    changed_ = blurred_before || blurred_last_ ? &whole_ : &renderer_.changed();
+}
+
+void PanelDrawing::draw(const SharedFrames& memory, std::size_t panel, std::int64_t frame) {
+    draw_samples(memory, panel, frame);
+    if (!painter_) return;
+    read_bytes(memory.overlay(panel), shapes_);
+    const DepthImage& depths = blurred_last_ ? first_depths_ : renderer_.depths();
+    image_ = &painter_->draw({*image_, *changed_, depths, renderer_.camera()}, shapes_);
+    changed_ = &painter_->changed();
 }
 
 }  // namespace tumble

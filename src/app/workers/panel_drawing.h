@@ -1,11 +1,14 @@
-// The image of one panel: drawn, and averaged over the samples of its frame.
+// The image of one panel: drawn, averaged over the samples of its frame, and with the shapes of its overlay.
 #pragma once
 
 #include "app/workers/shared_frames.h"
 #include "core/image_mean.h"
+#include "overlay/overlay_painter.h"
+#include "render/render_switches.h"
 #include "render/renderer.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -13,24 +16,30 @@ namespace tumble {
 class PanelDrawing {
 public:
     /// Opens an OpenGL context.
-    PanelDrawing(const SceneDescription& scene, const RenderSwitches& options) : renderer_(scene, options) {}
+    PanelDrawing(const ClipPanel& panel, RenderSwitches options);
 
     /// Draws the samples of the panel in the shared memory.
     void draw(const SharedFrames& memory, std::size_t panel, std::int64_t frame);
 
     /// Of the last draw().
-    const Image& image() const { return blurred_last_ ? blurred_ : *drawn_; }
+    const Image& image() const { return *image_; }
     /// The regions that may differ from the image of the previous draw().
-    const std::vector<Rectangle>& changed() const { return changed_; }
+    const std::vector<Rectangle>& changed() const { return *changed_; }
 
 private:
+    void draw_samples(const SharedFrames& memory, std::size_t panel, std::int64_t frame);
+
     Renderer renderer_;
     Snapshot snapshot_;
-    const Image* drawn_ = nullptr;  // the last sample that was drawn; the renderer owns it
     ImageMean mean_;
     Image blurred_;
     bool blurred_last_ = false;
-    std::vector<Rectangle> changed_;
+    std::vector<Rectangle> whole_;  // the rectangle of the whole image
+    std::optional<OverlayPainter> painter_;
+    OverlayFrame shapes_;
+    DepthImage first_depths_;  // of the first of several samples, which is at the time of the overlay
+    const Image* image_ = nullptr;
+    const std::vector<Rectangle>* changed_ = nullptr;
 };
 
 }  // namespace tumble

@@ -137,6 +137,11 @@ bool RenderPool::filter_image(MotionBlurFrame& frame_poses) {
     last_time_ = frame_poses.time;
     for (std::size_t i = 0; i < pose_filters_.size(); ++i)
         if (pose_filters_[i].follow(frame_poses.panels[i])) changed = true;
+    for (std::size_t i = 0; i < frame_poses.overlays.size(); ++i)
+        if (pose_filters_[i].overlay != frame_poses.overlays[i]) {
+            pose_filters_[i].overlay = frame_poses.overlays[i];
+            changed = true;
+        }
     return changed;
 }
 

@@ -81,7 +81,8 @@ private:
         explicit PanelFilter(const SceneDescription& scene) : poses(scene) {}
         bool follow(PanelPoses& samples);
         PoseFilter poses;
-        bool moves = false;  // whether bodies moved while the shutter was open for the previous frame
+        std::vector<std::byte> overlay;  // of the previous frame
+        bool moves = false;              // whether bodies moved while the shutter was open for the previous frame
     };
     Composition composition_;
     std::vector<PanelFilter> pose_filters_;

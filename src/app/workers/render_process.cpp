@@ -99,7 +99,7 @@ public:
 private:
     void open_panels(const Composition& composition, RenderSwitches options) {
         for (const ClipPanel& panel : composition.panels) {
-            panels_.push_back(std::make_unique<PanelDrawing>(*panel.scene, options));
+            panels_.push_back(std::make_unique<PanelDrawing>(panel, options));
             options.compile_schedule = nullptr;  // it distributes the shaders of one renderer of each process
         }
     }
@@ -215,6 +215,9 @@ RenderProcess::~RenderProcess() {
 
 DrawnFrame RenderProcess::draw(const MotionBlurFrame& frame_poses, int slot) {
     for (std::size_t i = 0; i < frame_poses.panels.size(); ++i) memory_->write_poses(i, frame_poses.panels[i]);
+    if (!frame_poses.panels.empty())
+        for (std::size_t i = 0; i < frame_poses.overlays.size(); ++i)
+            if (!frame_poses.overlays[i].empty()) memory_->write_overlay(i, frame_poses.overlays[i]);
     if (frame_poses.aovs) memory_->write_aov_poses(*frame_poses.aovs);
     DrawnFrame drawn;
     const Job job{frame_poses.frame, frame_poses.time, slot, !frame_poses.panels.empty(), frame_poses.aovs.has_value()};

@@ -21,6 +21,9 @@ constexpr std::size_t page = 4096;            // bytes: regions with different w
 constexpr std::size_t numbers_of_sample = 4;  // time; x, y, z
 constexpr std::size_t numbers_of_body = 7;    // x, y, z; x, y, z, w
 
+// Bytes for the shapes of an overlay: a million arrows. Pages that are never written take no memory.
+constexpr std::size_t overlay_space = 128 << 20;
+
 std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * page; }
 
 }  // namespace
@@ -29,6 +32,12 @@ SharedFrames::SharedFrames(const Composition& composition, const FrameOutputs& o
     : motion_(outputs.aovs.has(Aov::motion)) {
     for (const ClipPanel& panel : composition.panels)
         panels_.push_back(add_region(*panel.scene, std::size_t(max_blur_samples)));
+    for (const ClipPanel& panel : composition.panels) {
+        overlays_at_.emplace_back();
+        if (!panel.overlay) continue;
+        overlays_at_.back() = slots_at_;
+        slots_at_ += whole_pages(sizeof(std::size_t) + overlay_space);
+    }
     if (!outputs.aovs.empty()) aov_poses_ = add_region(*composition.aov_scene, motion_ ? 2 : 1);
     const int width = composition.width, height = composition.height;
     video_at_ = 0;
@@ -99,6 +108,23 @@ std::size_t SharedFrames::samples(std::size_t panel) const { return std::size_t(
 
 void SharedFrames::read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const {
     read(panels_[panel], sample, snapshot);
+}
+
+void SharedFrames::write_overlay(std::size_t panel, std::span<const std::byte> shapes) {
+    if (shapes.size() > overlay_space)
+        throw RunError(fmt::format("the overlays of a frame take {} MiB, and the limit is {}: show fewer bodies",
+                                   shapes.size() >> 20, overlay_space >> 20));
+    std::byte* const to = memory_ + *overlays_at_[panel];
+    const std::size_t size = shapes.size();
+    std::memcpy(to, &size, sizeof size);
+    std::ranges::copy(shapes, to + sizeof size);
+}
+
+std::span<const std::byte> SharedFrames::overlay(std::size_t panel) const {
+    const std::byte* const from = memory_ + *overlays_at_[panel];
+    std::size_t size = 0;
+    std::memcpy(&size, from, sizeof size);
+    return {from + sizeof size, size};
 }
 
 void SharedFrames::write_aov_poses(const AovPoses& poses) {

@@ -40,6 +40,11 @@ public:
     std::size_t samples(std::size_t panel) const;
     void read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const;
 
+    /// The shapes over a panel of the next frame (OverlayFrame), if it has an overlay. Throws RunError if they do not
+    /// fit.
+    void write_overlay(std::size_t panel, std::span<const std::byte> shapes);
+    std::span<const std::byte> overlay(std::size_t panel) const;
+
     /// Writes poses for the AOVs: those of the next frame only if motion is requested.
     void write_aov_poses(const AovPoses& poses);
     void read_aov_poses(AovPoses& poses) const;
@@ -75,6 +80,7 @@ private:
     bool motion_;
     std::size_t slots_at_ = error_text_size;
     std::vector<PoseRegion> panels_;
+    std::vector<std::optional<std::size_t>> overlays_at_;  // by panel: the number of bytes, then these
     std::optional<PoseRegion> aov_poses_;
     std::size_t video_at_, video_size_, png_at_, png_size_, aovs_at_, aovs_size_, slot_size_, size_;
     std::byte* memory_;

@@ -1,17 +1,30 @@
 #include "sim/frames/frame_sequence.h"
 
+#include <utility>
+
 namespace tumble {
 
+void FrameSequence::advance() {
+    world_.advance_frame();
+    if (!world_.records_contacts()) return;
+    const std::vector<ImpactRecord>& impacts = world_.contact_records().impacts;
+    impacts_.insert(impacts_.end(), impacts.begin(), impacts.end());
+}
+
 Snapshot FrameSequence::next_start() {
-    for (; intervals_to_start_ > 0; --intervals_to_start_) world_.advance_frame();
+    for (; intervals_to_start_ > 0; --intervals_to_start_) advance();
     intervals_to_start_ = shutter_.intervals;
+    if (world_.records_contacts()) {
+        records_ = world_.contact_records();
+        records_.impacts = std::exchange(impacts_, {});
+    }
     return world_.snapshot();
 }
 
 std::vector<Snapshot> FrameSequence::next() {
     std::vector<Snapshot> samples{next_start()};
     while (int(samples.size()) < shutter_.blur_samples) {
-        world_.advance_frame();
+        advance();
         --intervals_to_start_;
         samples.push_back(world_.snapshot());
     }

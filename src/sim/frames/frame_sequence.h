@@ -20,10 +20,18 @@ public:
     /// The first moment of the next frame.
     Snapshot next_start();
 
+    /// Of the world at the start of the last frame, if it records contacts, else null: the impacts since the frame
+    /// before, and the contacts of the last interval of the shutter.
+    const ContactRecords* records() const { return world_.records_contacts() ? &records_ : nullptr; }
+
 private:
+    void advance();
+
     World& world_;
     Shutter shutter_;
     int intervals_to_start_ = 0;  // from the world's time to the start of the next frame
+    ContactRecords records_;
+    std::vector<ImpactRecord> impacts_;  // since the start of the last frame
 };
 
 }  // namespace tumble
