@@ -11,7 +11,7 @@ namespace tumble {
 namespace {
 
 constexpr float ghost_opacity = 0.34f, tint_opacity = 0.5f, sleep_opacity = 0.45f;
-constexpr double rested = 0.02;           // radii of the body: a ghost that is nearer to the one before adds nothing
+constexpr double rested = 0.02;  // radii of the body, and rad: a ghost nearer than that to another pose adds nothing
 constexpr double shortest_way = 2e-3;     // radii: a trail gets a point when the body has moved that far
 constexpr std::size_t most_ghosts = 400;  // of all bodies: more hide the picture, and each costs a drawing
 constexpr double normal_length = 0.35, axis_length = 1.2;  // radii of the body
@@ -52,6 +52,10 @@ void add_bounds(const Shape& shape, const Vec3& origin, const Quat& orientation,
         for (const CompoundPart& part : *compound->parts)
             add_bounds(part.shape, origin + orientation * part.position, orientation * part.rotation, bounds);
     }
+}
+
+bool near(const BodyState& a, const BodyState& b, double radius) {
+    return (a.origin - b.origin).norm() < rested * radius && a.orientation.angularDistance(b.orientation) < rested;
 }
 
 /// Sets that are joined by their members (union-find): the islands of bodies in contact.
@@ -164,13 +168,12 @@ void OverlayBuilder::add_ghosts(const Snapshot& snapshot) {
             const BodyState& now = snapshot.bodies[i];
             const auto last =
                 std::find_if(ghosts_.rbegin(), ghosts_.rend(), [&](const Ghost& g) { return g.body == i; });
-            const bool same = last != ghosts_.rend() && (last->state.origin - now.origin).norm() < rested * radii_[i] &&
-                              last->state.orientation.angularDistance(now.orientation) < rested;
+            const bool same = last != ghosts_.rend() && near(last->state, now, radii_[i]);
             if (!same) ghosts_.push_back({i, now});
         }
     for (const Ghost& ghost : ghosts_) {
         const BodyState& now = snapshot.bodies[ghost.body];
-        if (ghost.state.origin == now.origin) continue;  // the body itself stands there
+        if (near(ghost.state, now, radii_[ghost.body])) continue;  // the body itself stands there
         frame_.surfaces.push_back({ghost.body,
                                    ghost.state.origin,
                                    ghost.state.orientation,

@@ -1,13 +1,13 @@
 // Draws the shapes of an overlay over a rendered frame.
 #pragma once
 
+#include "core/depth_image.h"
 #include "core/image.h"
 #include "core/rectangle.h"
 #include "overlay/overlay_frame.h"
 #include "overlay/overlay_scales.h"
 #include "overlay/shape_raster.h"
 #include "render/camera/camera.h"
-#include "render/frame/depth_image.h"
 #include "scene/description/description.h"
 
 #include <array>

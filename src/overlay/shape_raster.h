@@ -3,9 +3,9 @@
 #pragma once
 
 #include "core/color.h"
+#include "core/depth_image.h"
 #include "core/image.h"
 #include "core/rectangle.h"
-#include "render/frame/depth_image.h"
 
 #include <Eigen/Core>
 

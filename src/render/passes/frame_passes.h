@@ -1,10 +1,10 @@
 // The passes that draw a frame: shadow maps, background, bodies, planes.
 #pragma once
 
+#include "core/depth_image.h"
 #include "core/image.h"
 #include "render/ambient_occlusion/occlusion_texture.h"
 #include "render/damage/damage_tracker.h"
-#include "render/frame/depth_image.h"
 #include "render/gl/framebuffer.h"
 #include "render/mesh/gpu_mesh_cache.h"
 #include "render/passes/body_pass.h"

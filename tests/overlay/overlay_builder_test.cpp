@@ -1,0 +1,245 @@
+// Shapes against the log and the state that they show.
+#include "overlay/overlay_builder.h"
+
+#include "scene/load.h"
+#include "sim/world.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+namespace tumble::overlay_builder_test {
+namespace {
+
+constexpr const char* crate_on_ground = R"(
+format = 1
+[simulation]
+duration = 1.0
+[materials.wood]
+friction = 0.5
+restitution = 0.0
+[[body]]
+name = "ground"
+type = "fixed"
+shape = { type = "plane" }
+material = "wood"
+[[body]]
+name = "crate"
+shape = { type = "box", size = [1, 1, 1] }
+mass = 10
+material = "wood"
+position = [0, 0.5, 0]
+)";
+
+SceneDescription scene_showing(const std::string& overlays, const std::string& more = "") {
+    return parse_scene(std::string(crate_on_ground) + more + "\n[overlay]\nshow = [" + overlays + "]\n", "test.toml");
+}
+
+OverlayScales scales_of_one() {
+    OverlayScales scales;
+    scales.fill(1.0);
+    return scales;
+}
+
+/// The shapes after this many frames.
+OverlayFrame frame_after(const SceneDescription& scene, int frames) {
+    World world(scene);
+    world.record_contacts();
+    OverlayBuilder builder(scene, scales_of_one());
+    OverlayFrame frame = builder.next(world.snapshot(), &world.contact_records());
+    for (int n = 0; n < frames; ++n) {
+        world.advance_frame();
+        frame = builder.next(world.snapshot(), &world.contact_records());
+    }
+    return frame;
+}
+
+TEST(OverlayBuilder, ForcesOfARestingCrateAddUpToItsWeight) {
+    const SceneDescription scene = scene_showing("\"forces\", \"contacts\"");
+    const OverlayFrame frame = frame_after(scene, 30);
+    ASSERT_EQ(frame.arrows.size(), 4u);
+    Vec3 sum = Vec3::Zero();
+    for (const OverlayArrow& arrow : frame.arrows) sum += arrow.to - arrow.from;
+    EXPECT_NEAR(sum.y(), 98.1, 98.1e-9);
+    EXPECT_EQ(frame.markers.size(), 4u);
+}
+
+TEST(OverlayBuilder, AnArrowStartsAtTheRecordedPointAndHasTheScaledLength) {
+    const SceneDescription scene = scene_showing("\"forces\"");
+    World world(scene);
+    world.record_contacts();
+    world.advance_frame();
+    OverlayScales scales{};
+    scales[std::size_t(ArrowQuantity::force)] = 0.01;
+    OverlayBuilder builder(scene, scales);
+    const OverlayFrame frame = builder.next(world.snapshot(), &world.contact_records());
+    const std::vector<ContactRecord>& contacts = world.contact_records().contacts;
+    ASSERT_EQ(frame.arrows.size(), contacts.size());
+    for (std::size_t i = 0; i < contacts.size(); ++i) {
+        EXPECT_EQ(frame.arrows[i].from, contacts[i].point);
+        const Vec3 force = contacts[i].normal_force * contacts[i].normal + contacts[i].tangential_force;
+        EXPECT_LT((frame.arrows[i].to - frame.arrows[i].from - 0.01 * force).norm(), 1e-12);
+    }
+}
+
+// The force on the dynamic body is shown, whichever of both comes first in the scene.
+TEST(OverlayBuilder, ForcesOnAFixedBodyAreShownOnTheOther) {
+    SceneDescription scene = parse_scene(R"(
+format = 1
+[[body]]
+name = "crate"
+shape = { type = "box", size = [1, 1, 1] }
+position = [0, 0.5, 0]
+[[body]]
+type = "fixed"
+shape = { type = "plane" }
+[overlay]
+show = ["forces"]
+)",
+                                         "test.toml");
+    for (const OverlayArrow& arrow : frame_after(scene, 10).arrows) EXPECT_GT((arrow.to - arrow.from).y(), 0.0);
+}
+
+TEST(OverlayBuilder, MomentaAreThoseOfTheState) {
+    SceneDescription scene = scene_showing("\"momentum\", \"angular-momentum\", \"velocity\", \"omega\"", R"(
+[[body]]
+name = "top"
+shape = { type = "box", size = [1, 2, 3] }
+mass = 12
+position = [0, 9, 0]
+velocity = [1, 2, 3]
+angular_velocity = [0.5, -1, 2]
+)");
+    scene.overlay.bodies = {2};
+    const OverlayFrame frame = frame_after(scene, 0);
+    ASSERT_EQ(frame.arrows.size(), 4u);
+    const auto way = [&](std::size_t i) { return Vec3(frame.arrows[i].to - frame.arrows[i].from); };
+    EXPECT_LT((way(0) - Vec3(1, 2, 3)).norm(), 1e-14);
+    EXPECT_LT((way(1) - Vec3(0.5, -1, 2)).norm(), 1e-14);
+    EXPECT_LT((way(2) - Vec3(12, 24, 36)).norm(), 1e-12);
+    // m / 12 (b^2 + c^2) and so on: 13, 10, 5 kg m^2
+    EXPECT_LT((way(3) - Vec3(0.5 * 13, -1.0 * 10, 2.0 * 5)).norm(), 1e-12);
+    EXPECT_FALSE(frame.arrows[2].double_head);
+    EXPECT_TRUE(frame.arrows[1].double_head);
+    EXPECT_TRUE(frame.arrows[3].double_head);
+}
+
+// Notes eq. 5: p = x + R p_body.
+TEST(OverlayBuilder, ATrailFollowsAPointOfTheBody) {
+    SceneDescription scene = scene_showing("\"trails\"", R"(
+[[body]]
+name = "wheel"
+shape = { type = "sphere", radius = 1 }
+position = [0, 50, 0]
+angular_velocity = [0, 0, 3]
+)");
+    scene.simulation.gravity = Vec3::Zero();
+    scene.overlay.trail_points = {{2, {1, 0, 0}}};
+    const OverlayFrame frame = frame_after(scene, 60);
+    ASSERT_EQ(frame.lines.size(), 1u);
+    ASSERT_EQ(frame.lines[0].points.size(), 61u);
+    for (std::size_t n = 0; n < 61; ++n) {
+        const double angle = 3.0 * double(n) / 60.0;
+        EXPECT_LT((frame.lines[0].points[n] - Vec3(std::cos(angle), 50.0 + std::sin(angle), 0)).norm(), 2e-3) << n;
+    }
+}
+
+TEST(OverlayBuilder, ImpulsesStayVisibleForTheirTime) {
+    SceneDescription scene = scene_showing("\"impulses\"", R"(
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.5 }
+restitution = 1
+position = [5, 1.0, 0]
+)");
+    scene.overlay.bodies = {2};
+    scene.overlay.impulse_time = 0.1;
+    World world(scene);
+    world.record_contacts();
+    OverlayBuilder builder(scene, scales_of_one());
+    std::vector<double> shown;
+    double impact = -1.0;
+    for (int n = 0; n < 45; ++n) {
+        if (n > 0) world.advance_frame();
+        if (!world.contact_records().impacts.empty() && impact < 0.0)
+            impact = world.contact_records().impacts[0].when.time;
+        if (!builder.next(world.snapshot(), &world.contact_records()).arrows.empty()) shown.push_back(n / 60.0);
+    }
+    ASSERT_FALSE(shown.empty());
+    EXPECT_NEAR(impact, std::sqrt(2.0 * 0.5 / 9.81), 0.02);
+    EXPECT_GE(shown.front(), impact);
+    EXPECT_LT(shown.front(), impact + 1.0 / 60.0);
+    EXPECT_LE(shown.back(), impact + 0.1);
+    EXPECT_EQ(shown.size(), 6u);
+}
+
+TEST(OverlayBuilder, GhostsAreThePosesOfEveryNthFrame) {
+    SceneDescription scene = scene_showing("\"ghosts\"", R"(
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.5 }
+position = [5, 30, 0]
+)");
+    scene.overlay.ghost_every = 15;
+    const OverlayFrame frame = frame_after(scene, 50);
+    std::vector<double> heights;
+    for (const OverlaySurface& ghost : frame.surfaces)
+        if (ghost.body == 2) heights.push_back(ghost.origin.y());
+    ASSERT_EQ(heights.size(), 4u);
+    for (std::size_t k = 0; k < 4; ++k) {
+        const double t = 0.25 * double(k);
+        EXPECT_NEAR(heights[k], 30.0 - 0.5 * 9.81 * t * t, 0.01);
+    }
+    // The crate rests: its ghost stands where it is.
+    EXPECT_TRUE(std::ranges::none_of(frame.surfaces, [](const OverlaySurface& ghost) { return ghost.body == 1; }));
+}
+
+TEST(OverlayBuilder, BodiesInContactShareTheColorOfTheirIsland) {
+    const SceneDescription scene = scene_showing("\"islands\"", R"(
+[[body]]
+name = "upper"
+shape = { type = "box", size = [1, 1, 1] }
+position = [0, 1.5, 0]
+[[body]]
+name = "other"
+shape = { type = "box", size = [1, 1, 1] }
+position = [5, 0.5, 0]
+)");
+    const OverlayFrame frame = frame_after(scene, 5);
+    ASSERT_EQ(frame.surfaces.size(), 3u);
+    EXPECT_EQ(frame.surfaces[0].paint.color, frame.surfaces[1].paint.color);
+    EXPECT_FALSE(frame.surfaces[0].paint.color == frame.surfaces[2].paint.color);
+}
+
+TEST(OverlayBuilder, SleepingBodiesAreTinted) {
+    const SceneDescription scene = scene_showing("\"sleep\"");
+    EXPECT_TRUE(frame_after(scene, 0).surfaces.empty());
+    EXPECT_EQ(frame_after(scene, 120).surfaces.size(), 1u);
+}
+
+TEST(OverlayBuilder, ShapesAreShownInTheirTimeOnly) {
+    SceneDescription scene = scene_showing("\"com\", \"names\"");
+    scene.overlay.start = 0.1;
+    scene.overlay.end = 0.2;
+    EXPECT_TRUE(frame_after(scene, 5).markers.empty());
+    EXPECT_EQ(frame_after(scene, 6).markers.size(), 1u);
+    EXPECT_EQ(frame_after(scene, 11).labels.size(), 1u);
+    EXPECT_TRUE(frame_after(scene, 12).markers.empty());
+}
+
+TEST(OverlayBuilder, AnAabbContainsTheTurnedBodyTightly) {
+    SceneDescription scene = scene_showing("\"aabb\"");
+    scene.bodies[1].rotation = Quat(Eigen::AngleAxisd(0.25 * 3.14159265358979, Vec3::UnitZ()));
+    scene.bodies[1].position = {0, 5, 0};
+    const OverlayFrame frame = frame_after(scene, 0);
+    ASSERT_EQ(frame.lines.size(), 1u);
+    Bounds bounds;
+    for (const Vec3& point : frame.lines[0].points) bounds.add(point);
+    const double half = std::sqrt(0.5);
+    EXPECT_LT((bounds.max - Vec3(half, 5 + half, 0.5)).norm(), 1e-12);
+    EXPECT_LT((bounds.min - Vec3(-half, 5 - half, -0.5)).norm(), 1e-12);
+}
+
+}  // namespace
+}  // namespace tumble::overlay_builder_test
