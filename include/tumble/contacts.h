@@ -27,6 +27,7 @@ struct Impact {
     double impulse = 0.0;                          // N s along the normal
     Vec3 friction;                                 // N s, across the normal
     int pass = 0;                                  // of the law, from 0
+    Vec3 moment;                                   // N m s about the world origin, of both impulses
 };
 
 /// One point of a resting or sliding contact. Forces are means over the frame.
@@ -44,13 +45,23 @@ struct Contact {
     double torsion = 0.0;       // N m about the normal
     Vec3 slip;                  // m/s, of B's point relative to A's, across the normal
     State state = State::open;
+    Vec3 moment;  // N m about the world origin, of both forces at their points of each step
 };
 
-/// Over the frame that ends now, the change of a body's momentum is the sum of its impulses, its contact forces times
-/// the frame's duration, and the impulses of gravity, wind and forces at points.
+/// Gravity, wind and forces at points of a dynamic body: means over the frame.
+struct ExternalLoad {
+    std::size_t body = 0;
+    Vec3 force;   // N
+    Vec3 moment;  // N m about the world origin
+};
+
+/// Over the frame that ends now, the change of a body's momentum is the sum of its impulses, and of its contact forces
+/// and its external load times the frame's duration. The same holds of angular momentum about the world origin and the
+/// moments.
 struct FrameContacts {
-    std::vector<Impact> impacts;    // in order of time
-    std::vector<Contact> contacts;  // ascending by bodies
+    std::vector<Impact> impacts;      // in order of time
+    std::vector<Contact> contacts;    // ascending by bodies
+    std::vector<ExternalLoad> loads;  // of all dynamic bodies, ascending
 };
 
 TUMBLE_END

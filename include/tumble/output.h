@@ -141,4 +141,20 @@ private:
     std::unique_ptr<State> state_;
 };
 
+/// The table of `tumble simulate --loads`: one row per frame and dynamic body.
+class LoadTable {
+public:
+    LoadTable(const std::string& file, const Scene& scene);
+    ~LoadTable();
+    LoadTable(LoadTable&&) noexcept;
+    LoadTable& operator=(LoadTable&&) noexcept;
+
+    void add(std::int64_t frame, double time, const FrameContacts& contacts);  // s
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
 TUMBLE_END

@@ -36,11 +36,13 @@ inline FrameContacts to_public(const ContactRecords& from) {
     for (const ImpactRecord& r : from.impacts)
         to.impacts.push_back({r.when.time, r.when.exact, r.when.frame, r.a, r.b, to_public(r.point),
                               to_public(r.normal), ContactFeatures(r.features), r.speed_before, r.speed_after,
-                              r.restitution, r.impulse, to_public(r.friction), r.pass});
+                              r.restitution, r.impulse, to_public(r.friction), r.pass, to_public(r.moment)});
     for (const ContactRecord& r : from.contacts)
         to.contacts.push_back({r.a, r.b, to_public(r.point), to_public(r.normal), ContactFeatures(r.features), r.gap,
                                r.normal_force, to_public(r.tangential_force), r.torsion, to_public(r.slip),
-                               Contact::State(r.state)});
+                               Contact::State(r.state), to_public(r.moment)});
+    for (const tumble::ExternalLoad& r : from.loads)
+        to.loads.push_back({r.body, to_public(r.force), to_public(r.moment)});
     return to;
 }
 

@@ -109,7 +109,8 @@ struct ImpactTable::State {
     State(const std::string& file, const Scene& whole)
         : scene(whole),
           table(file,
-                "time,exact,frame,a,b,px,py,pz,nx,ny,nz,feature,v_before,v_after,restitution,impulse,fx,fy,fz,pass") {}
+                "time,exact,frame,a,b,px,py,pz,nx,ny,nz,feature,v_before,v_after,restitution,impulse,fx,fy,fz,pass,"
+                "mx,my,mz") {}
 
     Scene scene;
     RecordTable table;
@@ -130,7 +131,7 @@ void ImpactTable::add(const FrameContacts& contacts) {
             table.text(state_->scene.body_name(i.a)).text(state_->scene.body_name(i.b));
             table.vector(i.point).vector(i.normal).text(name_of(i.features));
             table.number(i.speed_before).number(i.speed_after).number(i.restitution).number(i.impulse);
-            table.vector(i.friction).integer(i.pass);
+            table.vector(i.friction).integer(i.pass).vector(i.moment);
             table.end_row();
         }
     });
@@ -145,7 +146,7 @@ void ImpactTable::finish() {
 struct ContactTable::State {
     State(const std::string& file, const Scene& whole)
         : scene(whole),
-          table(file, "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state") {}
+          table(file, "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state,mx,my,mz") {}
 
     Scene scene;
     RecordTable table;
@@ -167,12 +168,45 @@ void ContactTable::add(std::int64_t frame, double time, const FrameContacts& con
             table.text(state_->scene.body_name(c.b));
             table.vector(c.point).vector(c.normal).number(c.gap).number(c.normal_force);
             table.vector(c.tangential_force).number(c.torsion).vector(c.slip).text(name_of(c.state));
+            table.vector(c.moment);
             table.end_row();
         }
     });
 }
 
 void ContactTable::finish() {
+    guarded([&] { state_->table.finish(); });
+}
+
+// -- LoadTable
+
+struct LoadTable::State {
+    State(const std::string& file, const Scene& whole)
+        : scene(whole), table(file, "frame,time,body,fx,fy,fz,mx,my,mz") {}
+
+    Scene scene;
+    RecordTable table;
+};
+
+LoadTable::LoadTable(const std::string& file, const Scene& scene) {
+    guarded([&] { state_ = std::make_unique<State>(file, scene); });
+}
+LoadTable::~LoadTable() = default;
+LoadTable::LoadTable(LoadTable&&) noexcept = default;
+LoadTable& LoadTable::operator=(LoadTable&&) noexcept = default;
+
+void LoadTable::add(std::int64_t frame, double time, const FrameContacts& contacts) {
+    guarded([&] {
+        RecordTable& table = state_->table;
+        for (const ExternalLoad& load : contacts.loads) {
+            table.integer(frame).number(time).text(state_->scene.body_name(load.body));
+            table.vector(load.force).vector(load.moment);
+            table.end_row();
+        }
+    });
+}
+
+void LoadTable::finish() {
     guarded([&] { state_->table.finish(); });
 }
 

@@ -52,6 +52,11 @@ struct World::State {
     std::vector<ManifoldImpulse> totals;  // by manifold, of the last solve; for the log
     ContactRecords records;               // of the last frame
     std::unique_ptr<NotesMethod> notes;   // with method = "notes", in place of all stages
+    struct Sleeper {
+        std::uint32_t body;
+        Vec3 place;  // m
+    };
+    std::vector<Sleeper> asleep;  // at the start of skipped steps, for the log
     ThreadPool pool;
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
@@ -88,6 +93,8 @@ struct World::State {
     void run_stages(const StepContext& step);
     void apply_forces(const StepContext& step);
     void solve_contacts(const StepContext& step);
+    void list_asleep();
+    void log_skipped(std::int64_t skipped);
     void fall_asleep();
     template <class Use>
     void with_present_contacts(Use&& use) const;
@@ -117,14 +124,27 @@ void World::State::step() {
 // Steps only while a body needs stepping: bodies in free flight do not.
 void World::State::advance(std::int64_t to) {
     while (steps < to) {
+        if (log) list_asleep();
         const std::int64_t reached = motion->skip_steps(context(), to);
         if (reached == steps) {
             step();
         } else {
+            if (log) log_skipped(reached - steps);
             steps = reached;
             stop_if_not_finite(context());
         }
     }
+}
+
+// Gravity acts on sleeping bodies in skipped steps too, at the places where they slept.
+void World::State::list_asleep() {
+    asleep.clear();
+    for (std::uint32_t i = 0; i < set.bodies.size(); ++i)
+        if (set.bodies[i].dynamic() && set.bodies[i].asleep) asleep.push_back({i, set.bodies[i].position});
+}
+
+void World::State::log_skipped(std::int64_t skipped) {
+    for (const Sleeper& s : asleep) log->add_gravity(s.body, set.bodies[s.body], clock.seconds(skipped), s.place);
 }
 
 void World::State::apply_forces(const StepContext& step) {

@@ -37,7 +37,7 @@ void run_render(const RenderCommand& command);
 
 struct SimulateCommand {
     std::filesystem::path scene;
-    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts;
+    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
     SceneOverrides overrides;
     int threads = 1;
     bool quiet = false;
@@ -79,6 +79,7 @@ int run_compare(const CompareCommand& command);
 struct InfoCommand {
     std::filesystem::path scene;
     SceneOverrides overrides;
+    std::optional<std::filesystem::path> bodies;
 };
 void run_info(const InfoCommand& command);
 

@@ -63,6 +63,13 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
     add_scene(*command, line.info.scene);
     add_size(*command, line.info.overrides.width, line.info.overrides.height, "Picture size, in place of the scene's");
     add_frames_of_time(*command, line.info.overrides);
+    command
+        ->add_option("--bodies", line.info.bodies,
+                     "CSV: one row per body, with mass, center of mass and inertia tensor in 17 digits; -\nis standard "
+                     "output, in place of the description")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("B.csv");
     command->footer("Example:\n  tumble info scene.toml");
     return command;
 }

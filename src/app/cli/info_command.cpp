@@ -1,10 +1,12 @@
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
+#include "app/files/output_plan.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/frame_memory.h"
 #include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/table_writer.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -159,11 +161,33 @@ void print_cost(const SceneDescription& scene, World& world) {
         memory_text(memory.worker), memory_text(memory.encoder));
 }
 
+void write_bodies(const std::filesystem::path& file, const SceneDescription& scene, const World& world) {
+    TableWriter table(file, "body,type,mass,cx,cy,cz,ixx,iyy,izz,ixy,ixz,iyz");
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        const BodyReport report = world.report(i);
+        const Vec3& c = report.center_of_mass;
+        const Mat3& inertia = report.inertia;
+        table.text(body.name).text(type_text(body.type)).number(body.type == BodyType::dynamic ? report.mass : 0.0);
+        table.number(c.x()).number(c.y()).number(c.z());
+        table.number(inertia(0, 0)).number(inertia(1, 1)).number(inertia(2, 2));
+        table.number(inertia(0, 1)).number(inertia(0, 2)).number(inertia(1, 2));
+        table.end_row();
+    }
+    table.finish();
+}
+
 }  // namespace
 
 void run_info(const InfoCommand& command) {
-    const SceneDescription scene = load_scene(command.scene, command.overrides);
+    FileList inputs;
+    const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
+    OutputPlan plan;
+    for (const auto& file : inputs) plan.add_input(file);
+    if (command.bodies) plan.add("--bodies", *command.bodies);
     World world(scene);
+    if (command.bodies) write_bodies(*command.bodies, scene, world);
+    if (command.bodies == "/dev/stdout") return;
     print_head(scene);
     print_groups(scene, world);
     print_bodies(scene, world);

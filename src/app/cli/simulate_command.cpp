@@ -51,6 +51,7 @@ void run_simulate(const SimulateCommand& command) {
     if (command.energy) plan.add("--energy", *command.energy);
     if (command.impacts) plan.add("--impacts", *command.impacts);
     if (command.contacts) plan.add("--contacts", *command.contacts);
+    if (command.loads) plan.add("--loads", *command.loads);
     const v0::Scene scene = v0::make_scene(std::move(description), std::move(inputs));
     const std::int64_t frames = scene.frame_count();
     const double fps = scene.output().fps;
@@ -65,7 +66,9 @@ void run_simulate(const SimulateCommand& command) {
         if (command.impacts) impacts.emplace(*command.impacts, scene);
         std::optional<v0::ContactTable> contacts;
         if (command.contacts) contacts.emplace(*command.contacts, scene);
-        if (energy || impacts || contacts) world.record_contacts();
+        std::optional<v0::LoadTable> loads;
+        if (command.loads) loads.emplace(*command.loads, scene);
+        if (energy || impacts || contacts || loads) world.record_contacts();
 
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
@@ -73,16 +76,18 @@ void run_simulate(const SimulateCommand& command) {
             if (energy) energy->add(n, double(n) / fps, world.energies());
             if (impacts) impacts->add(world.contacts());
             if (contacts) contacts->add(n, double(n) / fps, world.contacts());
+            if (loads) loads->add(n, double(n) / fps, world.contacts());
             monitor.update(n + 1);
         }
         if (trajectory) trajectory->finish();
         if (energy) energy->finish();
         if (impacts) impacts->finish();
         if (contacts) contacts->finish();
+        if (loads) loads->finish();
     }
     if (command.quiet) return;
     const double seconds = wall_seconds() - start;
-    for (const auto& file : {command.trajectory, command.energy, command.impacts, command.contacts})
+    for (const auto& file : {command.trajectory, command.energy, command.impacts, command.contacts, command.loads})
         if (file) say("wrote {}\n", safe_path(*file));
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
         (frames - 1) * scene.steps_per_frame(), scene.step(), seconds, double(frames - 1) / fps / seconds);

@@ -66,6 +66,13 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->transform(or_standard_output())
         ->type_name("C.csv");
     command
+        ->add_option("--loads", c.loads,
+                     "CSV or .npz: one row per frame and dynamic body, with the force and moment of gravity,\nwind and "
+                     "[[force]]s; - is standard output")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("L.csv");
+    command
         ->add_option("--impact-law", c.overrides.impact_law,
                      "propagating or simultaneous: the rule for several contacts at once")
         ->type_name("NAME");

@@ -85,15 +85,19 @@ void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t s
 }
 
 // Bodies in contact that the impact released are ballistic from now on, not from the next step.
-void EventDrivenMotion::release_receivers(std::vector<Body>& bodies) {
+void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const EventTime& now) {
     const auto& receivers = cluster_.impulse_receivers();
     if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
     held_.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
     for (const std::uint32_t k : receivers) held_[k] = false;
     mark_held(cluster_.contacts(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_, held_);
-    for (const std::uint32_t k : receivers)
-        if (held(bodies[k]) && !held_[k]) bodies[k].flying = true;
+    for (const std::uint32_t k : receivers) {
+        if (!held(bodies[k]) || held_[k]) continue;
+        bodies[k].flying = true;
+        // Gravity of the whole step has acted already; the flight adds that of its rest once more.
+        if (log_) log_->add_gravity(k, bodies[k], -clock_.between(now, {now.step + 1, 0.0}), bodies[k].position);
+    }
 }
 
 void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const EventTime& now) {
@@ -157,7 +161,8 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
         body.derive();
         if (log_) {
             const Impulse rest_of_step{rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque};
-            log_->add_external(k, rest_of_step + brief_impulse, {body.velocity, body.angular_velocity});
+            log_->add_gravity(k, body, rest, body.position);
+            log_->add_external(k, rest_of_step + brief_impulse, body.position, {body.velocity, body.angular_velocity});
         }
         events_[k].pushed = true;
     }

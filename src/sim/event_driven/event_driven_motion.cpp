@@ -81,6 +81,7 @@ void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const Fo
                             const EventTime& now) {
     Body& body = bodies[i];
     body.flying = true;
+    if (log_) log_->start_flight(i, body);
     if (forces.only_gravity(i)) {
         start(i, Trajectory::flight(body, settings_.gravity), now, never);
         return;
@@ -109,6 +110,7 @@ MovingBody EventDrivenMotion::moving_body(std::uint32_t i, const std::vector<Bod
 void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
     show(i, bodies, now);
     if (bodies[i].flying && !events_[i].driven) bodies[i].derive();  // the others are derived already
+    if (log_ && bodies[i].flying) log_->end_flight(i, bodies[i], events_[i].driven);
 }
 
 // The body's state and velocities, without the data that only contacts need.
@@ -265,6 +267,15 @@ std::int64_t EventDrivenMotion::run(std::vector<Body>& bodies, SleepMonitor& sle
     return until_;
 }
 
+// An impact within a frame never has the time of the frame's start, which rounding could give it: it belongs to the
+// frame that it changes.
+ImpactTime EventDrivenMotion::impact_time(const EventTime& now) const {
+    const std::int64_t frame = now.step / settings_.steps_per_frame, first = frame * settings_.steps_per_frame;
+    const double begin = clock_.seconds(first), end = clock_.seconds(first + settings_.steps_per_frame);
+    const double time = std::clamp(clock_.seconds(now), std::nextafter(begin, end), end);
+    return {time, time < end ? frame : frame + 1, true};
+}
+
 // Counts the body's impacts in quick succession; a run longer than any motion has is an error.
 void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
     BodyEvent& f = events_[i];
@@ -328,7 +339,13 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
         contact.arm_b = -(other_ball ? other_ball->radius : 0.0) * n;
         const double after = v + impulse * (a.inverse_mass + b.inverse_mass);
         log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies,
-                        {clock_.seconds(now), now.step / settings_.steps_per_frame, true});
+                        impact_time(now));
+        const auto deflect = [&](std::uint32_t k, const Vec3& place, const Vec3& velocity, const Vec3& change) {
+            log_->end_flight(k, bodies[k], place, bodies[k].mass * velocity);
+            log_->start_flight(k, bodies[k], place, bodies[k].mass * (velocity + change));
+        };
+        deflect(i, at, va, -(a.inverse_mass * impulse) * n);
+        if (other_ball) deflect(j, events_[j].path.position(tb), vb, (b.inverse_mass * impulse) * n);
     }
     start(i, events_[i].path.deflected(ta, va - (a.inverse_mass * impulse) * n), now, never);
     changed_.push_back(i);
@@ -381,7 +398,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         log_ ? &trace_ : nullptr);
     if (log_ && changed)
         log_->add_impact(trace_, cluster_.contacts(), bodies,
-                         {clock_.seconds(now), now.step / settings_.steps_per_frame, true});
+                         impact_time(now));
     if (!changed && meeting) {  // no more of these in this step
         events_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);
@@ -405,7 +422,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         changed_.push_back(k);
     }
     if (meeting) changed_.push_back(i);  // its trajectory ends here, whether or not the impulse has reached it
-    release_receivers(bodies);
+    release_receivers(bodies, now);
     switch_to_contact(bodies, forces, now);
     sort_unique(changed_);
     for (const std::uint32_t k : changed_)

@@ -20,6 +20,7 @@
 #include "sim/event_driven/neighbor_boxes.h"
 #include "sim/event_driven/settings.h"
 #include "sim/impact/impacts.h"
+#include "sim/snapshot/contact_records.h"
 
 #include <limits>
 #include <vector>
@@ -97,7 +98,7 @@ private:
     void box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict_changed(const std::vector<Body>& bodies, const EventTime& now);
-    void release_receivers(std::vector<Body>& bodies);
+    void release_receivers(std::vector<Body>& bodies, const EventTime& now);
     void switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void hold_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     /// Whether the body's trajectory ends now, at the other body.
@@ -115,6 +116,7 @@ private:
     void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     bool below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
     double zeno_limit(std::uint32_t i) const;
+    ImpactTime impact_time(const EventTime& now) const;
     EventTime later(const EventTime& now, double seconds) const;
     MovingBody moving_body(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) const;
 

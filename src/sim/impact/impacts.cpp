@@ -36,7 +36,8 @@ int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
     return passes + 1;
 }
 
-// Friction changes the normal impulses as well: the change belongs to the contact's last pass.
+// Friction changes the normal impulses as well: the change belongs to the contact's last pass, and what would make the
+// impulse of that pass negative to the passes before it.
 void complete_trace(const ImpactSystem& cluster, ImpactTrace& trace) {
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         double rest = cluster.impulse(i);
@@ -52,7 +53,12 @@ void complete_trace(const ImpactSystem& cluster, ImpactTrace& trace) {
             last = &trace.entries.back();
         }
         if (last->impulse + rest != last->impulse) last->speed_after = cluster.speed(i);
-        last->impulse += rest;
+        for (auto entry = trace.entries.rbegin(); entry != trace.entries.rend() && rest != 0.0; ++entry) {
+            if (entry->contact != cluster.contact_index(i)) continue;
+            const double change = std::max(rest, -entry->impulse);
+            entry->impulse += change;
+            rest -= change;
+        }
     }
 }
 

@@ -10,7 +10,7 @@ namespace {
 // A slip below this fraction of the speed that gravity gives in a step counts as sticking: the solvers leave such
 // speeds by their tolerances.
 constexpr double stick_share = 1e-3;
-// Corrections below this fraction of a body's impulses in the frame are rounding.
+// Corrections below this fraction of a body's impulses, or moments, in the frame are rounding.
 constexpr double correction_rounding = 1e-13;
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
@@ -47,6 +47,18 @@ ContactLog::ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& o
       gravity_(gravity),
       accounts_(scene_index.size()) {}
 
+Impulse ContactLog::momenta(const Body& body, const Vec3& place, const Vec3& momentum) const {
+    return {momentum, (origin_ + place).cross(momentum) + body.angular_momentum};
+}
+
+void ContactLog::add_contact(std::uint32_t a, std::uint32_t b, const Impulse& on_b) {
+    const double moment = on_b.angular.norm();
+    accounts_[a].contact = accounts_[a].contact - on_b;
+    accounts_[b].contact = accounts_[b].contact + on_b;
+    accounts_[a].moments += moment;
+    accounts_[b].moments += moment;
+}
+
 double ContactLog::energy(const Body& body) const {
     return body.kinetic_energy() - body.mass * gravity_.dot(body.position);
 }
@@ -55,11 +67,14 @@ void ContactLog::begin_frame(const std::vector<Body>& bodies) {
     sums_.clear();
     records_.impacts.clear();
     records_.contacts.clear();
+    records_.loads.clear();
     friction_ = 0.0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         accounts_[i] = {};
-        accounts_[i].momentum = bodies[i].momentum;
-        if (bodies[i].dynamic()) accounts_[i].energy = energy(bodies[i]);
+        if (!bodies[i].dynamic()) continue;
+        accounts_[i].start = momenta(bodies[i]);
+        accounts_[i].energy = energy(bodies[i]);
+        start_flight(std::uint32_t(i), bodies[i]);
     }
 }
 
@@ -78,10 +93,10 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
     record.restitution = entry.restitution;
     record.impulse = entry.impulse;
     record.pass = entry.pass;
-    records_.impacts.push_back(record);
     const Vec3 j = entry.impulse * c.normal;
-    accounts_[c.a].contact -= j;
-    accounts_[c.b].contact += j;
+    record.moment = record.point.cross(j);
+    records_.impacts.push_back(record);
+    add_contact(c.a, c.b, {j, record.moment});
     accounts_[c.a].touched = accounts_[c.b].touched = true;
     if (!a.dynamic()) accounts_[c.b].work += j.dot(a.point_velocity(c.arm_a));
     if (!b.dynamic()) accounts_[c.a].work -= j.dot(b.point_velocity(c.arm_b));
@@ -96,9 +111,12 @@ void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>
         const bool last = std::none_of(trace.entries.begin() + std::ptrdiff_t(k) + 1, trace.entries.end(),
                                        [&](const ImpactTrace::Entry& e) { return e.contact == entry.contact; });
         if (!last) continue;
-        records_.impacts.back().friction = c.impact_friction;
-        accounts_[c.a].contact -= c.impact_friction;
-        accounts_[c.b].contact += c.impact_friction;
+        if (c.impact_friction.isZero(0.0)) continue;
+        ImpactRecord& record = records_.impacts.back();
+        const Vec3 moment = (record.point + c.rub).cross(c.impact_friction);
+        record.friction = c.impact_friction;
+        record.moment += moment;
+        add_contact(c.a, c.b, {c.impact_friction, moment});
     }
 }
 
@@ -121,8 +139,6 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
         const ManifoldImpulse& total = totals[k];
         if (total.on_b.isZero(0.0) && total.turn_a.isZero(0.0) && total.turn_b.isZero(0.0)) continue;
         const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-        accounts_[m.a].contact -= total.on_b;
-        accounts_[m.b].contact += total.on_b;
         accounts_[m.a].touched = accounts_[m.b].touched = true;
         if (!a.dynamic()) accounts_[m.b].work += total.on_b.dot(a.velocity) - total.turn_a.dot(a.angular_velocity);
         if (!b.dynamic()) accounts_[m.a].work -= total.on_b.dot(b.velocity) + total.turn_b.dot(b.angular_velocity);
@@ -135,14 +151,18 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
         const auto place = [&](int i) { return acting_point_of(m, i, a, b); };
         // The moment that forces at the points leave over, about the center of a body that moves.
         const bool about_b = b.dynamic();
-        double torsion = m.normal.dot(about_b ? total.turn_b : Vec3(-total.turn_a));
+        Vec3 left = about_b ? total.turn_b : Vec3(-total.turn_a);
         for (int i = 0; i < m.count; ++i)
-            torsion -= m.normal.dot((place(i) - (about_b ? b.position : a.position)).cross(share(i) * total.on_b));
+            left -= (place(i) - (about_b ? b.position : a.position)).cross(share(i) * total.on_b);
+        const double torsion = m.normal.dot(left);
         const double turn = m.normal.dot(b.angular_velocity - a.angular_velocity);
         for (int i = 0; i < m.count; ++i) {
             if (!(share(i) > 0.0)) continue;
             Sum& point = sums_[key_of(m, i)];
-            point.impulse += share(i) * total.on_b;
+            const Vec3 force = share(i) * total.on_b;
+            const Impulse impulse{force, (origin_ + place(i)).cross(force) + share(i) * left};
+            point.impulse = point.impulse + impulse;
+            add_contact(m.a, m.b, impulse);
             point.torsion += share(i) * torsion;
             point.span += problem.settings.h;
             point.stick_speed = stick_share * gravity_.norm() * problem.settings.h;
@@ -152,9 +172,44 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
     }
 }
 
-void ContactLog::add_external(std::uint32_t body, const Impulse& impulse, const BodyVelocity& mean) {
-    accounts_[body].external += impulse.linear;
-    accounts_[body].work += impulse.linear.dot(mean.velocity) + impulse.angular.dot(mean.angular_velocity);
+void ContactLog::add_load(Account& account, const Impulse& impulse) {
+    account.external = account.external + impulse;
+    account.moments += impulse.angular.norm();
+}
+
+void ContactLog::add_gravity(std::uint32_t index, const Body& body, double span, const Vec3& place) {
+    const Vec3 impulse = span * body.mass * gravity_;
+    add_load(accounts_[index], {impulse, (origin_ + place).cross(impulse)});
+}
+
+void ContactLog::add_external(std::uint32_t index, const Impulse& impulse, const Vec3& place,
+                              const BodyVelocity& mean) {
+    Account& account = accounts_[index];
+    add_load(account, {impulse.linear, (origin_ + place).cross(impulse.linear) + impulse.angular});
+    account.work += impulse.linear.dot(mean.velocity) + impulse.angular.dot(mean.angular_velocity);
+}
+
+void ContactLog::start_flight(std::uint32_t index, const Body& body) {
+    start_flight(index, body, body.position, body.momentum);
+    accounts_[index].flight_energy = energy(body);
+}
+
+void ContactLog::start_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum) {
+    accounts_[index].flight = momenta(body, place, momentum);
+}
+
+void ContactLog::end_flight(std::uint32_t index, const Body& body, bool driven) {
+    end_flight(index, body, body.position, body.momentum);
+    const double now = energy(body);
+    Account& account = accounts_[index];
+    if (driven) account.work += now - account.flight_energy;
+    account.flight_energy = now;
+}
+
+void ContactLog::end_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum) {
+    const Impulse end = momenta(body, place, momentum);
+    add_load(accounts_[index], end - accounts_[index].flight);
+    accounts_[index].flight = end;
 }
 
 bool ContactLog::at_rest(const Key& key, const std::vector<Body>& bodies) const {
@@ -179,7 +234,8 @@ ContactRecord ContactLog::mean(const Key& key, Sum& sum, const std::vector<Body>
     const bool sleeps = at_rest(key, bodies);
     const double span = sleeps ? sum.span : duration;
     // The normal may have turned during the frame: the whole force stays the same.
-    const Vec3 force = sum.impulse / span;
+    const Vec3 force = sum.impulse.linear / span;
+    r.moment = sum.impulse.angular / span;
     r.normal_force = r.normal.dot(force);
     r.tangential_force = force - r.normal_force * r.normal;
     r.torsion = sum.torsion / span;
@@ -188,29 +244,41 @@ ContactRecord ContactLog::mean(const Key& key, Sum& sum, const std::vector<Body>
     r.state = ContactRecord::State::asleep;
     r.slip.setZero();
     asleep_[key] = r;
-    const Vec3 rest = std::max(0.0, duration - sum.span) * force;
-    accounts_[key.a].contact -= rest;
-    accounts_[key.b].contact += rest;
+    const double rest = std::max(0.0, duration - sum.span);
+    add_contact(key.a, key.b, {rest * force, rest * r.moment});
     return r;
 }
 
-void ContactLog::add_corrections(const std::vector<Body>& bodies, const ForceField& forces, double duration) {
+void ContactLog::add_loads(const std::vector<Body>& bodies, double duration) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        if (!bodies[i].dynamic()) continue;
+        const Impulse& sum = accounts_[i].external;
+        const double rate = duration > 0.0 ? 1.0 / duration : 0.0;
+        records_.loads.push_back({i, rate * sum.linear, rate * sum.angular});
+    }
+}
+
+void ContactLog::add_corrections(const std::vector<Body>& bodies, double duration) {
+    if (!(duration > 0.0)) return;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
-        Account& account = accounts_[i];
-        // Forces on a ballistic body act along its trajectory, not in steps.
-        if (!body.dynamic() || !(duration > 0.0) || (body.flying && !forces.only_gravity(i))) continue;
-        account.external += duration * body.mass * gravity_;
-        const Vec3 left = body.momentum - account.momentum - account.external - account.contact;
-        const double size =
-            body.momentum.norm() + account.momentum.norm() + account.external.norm() + account.contact.norm();
-        if (left.norm() <= correction_rounding * size) continue;
+        if (!body.dynamic()) continue;
+        const Account& account = accounts_[i];
+        const Impulse end = momenta(body);
+        const Impulse left = end - account.start - account.external - account.contact;
+        const auto linear = [](const Impulse& impulse) { return impulse.linear.norm(); };
+        const double impulses =
+            linear(end) + linear(account.start) + linear(account.external) + linear(account.contact);
+        const double moments = end.angular.norm() + account.start.angular.norm() + account.moments;
+        const bool pushed = linear(left) > correction_rounding * impulses;
+        if (!pushed && left.angular.norm() <= correction_rounding * moments) continue;
         ContactRecord r;
         r.a = ContactRecord::nobody;
         r.b = i;
         r.point = origin_ + body.position;
-        r.normal = left.normalized();
-        r.normal_force = left.norm() / duration;
+        r.normal = (pushed ? left.linear : left.angular).normalized();
+        r.normal_force = pushed ? linear(left) / duration : 0.0;
+        r.moment = left.angular / duration;
         r.state = body.asleep ? ContactRecord::State::asleep : ContactRecord::State::stick;
         records_.contacts.push_back(r);
     }
@@ -237,7 +305,7 @@ void ContactLog::name_by_scene() {
         if (r.a < r.b) continue;
         std::swap(r.a, r.b);
         r.features = swapped(r.features);
-        for (Vec3* v : {&r.normal, &r.tangential_force, &r.slip}) *v = -*v;
+        for (Vec3* v : {&r.normal, &r.tangential_force, &r.slip, &r.moment}) *v = -*v;
     }
     std::stable_sort(records_.contacts.begin(), records_.contacts.end(),
                      [](const auto& l, const auto& r) { return std::tie(l.a, l.b) < std::tie(r.a, r.b); });
@@ -247,8 +315,11 @@ void ContactLog::name_by_scene() {
         if (r.a < r.b) continue;
         std::swap(r.a, r.b);
         r.features = swapped(r.features);
-        for (Vec3* v : {&r.normal, &r.friction}) *v = -*v;
+        for (Vec3* v : {&r.normal, &r.friction, &r.moment}) *v = -*v;
     }
+    for (ExternalLoad& load : records_.loads) load.body = scene_index_[load.body];
+    std::sort(records_.loads.begin(), records_.loads.end(),
+              [](const ExternalLoad& l, const ExternalLoad& r) { return l.body < r.body; });
 }
 
 ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
@@ -257,14 +328,16 @@ ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const F
     std::erase_if(asleep_,
                   [&](const auto& item) { return !at_rest(item.first, bodies) || sums_.contains(item.first); });
     for (const auto& [key, record] : asleep_) {
-        const Vec3 j = duration * (record.normal_force * record.normal + record.tangential_force);
-        accounts_[key.a].contact -= j;
-        accounts_[key.b].contact += j;
+        const Vec3 force = record.normal_force * record.normal + record.tangential_force;
+        add_contact(key.a, key.b, {duration * force, duration * record.moment});
         records_.contacts.push_back(record);
     }
     add_touching(touching, bodies);
     for (auto& [key, sum] : sums_) records_.contacts.push_back(mean(key, sum, bodies, duration));
-    add_corrections(bodies, forces, duration);
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].flying) end_flight(i, bodies[i], !forces.only_gravity(i));
+    add_loads(bodies, duration);
+    add_corrections(bodies, duration);
     add_losses(bodies);
     name_by_scene();
     return records_;

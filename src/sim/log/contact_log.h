@@ -1,9 +1,10 @@
 // Collects the impacts, contacts and energy losses of a frame (sim/snapshot/contact_records.h). The stages of a step
 // write into it where it is asked for; nothing of it affects the motion.
 //
-// Over a frame the change of a body's momentum is the sum of its impact records, its contact records times the frame's
-// duration, and the forces from outside. Corrections of the method (bodies stopped by CCD, the energy budget of the soft
-// solver, bounces held through a step) have records of their own, without a body A.
+// Over a frame the change of a body's momentum, and of its angular momentum about the world origin, is the sum of its
+// impact records, and of its contact records and its load times the frame's duration. Corrections of the method (bodies
+// stopped by CCD, the energy budget of the soft solver, bounces held through a step, displacements without momentum)
+// have records of their own, without a body A.
 #pragma once
 
 #include "sim/contact/model/contact.h"
@@ -37,8 +38,17 @@ public:
     void add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
                       const std::vector<ManifoldImpulse>& totals);
 
-    /// Adds the impulse of forces other than gravity; `mean`: the mean of the velocities before and after it.
-    void add_external(std::uint32_t body, const Impulse& impulse, const BodyVelocity& mean);
+    /// Adds gravity's impulse over `span` s on a body whose center is at `place` (m).
+    void add_gravity(std::uint32_t index, const Body& body, double span, const Vec3& place);
+    /// Adds the impulse of other forces; `mean`: the mean of the velocities before and after it.
+    void add_external(std::uint32_t index, const Impulse& impulse, const Vec3& place, const BodyVelocity& mean);
+    /// Between these calls nothing but external forces changes the body's momenta: their change is the forces' impulse.
+    /// `end_flight` may be called repeatedly. `driven`: by forces other than gravity, whose work is then added.
+    void start_flight(std::uint32_t index, const Body& body);
+    void end_flight(std::uint32_t index, const Body& body, bool driven);
+    /// The same for the momentum (kg m/s) at a place (m), of a body under gravity alone.
+    void start_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
+    void end_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
 
     /// The records of the frame that ends now and lasted `duration` s (0 for the first frame). `touching`: the manifolds
     /// of the present poses.
@@ -52,19 +62,28 @@ private:
         auto operator<=>(const Key&) const = default;
     };
     struct Sum {
-        ContactRecord last;           // place and features at the last step
-        Vec3 impulse = Vec3::Zero();  // N s on B
-        double torsion = 0.0;         // N m s
-        double span = 0.0;            // s, with contact
-        double stick_speed = 0.0;     // m/s: slower counts as sticking
+        ContactRecord last;        // place and features at the last step
+        Impulse impulse;           // on B, about the world origin
+        double torsion = 0.0;      // N m s
+        double span = 0.0;         // s, with contact
+        double stick_speed = 0.0;  // m/s: slower counts as sticking
     };
-    /// Of a body, in this frame.
+    /// Of a body, in this frame; moments are about the world origin.
     struct Account {
-        Vec3 momentum = Vec3::Zero(), external = Vec3::Zero(), contact = Vec3::Zero();  // N s: at the start; since then
-        double energy = 0.0;                                                            // J, at the start
-        double work = 0.0;                                                              // J, from outside
-        bool touched = false;                                                           // by an impact or a contact
+        Impulse start;               // momentum and angular momentum at the start
+        Impulse external, contact;   // impulses since then
+        double moments = 0.0;        // N m s, sum of the magnitudes of all moments
+        Impulse flight;              // momentum and angular momentum at the start of a flight
+        double flight_energy = 0.0;  // J, then
+        double energy = 0.0;         // J, at the start
+        double work = 0.0;           // J, from outside
+        bool touched = false;        // by an impact or a contact
     };
+    Impulse momenta(const Body& body, const Vec3& place, const Vec3& momentum) const;
+    Impulse momenta(const Body& body) const { return momenta(body, body.position, body.momentum); }
+    static void add_load(Account& account, const Impulse& impulse);
+    /// Adds an impulse on B, and the opposite one on A.
+    void add_contact(std::uint32_t a, std::uint32_t b, const Impulse& on_b);
     static Key key_of(const Manifold& m, int i) { return {m.a, m.b, m.part, m.points[std::size_t(i)].feature}; }
     double energy(const Body& body) const;
     /// Bodies, place, normal, gap, features and slip of a manifold's point.
@@ -72,7 +91,8 @@ private:
     bool at_rest(const Key& key, const std::vector<Body>& bodies) const;
     void add_touching(const std::vector<Manifold>& touching, const std::vector<Body>& bodies);
     ContactRecord mean(const Key& key, Sum& sum, const std::vector<Body>& bodies, double duration);
-    void add_corrections(const std::vector<Body>& bodies, const ForceField& forces, double duration);
+    void add_corrections(const std::vector<Body>& bodies, double duration);
+    void add_loads(const std::vector<Body>& bodies, double duration);
     void add_losses(const std::vector<Body>& bodies);
     void name_by_scene();
 

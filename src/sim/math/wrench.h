@@ -17,6 +17,9 @@ struct Impulse {
     friend Impulse operator+(const Impulse& l, const Impulse& r) {
         return {l.linear + r.linear, l.angular + r.angular};
     }
+    friend Impulse operator-(const Impulse& l, const Impulse& r) {
+        return {l.linear - r.linear, l.angular - r.angular};
+    }
 };
 
 }  // namespace tumble

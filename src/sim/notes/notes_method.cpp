@@ -86,6 +86,18 @@ void NotesMethod::log_impulse(const StepContext& step, const Manifold& m, const 
                         m.points[std::size_t(point.index)].position, bodies, step.impact_time());
 }
 
+// Explicit Euler moves the body by the old velocity, as if the forces acted at the end of the step.
+void NotesMethod::log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench, const BodyVelocity& old) {
+    const Body& body = step.set.bodies[i];
+    const bool before = body.integrator == IntegratorKind::explicit_euler;
+    const Vec3 place = before ? Vec3(body.position + step.h * old.velocity) : body.position;
+    step.log->add_gravity(i, body, step.h, place);
+    if (step.forces.field().only_gravity(i)) return;
+    step.log->add_external(
+        i, {step.h * (wrench.force - body.mass * step.settings.gravity), step.h * wrench.torque}, place,
+        {0.5 * (old.velocity + body.velocity), 0.5 * (old.angular_velocity + body.angular_velocity)});
+}
+
 void NotesMethod::step(const StepContext& step) {
     BodySet& set = step.set;
     set.list(step.sleep);
@@ -97,6 +109,7 @@ void NotesMethod::step(const StepContext& step) {
         advance_momenta(body, wrench.force, wrench.torque, step.h);
         body.derive_velocities();  // omega = I_n^-1 L_n+1
         const bool before = body.integrator == IntegratorKind::explicit_euler;
+        if (step.log) log_forces(step, i, wrench, old);
         advance_pose(body, before ? old.velocity : body.velocity, before ? old.angular_velocity : body.angular_velocity,
                      step.h, step.settings.rotation);
         body.derive();

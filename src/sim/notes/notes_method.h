@@ -9,6 +9,7 @@
 #include "sim/contact/model/contact.h"
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
+#include "sim/math/wrench.h"
 
 namespace tumble {
 
@@ -31,6 +32,7 @@ private:
     void collide(const StepContext& step);
     static Collision resolve(const Vec3& point, const Vec3& n, Body& a, Body& b);
     void log_impulse(const StepContext& step, const Manifold& m, const Point& point, const Collision& found);
+    static void log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench, const BodyVelocity& old);
 
     BroadPhase broad_phase_{BroadPhase::Pairs::all};
     NarrowPhase narrow_phase_;

@@ -1,5 +1,5 @@
-// Impacts and contacts of a frame, its momentum balance and its energy losses, as plain values: the rows of the tables
-// --impacts and --contacts. A frame's records cover the time from the frame before it. Bodies are named by their index
+// Impacts and contacts of a frame, external loads and energy losses, as plain values: the rows of the tables --impacts,
+// --contacts and --loads. A frame's records cover the time from the frame before it. Bodies are named by their index
 // in the scene, A before B; vectors are in the world frame; normals point from A to B, and impulses and forces act on B
 // (the opposite ones on A).
 #pragma once
@@ -34,6 +34,7 @@ struct ImpactRecord {
     double impulse = 0.0;                          // N s along the normal
     Vec3 friction = Vec3::Zero();                  // N s on B, across the normal; with the contact's last pass
     int pass = 0;                                  // of the law, from 0
+    Vec3 moment = Vec3::Zero();                    // N m s on B about the world origin, of both impulses
 };
 
 /// One point of a resting or sliding contact. Forces are means over the frame.
@@ -51,7 +52,15 @@ struct ContactRecord {
     double torsion = 0.0;                  // N m on B about the normal
     Vec3 slip = Vec3::Zero();              // m/s, of B's point relative to A's, across the normal
     State state = State::open;
+    Vec3 moment = Vec3::Zero();  // N m on B about the world origin: of both forces, at their points of each step
     static constexpr std::size_t nobody = SIZE_MAX;
+};
+
+/// Gravity, wind and the forces at points of a dynamic body: means over the frame.
+struct ExternalLoad {
+    std::size_t body = 0;
+    Vec3 force = Vec3::Zero();   // N
+    Vec3 moment = Vec3::Zero();  // N m about the world origin
 };
 
 /// Energy from the start of the simulation on, J.
@@ -64,6 +73,7 @@ struct EnergyLedger {
 struct ContactRecords {
     std::vector<ImpactRecord> impacts;    // in order of time
     std::vector<ContactRecord> contacts;  // ascending by bodies
+    std::vector<ExternalLoad> loads;      // of all dynamic bodies, ascending
     EnergyLedger energy;
 };
 

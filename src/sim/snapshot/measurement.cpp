@@ -40,6 +40,7 @@ BodyReport describe(const Body& body) {
     BodyReport r;
     r.mass = body.dynamic() ? body.mass : std::numeric_limits<double>::infinity();
     if (body.dynamic()) r.principal_inertia = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia_body).eigenvalues();
+    if (body.dynamic()) r.inertia = body.inertia_body;
     r.center_of_mass = body.center_of_mass;
     if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&body.collider))
         r.hull_vertices = (*hull)->vertices.size();

@@ -23,6 +23,7 @@ struct Measurement {
 struct BodyReport {
     double mass = 0.0;                      // kg; infinity for fixed and kinematic bodies
     Vec3 principal_inertia = Vec3::Zero();  // kg m^2, about the center of mass, ascending
+    Mat3 inertia = Mat3::Zero();            // kg m^2, about the center of mass, body frame
     Vec3 center_of_mass = Vec3::Zero();     // body frame, from the body's origin
     std::size_t hull_vertices = 0;          // of its convex collision shape; 0 for planes and spheres
     std::size_t triangles = 0;              // of a fixed mesh that collides as it is

@@ -14,6 +14,14 @@ BodyVelocity mean_velocity(const BodyVelocity& before, const Body& body) {
     return {0.5 * (before.velocity + body.velocity), 0.5 * (before.angular_velocity + body.angular_velocity)};
 }
 
+// Where the step's forces act, for the balance of angular momentum about a fixed point: explicit Euler moves the body
+// by the old velocity, as if they acted at the end of the step.
+Vec3 place_of_forces(std::uint32_t i, const StepContext& step) {
+    const Body& body = step.set.bodies[i];
+    if (body.integrator != IntegratorKind::explicit_euler) return body.position;
+    return body.position + step.h * step.set.old_velocities[i].velocity;
+}
+
 }  // namespace
 
 ForceStage::ForceStage(const SceneDescription& scene, const BodySet& set)
@@ -44,11 +52,22 @@ void ForceStage::apply(const StepContext& step, OutOfDate derived) {
         effects_[i].after.momentum = body.momentum;
         effects_[i].after.angular_momentum = body.angular_momentum;
         body.derive_velocities();
-        if (step.log && !field_.only_gravity(i))
-            step.log->add_external(i, {h * (wrench.force - body.mass * step.settings.gravity), h * wrench.torque},
-                                   mean_velocity(set.old_velocities[i], body));
+        if (step.log) log_forces(step, i, wrench);
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
     });
+    if (!step.log) return;
+    for (std::uint32_t i = 0; i < set.bodies.size(); ++i)
+        if (set.bodies[i].dynamic() && set.bodies[i].asleep)
+            step.log->add_gravity(i, set.bodies[i], h, set.bodies[i].position);
+}
+
+void ForceStage::log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const {
+    const Body& body = step.set.bodies[i];
+    const Vec3 place = place_of_forces(i, step);
+    step.log->add_gravity(i, body, step.h, place);
+    if (field_.only_gravity(i)) return;
+    step.log->add_external(i, {step.h * (wrench.force - body.mass * step.settings.gravity), step.h * wrench.torque},
+                           place, mean_velocity(step.set.old_velocities[i], body));
 }
 
 void ForceStage::apply_brief(const StepContext& step) {
@@ -62,7 +81,7 @@ void ForceStage::apply_brief(const StepContext& step) {
         const Impulse brief = field_.brief(i, body, now, next);
         const BodyVelocity before{body.velocity, body.angular_velocity};
         advance_momenta(body, brief);
-        if (step.log) step.log->add_external(i, brief, mean_velocity(before, body));
+        if (step.log) step.log->add_external(i, brief, place_of_forces(i, step), mean_velocity(before, body));
         effects_[i].after.momentum += brief.linear;
         effects_[i].after.angular_momentum += brief.angular;
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, step.h);

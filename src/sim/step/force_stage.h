@@ -53,6 +53,8 @@ private:
     struct alignas(64) Effect {
         Momenta before, after;
     };
+    void log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const;
+
     ForceField field_;
     std::vector<Effect> effects_;  // by body
     std::vector<Impulse> ending_;  // by body: of forces that end at some time; empty without forces at points

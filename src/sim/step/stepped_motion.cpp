@@ -5,6 +5,7 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/impact/settings.h"
+#include "sim/log/contact_log.h"
 #include "sim/threads/settings.h"
 
 namespace tumble {
@@ -66,6 +67,7 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
     const bool flies = advances_whole_state(body.integrator) && !in_contact;
     if (body.flew != flies) body.flew = flies;  // all threads read the neighboring data: written only where it changes
     if (body.flew) {
+        if (step.log) step.log->start_flight(i, body);
         forces.set_back(i, body);
         const double end = step.start() + share * h;
         if (body.integrator == IntegratorKind::exact)
@@ -73,6 +75,11 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         else
             advance_one_step(body, body.integrator, forces.field(), i, step.start(), end);
         if (share < 1.0) advance_momenta(body, forces.field().ending(i, body, end, step.end()));
+        // The forces of the step are logged as of its start: the flight's end gives the difference.
+        if (step.log) {
+            step.log->end_flight(i, body, false);
+            if (share < 1.0) step.log->add_gravity(i, body, (1.0 - share) * h, body.position);
+        }
     } else {
         const BodyVelocity& motion = step.set.motions[i];
         const double spin_before = spin(body);
