@@ -44,6 +44,9 @@ TEST(World, RecordsImpactsAndContactsWithoutChangingTheMotion) {
         impacts += found.impacts.size();
         for (const Impact& i : found.impacts)
             if (scene.body_type(i.a) == BodyType::fixed) vertical += i.impulse * i.normal.y + i.friction.y;
+        double load = 0.0;
+        for (const ExternalLoad& l : found.loads) load += l.force.y;
+        ASSERT_NEAR(load, -9.81 * mass, 1e-9 * mass) << frame;
         for (const Contact& c : found.contacts)
             if (c.a == Contact::nobody || scene.body_type(c.a) == BodyType::fixed)
                 vertical += duration * (c.normal_force * c.normal.y + c.tangential_force.y);

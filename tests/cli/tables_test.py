@@ -171,8 +171,8 @@ restitution = 0.5
         self.write("scene.toml", self.BOUNCE)
         self.check(0, "simulate", "scene.toml", "--impacts", "exact", "--impacts", "i.csv", "--contacts", "c.csv")
         impacts, contacts = self.rows("i.csv"), self.rows("c.csv")
-        self.assertEqual(",".join(impacts[0]), "time,exact,frame,a,b,px,py,pz,nx,ny,nz,feature,v_before,v_after,restitution,impulse,fx,fy,fz,pass")
-        self.assertEqual(",".join(contacts[0]), "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state")
+        self.assertEqual(",".join(impacts[0]), "time,exact,frame,a,b,px,py,pz,nx,ny,nz,feature,v_before,v_after,restitution,impulse,fx,fy,fz,pass,mx,my,mz")
+        self.assertEqual(",".join(contacts[0]), "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state,mx,my,mz")
         first = impacts[0]
         self.assertAlmostEqual(float(first["time"]), math.sqrt(2 / 9.81), delta=1e-12)
         self.assertEqual([first[key] for key in ("exact", "frame", "a", "b", "feature", "pass")], ["1", "27", "floor", "ball", "sphere", "0"])
@@ -191,20 +191,63 @@ restitution = 0.5
 
     def test_arrays(self):
         self.write("scene.toml", self.BOUNCE)
-        self.check(0, "simulate", "scene.toml", "--impacts", "i.csv", "--contacts", "c.csv")
-        self.check(0, "simulate", "scene.toml", "--impacts", "i.npz", "--contacts", "c.npz")
-        for name in ("i", "c"):
+        self.check(0, "simulate", "scene.toml", "--impacts", "i.csv", "--contacts", "c.csv", "--loads", "l.csv")
+        self.check(0, "simulate", "scene.toml", "--impacts", "i.npz", "--contacts", "c.npz", "--loads", "l.npz")
+        for name in ("i", "c", "l"):
             rows = self.rows(name + ".csv")
             with zipfile.ZipFile(self.folder / (name + ".npz")) as archive:
                 for key in rows[0]:
                     kind, values = npy(archive.read(key + ".npy"))
-                    if key in ("a", "b", "feature", "state"):
+                    if key in ("a", "b", "body", "feature", "state"):
                         _, texts = npy(archive.read(key + "_names.npy"))
                         length = len(texts) // (max(values) + 1)
                         texts = [bytes(texts[i:i + length]).rstrip(b"\0").decode() for i in range(0, len(texts), length)]
                         self.assertEqual([texts[value] for value in values], [row[key] for row in rows])
                     else:
                         self.assertEqual(list(values), [float(row[key]) for row in rows], key)
+
+    def test_loads(self):
+        self.write("scene.toml", self.BOUNCE)
+        self.check(0, "simulate", "scene.toml", "--loads", "l.csv")
+        rows = self.rows("l.csv")
+        self.assertEqual(",".join(rows[0]), "frame,time,body,fx,fy,fz,mx,my,mz")
+        self.assertEqual([(row["frame"], row["body"]) for row in rows], [(str(n), "ball") for n in range(121)])
+        self.assertEqual([float(rows[0][key]) for key in ("fx", "fy", "fz", "mx", "my", "mz")], [0] * 6)
+        for row in rows[1:]:
+            self.assertAlmostEqual(float(row["fy"]), -2 * 9.81, delta=1e-12)
+
+    def test_bodies_of_info(self):
+        text = self.check(0, "info", "scene.toml", "--bodies", "b.csv").stdout
+        self.assertEqual(text.splitlines()[0], "Two bodies (scene.toml)")
+        rows = self.rows("b.csv")
+        self.assertEqual(",".join(rows[0]), "body,type,mass,cx,cy,cz,ixx,iyy,izz,ixy,ixz,iyz")
+        self.assertEqual([(row["body"], row["type"]) for row in rows],
+                         [("ground", "fixed"), ("crate", "dynamic"), ("2", "dynamic")])
+        self.assertEqual([float(rows[0][key]) for key in rows[0] if key not in ("body", "type")], [0] * 10)
+        ball = 1000 * 4 / 3 * math.pi * 0.5**3
+        for row, mass, inertia in ((rows[1], 600, 100), (rows[2], ball, 0.4 * ball * 0.25)):
+            self.assertAlmostEqual(float(row["mass"]), mass, delta=1e-12 * mass)
+            for key, value in zip(("cx", "cy", "cz", "ixx", "iyy", "izz", "ixy", "ixz", "iyz"), [0] * 3 + [inertia] * 3 + [0] * 3):
+                self.assertAlmostEqual(float(row[key]), value, delta=1e-12 * inertia, msg=key)
+        table = self.check(0, "info", "scene.toml", "--bodies", "-").stdout
+        self.assertEqual(table, (self.folder / "b.csv").read_text())
+        self.check(2, "info", "scene.toml", "--bodies", "scene.toml")
+
+    def test_the_inertia_of_a_compound(self):
+        # Two balls of 1 kg, and one of 2 kg, off the axes.
+        parts = ((0, 0, 0, 1), (1, 0.5, 0, 1), (0, -1, 2, 2))
+        density = 1 / (4 / 3 * math.pi * 0.1**3)
+        self.write("c.toml", "format = 1\n[[body]]\nshape = { type = \"compound\", parts = [" + ", ".join(
+            f'{{ shape = {{ type = "sphere", radius = 0.1 }}, position = [{x}, {y}, {z}], density = {m * density} }}'
+            for x, y, z, m in parts) + "] }\n")
+        row = self.check(0, "info", "c.toml", "--bodies", "b.csv") and self.rows("b.csv")[0]
+        center = [sum(p[3] * p[k] for p in parts) / 4 for k in range(3)]
+        r = [[p[k] - center[k] for k in range(3)] for p in parts]
+        for name, i, j in (("ixx", 0, 0), ("iyy", 1, 1), ("izz", 2, 2), ("ixy", 0, 1), ("ixz", 0, 2), ("iyz", 1, 2)):
+            expected = sum(p[3] * ((i == j) * (0.4 * 0.01 + sum(x * x for x in d)) - d[i] * d[j]) for p, d in zip(parts, r))
+            self.assertAlmostEqual(float(row[name]), expected, delta=1e-12, msg=name)
+        for name, value in zip(("cx", "cy", "cz"), center):
+            self.assertAlmostEqual(float(row[name]), value, delta=1e-14)
 
     def test_a_wrong_mode_or_file_of_impacts(self):
         run = self.check(2, "simulate", "scene.toml", "--impacts", "exakt")

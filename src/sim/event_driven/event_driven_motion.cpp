@@ -338,8 +338,7 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
         contact.arm_a = ball->radius * n;
         contact.arm_b = -(other_ball ? other_ball->radius : 0.0) * n;
         const double after = v + impulse * (a.inverse_mass + b.inverse_mass);
-        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies,
-                        impact_time(now));
+        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies, impact_time(now));
         const auto deflect = [&](std::uint32_t k, const Vec3& place, const Vec3& velocity, const Vec3& change) {
             log_->end_flight(k, bodies[k], place, bodies[k].mass * velocity);
             log_->start_flight(k, bodies[k], place, bodies[k].mass * (velocity + change));
@@ -396,9 +395,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         i, j, bodies, neighbor_boxes_, bring_body,
         {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true},
         log_ ? &trace_ : nullptr);
-    if (log_ && changed)
-        log_->add_impact(trace_, cluster_.contacts(), bodies,
-                         impact_time(now));
+    if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now));
     if (!changed && meeting) {  // no more of these in this step
         events_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);

@@ -36,8 +36,8 @@ int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
     return passes + 1;
 }
 
-// Friction changes the normal impulses as well: the change belongs to the contact's last pass, and what would make the
-// impulse of that pass negative to the passes before it.
+// Friction changes the normal impulses as well: the change belongs to the contact's last pass. Where it would make that
+// pass's impulse negative, the passes before share it.
 void complete_trace(const ImpactSystem& cluster, ImpactTrace& trace) {
     for (std::size_t i = 0; i < cluster.size(); ++i) {
         double rest = cluster.impulse(i);
