@@ -91,7 +91,7 @@ SCENES = {
     "pushed": scene(FLOOR + PUSHED),
     "sliding": scene(SLIDING),
     "kinematic": scene(KINEMATIC),
-    "mesh": scene(MESH),
+    "mesh": scene(MESH, duration=0.5),
     "row of balls": scene(ROW, gravity="[0, 0, 0]"),
     "far from the origin": scene(re.sub(r"\nposition = \[", "\nposition = [1000", HEAP.replace("position = [-", "position = ["))),
     "grid": scene(FLOOR + body(CUBE, "[0, 1, 0]", rotation=TILT) + "grid = { count = [2, 3, 2], spacing = [0.6, 0.6, 0.6], jitter = [0.1, 0.1, 0.1], tilt = 20 }\n"),

@@ -1,5 +1,6 @@
 """Tables of a run by frame and body, and the mechanics that their tests need, in double precision."""
 
+import csv
 import math
 
 def vector(row, x, y, z):
@@ -59,8 +60,8 @@ class Run:
     def __init__(self, test, name, *options):
         test.check(0, "simulate", name, "--trajectory", "t.csv", "--contacts", "c.csv", "--impacts", "i.csv",
                    "--loads", "l.csv", "--quiet", *options)
-        test.check(0, "info", name, "--bodies", "b.csv")
-        self.properties = {row["body"]: row for row in test.rows("b.csv") if row["type"] == "dynamic"}
+        table = test.check(0, "info", name, "--bodies", "-").stdout
+        self.properties = {row["body"]: row for row in csv.DictReader(table.splitlines()) if row["type"] == "dynamic"}
         self.mass = {name: float(row["mass"]) for name, row in self.properties.items()}
         self.states, self.times = [], []
         for row in test.rows("t.csv"):

@@ -44,7 +44,7 @@ struct ContactRecord {
     std::size_t a = 0;  // `nobody`: a correction of the method that acts on B alone
     std::size_t b = 0;
     Vec3 point = Vec3::Zero();   // m
-    Vec3 normal = Vec3::Zero();  // unit
+    Vec3 normal = Vec3::Zero();  // unit; of a correction: along its force, or along its moment if it has no force
     ContactFeatures features = ContactFeatures::vertex_face;
     double gap = 0.0;                      // m; negative: overlap
     double normal_force = 0.0;             // N
