@@ -135,6 +135,27 @@ class Balance(program.ProgramTest):
                               ("thrown by fourth order", ()), ("pushed", ("--impacts", "exact")), ("mesh", ("--impacts", "exact"))):
             self.assertEqual(sum(self.run_of(SCENES[name], *options).corrections()), 0, name)
 
+    # The rows of contact alone close the sums of these, friction of their areas included.
+
+    def test_a_flat_landing_needs_no_corrections(self):
+        run = self.run_of(scene(FLOOR + body(BOX, "[0, 0.7, 0]", velocity="[2, 0, 1]", angular_velocity="[0, 4, 0]"),
+                                duration="0.4"), "--impacts", "exact")
+        rows = [row for rows in run.impacts for row in rows]
+        self.assertGreaterEqual(len(rows), 4)
+        self.assertEqual(sum(run.corrections()), 0)
+        beside = [mechanics.norm(mechanics.add(mechanics.cross(mechanics.vector(row, "px", "py", "pz"), mechanics.force(row, "impulse")),
+                                               mechanics.vector(row, "mx", "my", "mz"), -1.0)) for row in rows]
+        self.assertGreater(max(beside), 0.1)   # friction beside the points
+
+    def test_a_flat_slide_needs_no_corrections(self):
+        text = scene(FLOOR.replace("restitution = 0.4", "restitution = 0") +
+                     body(BOX, "[0, 0.2, 0]", velocity="[2, 0, 1]", angular_velocity="[0, 4, 0]", restitution=0), duration="0.4")
+        for mode in ("stepped", "exact"):
+            run = self.run_of(text, "--impacts", mode)
+            self.check_balance(run)
+            self.assertEqual(sum(run.corrections()), 0, mode)
+            self.assertGreater(max(abs(float(row["torsion"])) for rows in run.contacts for row in rows), 1.0)
+
     def test_gravity_acts_where_the_integrator_puts_it(self):
         # In free flight: sum of x_n x m g, with x_n at the start, end or middle of the step.
         for integrator, share in (("symplectic-euler", 0.5), ("explicit-euler", -0.5), ("splitting", 0), ("rk4", 0),

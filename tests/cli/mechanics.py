@@ -23,6 +23,11 @@ def norm(a):
     return math.sqrt(dot(a, a))
 
 
+def force(row, normal):
+    """On b, with the size along the normal in that column."""
+    return add(vector(row, "fx", "fy", "fz"), vector(row, "nx", "ny", "nz"), float(row[normal]))
+
+
 def turned(q, v):
     """v, turned by the quaternion q = (w, x, y, z)."""
     t = cross(q[1:], v)
@@ -108,10 +113,8 @@ class Run:
 
         def forces(rows, normal, scale):
             for row in rows:
-                force = add(vector(row, "fx", "fy", "fz"), vector(row, "nx", "ny", "nz"), float(row[normal]))
-                moment = vector(row, "mx", "my", "mz")
-                give(row["b"], force, moment, scale)
-                give(row["a"], force, moment, -scale)
+                give(row["b"], force(row, normal), vector(row, "mx", "my", "mz"), scale)
+                give(row["a"], force(row, normal), vector(row, "mx", "my", "mz"), -scale)
 
         forces(self.impacts[frame], "impulse", 1.0)
         forces(self.contacts[frame], "normal_force", duration)
