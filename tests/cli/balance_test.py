@@ -114,7 +114,17 @@ class Balance(program.ProgramTest):
         for name, text in SCENES.items():
             for mode in ("stepped", "exact"):
                 with self.subTest(name, mode=mode):
-                    self.check_balance(self.run_of(text, "--impacts", mode))
+                    run = self.run_of(text, "--impacts", mode)
+                    self.check_balance(run)
+                    if "[wind]" not in text and "[[force]]" not in text:
+                        self.check_weights(run, 0.0 if "gravity = [0, 0, 0]" in text else 9.81)
+
+    def check_weights(self, run, gravity):
+        for loads in run.loads[1:]:
+            for name, load in loads.items():
+                weight = (0.0, -gravity * run.mass[name], 0.0)
+                error = mechanics.norm(mechanics.add(mechanics.vector(load, "fx", "fy", "fz"), weight, -1.0))
+                self.assertLessEqual(error, 1e-11 * mechanics.norm(weight), load)
 
     def test_demo_scenes(self):
         for name, duration in DEMOS.items():
