@@ -1,4 +1,4 @@
-// The legend of the overlays: what each mark means, and the scale of each arrow.
+// The legend of the overlays: the meaning of each mark, and the scale of each arrow.
 #pragma once
 
 #include "core/image.h"

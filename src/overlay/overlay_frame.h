@@ -1,4 +1,4 @@
-// The shapes that overlays draw in one frame: what to draw, without pixels. Positions are in the world frame, m; sizes
+// The shapes that overlays draw in one frame, without pixels. Positions are in the world frame, m; sizes
 // on the screen are in units of a picture 720 pixels high.
 #pragma once
 

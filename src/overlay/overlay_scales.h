@@ -42,7 +42,7 @@ public:
     void add(const Snapshot& snapshot, const ContactRecords* records);
     /// Counts the arrows of another panel as well, so that both have the same scales.
     void add(const ScaleSurvey& other);
-    /// Replaces what was counted by another's.
+    /// Takes the counts of another panel in place of its own.
     void take_sizes(const ScaleSurvey& other) { sizes_ = other.sizes_; }
     /// The scene's scales where given.
     OverlayScales scales() const;

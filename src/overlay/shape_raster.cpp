@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace tumble {
 namespace {
@@ -50,22 +51,33 @@ struct ArrowOutline {
     int heads;
 };
 
-double marker_distance(ScreenMarker shape, double x, double y, double radius) {
-    const double r = std::sqrt(x * x + y * y);
+/// Calls use(distance) with the signed distance from the outline of a marker as a function of the place (pixels).
+template <class Use>
+void with_marker_distance(ScreenMarker shape, double radius, const Use& use) {
     switch (shape) {
         case ScreenMarker::ring:
-            return std::fabs(r - 0.8 * radius) - 0.3 * radius;
+            use([=](double x, double y) { return std::fabs(std::sqrt(x * x + y * y) - 0.8 * radius) - 0.3 * radius; });
+            break;
         case ScreenMarker::square:
-            return std::max(std::fabs(x), std::fabs(y)) - 0.85 * radius;
+            use([=](double x, double y) { return std::max(std::fabs(x), std::fabs(y)) - 0.85 * radius; });
+            break;
         case ScreenMarker::diamond:
-            return (std::fabs(x) + std::fabs(y) - 1.3 * radius) / std::sqrt(2.0);
-        case ScreenMarker::cross: {
-            const double u = std::fabs(x + y) / std::sqrt(2.0), v = std::fabs(x - y) / std::sqrt(2.0);
-            const double arm = 1.15 * radius, half = 0.32 * radius;
-            return std::min(std::max(u - arm, v - half), std::max(v - arm, u - half));
-        }
-        default:
-            return r - radius;
+            use([=](double x, double y) {
+                return (std::fabs(x) + std::fabs(y) - 1.3 * radius) * std::numbers::sqrt2 * 0.5;
+            });
+            break;
+        case ScreenMarker::cross:
+            use([=](double x, double y) {
+                const double u = std::fabs(x + y) * std::numbers::sqrt2 * 0.5;
+                const double v = std::fabs(x - y) * std::numbers::sqrt2 * 0.5;
+                const double arm = 1.15 * radius, half = 0.32 * radius;
+                return std::min(std::max(u - arm, v - half), std::max(v - arm, u - half));
+            });
+            break;
+        case ScreenMarker::disc:
+        case ScreenMarker::center_of_mass:
+            use([=](double x, double y) { return std::sqrt(x * x + y * y) - radius; });
+            break;
     }
 }
 
@@ -86,8 +98,16 @@ struct Brush {
         : color(paint.color), share(256.0 * paint.opacity), halo_share(halo_opacity * share) {}
     /// `visibility`: 1, or less where the shape is hidden.
     void draw(std::uint8_t* p, double cover, double halo, double visibility) const {
+        const int own = int(cover * share * visibility + 0.5);
+        if (own >= 256) {  // most pixels of a shape
+            p[0] = color.r;
+            p[1] = color.g;
+            p[2] = color.b;
+            p[3] = 255;
+            return;
+        }
         if (halo > 0.0) mix(p, halo_color, int(halo * halo_share * visibility + 0.5));
-        if (cover > 0.0) mix(p, color, int(cover * share * visibility + 0.5));
+        if (own > 0) mix(p, color, own);
     }
     Color color;
     double share, halo_share;
@@ -140,97 +160,71 @@ ShapeRaster::Box ShapeRaster::clipped(double left, double top, double right, dou
     return box;
 }
 
-bool ShapeRaster::hidden(int x, int y, double depth) const {
-    if (depths_ == nullptr) return false;
-    const double surface = *depths_->at(x, y);
-    return depth > surface * surface_factor_;
+bool ShapeRaster::hidden(int x, int y, double nearness) const {
+    return depths_ != nullptr && nearness * (*depths_->at(x, y) * surface_factor_) < 1.0;
 }
 
-namespace {
-
-/// The pixels of a row whose centers are within `radius` of the line through both points.
-struct RowSpan {
-    RowSpan(const Vector2d& from, const Vector2d& to, double radius) : radius_(radius), x0_(from.x()), y0_(from.y()) {
-        const Vector2d way = to - from;
-        least_ = std::min(from.x(), to.x()) - radius;
-        most_ = std::max(from.x(), to.x()) + radius;
-        if (std::fabs(way.y()) < 1e-6) return;
-        slanted_ = true;
-        slope_ = way.x() / way.y();
-        half_ = radius * std::sqrt(1.0 + slope_ * slope_);
+// The rows of a slanted band are cut to the pixels that it can reach; touched tiles are added a row of tiles at a time.
+template <class Draw>
+void ShapeRaster::for_pixels_along(const Vector2d& from, const Vector2d& to, double reach, const Draw& draw) {
+    const Vector2d way = to - from;
+    const double least = std::min(from.x(), to.x()) - reach, most = std::max(from.x(), to.x()) + reach;
+    const Box box = clipped(least, std::min(from.y(), to.y()) - reach, most, std::max(from.y(), to.y()) + reach);
+    const bool slanted = std::fabs(way.y()) >= 1e-6;
+    const double slope = slanted ? way.x() / way.y() : 0.0;
+    const double half = slanted ? reach * std::sqrt(1.0 + slope * slope) : most - least;
+    int tile_left = width_, tile_right = 0;
+    for (int y = box.top; y < box.bottom; ++y) {
+        const double middle = slanted ? from.x() + (y + 0.5 - from.y()) * slope : least;
+        const int left = int(std::clamp(middle - half, double(box.left), double(box.right)));
+        const int right = int(std::clamp(middle + half + 1.0, double(box.left), double(box.right)));
+        for (int x = left; x < right; ++x) draw(x, y);
+        tile_left = std::min(tile_left, left);
+        tile_right = std::max(tile_right, right);
+        if (y % tile != tile - 1 && y + 1 < box.bottom) continue;
+        touched_.add({tile_left, y, tile_right - tile_left, 1});
+        tile_left = width_, tile_right = 0;
     }
-    std::pair<double, double> at(double y) const {
-        if (!slanted_) return {least_, most_};
-        const double middle = x0_ + (y - y0_) * slope_;
-        return {std::max(least_, middle - half_), std::min(most_, middle + half_)};
-    }
-
-private:
-    double radius_, x0_, y0_, least_, most_, slope_ = 0.0, half_ = 0.0;
-    bool slanted_ = false;
-};
-
-}  // namespace
+}
 
 void ShapeRaster::arrow(const ScreenArrow& a, const ScreenPaint& paint) {
     const Vector2d way = a.to.pixel - a.from.pixel;
     const double length = way.norm();
     if (!(length > 0.0)) return;
-    const Vector2d axis = way / length;
+    const double per_length = 1.0 / length;
+    const Vector2d axis = way * per_length;
     const Brush brush(paint);
     const ArrowOutline outline(length, a.width, a.heads);
-    const double radius = outline.half_base + halo_width + 0.5;
-    const RowSpan spans(a.from.pixel, a.to.pixel, radius);
     const double near_from = 1.0 / a.from.depth, nearness = 1.0 / a.to.depth - near_from;
-    const Box rows = clipped(0.0, std::min(a.from.pixel.y(), a.to.pixel.y()) - radius, width_,
-                             std::max(a.from.pixel.y(), a.to.pixel.y()) + radius);
-    for (int y = rows.top; y < rows.bottom; ++y) {
-        const auto [first, last] = spans.at(y + 0.5);
-        const Box row = clipped(first - 0.5, y, last + 0.5, y);
-        if (row.left >= row.right) continue;
-        touched_.add({row.left, y, row.right - row.left, 1});
-        for (int x = row.left; x < row.right; ++x) {
-            const Vector2d from_foot = Vector2d(x + 0.5, y + 0.5) - a.from.pixel;
-            const double along = from_foot.dot(axis);
-            const double across = std::fabs(from_foot.x() * axis.y() - from_foot.y() * axis.x());
-            if (across > outline.half_width + halo_width + 0.5 && along < outline.heads_start) continue;
-            const double d = outline.distance(along, across);
-            const double halo = coverage(d - halo_width);
-            if (halo <= 0.0) continue;
-            const double depth = 1.0 / (near_from + nearness * std::clamp(along / length, 0.0, 1.0));
-            brush.draw(image_->at(x, y), coverage(d), halo, paint.depth_tested && hidden(x, y, depth) ? faint : 1.0);
-        }
-    }
+    for_pixels_along(a.from.pixel, a.to.pixel, outline.half_base + halo_width + 0.5, [&](int x, int y) {
+        const double dx = x + 0.5 - a.from.pixel.x(), dy = y + 0.5 - a.from.pixel.y();
+        const double along = dx * axis.x() + dy * axis.y(), across = std::fabs(dx * axis.y() - dy * axis.x());
+        if (across > outline.half_width + halo_width + 0.5 && along < outline.heads_start) return;
+        const double d = outline.distance(along, across);
+        const double halo = coverage(d - halo_width);
+        if (halo <= 0.0) return;
+        const double near = near_from + nearness * std::clamp(along * per_length, 0.0, 1.0);
+        brush.draw(image_->at(x, y), coverage(d), halo, paint.depth_tested && hidden(x, y, near) ? faint : 1.0);
+    });
 }
 
 void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, bool depth_tested) {
     const Vector2d way = to.pixel - from.pixel;
-    const double squared = way.squaredNorm();
-    const double reach = radius + halo_width + 0.5;
-    const RowSpan spans(from.pixel, to.pixel, reach);
+    const double squared = way.squaredNorm(), per_square = squared > 0.0 ? 1.0 / squared : 0.0;
     const double near_from = 1.0 / from.depth, nearness = 1.0 / to.depth - near_from;
-    const Box rows = clipped(0.0, std::min(from.pixel.y(), to.pixel.y()) - reach, width_,
-                             std::max(from.pixel.y(), to.pixel.y()) + reach);
-    for (int y = rows.top; y < rows.bottom; ++y) {
-        const auto [first, last] = spans.at(y + 0.5);
-        const Box row = clipped(first - 0.5, y, last + 0.5, y);
-        if (row.left >= row.right) continue;
-        touched_.add({row.left, y, row.right - row.left, 1});
-        for (int x = row.left; x < row.right; ++x) {
-            const Vector2d from_start = Vector2d(x + 0.5, y + 0.5) - from.pixel;
-            const double t = squared > 0.0 ? std::clamp(from_start.dot(way) / squared, 0.0, 1.0) : 0.0;
-            const double d = (from_start - t * way).norm() - radius;
-            const double halo = coverage(d - halo_width);
-            if (halo <= 0.0) continue;
-            const bool behind = depth_tested && hidden(x, y, 1.0 / (near_from + nearness * t));
-            const double visibility = behind ? faint : 1.0;
-            const std::size_t index = std::size_t(y) * std::size_t(width_) + std::size_t(x);
-            Cover& cover = cover_[index];
-            if (cover.halo == 0.0f) covered_.push_back(index);
-            cover.line = std::max(cover.line, float(coverage(d) * visibility));
-            cover.halo = std::max(cover.halo, float(halo * visibility));
-        }
-    }
+    for_pixels_along(from.pixel, to.pixel, radius + halo_width + 0.5, [&](int x, int y) {
+        const Vector2d from_start = Vector2d(x + 0.5, y + 0.5) - from.pixel;
+        const double t = std::clamp(from_start.dot(way) * per_square, 0.0, 1.0);
+        const double d = (from_start - t * way).norm() - radius;
+        const double halo = coverage(d - halo_width);
+        if (halo <= 0.0) return;
+        const double visibility = depth_tested && hidden(x, y, near_from + nearness * t) ? faint : 1.0;
+        const std::size_t index = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+        Cover& cover = cover_[index];
+        if (cover.halo == 0.0f) covered_.push_back(index);
+        cover.line = std::max(cover.line, float(coverage(d) * visibility));
+        cover.halo = std::max(cover.halo, float(halo * visibility));
+    });
 }
 
 // The largest coverage of all segments counts, so that joints are not drawn twice.
@@ -248,24 +242,26 @@ void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const 
 }
 
 void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint) {
-    const double reach = 1.4 * radius + halo_width + 0.5;
+    const double reach = 1.3 * radius + halo_width + 0.5;
     const Box box = clipped(at.pixel.x() - reach, at.pixel.y() - reach, at.pixel.x() + reach, at.pixel.y() + reach);
     if (box.empty()) return;
     touched_.add({box.left, box.top, box.right - box.left, box.bottom - box.top});
+    const double near = 1.0 / at.depth;
     const Brush brush(paint), dark({{24, 28, 36}, paint.opacity, paint.depth_tested});
-    for (int y = box.top; y < box.bottom; ++y)
-        for (int x = box.left; x < box.right; ++x) {
-            const double dx = x + 0.5 - at.pixel.x(), dy = y + 0.5 - at.pixel.y();
-            const double d = marker_distance(shape, dx, dy, radius);
-            const double halo = coverage(d - halo_width);
-            if (halo <= 0.0) continue;
-            const double visibility = paint.depth_tested && hidden(x, y, at.depth) ? faint : 1.0;
-            brush.draw(image_->at(x, y), coverage(d), halo, visibility);
-            if (shape != ScreenMarker::center_of_mass) continue;
-            const double quarter = std::max(
-                d, dx * dy >= 0.0 ? -std::min(std::fabs(dx), std::fabs(dy)) : std::min(std::fabs(dx), std::fabs(dy)));
-            dark.draw(image_->at(x, y), coverage(quarter), 0.0, visibility);
-        }
+    with_marker_distance(shape, radius, [&](const auto& distance) {
+        for (int y = box.top; y < box.bottom; ++y)
+            for (int x = box.left; x < box.right; ++x) {
+                const double dx = x + 0.5 - at.pixel.x(), dy = y + 0.5 - at.pixel.y();
+                const double d = distance(dx, dy);
+                const double halo = coverage(d - halo_width);
+                if (halo <= 0.0) continue;
+                const double visibility = paint.depth_tested && hidden(x, y, near) ? faint : 1.0;
+                brush.draw(image_->at(x, y), coverage(d), halo, visibility);
+                if (shape != ScreenMarker::center_of_mass) continue;
+                const double edge = std::min(std::fabs(dx), std::fabs(dy));
+                dark.draw(image_->at(x, y), coverage(std::max(d, dx * dy >= 0.0 ? -edge : edge)), 0.0, visibility);
+            }
+    });
 }
 
 SurfaceCover ShapeRaster::cover(std::span<const ScreenCorner> corners) {
@@ -297,18 +293,14 @@ SurfaceCover ShapeRaster::cover(std::span<const ScreenCorner> corners) {
         for (int x = 0; x < columns; x += 2) {
             const std::size_t at = std::size_t(y) * std::size_t(columns) + std::size_t(x);
             SurfaceCover::Pixel pixel;
-            float nearness = 0.0f;
             for (const std::size_t k : {at, at + 1, at + std::size_t(columns), at + std::size_t(columns) + 1}) {
                 const SurfaceSample& sample = samples_[k];
                 if (sample.nearness <= 0.0f) continue;
-                nearness = std::max(nearness, sample.nearness);
+                pixel.nearness = std::max(pixel.nearness, sample.nearness);
                 pixel.share += 0.25f;
                 pixel.light += 0.25f * sample.light;
             }
-            if (pixel.share > 0.0f) {
-                pixel.depth = 1.0f / nearness;
-                pixel.light /= pixel.share;
-            }
+            if (pixel.share > 0.0f) pixel.light /= pixel.share;
             cover.pixels.push_back(pixel);
         }
     return cover;
@@ -320,7 +312,7 @@ void ShapeRaster::surface(const SurfaceCover& cover, const ScreenPaint& paint) {
     const auto lit = [&](std::uint8_t channel, float light) { return std::uint8_t(float(channel) * light + 0.5f); };
     for (int y = cover.box.y; y < cover.box.y + cover.box.height; ++y)
         for (int x = cover.box.x; x < cover.box.x + cover.box.width; ++x, ++pixel) {
-            if (pixel->share == 0.0f || hidden(x, y, pixel->depth)) continue;
+            if (pixel->share == 0.0f || hidden(x, y, pixel->nearness)) continue;
             const Color color{lit(paint.color.r, pixel->light), lit(paint.color.g, pixel->light),
                               lit(paint.color.b, pixel->light)};
             mix(image_->at(x, y), color, int(256.0 * paint.opacity * pixel->share + 0.5));

@@ -45,7 +45,8 @@ struct ScreenCorner {
 /// The pixels of a surface.
 struct SurfaceCover {
     struct Pixel {
-        float depth = 0.0f, light = 0.0f, share = 0.0f;  // nearest, m; mean brightness; covered part of the pixel
+        float nearness = 0.0f, light = 0.0f,
+              share = 0.0f;  // 1 / depth, 1/m; mean brightness; covered part of the pixel
     };
     Rectangle box;
     std::vector<Pixel> pixels;  // of the box, row by row
@@ -94,12 +95,15 @@ private:
         bool empty() const { return left >= right || top >= bottom; }
     };
     Box clipped(double left, double top, double right, double bottom);
-    bool hidden(int x, int y, double depth) const;
+    bool hidden(int x, int y, double nearness) const;  // 1 / depth, 1/m
     struct CornerValue {
         double nearness, light;  // 1 / depth, 1/m; brightness
     };
     void fill(const std::array<Eigen::Vector2d, 3>& places, const std::array<CornerValue, 3>& values, int columns,
               int rows);
+    /// Calls draw(x, y) for at least the pixels whose centers are within `reach` (pixels) of the line.
+    template <class Draw>
+    void for_pixels_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double reach, const Draw& draw);
     void add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, bool depth_tested);
 
     int width_, height_;
