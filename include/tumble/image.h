@@ -9,7 +9,7 @@
 
 TUMBLE_BEGIN
 
-/// RGBA, 8 bits per channel, sRGB, top row first, rows without padding.
+/// RGBA, 8 bits per channel, sRGB, straight alpha (255: opaque), top row first, rows without padding.
 struct Image {
     int width = 0, height = 0;         // pixels
     std::vector<std::uint8_t> pixels;  // width * height * 4

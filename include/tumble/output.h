@@ -14,9 +14,11 @@
 
 TUMBLE_BEGIN
 
-/// 8-bit RGB; alpha is left out. The bytes are those of `tumble render --frames`. Throws Error (input) where the pixels
-/// do not fit the size.
-void write_png(const std::string& file, const Image& image);
+enum class PngAlpha { dropped, kept };
+
+/// 8-bit RGB, or RGBA with `kept`. The bytes are those of `tumble render --frames`, with `kept` those of `--transparent`.
+/// Throws Error (input) where the pixels do not fit the size.
+void write_png(const std::string& file, const Image& image, PngAlpha alpha = PngAlpha::dropped);
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
 Image read_png(const std::string& file);
 
@@ -49,13 +51,14 @@ enum class ClipQuality { draft, normal, best };
 struct ClipOptions {
     ClipQuality quality = ClipQuality::normal;
     bool variable_rate = false;  // true: an image that stays is stored once and shown longer
+    bool transparent = false;    // true: the clip keeps alpha; .webm and .mov (ProRes 4444) alone can
 };
 
 /// Encodes a clip with the ffmpeg program, which is started by the constructor. The ending of the file chooses the
 /// format: .mp4, .mov, .mkv, .webm, .gif. The file appears at finish(), or never.
 class ClipWriter {
 public:
-    /// Throws Error (input) for an unknown ending or a frame rate that the format cannot keep.
+    /// Throws Error (input) for an unknown ending, or a frame rate or alpha that the format cannot keep.
     ClipWriter(const std::string& file, const OutputSettings& output, const ClipOptions& options = {});
     ~ClipWriter();
     ClipWriter(ClipWriter&&) noexcept;

@@ -16,6 +16,7 @@ enum class Backend { osmesa, egl };
 struct RenderOptions {
     Backend backend = Backend::osmesa;
     std::string shader_folder;  // empty: $TUMBLE_SHADERS, else the installed one
+    bool transparent = false;   // bodies alone, on a transparent background: straight alpha
 };
 
 /// One OpenGL context and one image. Draws in the calling process; used from the thread that made it. Several renderers
@@ -35,8 +36,9 @@ public:
     /// fails.
     const Image& render(const Snapshot& snapshot);
 
-    /// The mean, in linear light, of the images at these moments: motion blur (see FrameSequence). At least one; each
-    /// counts as rendered. The image belongs to the renderer and is valid until the next call. Throws like render().
+    /// The mean, in linear light, of the images at these moments: motion blur (see FrameSequence). At least one, of
+    /// transparent images at most 256; each counts as rendered. The image belongs to the renderer and is valid until the
+    /// next call. Throws like render().
     const Image& render_blurred(const std::vector<Snapshot>& moments);
 
     /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so

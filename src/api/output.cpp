@@ -19,6 +19,7 @@ tumble::ClipOptions to_internal(const ClipOptions& options) {
     to.quality = options.quality == ClipQuality::draft  ? VideoQuality::draft
                  : options.quality == ClipQuality::best ? VideoQuality::best
                                                         : VideoQuality::normal;
+    to.transparent = options.transparent;
     return to;
 }
 
@@ -47,8 +48,9 @@ void check_settings(const OutputSettings& output) {
 
 }  // namespace
 
-void write_png(const std::string& file, const Image& image) {
-    guarded([&] { tumble::write_png(file, v0::to_internal(image)); });
+void write_png(const std::string& file, const Image& image, PngAlpha alpha) {
+    const auto kept = alpha == PngAlpha::kept ? tumble::PngAlpha::kept : tumble::PngAlpha::dropped;
+    guarded([&] { tumble::write_png(file, v0::to_internal(image), kept); });
 }
 
 Image read_png(const std::string& file) {

@@ -8,6 +8,8 @@
 #include "core/image_mean.h"
 #include "render/scene/pose_filter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace tumble::v0 {
@@ -17,6 +19,7 @@ tumble::RenderOptions to_internal(const RenderOptions& options) {
     tumble::RenderOptions to;
     to.backend = options.backend == Backend::egl ? GlBackend::egl : GlBackend::osmesa;
     to.shader_folder = options.shader_folder;
+    to.transparent = options.transparent;
     return to;
 }
 
@@ -32,11 +35,15 @@ void copy_pixels(const tumble::Image& from, const std::vector<Rectangle>& parts,
 
 struct Renderer::State {
     State(const Scene& drawn, const RenderOptions& options)
-        : scene(drawn), filter(scene.data().description), renderer(scene.data().description, to_internal(options)) {}
+        : scene(drawn),
+          filter(scene.data().description),
+          renderer(scene.data().description, to_internal(options)),
+          transparent(options.transparent) {}
 
     Scene scene;  // the renderer reads its data
     PoseFilter filter;
     tumble::Renderer renderer;
+    bool transparent;
     Image image;  // a copy of the renderer's, in the interface's type
     Image blurred;
 };
@@ -64,8 +71,11 @@ const Image& Renderer::render(const Snapshot& snapshot) {
 const Image& Renderer::render_blurred(const std::vector<Snapshot>& moments) {
     return guarded([&]() -> const Image& {
         if (moments.empty()) throw InputError("a frame needs at least one moment");
+        if (state_->transparent && moments.size() > most_images_with_alpha)
+            throw InputError(fmt::format("a transparent frame is the mean of at most {} moments (given {})",
+                                         most_images_with_alpha, moments.size()));
         if (moments.size() == 1) return render(moments.front());
-        ImageMean mean;
+        ImageMean mean(state_->transparent);
         for (const Snapshot& moment : moments) mean.add(v0::to_internal(render(moment)));
         tumble::Image blurred;
         mean.take(blurred);

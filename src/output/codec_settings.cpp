@@ -62,6 +62,21 @@ Arguments vp9(VideoQuality quality) {
     return arguments;
 }
 
+// The alpha is a second stream with the same settings; libvpx allows no hidden reference frames beside it.
+Arguments vp9_alpha(VideoQuality quality) {
+    Arguments arguments = vp9(quality);
+    arguments.back() = "yuva420p";
+    arguments.insert(arguments.end(), {"-auto-alt-ref", "0"});
+    return arguments;
+}
+
+// Alpha is lossless. Every frame is a key frame, for editors.
+Arguments prores_4444(VideoQuality quality) {
+    const std::string quantizer = quality == VideoQuality::draft ? "8" : quality == VideoQuality::normal ? "2" : "1";
+    return {"-c:v", "prores_ks", "-profile:v", "4444",     "-vendor", "apl0",     "-alpha_bits",
+            "16",   "-q:v",      quantizer,    "-threads", "4",       "-pix_fmt", "yuva444p10le"};
+}
+
 }  // namespace
 
 Arguments codec_arguments(VideoKind kind, const ClipOptions& options) {
@@ -70,6 +85,10 @@ Arguments codec_arguments(VideoKind kind, const ClipOptions& options) {
             return h264(options);
         case VideoKind::vp9:
             return vp9(options.quality);
+        case VideoKind::vp9_alpha:
+            return vp9_alpha(options.quality);
+        case VideoKind::prores_4444:
+            return prores_4444(options.quality);
         case VideoKind::gif:
             return {"-c:v", "libx264rgb", "-preset", "ultrafast", "-qp", "0", "-threads", "4"};
     }

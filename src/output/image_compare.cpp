@@ -19,10 +19,16 @@ constexpr int stride = window / 2;  // windows overlap by half, so that no small
 // Two adjacent outliers occur in noise; a small box moved by one pixel gives more than four.
 constexpr int cluster_limit = 4;  // failing pixels in a window
 
-/// The largest difference over the four channels of a pixel.
+/// A channel as a black background shows it.
+int shown(const std::uint8_t* pixel, int channel) {
+    return pixel[3] == 255 ? pixel[channel] : (2 * pixel[channel] * pixel[3] + 255) / 510;
+}
+
+/// The largest difference over the four channels of a pixel. The color of a transparent pixel is invisible, and a nearly
+/// transparent one has but a few levels of it: colors count as far as alpha shows them.
 int pixel_difference(const std::uint8_t* a, const std::uint8_t* b) {
-    int most = 0;
-    for (int c = 0; c < 4; ++c) most = std::max(most, std::abs(int(a[c]) - int(b[c])));
+    int most = std::abs(int(a[3]) - int(b[3]));
+    for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(shown(a, c) - shown(b, c)));
     return most;
 }
 
@@ -169,11 +175,12 @@ void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_
                     std::span<std::uint8_t> to) {
     for (std::size_t i = 0; i < to.size(); i += 4) {
         const int d = pixel_difference(&a[i], &b[i]);
-        const int gray = (2 * a[i] + 5 * a[i + 1] + a[i + 2]) / 24;   // a third of the brightness
-        const int shown = d == 0 ? gray : std::min(255, 96 + 8 * d);  // the smallest difference is visible
-        to[i] = static_cast<std::uint8_t>(d > tolerance ? shown : gray);
+        const int sum = 2 * shown(&a[i], 0) + 5 * shown(&a[i], 1) + shown(&a[i], 2);
+        const int gray = sum / 24;                                     // a third of the brightness
+        const int marked = d == 0 ? gray : std::min(255, 96 + 8 * d);  // the smallest difference is visible
+        to[i] = static_cast<std::uint8_t>(d > tolerance ? marked : gray);
         to[i + 1] = static_cast<std::uint8_t>(gray);
-        to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? shown : gray);
+        to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? marked : gray);
         to[i + 3] = 255;
     }
 }

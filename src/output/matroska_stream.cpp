@@ -42,6 +42,20 @@ constexpr std::uint64_t unknown_size = (std::uint64_t(1) << 56) - 1;
 constexpr std::byte only_track{0x81};  // track 1, as a number of variable length
 constexpr std::byte key_frame{0x80};
 
+/// Names of pixel forms that ffmpeg knows.
+std::string_view four_cc(PixelFormat form) {
+    using namespace std::string_view_literals;
+    switch (form) {
+        case PixelFormat::yuv420:
+            return "I420"sv;
+        case PixelFormat::yuva420:
+            return "Y4\x0b\x08"sv;
+        case PixelFormat::rgba:
+            return "RGBA"sv;
+    }
+    return {};
+}
+
 /// A big-endian number of `bytes` bytes.
 void append(Bytes& to, std::uint64_t value, int bytes) {
     for (int shift = 8 * (bytes - 1); shift >= 0; shift -= 8) to.push_back(std::byte((value >> shift) & 0xff));
@@ -88,7 +102,7 @@ Bytes matroska_head(PixelFormat form, int width, int height, const FrameRate& ra
 
     append_number(picture, pixel_width, static_cast<std::uint64_t>(width));
     append_number(picture, pixel_height, static_cast<std::uint64_t>(height));
-    append(picture, uncompressed_four_cc, form == PixelFormat::yuv420 ? "I420" : "RGBA");
+    append(picture, uncompressed_four_cc, four_cc(form));
 
     append_number(track, track_number, 1);
     append_number(track, track_uid, 1);

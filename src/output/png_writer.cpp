@@ -33,7 +33,7 @@ constexpr std::uint8_t zlib_head[] = {0x78, 0x01};   // RFC 1950: deflate with a
 constexpr std::uint8_t last_block[] = {0x03, 0x00};  // RFC 1951: an empty block that is the last
 constexpr std::size_t head_and_end = 1024;           // bytes of all chunks but the pixels': below 200
 
-std::size_t row_bytes(int width) { return 3 * std::size_t(width) + 1; }
+std::size_t row_bytes(int width, int channels) { return std::size_t(channels) * std::size_t(width) + 1; }
 
 int band_count(int height) { return (height + rows_of_band - 1) / rows_of_band; }
 
@@ -73,11 +73,12 @@ void keep_write_error(png_structp png, png_const_charp message) {
 void ignore_write_warning(png_structp, png_const_charp) {}
 
 /// Writes the part before the pixels, with only plain values on the stack. False: sink.error has the reason.
-bool write_head(png_structp png, png_infop info, int width, int height, Sink& sink) {
+bool write_head(png_structp png, png_infop info, int width, int height, int channels, Sink& sink) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_write_fn(png, &sink, append, flush);
-    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB,
-                 PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8,
+                 channels == 4 ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
     png_write_info(png, info);
     return true;
@@ -114,9 +115,15 @@ void pack_pixels(const std::uint8_t* from, int first, int width, std::uint8_t* t
         for (int c = 0; c < 3; ++c) to[3 * x + c] = static_cast<std::uint8_t>(from[4 * x + c] - from[4 * x - 4 + c]);
 }
 
+/// All four channels, of all pixels.
+void pack_pixels_with_alpha(const std::uint8_t* from, int width, std::uint8_t* to) {
+    std::copy_n(from, 4, to);
+    for (int i = 4; i < 4 * width; ++i) to[i] = static_cast<std::uint8_t>(from[i] - from[i - 4]);
+}
+
 #ifdef __x86_64__
 
-/// The same from the second pixel on, four at a time; returns the first one that is left. Each store is four bytes too
+/// R, G and B from the second pixel on, four at a time; returns the first one that is left. Each store is four bytes too
 /// long; they are overwritten by the next store or by the remaining pixels.
 __attribute__((target("ssse3"))) int pack_fours(const std::uint8_t* from, int width, std::uint8_t* to) {
     const __m128i without_alpha = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
@@ -133,8 +140,9 @@ __attribute__((target("ssse3"))) int pack_fours(const std::uint8_t* from, int wi
 #endif
 
 /// The row's filter, then its pixels.
-void pack_row(const std::uint8_t* from, int width, std::uint8_t* to) {
+void pack_row(const std::uint8_t* from, int width, int channels, std::uint8_t* to) {
     *to++ = filter_sub;
+    if (channels == 4) return pack_pixels_with_alpha(from, width, to);
     std::copy_n(from, 3, to);
     int next = 1;
 #ifdef __x86_64__
@@ -147,9 +155,10 @@ void pack_row(const std::uint8_t* from, int width, std::uint8_t* to) {
 
 void PngEncoder::compress(const Image& image, int first_row, Band& band) {
     const int rows = std::min(rows_of_band, image.height - first_row);
-    rows_.resize(row_bytes(image.width) * std::size_t(rows));
+    const std::size_t row = row_bytes(image.width, channels_);
+    rows_.resize(row * std::size_t(rows));
     for (int y = 0; y < rows; ++y)
-        pack_row(image.at(0, first_row + y), image.width, rows_.data() + row_bytes(image.width) * std::size_t(y));
+        pack_row(image.at(0, first_row + y), image.width, channels_, rows_.data() + row * std::size_t(y));
     band.checksum = isal_adler32(1, rows_.data(), rows_.size());
     band.compressed.resize(Deflater::bound(rows_.size()));
     band.compressed.resize(deflater_.compress({std::as_bytes(std::span(rows_))}, Deflater::End::whole_byte,
@@ -175,7 +184,7 @@ std::span<const std::byte> PngEncoder::encode(const Image& image, std::span<cons
         const int first = int(i) * rows_of_band, rows = std::min(rows_of_band, height_ - first);
         const auto touches = [&](const Rectangle& r) { return r.y < first + rows && r.y + r.height > first; };
         if (all || std::ranges::any_of(changed, touches)) compress(image, first, bands_[i]);
-        const std::size_t bytes = row_bytes(width_) * std::size_t(rows);
+        const std::size_t bytes = row_bytes(width_, channels_) * std::size_t(rows);
         checksum =
             static_cast<std::uint32_t>(adler32_combine(checksum, bands_[i].checksum, static_cast<z_off_t>(bytes)));
         segments.emplace_back(bands_[i].compressed);
@@ -196,15 +205,16 @@ void PngEncoder::make_head() {
     Sink sink{&head_, {}};
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, keep_write_error, ignore_write_warning);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    const bool done = info != nullptr && write_head(png, info, width_, height_, sink);
+    const bool done = info != nullptr && write_head(png, info, width_, height_, channels_, sink);
     png_destroy_write_struct(&png, &info);
     if (done) return;
     const int width = std::exchange(width_, 0);  // the next image is a first one
     fail(width, height_, sink.error.empty() ? "out of memory" : sink.error);
 }
 
-std::size_t png_bytes_bound(int width, int height) {
-    return head_and_end + std::size_t(band_count(height)) * Deflater::bound(row_bytes(width) * rows_of_band);
+std::size_t png_bytes_bound(int width, int height, PngAlpha alpha) {
+    const std::size_t row = row_bytes(width, alpha == PngAlpha::kept ? 4 : 3);
+    return head_and_end + std::size_t(band_count(height)) * Deflater::bound(row * rows_of_band);
 }
 
 PngRowWriter::PngRowWriter(const std::filesystem::path& path, int width, int height)
@@ -232,7 +242,7 @@ void PngRowWriter::write_band() {
         band_.pixels.resize(4 * std::size_t(band_.width) * std::size_t(rows));
     }
     encoder_.compress(band_, 0, compressed_);
-    const std::size_t bytes = row_bytes(band_.width) * std::size_t(rows);
+    const std::size_t bytes = row_bytes(band_.width, encoder_.channels_) * std::size_t(rows);
     checksum_ =
         static_cast<std::uint32_t>(adler32_combine(checksum_, compressed_.checksum, static_cast<z_off_t>(bytes)));
     std::vector<std::span<const std::uint8_t>> segments;
@@ -254,8 +264,8 @@ void PngRowWriter::finish() {
     file_.commit();
 }
 
-void write_png(const std::filesystem::path& path, const Image& image) {
-    PngEncoder encoder;
+void write_png(const std::filesystem::path& path, const Image& image, PngAlpha alpha) {
+    PngEncoder encoder(alpha);
     write_file(path, encoder.encode(image));
 }
 

@@ -1,4 +1,4 @@
-// Images as PNG files: 8-bit RGB, sRGB. libpng writes the header; the pixels are compressed by ISA-L (igzip) in
+// Images as PNG files: 8-bit RGB or RGBA, sRGB. libpng writes the header; the pixels are compressed by ISA-L (igzip) in
 // independent bands of rows, so that only the changed bands of a frame are compressed again. The bytes equal those of
 // compressing all bands.
 #pragma once
@@ -16,12 +16,16 @@
 
 namespace tumble {
 
+enum class PngAlpha { dropped, kept };
+
 /// Makes PNG files in memory, one after the other; not for several threads at once.
 class PngEncoder {
 public:
+    explicit PngEncoder(PngAlpha alpha = PngAlpha::dropped) : channels_(alpha == PngAlpha::kept ? 4 : 3) {}
+
     /// The whole file, valid until the next call. `changed`: the regions that may differ from the previous image; a
-    /// first image, or one of another size, is converted completely. Alpha is dropped. Throws RunError if the image
-    /// is empty or memory runs out.
+    /// first image, or one of another size, is converted completely. Throws RunError if the image is empty or
+    /// memory runs out.
     std::span<const std::byte> encode(const Image& image, std::span<const Rectangle> changed);
     std::span<const std::byte> encode(const Image& image);
 
@@ -34,6 +38,7 @@ private:
     void compress(const Image& image, int first_row, Band& band);
     void make_head();
 
+    int channels_;
     Deflater deflater_;
     int width_ = 0, height_ = 0;  // of the previous image
     std::vector<Band> bands_;
@@ -42,9 +47,9 @@ private:
 };
 
 /// Upper bound of the size of a PNG file, bytes.
-std::size_t png_bytes_bound(int width, int height);
+std::size_t png_bytes_bound(int width, int height, PngAlpha alpha = PngAlpha::dropped);
 
-/// Writes a PNG file of a image that arrives row by row, with only one band in memory.
+/// Writes a PNG file without alpha of an image that arrives row by row, with only one band in memory.
 class PngRowWriter {
 public:
     /// Throws RunError naming the path.
@@ -70,6 +75,6 @@ private:
 };
 
 /// Writes through a temporary file. Throws RunError naming the path.
-void write_png(const std::filesystem::path& path, const Image& image);
+void write_png(const std::filesystem::path& path, const Image& image, PngAlpha alpha = PngAlpha::dropped);
 
 }  // namespace tumble

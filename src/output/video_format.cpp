@@ -5,6 +5,7 @@
 #include "output/codec_settings.h"
 #include "output/output_target.h"
 #include "output/yuv420.h"
+#include "output/yuva420.h"
 
 #include <fmt/format.h>
 
@@ -68,12 +69,15 @@ FrameRate to_frame_rate(double fps) {
     return {upside_down.denominator, upside_down.numerator};
 }
 
+bool is_subsampled(PixelFormat form) { return form != PixelFormat::rgba; }
+
 std::size_t frame_bytes(PixelFormat form, int width, int height) {
     if (form == PixelFormat::yuv420) return yuv420_bytes(width + width % 2, height + height % 2);
+    if (form == PixelFormat::yuva420) return yuva420_bytes(width + width % 2, height + height % 2);
     return 4 * std::size_t(width) * std::size_t(height);
 }
 
-VideoFormat video_format(const fs::path& clip, double fps) {
+VideoFormat video_format(const fs::path& clip, double fps, bool transparent) {
     std::string ending = clip.extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
     const SourceLocation at{clip.string(), 0, 0};
@@ -95,16 +99,26 @@ VideoFormat video_format(const fs::path& clip, double fps) {
         throw InputError(at, fmt::format("unknown kind of clip: the name must end in .mp4, .mov, .mkv, .webm or .gif "
                                          "(the ending was '{}')",
                                          safe_text(ending)));
+    if (transparent) {
+        if (ending != ".webm" && ending != ".mov")
+            throw InputError(at,
+                             fmt::format("a {} clip holds no transparency: .webm (for browsers and slides) and .mov "
+                                         "(for video editors) do, and the PNG files of --frames",
+                                         ending));
+        format.kind = ending == ".mov" ? VideoKind::prores_4444 : VideoKind::vp9_alpha;
+        format.pixels = ending == ".mov" ? PixelFormat::rgba : PixelFormat::yuva420;
+    }
     if (!(fps >= slowest && fps <= limit))
         throw InputError(
-            at, fmt::format("a {} clip holds {} to {} frames a second ({} were asked for{})", ending, slowest, limit,
-                            fps, limit < fps && fps <= fastest ? "; .mp4 holds more" : ""));
+            at, fmt::format(
+                    "a {} clip holds {} to {} frames a second ({} were asked for{})", ending, slowest, limit, fps,
+                    limit < fps && fps <= fastest ? (transparent ? "; .mov holds more" : "; .mp4 holds more") : ""));
 
     if (has_its_head_last(format) && is_written_in_place(clip))
         throw InputError(at,
                          fmt::format("a {} clip cannot be written into a pipe or device, for its head is written last; "
-                                     ".mkv, .webm and .gif can",
-                                     ending));
+                                     "{} can",
+                                     ending, transparent ? ".webm" : ".mkv, .webm and .gif"));
     if (format.kind == VideoKind::gif) format.frame_step = std::max(1, int(std::ceil(fps / fastest_gif - 1e-9)));
     format.rate = to_frame_rate(fps / format.frame_step);
     return format;
@@ -113,8 +127,14 @@ VideoFormat video_format(const fs::path& clip, double fps) {
 Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
-    if (format.pixels == PixelFormat::yuv420)
-        // Matches yuv420.h; without the tags players would show other colors.
+    if (format.kind == VideoKind::prores_4444)
+        // To the same color space as yuv420.h, with the same bytes on every processor. The encoder takes the tags from
+        // the frames.
+        append(arguments, {"-vf",
+                           "scale=out_color_matrix=bt709:out_range=tv:flags=accurate_rnd+full_chroma_int+bitexact,"
+                           "setparams=colorspace=bt709:color_primaries=bt709:color_trc=bt709:range=tv"});
+    if (format.kind != VideoKind::gif)
+        // Without the tags players would show other colors.
         append(arguments, {"-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-color_range",
                            "tv", "-chroma_sample_location", "center"});
     append(arguments, codec_arguments(format.kind, options));

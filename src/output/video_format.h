@@ -1,7 +1,8 @@
 // From the ending of a clip's name to the container, the codec and its settings, as arguments of the ffmpeg program.
 //
 // .mp4 .mov .mkv   H.264 (x264), 4:2:0, BT.709: plays everywhere
-// .webm            VP9, 4:2:0, BT.709
+// .webm            VP9, 4:2:0, BT.709; with alpha as a second stream of VP9
+// .mov with alpha  ProRes 4444, 4:4:4, BT.709: the form of video editors
 // .gif             256 colors chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
 #pragma once
 
@@ -24,15 +25,19 @@ struct FrameRate {
 /// The closest fraction with both parts at most a million (ffmpeg's limit): 29.97 is 2997/100.
 FrameRate to_frame_rate(double fps);
 
-enum class VideoKind { h264, vp9, gif };
+enum class VideoKind { h264, vp9, gif, vp9_alpha, prores_4444 };
 
 /// Form in which ffmpeg receives the frames.
 enum class PixelFormat {
-    yuv420,  // planes, see yuv420.h; an odd last column or row is duplicated
-    rgba,    // R, G, B and a byte of 255, row by row from the top
+    yuv420,   // planes, see yuv420.h; an odd last column or row is duplicated
+    yuva420,  // the same and alpha, see yuva420.h
+    rgba,     // R, G, B and alpha, row by row from the top
 };
 
-/// Size of one frame of a image of this size.
+/// True for forms with half as many columns and rows of color, which need an even size.
+bool is_subsampled(PixelFormat form);
+
+/// Size of one frame of an image of this size.
 std::size_t frame_bytes(PixelFormat form, int width, int height);
 
 /// Storage of a image that stays unchanged.
@@ -51,6 +56,7 @@ enum class VideoQuality {
 struct ClipOptions {
     FrameTimes times = FrameTimes::longer_frames;
     VideoQuality quality = VideoQuality::normal;
+    bool transparent = false;  // the clip keeps the alpha of the images
 };
 
 struct VideoFormat {
@@ -62,8 +68,8 @@ struct VideoFormat {
     PixelFormat pixels = PixelFormat::yuv420;
 };
 
-/// Throws InputError if the ending is unknown, or the format cannot hold this frame rate.
-VideoFormat video_format(const std::filesystem::path& clip, double fps);
+/// Throws InputError if the ending is unknown, or the format cannot hold this frame rate or, if needed, alpha.
+VideoFormat video_format(const std::filesystem::path& clip, double fps, bool transparent = false);
 
 /// Output argument for ffmpeg's own standard output. By a file name, ffmpeg would open and truncate an existing file.
 constexpr const char* clip_to_standard_output = "/dev/stdout";

@@ -2,6 +2,7 @@
 
 #include "core/check.h"
 #include "output/yuv420.h"
+#include "output/yuva420.h"
 
 #include <algorithm>
 #include <cstring>
@@ -10,7 +11,7 @@ namespace tumble {
 
 VideoPixels::VideoPixels(PixelFormat form, int width, int height)
     : format_(form), width_(width), height_(height), bytes_(frame_bytes(form, width, height)) {
-    if (form == PixelFormat::yuv420 && (width % 2 != 0 || height % 2 != 0))
+    if (is_subsampled(form) && (width % 2 != 0 || height % 2 != 0))
         padded_ = Image(width + width % 2, height + height % 2);
 }
 
@@ -24,10 +25,17 @@ void VideoPixels::update(const Image& image, std::span<const Rectangle> changed)
                 std::memcpy(bytes_.data() + (image.at(r.x, y) - image.pixels.data()), image.at(r.x, y),
                             4 * std::size_t(r.width));
     } else if (!padded_.pixels.empty()) {
-        convert_to_yuv420(padded(image), {0, 0, padded_.width, padded_.height}, bytes_);
+        convert(padded(image), {0, 0, padded_.width, padded_.height});
     } else {
-        for (const Rectangle& r : changed) convert_to_yuv420(image, r, bytes_);
+        for (const Rectangle& r : changed) convert(image, r);
     }
+}
+
+void VideoPixels::convert(const Image& image, const Rectangle& region) {
+    if (format_ == PixelFormat::yuva420)
+        convert_to_yuva420(image, region, filled_, bytes_);
+    else
+        convert_to_yuv420(image, region, bytes_);
 }
 
 const Image& VideoPixels::padded(const Image& image) {

@@ -25,10 +25,12 @@ public:
 
 private:
     const Image& padded(const Image& image);
+    void convert(const Image& image, const Rectangle& region);
 
     PixelFormat format_;
     int width_, height_;
     Image padded_;  // empty if the size is even
+    Image filled_;  // of yuva420.h
     std::vector<std::uint8_t> bytes_;
 };
 

@@ -30,7 +30,7 @@ fs::path find_ffmpeg() {
 
 VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, const ClipOptions& options)
     : clip_(clip),
-      format_(video_format(clip, fps)),
+      format_(video_format(clip, fps, options.transparent)),
       pixels_(format_.pixels, width, height),
       program_(find_ffmpeg()),
       file_(clip),
@@ -47,7 +47,7 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
     else
         encoder_.emplace(program_, with_report(encoding_arguments(format_, options, output_argument())),
                          file_.descriptor());
-    const bool even = format_.pixels == PixelFormat::yuv420;
+    const bool even = is_subsampled(format_.pixels);
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,
                        format_.rate));
 }

@@ -1,5 +1,6 @@
 #include "overlay/shape_raster.h"
 
+#include "core/blend.h"
 #include "render/damage/dirty_tiles.h"
 
 #include <algorithm>
@@ -83,13 +84,16 @@ void with_marker_distance(ScreenMarker shape, double radius, const Use& use) {
 
 /// Moves a color toward another by a share of 0 to 256.
 void mix(std::uint8_t* p, Color color, int share) {
+    if (p[3] != 255) {  // of pictures that are transparent themselves
+        const std::uint8_t channels[] = {color.r, color.g, color.b};
+        return put_over(channels, std::uint32_t(255 * share + 128) >> 8, p);
+    }
     const auto channel = [&](std::uint8_t from, int to) {
         return std::uint8_t(from + (((to - from) * share + 128) >> 8));
     };
     p[0] = channel(p[0], color.r);
     p[1] = channel(p[1], color.g);
     p[2] = channel(p[2], color.b);
-    p[3] = channel(p[3], 255);  // of pictures that are transparent themselves
 }
 
 /// A paint with its shares, for a whole shape.

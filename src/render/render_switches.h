@@ -3,6 +3,10 @@
 
 #include "render/renderer.h"
 
+#include <array>
+#include <cstdint>
+#include <optional>
+
 namespace tumble {
 
 class ShaderCompileSchedule;
@@ -14,7 +18,8 @@ struct RenderSwitches : RenderOptions {
     bool keep_depths = false;             // Renderer::depths()
     bool multisample = false;             // several samples per pixel, as in scenes with cords
     double shift_x = 0.0, shift_y = 0.0;  // displacement of the frame, below 1 pixel: for averages of many frames
-    PassTimes* times = nullptr;           // sums of the costs of passes; must outlive the renderer
+    std::optional<std::array<std::uint8_t, 3>> plain_background = {};  // sRGB, in place of the sky and the planes
+    PassTimes* times = nullptr;                         // sums of the costs of passes; must outlive the renderer
     ShaderCompileSchedule* compile_schedule = nullptr;  // shared with the other processes that draw this scene, or null
 };
 

@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "render/antialiasing/antialiasing.h"
+#include "render/antialiasing/surface_ids.h"
 #include "render/frame/frame_context.h"
 #include "render/gl/gl_context.h"
 #include "render/gl/shader_locator.h"
@@ -14,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -33,6 +35,15 @@ bool is_analytic(const SceneDescription& description, const RenderSwitches& swit
     return description.output.samples > 1 && description.cords.empty() && !switches.multisample;
 }
 
+// The color and alpha of pixels without a body, if neither the sky nor planes are drawn.
+std::optional<std::array<float, 4>> plain_background(const RenderSwitches& switches, bool analytic) {
+    const float alpha = analytic ? float(sky_id) / 255.0f : 0.0f;  // a surface id, else coverage
+    if (switches.transparent) return {{0.0f, 0.0f, 0.0f, alpha}};
+    if (!switches.plain_background) return std::nullopt;
+    const auto level = [&](std::size_t channel) { return float((*switches.plain_background)[channel]) / 255.0f; };
+    return {{level(0), level(1), level(2), alpha}};
+}
+
 PassOptions pass_options(const SceneDescription& description, const RenderSwitches& switches) {
     const bool analytic = is_analytic(description, switches);
     PassOptions options;
@@ -41,6 +52,7 @@ PassOptions pass_options(const SceneDescription& description, const RenderSwitch
     options.height = description.output.height;
     options.samples = analytic ? 1 : description.output.samples;
     options.widen_rods = analytic;
+    options.plain_background = plain_background(switches, analytic);
     options.schedule = switches.compile_schedule;
     return options;
 }
@@ -68,7 +80,8 @@ struct Renderer::State {
           lods(scene),
           gpu(options.backend),
           passes(gpu.gl, scene, setup.shadow_filter(), pass_options(description, options)),
-          antialiasing(lods, description.output.width, description.output.height, is_analytic(description, options)),
+          antialiasing(lods, description.output.width, description.output.height,
+                       {is_analytic(description, options), options.transparent}),
           image(description.output.width, description.output.height) {
         if (options.keep_depths) depths = DepthImage(description.output.width, description.output.height);
     }
@@ -109,7 +122,8 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     PassTimer timer(s.gpu.gl, s.switches.times);
     s.changed.clear();
 
-    const FrameContext frame = s.setup.prepare(snapshot, s.passes.one_sample(), s.switches.full_redraw);
+    FrameContext frame = s.setup.prepare(snapshot, s.passes.one_sample(), s.switches.full_redraw);
+    if (s.passes.plain_background()) frame.planes.clear();  // those of the scene still occlude bodies
     if (frame.unchanged) {
         s.setup.finish();
         return s.image;
@@ -121,7 +135,9 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     const Visibility& drawn = s.switches.draw_hidden ? everything.emplace(everything_visible(frame)) : visible;
     Damage damage = s.damage_tracker.find(frame, drawn, s.ambient_occlusion);
     const OcclusionAtlas& atlas = s.ambient_occlusion.atlas();
-    const DrawList list = make_draw_list(frame, drawn, atlas, damage.drawn, damage.casters);
+    DrawList list = make_draw_list(frame, drawn, atlas, damage.drawn, damage.casters);
+    if (s.switches.transparent && !s.antialiasing.analytic())
+        for (Instance& instance : list.instances) instance.surface_id = 1.0f;  // samples of ids have no mean: coverage
     timer.ends(Pass::preparation);
 
     s.passes.upload(frame, list, s.ambient_occlusion, s.lods);

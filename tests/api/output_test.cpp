@@ -23,6 +23,26 @@ TEST(Output, APngGivesTheImageBack) {
     EXPECT_EQ(read_png(folder / "a.png"), image);
 }
 
+TEST(Output, APngKeepsAlphaIfAsked) {
+    const TestFolder folder;
+    const Scene scene(crate_and_ball());
+    RenderOptions options;
+    options.transparent = true;
+    Renderer renderer(scene, options);
+    const Image image = renderer.render(after(scene, 0));
+    EXPECT_EQ(image.at(0, 0)[3], 0);
+    write_png(folder / "a.png", image, PngAlpha::kept);
+    EXPECT_EQ(read_png(folder / "a.png"), image);
+    EXPECT_EQ(renderer.render_blurred(std::vector(2, after(scene, 0))), image);
+    EXPECT_THROW(renderer.render_blurred(std::vector(257, after(scene, 0))), Error);
+    ClipOptions clip;
+    clip.transparent = true;
+    EXPECT_THROW(ClipWriter(folder / "a.mp4", crate_and_ball().output, clip), Error);
+    ClipWriter writer(folder / "a.webm", crate_and_ball().output, clip);
+    writer.write(image);
+    writer.finish();
+}
+
 TEST(Output, ComparisonTellsTheRule) {
     const Comparison same = compare_images(plain(10), plain(10));
     EXPECT_TRUE(same.alike);

@@ -43,5 +43,32 @@ TEST(ImageMean, AddsLightNotNumbers) {
     EXPECT_EQ(result.pixels[8], std::lround(255.0 * linear_to_srgb(half)));
 }
 
+TEST(ImageMean, WeighsColorsByAlpha) {
+    Image white = of_values({255, 255, 80}), other = of_values({0, 30, 80});
+    white.pixels[3] = 51;  // a fifth
+    other.pixels[3] = 0;   // its color does not count
+    white.pixels[4 + 3] = other.pixels[4 + 3] = 0;
+    other.pixels[8 + 3] = white.pixels[8 + 3] = 7;
+    ImageMean mean(true);
+    Image result;
+    for (const int count : {1, 4, 128}) {
+        for (int i = 0; i < count; ++i) {
+            mean.add(white);
+            mean.add(other);
+        }
+        mean.take(result);
+        EXPECT_EQ(result.pixels, (std::vector<std::uint8_t>{255, 255, 255, 26, 0, 0, 0, 0, 80, 80, 80, 7})) << count;
+    }
+    white = of_values({255});
+    other = of_values({0});
+    white.pixels[3] = 100;
+    other.pixels[3] = 200;
+    mean.add(white);
+    mean.add(other);
+    mean.take(result);
+    EXPECT_EQ(result.pixels[0], std::lround(255.0 * linear_to_srgb(1.0 / 3.0)));
+    EXPECT_EQ(result.pixels[3], 150);
+}
+
 }  // namespace
 }  // namespace tumble::image_mean_test

@@ -194,6 +194,18 @@ TEST(Compare, AlphaCounts) {
     EXPECT_FALSE(compare_images(a, b).alike);
 }
 
+TEST(Compare, ColorsCountAsFarAsAlphaShowsThem) {
+    Image a = plain(20, 20, {50, 50, 50}), b = plain(20, 20, {250, 0, 90});
+    const auto set_alpha = [](Image& image, std::uint8_t alpha) {
+        for (std::size_t i = 3; i < image.pixels.size(); i += 4) image.pixels[i] = alpha;
+    };
+    for (const auto& [alpha, difference] : {std::pair{0, 0}, {3, 2}, {51, 40}, {255, 200}}) {
+        set_alpha(a, std::uint8_t(alpha));
+        set_alpha(b, std::uint8_t(alpha));
+        EXPECT_EQ(compare_images(a, b).max_difference, difference) << alpha;
+    }
+}
+
 TEST(Compare, OtherSizesCannotBeCompared) {
     EXPECT_THROW(compare_images(plain(10, 10, {}), plain(10, 11, {})), InputError);
     EXPECT_THROW(difference_image(plain(10, 10, {}), plain(11, 10, {})), InputError);

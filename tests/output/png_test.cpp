@@ -19,8 +19,8 @@
 namespace tumble::png_test {
 namespace {
 
-std::vector<std::byte> encoded(const Image& image) {
-    PngEncoder encoder;
+std::vector<std::byte> encoded(const Image& image, PngAlpha alpha = PngAlpha::dropped) {
+    PngEncoder encoder(alpha);
     const std::span<const std::byte> bytes = encoder.encode(image);
     return {bytes.begin(), bytes.end()};
 }
@@ -53,6 +53,20 @@ TEST(Png, LeavesAlphaOut) {
     EXPECT_EQ(read_png(folder / "a.png"), colorful(5, 4));
 }
 
+TEST(Png, KeepsAlpha) {
+    const TestFolder folder;
+    for (const auto& [width, height] : {std::pair{1, 1}, {1, 1000}, {33, 27}, {500, 333}}) {
+        Image image(width, height);
+        std::uint32_t random = 1;
+        for (std::uint8_t& byte : image.pixels)
+            byte = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+        write_png(folder / "a.png", image, PngAlpha::kept);
+        EXPECT_EQ(read_png(folder / "a.png"), image) << width << " x " << height;
+        EXPECT_EQ(encoded(image, PngAlpha::kept)[25], std::byte{6}) << "color type: RGBA";
+        EXPECT_LE(encoded(image, PngAlpha::kept).size(), png_bytes_bound(width, height, PngAlpha::kept));
+    }
+}
+
 TEST(Png, SaysItIsSrgbRgb8) {
     const std::vector<std::byte> bytes = encoded(colorful(9, 5));
     const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
@@ -68,8 +82,8 @@ TEST(Png, TheSamePictureIsTheSameBytes) {
     EXPECT_EQ(first, second);
 }
 
-TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
-    PngEncoder encoder;
+void expect_parts_make_the_whole(PngAlpha alpha) {
+    PngEncoder encoder(alpha);
     for (const auto& [width, height] : {std::pair{40, 100}, {7, 64}, {33, 31}}) {
         Image image = colorful(width, height);
         encoder.encode(image, {});  // of another size than the previous one: a full conversion, for any changed regions
@@ -79,9 +93,13 @@ TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
         for (const std::vector<Rectangle>& changed : changes) {
             for (const Rectangle& r : changed) fill(image, r.x, r.y, r.width, r.height, {++value, 9, 200});
             const std::span<const std::byte> part = encoder.encode(image, changed);
-            EXPECT_TRUE(std::ranges::equal(part, encoded(image))) << width << " x " << height << ", " << value;
+            EXPECT_TRUE(std::ranges::equal(part, encoded(image, alpha))) << width << " x " << height << ", " << value;
         }
     }
+}
+
+TEST(Png, ChangedPartsGiveTheBytesOfTheWhole) {
+    for (const PngAlpha alpha : {PngAlpha::dropped, PngAlpha::kept}) expect_parts_make_the_whole(alpha);
 }
 
 TEST(Png, IncompressibleDataFits) {

@@ -66,6 +66,20 @@ TEST(VideoFormat, ByEnding) {
         EXPECT_THROW(video_format(name, 60.0), InputError);
 }
 
+TEST(VideoFormat, WithAlpha) {
+    EXPECT_EQ(video_format("a.webm", 60.0, true).kind, VideoKind::vp9_alpha);
+    EXPECT_EQ(video_format("a.MOV", 60.0, true).kind, VideoKind::prores_4444);
+    for (const char* name : {"a.mp4", "a.mkv", "a.gif"}) try {
+            video_format(name, 25.0, true);
+            ADD_FAILURE() << name;
+        } catch (const InputError& error) {
+            const std::string text = error.what();
+            EXPECT_NE(text.find(".webm"), std::string::npos) << text;
+            EXPECT_NE(text.find(".mov"), std::string::npos) << text;
+            EXPECT_NE(text.find("--frames"), std::string::npos) << text;
+        }
+}
+
 TEST(VideoFormat, ImpossibleRatesAreRefused) {
     const double nan = std::numeric_limits<double>::quiet_NaN(), infinity = std::numeric_limits<double>::infinity();
     for (const double fps : {0.0, -1.0, 1e-5, 1.1e6, nan, infinity})

@@ -1,6 +1,7 @@
 // Conversion to video planes: compared with the formula in doubles, by regions, at every alignment.
 #include "output/yuv420.h"
 #include "output/video_pixels.h"
+#include "output/yuva420.h"
 
 #include "pictures.h"
 
@@ -94,7 +95,7 @@ TEST(Yuv420, WideAndNarrowImagesAgree) {
 TEST(Yuv420, PartsMakeTheWhole) {
     std::mt19937 random(3);
     const Rectangle whole{0, 0, 50, 38};
-    for (const PixelFormat form : {PixelFormat::yuv420, PixelFormat::rgba}) {
+    for (const PixelFormat form : {PixelFormat::yuv420, PixelFormat::yuva420, PixelFormat::rgba}) {
         for (int odd = 0; odd < 2; ++odd) {
             Image image = noise(50 - odd, 38 - odd, 4);
             const Rectangle all{0, 0, image.width, image.height};
@@ -119,6 +120,28 @@ TEST(Yuv420, PartsMakeTheWhole) {
         }
     }
     EXPECT_EQ(frame_bytes(PixelFormat::yuv420, 49, 37), yuv420_bytes(whole.width, whole.height));
+    EXPECT_EQ(frame_bytes(PixelFormat::yuva420, 49, 37), yuva420_bytes(whole.width, whole.height));
+}
+
+TEST(Yuva420, CoveredColorsReachBeyondTheirEdge) {
+    Image image(48, 32);  // black without coverage, but for a half covered column in the second block
+    for (int y = 0; y < image.height; ++y) {
+        set(image, 20, y, {200, 60, 40});
+        image.at(20, y)[3] = 128;
+    }
+    std::vector<std::uint8_t> planes(yuva420_bytes(48, 32));
+    Image filled;
+    convert_to_yuva420(image, {0, 0, 48, 32}, filled, planes);
+    const std::vector<std::uint8_t> same = converted(plain(48, 32, {200, 60, 40})),
+                                    black = converted(plain(48, 32, {}));
+    const std::size_t alpha = yuv420_bytes(48, 32);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::vector<std::uint8_t>& wanted = x / 16 == 1 ? same : black;
+            for (int plane = 0; plane < 3; ++plane)
+                ASSERT_EQ(value_at(planes, image, plane, x, y), value_at(wanted, image, plane, x, y));
+            ASSERT_EQ(planes[alpha + std::size_t(48 * y + x)], x == 20 ? 128 : 0);
+        }
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace tumble {
 struct RenderCommand {
     std::vector<std::filesystem::path> scenes;    // a panel for each
     std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
-    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name with .mp4
+    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
     std::optional<std::filesystem::path> frames;  // folder
     AovSet aovs;
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
@@ -63,6 +63,7 @@ struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;
     double fps = 60.0;
+    bool transparent = false;  // the clip keeps the alpha of the frames
     VideoQuality quality = VideoQuality::normal;
     bool quiet = false;
 };

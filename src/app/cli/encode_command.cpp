@@ -97,7 +97,7 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
 }  // namespace
 
 void run_encode(const EncodeCommand& command) {
-    const VideoFormat format = video_format(command.clip, command.fps);
+    const VideoFormat format = video_format(command.clip, command.fps, command.transparent);
     ImageSize size;
     const std::int64_t frames = checked_frame_count(command.frames, size);
     OutputPlan plan;
@@ -111,7 +111,8 @@ void run_encode(const EncodeCommand& command) {
                    "smaller frames take less");
 
     Interrupt interrupt;
-    VideoWriter video(command.clip, size.width, size.height, command.fps, {FrameTimes::constant_rate, command.quality});
+    VideoWriter video(command.clip, size.width, size.height, command.fps,
+                      {FrameTimes::constant_rate, command.quality, command.transparent});
     {
         Progress progress(frames, command.quiet);
         encode(command.frames, frames, video, interrupt, progress);

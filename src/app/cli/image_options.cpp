@@ -12,6 +12,8 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
         ->required()
         ->type_name("CLIP");
     command->add_option("--fps", c.fps, "Frames per second")->type_name("N")->capture_default_str();
+    command->add_flag("--transparent", c.transparent,
+                      "Keep the alpha of the frames (.webm and .mov); without this it is left out");
     add_quality(*command, c.quality);
     command->add_flag("--quiet", c.quiet, "Print errors only");
     command->footer("Example:\n  tumble encode out -o clip.mp4 --fps 30");

@@ -123,14 +123,17 @@ void run_render(const RenderCommand& command) {
     const FrameRange& frames = scenes.frames;
     const double clip_fps = scenes.first().output.fps;
     std::optional<fs::path> clip = command.clip;
-    if (!clip && !command.frames && !aovs_to) clip = command.scenes.front().stem().string() + ".mp4";
+    if (!clip && !command.frames && !aovs_to)
+        clip = command.scenes.front().stem().string() + (command.drawing.transparent ? ".webm" : ".mp4");
 
     // All checks of the outputs come before the simulation and before anything is written.
-    RenderWork work{
-        {std::nullopt, command.frames.has_value(), command.aovs}, std::nullopt, frames.count(), shutter.blur_samples};
+    RenderWork work{{std::nullopt, command.frames.has_value(), command.aovs, command.drawing.transparent},
+                    std::nullopt,
+                    frames.count(),
+                    shutter.blur_samples};
     const FrameOutputs& outputs = work.outputs;
     if (clip) {
-        const VideoFormat format = video_format(*clip, clip_fps);
+        const VideoFormat format = video_format(*clip, clip_fps, command.drawing.transparent);
         work.outputs.video = format.pixels;
         work.clip = format.kind;
         find_ffmpeg();
@@ -163,7 +166,11 @@ void run_render(const RenderCommand& command) {
     std::optional<AovFolder> aovs;
     if (aovs_to) aovs.emplace(*aovs_to, scenes.first(), command.aovs);
     std::optional<VideoWriter> video;
-    if (clip) video.emplace(*clip, composition.width, composition.height, clip_fps, command.clip_options);
+    if (clip) {
+        ClipOptions clip_options = command.clip_options;
+        clip_options.transparent = command.drawing.transparent;
+        video.emplace(*clip, composition.width, composition.height, clip_fps, clip_options);
+    }
 
     const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
     Pipeline pipeline(panels, frames, render_pool, destinations, shutter);

@@ -90,7 +90,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->add_option("-o,--output", c.clip,
                      "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"
                      ".webm (VP9), .gif. Without this, --frames and --aov-folder: the scene's\n"
-                     "name with .mp4, in this folder (of several scenes, the first one's)")
+                     "name with .mp4 (.webm with --transparent), in this folder (of several scenes,\n"
+                     "the first one's)")
         ->check(some_name())
         ->type_name("CLIP");
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")
@@ -132,6 +133,9 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--blur-samples", c.blur_samples, "Moments averaged while the shutter is open")
         ->check(CLI::Range(2, most_blur_samples))
         ->option_text(fmt::format("N [{}]", c.blur_samples));
+    command->add_flag("--transparent", c.drawing.transparent,
+                      "Draw the bodies alone, lit and shadowed as in the scene, on a transparent background:\n"
+                      "for slides (.webm, PNG frames) and video editors (.mov, ProRes 4444)");
     add_quality(*command, c.clip_options.quality);
     command->add_flag_callback(
         "--variable-rate", [&c] { c.clip_options.times = FrameTimes::longer_frames; },
@@ -150,6 +154,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml -o clip.webm --size 640x360\n"
         "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
         "  tumble render scene.toml --speed 0.25             slow motion\n"
+        "  tumble render scene.toml --transparent -o clip.webm   bodies alone, for a slide\n"
         "  tumble render scene.toml --frames one --duration 0  writes the first frame only\n"
         "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"
         "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"

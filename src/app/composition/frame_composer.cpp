@@ -1,14 +1,11 @@
 #include "app/composition/frame_composer.h"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <utility>
 
 namespace tumble {
 namespace {
-
-constexpr std::array<std::uint8_t, 4> background{255, 255, 255, 255};  // around panels
 
 void copy(const Image& panel, const Rectangle& place, const Rectangle& region, Image& frame) {
     const Rectangle part = intersection(place, region);
@@ -18,8 +15,8 @@ void copy(const Image& panel, const Rectangle& place, const Rectangle& region, I
 
 }  // namespace
 
-FrameComposer::FrameComposer(const Composition& composition)
-    : text_(composition), frame_(composition.width, composition.height) {
+FrameComposer::FrameComposer(const Composition& composition, bool transparent)
+    : background_(transparent ? 0 : 255), text_(composition), frame_(composition.width, composition.height) {
     for (const ClipPanel& panel : composition.panels) places_.push_back(panel.place);
     for (const ClipPlot& plot : composition.plots) plots_.emplace_back(plot);
 }
@@ -48,8 +45,7 @@ void FrameComposer::restore(std::span<const PanelImage> panels, const Rectangle&
     const auto holds = [&](const Rectangle& place) { return intersection(place, region) == region; };
     if (std::ranges::none_of(places_, holds))
         for (int y = region.y; y < region.y + region.height; ++y)
-            for (int x = region.x; x < region.x + region.width; ++x)
-                std::memcpy(frame_.at(x, y), background.data(), background.size());
+            std::memset(frame_.at(region.x, y), background_, 4 * std::size_t(region.width));
     for (std::size_t i = 0; i < panels.size(); ++i) copy(panels[i].image, places_[i], region, frame_);
 }
 

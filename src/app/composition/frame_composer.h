@@ -19,7 +19,8 @@ struct PanelImage {
 
 class FrameComposer {
 public:
-    explicit FrameComposer(const Composition& composition);
+    /// `transparent`: the space around panels is; else it is white.
+    FrameComposer(const Composition& composition, bool transparent);
 
     /// Composes the frame of that time (s).
     void compose(std::span<const PanelImage> panels, double time);
@@ -32,6 +33,7 @@ public:
 private:
     void restore(std::span<const PanelImage> panels, const Rectangle& region);
 
+    std::uint8_t background_;        // around panels, of all four channels
     std::vector<Rectangle> places_;  // of the panels
     TextLayer text_;
     std::vector<PlotLayer> plots_;

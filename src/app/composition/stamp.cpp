@@ -1,5 +1,7 @@
 #include "app/composition/stamp.h"
 
+#include "core/blend.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -71,11 +73,6 @@ SetLines balanced(SetLines set, std::string_view text, const TextStyle& style, d
     return set;
 }
 
-/// The mean of two values, weighted by an opacity of 0 to 255, rounded.
-std::uint8_t mix(std::uint8_t under, std::uint8_t over, std::uint32_t alpha) {
-    return std::uint8_t((over * alpha + under * (255u - alpha) + 127u) / 255u);
-}
-
 }  // namespace
 
 Rectangle intersection(const Rectangle& a, const Rectangle& b) {
@@ -90,8 +87,7 @@ void Stamp::blend(Image& frame, const Rectangle& region) const {
     for (int y = part.y; y < part.y + part.height; ++y) {
         const std::uint8_t* from = pixels.at(part.x - box.x, y - box.y);
         std::uint8_t* to = frame.at(part.x, y);
-        for (int x = 0; x < part.width; ++x, from += 4, to += 4)
-            for (int k = 0; k < 3; ++k) to[k] = mix(to[k], from[k], from[3]);
+        for (int x = 0; x < part.width; ++x, from += 4, to += 4) put_over(from, from[3], to);
     }
 }
 

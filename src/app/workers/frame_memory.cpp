@@ -17,18 +17,19 @@ constexpr std::uint64_t targets = 2;      // the background and the frame, each 
 constexpr std::uint64_t image_bytes = 4;  // RGBA
 constexpr std::uint64_t drawing = 10;  // buffers of antialiasing and readback: measured, see docs/explanation/output.md
 constexpr std::uint64_t light = 12;    // the sums of a mean of blur samples (image_mean.h)
+constexpr std::uint64_t coverage = 4;  // of these sums
 constexpr std::uint64_t surface = 16;  // visibility buffer: depth, surface, triangle (visibility_buffer.h)
 
 constexpr std::int64_t slots = 4;  // of a worker (render_pool.cpp); a frame takes one
 
 std::uint64_t pixels_of(int width, int height) { return std::uint64_t(width) * std::uint64_t(height); }
 
-std::uint64_t panel_memory(const SceneDescription& scene, int blur_samples) {
+std::uint64_t panel_memory(const SceneDescription& scene, const RenderWork& work) {
     const std::uint64_t pixels = pixels_of(scene.output.width, scene.output.height);
     const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(scene.output.samples);  // the renderer's rule
     std::uint64_t bytes = pixels * (targets * samples * sample + image_bytes + drawing);
     if (samples > 1) bytes += pixels * image_bytes;  // their mean
-    if (blur_samples > 1) bytes += pixels * (light + image_bytes);
+    if (work.blur_samples > 1) bytes += pixels * (light + (work.outputs.transparent ? coverage : 0) + image_bytes);
     return bytes;
 }
 
@@ -38,8 +39,7 @@ RenderMemory render_memory(const Composition& composition, const RenderWork& wor
     const int width = composition.width, height = composition.height;
     RenderMemory memory;
     if (work.outputs.image()) {
-        for (const ClipPanel& panel : composition.panels)
-            memory.worker += panel_memory(*panel.scene, work.blur_samples);
+        for (const ClipPanel& panel : composition.panels) memory.worker += panel_memory(*panel.scene, work);
         if (!composition.plain()) memory.worker += pixels_of(width, height) * image_bytes;
     }
     if (work.outputs.video) {
@@ -66,6 +66,10 @@ std::uint64_t encoder_memory(VideoKind kind, int width, int height) {
                 return 25;
             case VideoKind::vp9:
                 return 115;
+            case VideoKind::vp9_alpha:
+                return 230;
+            case VideoKind::prores_4444:
+                return 65;
             case VideoKind::gif:
                 return 42;
         }

@@ -12,8 +12,9 @@ RenderSwitches switches_for(const ClipPanel& panel, RenderSwitches options) {
 
 }  // namespace
 
-PanelDrawing::PanelDrawing(const ClipPanel& panel, RenderSwitches options)
-    : renderer_(*panel.scene, switches_for(panel, std::move(options))),
+PanelDrawing::PanelDrawing(const ClipPanel& panel, const RenderSwitches& options)
+    : renderer_(*panel.scene, switches_for(panel, options)),
+      mean_(options.transparent),
       whole_{{0, 0, panel.scene->output.width, panel.scene->output.height}} {
     if (panel.overlay) painter_.emplace(*panel.scene, panel.overlay->scales, panel.overlay->legend_height);
 }

@@ -16,7 +16,7 @@ namespace tumble {
 class PanelDrawing {
 public:
     /// Opens an OpenGL context.
-    PanelDrawing(const ClipPanel& panel, RenderSwitches options);
+    PanelDrawing(const ClipPanel& panel, const RenderSwitches& options);
 
     /// Draws the samples of the panel in the shared memory.
     void draw(const SharedFrames& memory, std::size_t panel, std::int64_t frame);

@@ -76,10 +76,10 @@ public:
                SharedFrames& memory)
         : memory_(memory) {
         if (outputs.image()) open_panels(composition, options);
-        if (outputs.image() && !composition.plain()) composer_.emplace(composition);
+        if (outputs.image() && !composition.plain()) composer_.emplace(composition, outputs.transparent);
         if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs);
         if (outputs.video) video_.emplace(*outputs.video, composition.width, composition.height);
-        if (outputs.png) png_.emplace();
+        if (outputs.png) png_.emplace(outputs.transparent ? PngAlpha::kept : PngAlpha::dropped);
     }
 
     DrawnFrame make(const Job& job) {

@@ -43,7 +43,8 @@ SharedFrames::SharedFrames(const Composition& composition, const FrameOutputs& o
     video_at_ = 0;
     video_size_ = outputs.video ? frame_bytes(*outputs.video, width, height) : 0;
     png_at_ = whole_pages(video_size_);
-    png_size_ = outputs.png ? png_bytes_bound(width, height) : 0;
+    png_size_ =
+        outputs.png ? png_bytes_bound(width, height, outputs.transparent ? PngAlpha::kept : PngAlpha::dropped) : 0;
     aovs_at_ = png_at_ + whole_pages(png_size_);
     const OutputSettings& aov_output = composition.aov_scene->output;
     aovs_size_ = outputs.aovs.empty() ? 0 : aov_file_bound(outputs.aovs, aov_output.width, aov_output.height);

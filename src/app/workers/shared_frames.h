@@ -22,6 +22,7 @@ struct FrameOutputs {
     std::optional<PixelFormat> video;
     bool png = false;
     AovSet aovs;
+    bool transparent = false;  // images have alpha: with RenderOptions::transparent
 
     bool image() const { return video.has_value() || png; }
 };

@@ -35,7 +35,8 @@ constexpr double hidden = 0.2;  // pixels
 int below(double x) { return int(x + 2.0) - 2; }
 
 // An edge in the image along its main direction: m counts along it, n across. For edges with the given `whole_box`.
-template <bool whole_box>
+// `with_coverage`: see blend_analytic_edges().
+template <bool whole_box, bool with_coverage>
 class Walk {
 public:
     Walk(const Image& drawn, const DirtyTiles& dirty, Image& frame) : drawn_(drawn), dirty_(dirty), frame_(frame) {}
@@ -115,7 +116,11 @@ private:
         const double share = std::min(here.length * (step > 0 ? after : 1.0 - after), 0.5);
         const int weight = int(256.0 * share + 0.5);
         std::uint8_t* const to = frame_.pixels.data() + at;
-        for (int c = 0; c < 3; ++c) to[c] = std::uint8_t(to[c] + (((from[c] - to[c]) * weight + 128) >> 8));
+        const auto blended = [&](int own, int other) {
+            return std::uint8_t(own + (((other - own) * weight + 128) >> 8));
+        };
+        for (int c = 0; c < 3; ++c) to[c] = blended(to[c], from[c]);
+        if (with_coverage) to[3] = blended(to[3], coverage_of(from[3]));
     }
 
     // Color of the edge's own face, from a pixel beside these two; a narrow face does not show in every pixel.
@@ -137,6 +142,13 @@ private:
     std::ptrdiff_t step_m_ = 0, step_n_ = 0;  // strides, bytes
     std::uint8_t inner_ = 0, outer_ = 0, face_ = 0;
 };
+
+template <bool with_coverage>
+void blend_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& dirty, Image& frame) {
+    Walk<false, with_coverage> one_face(drawn, dirty, frame);
+    Walk<true, with_coverage> whole_box(drawn, dirty, frame);
+    for (const ScreenEdge& edge : edges) edge.whole_box ? whole_box.blend(edge) : one_face.blend(edge);
+}
 
 }  // namespace
 
@@ -160,10 +172,11 @@ void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, I
 }
 
 void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& dirty,
-                          Image& frame) {
-    Walk<false> one_face(drawn, dirty, frame);
-    Walk<true> whole_box(drawn, dirty, frame);
-    for (const ScreenEdge& edge : edges) edge.whole_box ? whole_box.blend(edge) : one_face.blend(edge);
+                          Image& frame, bool with_coverage) {
+    if (with_coverage)
+        blend_edges<true>(drawn, edges, dirty, frame);
+    else
+        blend_edges<false>(drawn, edges, dirty, frame);
 }
 
 }  // namespace tumble

@@ -1,4 +1,5 @@
-// From the image as drawn, with surface ids in alpha, to the result: opaque, and smooth where edges are known.
+// From the image as drawn, with surface ids in alpha, to the result: smooth where edges are known, and opaque or with
+// the coverage by bodies as straight alpha.
 #pragma once
 
 #include "core/image.h"
@@ -9,9 +10,15 @@ namespace tumble {
 
 class Antialiasing {
 public:
-    /// `lods` must outlive it. `analytic`: false leaves the image as drawn, with the samples of each pixel averaged.
-    Antialiasing(MeshLods& lods, int width, int height, bool analytic)
-        : edges_(lods), drawn_(width, height), analytic_(analytic) {}
+    struct Options {
+        bool analytic = true;      // false leaves the image as drawn, with the samples of each pixel averaged
+        bool transparent = false;  // alpha is coverage: without `analytic`, it is drawn in place of surface ids
+    };
+    /// `lods` must outlive it.
+    Antialiasing(MeshLods& lods, int width, int height, const Options& options)
+        : edges_(lods), drawn_(width, height), options_(options) {}
+
+    bool analytic() const { return options_.analytic; }
 
     /// The image as drawn; to be updated in the changed regions of each frame.
     Image& drawn() { return drawn_; }
@@ -23,7 +30,7 @@ public:
 private:
     EdgeFinder edges_;
     Image drawn_;
-    bool analytic_;
+    Options options_;
 };
 
 }  // namespace tumble

@@ -7,8 +7,13 @@
 
 namespace tumble {
 
-/// Ids from 1 on; the sky has 255.
+/// Ids from 1 on.
 inline constexpr int surface_id_count = 253;
+/// Id of the sky.
+inline constexpr std::uint8_t sky_id = 255;
+
+/// Coverage of a pixel that shows this id at its center, where only bodies are drawn.
+inline std::uint8_t coverage_of(std::uint8_t id) { return id == sky_id ? 0 : 255; }
 
 /// Id of a face of a drawn body (face 0 for shapes with one surface).
 inline std::uint8_t surface_id(std::size_t body, std::size_t face) {

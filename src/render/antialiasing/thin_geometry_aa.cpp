@@ -18,10 +18,11 @@ constexpr int search = 3;
 constexpr int averaged = 2;
 
 struct Mean {
-    std::array<double, 3> sum{};  // sRGB values, 0 to 255
+    std::array<double, 4> sum{};  // sRGB values and coverage, 0 to 255
     int count = 0;
     void add(const std::uint8_t* pixel) {
         for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
+        sum[3] += coverage_of(pixel[3]);
         ++count;
     }
 };
@@ -32,7 +33,9 @@ using RodPixels = std::vector<char>;
 // A rod in the image along its main direction: m counts along it, n across.
 class RodWalk {
 public:
-    RodWalk(const Image& drawn, const ScreenRod& rod) : drawn_(drawn), first_face_(rod.first_face) {
+    /// `channels`: 3 for the color, 4 with coverage.
+    RodWalk(const Image& drawn, const ScreenRod& rod, std::size_t channels)
+        : drawn_(drawn), first_face_(rod.first_face), channels_(channels) {
         steep_ = std::abs(rod.y1 - rod.y0) > std::abs(rod.x1 - rod.x0);
         m0_ = steep_ ? rod.y0 : rod.x0, n0_ = steep_ ? rod.x0 : rod.y0;
         m1_ = steep_ ? rod.y1 : rod.x1, n1_ = steep_ ? rod.x1 : rod.y1;
@@ -69,7 +72,7 @@ public:
                     break;
                 }
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
-            for (std::size_t c = 0; c < 3 && beside.count > 0; ++c)
+            for (std::size_t c = 0; c < channels_ && beside.count > 0; ++c)
                 to[c] = std::uint8_t(std::lround(beside.sum[c] / beside.count));
         });
     }
@@ -87,7 +90,7 @@ public:
                 for (int across = n - 1; across <= n + 1; ++across)
                     if (of_rod(other, across)) own.add(at(other, across));
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
-            for (std::size_t c = 0; c < 3 && own.count > 0; ++c)
+            for (std::size_t c = 0; c < channels_ && own.count > 0; ++c)
                 to[c] = std::uint8_t(std::lround(to[c] + (own.sum[c] / own.count - to[c]) * share));
         });
     }
@@ -132,6 +135,7 @@ private:
 
     const Image& drawn_;
     std::uint8_t first_face_;
+    std::size_t channels_;
     bool steep_;
     double m0_, n0_, m1_, n1_, half0_, half1_, length_, slope_, widening_;
     int count_m_, count_n_;
@@ -144,12 +148,14 @@ bool is_rod(const Vec3& half_pixels) {
     return half_pixels.sum() - least - most < widest_rod_pixels && most > shortest_rod_pixels;
 }
 
-void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& dirty, Image& frame) {
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& dirty, Image& frame,
+                bool with_coverage) {
     if (rods.empty()) return;
+    const std::size_t channels = with_coverage ? 4 : 3;
     RodPixels pixels(drawn.pixels.size() / 4, 0);
-    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).mark(pixels);
-    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).clear(pixels, dirty, frame);
-    for (const ScreenRod& rod : rods) RodWalk(drawn, rod).cover(pixels, dirty, frame);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod, channels).mark(pixels);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod, channels).clear(pixels, dirty, frame);
+    for (const ScreenRod& rod : rods) RodWalk(drawn, rod, channels).cover(pixels, dirty, frame);
 }
 
 }  // namespace tumble

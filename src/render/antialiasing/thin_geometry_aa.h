@@ -26,7 +26,9 @@ struct ScreenRod {
     std::uint8_t first_face;  // surface id of its face 0 (surface_ids.h)
 };
 
-/// Blends the rods into the pixels of the dirty tiles by coverage. Call it after blend_analytic_edges().
-void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& dirty, Image& frame);
+/// Blends the rods into the pixels of the dirty tiles by coverage. Call it after blend_analytic_edges(),
+/// with the same `with_coverage`.
+void blend_rods(const Image& drawn, const std::vector<ScreenRod>& rods, const DirtyTiles& dirty, Image& frame,
+                bool with_coverage = false);
 
 }  // namespace tumble

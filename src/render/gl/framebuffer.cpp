@@ -99,6 +99,11 @@ void Framebuffer::begin_all(const Target& target, double depth) const {
     gl_->Clear(GL_DEPTH_BUFFER_BIT);  // the sky covers all colors at the latest
 }
 
+void Framebuffer::clear_color(const std::array<float, 4>& color) const {
+    gl_->ClearColor(color[0], color[1], color[2], color[3]);
+    gl_->Clear(GL_COLOR_BUFFER_BIT);
+}
+
 void Framebuffer::begin_background() { begin_all(background_, 1.0); }
 
 void Framebuffer::begin_whole() {

@@ -9,6 +9,7 @@
 #include "core/rectangle.h"
 #include "render/gl/gl_object.h"
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -24,6 +25,9 @@ public:
 
     /// Makes the background the draw target, over its whole area, and clears its depths.
     void begin_background();
+
+    /// Fills the draw target with a color and alpha.
+    void clear_color(const std::array<float, 4>& color) const;
 
     /// Makes the frame the draw target, over its whole area, and clears its depths; for a background that is not worth
     /// storing.

@@ -20,6 +20,7 @@
     X(PFNGLBUFFERDATAPROC, BufferData)                                               \
     X(PFNGLCHECKFRAMEBUFFERSTATUSPROC, CheckFramebufferStatus)                       \
     X(PFNGLCLEARPROC, Clear)                                                         \
+    X(PFNGLCLEARCOLORPROC, ClearColor)                                               \
     X(PFNGLCLEARDEPTHPROC, ClearDepth)                                               \
     X(PFNGLCOMPILESHADERPROC, CompileShader)                                         \
     X(PFNGLCREATEPROGRAMPROC, CreateProgram)                                         \

@@ -21,6 +21,7 @@ FramePasses::FramePasses(const GlFunctions& gl, const RenderScene& scene, const 
       bodies_(gl, options.shaders, scene, filter),
       planes_(gl, options.shaders, scene, filter),
       widen_rods_(options.widen_rods),
+      plain_background_(options.plain_background),
       schedule_(options.schedule) {
     gl.FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
     gl.Enable(GL_DEPTH_TEST);
@@ -46,7 +47,8 @@ void FramePasses::compile_shaders(const DrawList& list) {
     gl_->Enable(GL_SCISSOR_TEST);
     gl_->Scissor(0, 0, 0, 0);
     std::vector<std::function<void()>> all = bodies_.compilations(meshes_, list.visible);
-    for (auto& one : planes_.compilations()) all.push_back(std::move(one));
+    if (!plain_background_)
+        for (auto& one : planes_.compilations()) all.push_back(std::move(one));
     if (scene_->light.shadows) all.emplace_back([&] { shadow_map_.compile(meshes_, list.casters); });
     std::exchange(schedule_, nullptr)->run(all);
     gl_->Disable(GL_SCISSOR_TEST);
@@ -59,17 +61,24 @@ void FramePasses::bind_textures() const {
     gl_->BindTexture(GL_TEXTURE_2D, shadow_map_.texture());
 }
 
+void FramePasses::draw_sky(const FrameContext& frame) const {
+    if (plain_background_)
+        framebuffer_.clear_color(*plain_background_);
+    else
+        planes_.draw_sky(frame);
+}
+
 // While the camera stands still, the background is stored. With a moving camera it is drawn after the bodies.
 void FramePasses::begin_frame(const FrameContext& frame, const Damage& damage) {
     background_kept_ = background_kept_ && !damage.background;
     if (frame.camera_moved) {
         framebuffer_.begin_whole();
-        planes_.draw_sky(frame);
+        draw_sky(frame);
         return;
     }
     if (!background_kept_) {
         framebuffer_.begin_background();
-        planes_.draw_sky(frame);
+        draw_sky(frame);
         planes_.draw_background(frame);
         background_kept_ = true;
     }

@@ -12,7 +12,9 @@
 #include "render/passes/plane_pass.h"
 #include "render/shadow/shadow_map.h"
 
+#include <array>
 #include <filesystem>
+#include <optional>
 
 namespace tumble {
 
@@ -20,10 +22,11 @@ class ShaderCompileSchedule;
 
 struct PassOptions {
     std::filesystem::path shaders;
-    int width = 1, height = 1;                  // pixels
-    int samples = 1;                            // per pixel; the driver may limit them
-    bool widen_rods = false;                    // see make_frame_uniforms()
-    ShaderCompileSchedule* schedule = nullptr;  // or null
+    int width = 1, height = 1;                                  // pixels
+    int samples = 1;                                            // per pixel; the driver may limit them
+    bool widen_rods = false;                                    // see make_frame_uniforms()
+    std::optional<std::array<float, 4>> plain_background = {};  // color and alpha in place of the sky and the planes
+    ShaderCompileSchedule* schedule = nullptr;                  // or null
 };
 
 class FramePasses {
@@ -33,6 +36,7 @@ public:
                 const PassOptions& options);
 
     bool one_sample() const { return framebuffer_.samples() <= 1; }
+    bool plain_background() const { return plain_background_.has_value(); }
 
     /// Sends the data of the frame to the GPU.
     void upload(const FrameContext& frame, const DrawList& list, const AmbientOcclusion& occlusion, MeshLods& lods);
@@ -50,6 +54,7 @@ public:
 private:
     void compile_shaders(const DrawList& list);
     void bind_textures() const;
+    void draw_sky(const FrameContext& frame) const;
     void begin_frame(const FrameContext& frame, const Damage& damage);
 
     const GlFunctions* gl_;
@@ -62,6 +67,7 @@ private:
     BodyPass bodies_;
     PlanePass planes_;
     bool widen_rods_;
+    std::optional<std::array<float, 4>> plain_background_;
     bool background_kept_ = false;     // the stored background is that of this camera
     ShaderCompileSchedule* schedule_;  // until the shaders are compiled
 };
