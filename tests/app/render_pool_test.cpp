@@ -1,5 +1,6 @@
 // Render processes: the same bytes for any number of them, an error for each that dies, and none left behind.
 #include "app/workers/render_pool.h"
+#include "app/drawn_frames.h"
 #include "app/files/aov_file.h"
 #include "core/error.h"
 #include "core/image_mean.h"
@@ -72,47 +73,13 @@ MotionBlurFrame blurred(std::int64_t n) {
     return frame_poses;
 }
 
-struct Seen {
-    std::int64_t number;
-    bool repeated;
-    std::vector<std::byte> video, png, aovs;
-    friend bool operator==(const Seen&, const Seen&) = default;
-};
-
-/// Draws this many frames; `meanwhile` is called with the number of each finished frame.
+/// As draw_frames(), of sharp frames.
 std::vector<Seen> draw(
     RenderPool& render_pool, const SceneDescription& scene, std::int64_t frames,
     const std::function<void(std::int64_t)>& meanwhile = [](std::int64_t) {},
     const std::function<MotionBlurFrame(std::int64_t)>& frame_poses = sharp, std::int64_t first = 0) {
-    BoundedQueue<MotionBlurFrame> poses(4);
-    std::thread simulation([&] {
-        for (std::int64_t n = 0; n < frames; ++n)
-            if (!poses.push(frame_poses(n))) return;
-        poses.close();
-    });
-    std::vector<Seen> seen;
-    DrawingTimes times;
-    const std::size_t video_bytes = frame_bytes(PixelFormat::yuv420, scene.output.width, scene.output.height);
-    try {
-        render_pool.run(
-            poses,
-            [&](const Frame& frame) {
-                seen.push_back({frame.number,
-                                frame.repeated,
-                                {},
-                                {frame.png.begin(), frame.png.end()},
-                                {frame.aovs.begin(), frame.aovs.end()}});
-                if (frame.video) seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
-                meanwhile(frame.number);
-                return true;
-            },
-            times, first);
-    } catch (...) {
-        simulation.join();
-        throw;
-    }
-    simulation.join();
-    return seen;
+    const std::size_t bytes = frame_bytes(PixelFormat::yuv420, scene.output.width, scene.output.height);
+    return draw_frames(render_pool, bytes, frames, frame_poses, first, meanwhile);
 }
 
 TEST(RenderPool, TheNumberOfProcessesChangesNoByte) {

@@ -23,7 +23,8 @@ int even(double length) { return 2 * std::max(1, int(std::lround(0.5 * length)))
 int even_part(int length, int parts) { return length / parts / 2 * 2; }
 
 void require_panel(const LayoutRequest& request, const Rectangle& panel) {
-    if (std::min(panel.width, panel.height) >= least_panel_side) return;
+    const bool whole = panel == Rectangle{0, 0, request.width, request.height};  // any size is good without a division
+    if (whole || std::min(panel.width, panel.height) >= least_panel_side) return;
     throw InputError(fmt::format(
         "--size: a picture of {} x {} pixels is too small for {} panel{}{} (each would have {} x {} pixels; "
         "{} are needed on each side)",

@@ -1,0 +1,256 @@
+// The layout of frames, and text and plot on them.
+#include "app/composition/frame_composer.h"
+#include "app/composition/make_composition.h"
+#include "core/error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+namespace tumble::composition_test {
+namespace {
+
+bool inside(const Rectangle& part, const Rectangle& whole) { return intersection(part, whole) == part; }
+
+TEST(FrameLayout, PanelsLabelsAndPlotShareTheFrameWithoutOverlap) {
+    for (const std::size_t panels : {1u, 2u, 3u, 4u, 5u, 9u})
+        for (const auto arrangement : {PanelArrangement::automatic, PanelArrangement::row, PanelArrangement::grid})
+            for (const auto place : {PlotPlace::beside, PlotPlace::below}) {
+                const LayoutRequest request{1281, 719, panels, arrangement, true, true, true, place, 2};
+                const FrameLayout layout = lay_out(request);
+                ASSERT_EQ(layout.panels.size(), panels);
+                EXPECT_EQ(layout.plots.size(), place == PlotPlace::below ? 2u : 1u);
+                std::vector<Rectangle> all = layout.panels;
+                all.insert(all.end(), layout.labels.begin(), layout.labels.end());
+                all.insert(all.end(), layout.plots.begin(), layout.plots.end());
+                if (panels > 1) all.push_back(layout.header), all.push_back(layout.footer);
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    EXPECT_TRUE(inside(all[i], {0, 0, 1281, 719})) << panels << ' ' << i;
+                    EXPECT_GT(all[i].width * all[i].height, 0);
+                    for (std::size_t k = 0; k < i; ++k)
+                        EXPECT_EQ(intersection(all[i], all[k]).width, 0) << i << ' ' << k;
+                }
+                if (panels > 1)
+                    for (const Rectangle& p : layout.panels) {
+                        EXPECT_EQ((p.x | p.y | p.width | p.height) % 2, 0);
+                        EXPECT_EQ(p.width, layout.panels[0].width);
+                        EXPECT_EQ(p.height, layout.panels[0].height);
+                    }
+            }
+}
+
+TEST(FrameLayout, RowsAndGrids) {
+    const auto rows_of = [](std::size_t panels, PanelArrangement arrangement) {
+        const FrameLayout layout = lay_out({1280, 720, panels, arrangement, false, false, false, {}, 1});
+        int rows = 1;
+        for (std::size_t i = 1; i < panels; ++i) rows += layout.panels[i].y != layout.panels[i - 1].y;
+        return rows;
+    };
+    EXPECT_EQ(rows_of(3, PanelArrangement::automatic), 1);
+    EXPECT_EQ(rows_of(4, PanelArrangement::automatic), 2);
+    EXPECT_EQ(rows_of(7, PanelArrangement::automatic), 3);
+    EXPECT_EQ(rows_of(4, PanelArrangement::row), 1);
+    EXPECT_EQ(rows_of(2, PanelArrangement::grid), 1);
+    EXPECT_EQ(rows_of(3, PanelArrangement::grid), 2);
+}
+
+TEST(FrameLayout, AnInsetIsForASinglePanel) {
+    const FrameLayout one = lay_out({1280, 720, 1, {}, false, false, false, PlotPlace::inset, 1});
+    EXPECT_EQ(one.panels[0], (Rectangle{0, 0, 1280, 720}));
+    EXPECT_TRUE(one.plots_on_picture);
+    EXPECT_TRUE(inside(one.plots[0], one.panels[0]));
+    const FrameLayout two = lay_out({1280, 720, 2, {}, false, false, false, PlotPlace::inset, 1});
+    EXPECT_FALSE(two.plots_on_picture);
+    for (const Rectangle& panel : two.panels) EXPECT_EQ(intersection(panel, two.plots[0]).width, 0);
+}
+
+TEST(FrameLayout, TooSmallFramesAreRefused) {
+    EXPECT_THROW(lay_out({200, 100, 9, {}, false, false, false, {}, 1}), InputError);
+    EXPECT_THROW(lay_out({300, 200, 1, {}, false, false, false, PlotPlace::beside, 1}), InputError);
+    EXPECT_NO_THROW(lay_out({20, 10000, 1, {}, false, false, false, {}, 1}));
+}
+
+// What the scene's frame shows up to its edges, the panel shows as well: with t = tan(fov / 2), the half width of the
+// view at distance 1 is t width / height.
+TEST(PanelScene, ShowsTheWholeViewOfTheScene) {
+    SceneDescription scene;
+    scene.output.width = 1280;
+    scene.output.height = 720;
+    scene.camera.vertical_fov = 40.0;
+    scene.camera.keyframes = {{0.0, {}, {}, 40.0}, {1.0, {}, {}, 60.0}};
+    const auto half = [](double fov) { return std::tan(0.5 * fov * std::numbers::pi / 180.0); };
+    const SceneDescription narrow = panel_scene(scene, 400, 600), wide = panel_scene(scene, 600, 200);
+    EXPECT_NEAR(half(narrow.camera.vertical_fov) * 400 / 600, half(40.0) * 1280 / 720, 1e-12);
+    EXPECT_NEAR(half(narrow.camera.keyframes[1].vertical_fov) * 400 / 600, half(60.0) * 1280 / 720, 1e-12);
+    EXPECT_EQ(wide.camera.vertical_fov, 40.0);
+    EXPECT_EQ(narrow.output.width, 400);
+    scene.camera.vertical_fov = 150.0;
+    EXPECT_LT(panel_scene(scene, 100, 900).camera.vertical_fov, 180.0);
+}
+
+/// A panel with a pattern that differs for each frame.
+Image panel_at(int frame, int width, int height) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const int moved = x > width / 2 ? frame : 0;
+            const std::uint8_t pixel[] = {std::uint8_t(x + 7 * moved), std::uint8_t(y), std::uint8_t(x * y), 255};
+            std::copy_n(pixel, 4, image.at(x, y));
+        }
+    return image;
+}
+
+Composition with_everything() {
+    SceneDescription scene;
+    scene.title = "A title";
+    scene.output.width = 640;
+    scene.output.height = 360;
+    scene.overlay.show.add(Overlay::title);
+    scene.overlay.show.add(Overlay::clock);
+    scene.overlay.show.add(Overlay::mode);
+    scene.overlay.captions = {{"The first caption", 0.1, 0.45}, {"The second one", 0.3, 0.6}};
+    const auto one = std::make_shared<const SceneDescription>(scene);
+    const std::vector<ClipScene> scenes{{one, "left", {}}, {one, "right", {}}};
+    Composition composition = make_composition(scenes, {{}, 1, PlotPlace::below, 1.0});
+    composition.plots[0].figure.panels = {{"y (m)", false, {{"left", {0.0, 0.5, 1.0}, {0.0, 1.0, 0.5}, 0, false}}}};
+    return composition;
+}
+
+struct Composed {
+    Image image;
+    std::vector<Rectangle> changed;
+};
+
+class Composing {
+public:
+    explicit Composing(const Composition& composition) : composition_(composition), composer_(composition) {}
+
+    /// Frame n, at n / 10 s. The pattern of the panels changes in frames 0, 3, 6 and so on.
+    Composed frame(int n) {
+        std::vector<Image> images;
+        std::vector<std::vector<Rectangle>> changed;
+        for (const ClipPanel& panel : composition_.panels) {
+            const int width = panel.place.width, height = panel.place.height;
+            images.push_back(panel_at(n / 3, width, height));
+            changed.emplace_back();
+            if (n / 3 != last_ / 3) changed.back().push_back({width / 2, 0, width - width / 2, height});
+        }
+        last_ = n;
+        std::vector<PanelImage> panels;
+        for (std::size_t i = 0; i < images.size(); ++i) panels.push_back({images[i], changed[i]});
+        composer_.compose(panels, n / 10.0);
+        return {composer_.image(), composer_.changed()};
+    }
+
+private:
+    Composition composition_;
+    FrameComposer composer_;
+    int last_ = 0;
+};
+
+TEST(FrameComposer, AFrameDoesNotDependOnTheFramesBefore) {
+    const Composition composition = with_everything();
+    Composing forward(composition), skipping(composition);
+    for (int n = 0; n <= 10; ++n) {
+        const Image expected = Composing(composition).frame(n).image;
+        EXPECT_TRUE(forward.frame(n).image == expected) << n;
+        if (n % 4 == 0) {
+            EXPECT_TRUE(skipping.frame(n).image == expected) << n;
+        }
+    }
+}
+
+TEST(FrameComposer, PixelsChangeOnlyInTheChangedRegions) {
+    Composing composing(with_everything());
+    Image before = composing.frame(0).image;
+    for (int n = 1; n <= 10; ++n) {
+        Composed after = composing.frame(n);
+        std::int64_t area = 0;
+        for (const Rectangle& r : after.changed) {
+            area += r.width * r.height;
+            for (int y = r.y; y < r.y + r.height; ++y)
+                for (int x = r.x; x < r.x + r.width; ++x) std::copy_n(after.image.at(x, y), 4, before.at(x, y));
+        }
+        EXPECT_TRUE(before == after.image) << n;
+        if (n % 3 == 1 && n > 6) {
+            EXPECT_LT(area, 640 * 360 / 20) << n;  // the clock and the cursor
+        }
+        before = std::move(after.image);
+    }
+    EXPECT_TRUE(composing.frame(10).changed.empty());
+}
+
+TEST(FrameComposer, TheClockIsTheOnlyDifferenceOfTwoTimes) {
+    SceneDescription scene;
+    scene.output.width = 640;
+    scene.output.height = 360;
+    scene.overlay.show.add(Overlay::clock);
+    const auto one = std::make_shared<const SceneDescription>(scene);
+    Composing composing(make_composition(std::vector<ClipScene>{{one, "", {}}}, {{}, 0, {}, 2.0}));
+    const Image first = composing.frame(0).image;
+    const Composed second = composing.frame(1);
+    EXPECT_FALSE(first == second.image);
+    int differing = 0;
+    for (int y = 0; y < 360; ++y)
+        for (int x = 0; x < 640; ++x)
+            if (!std::equal(first.at(x, y), first.at(x, y) + 4, second.image.at(x, y))) {
+                ++differing;
+                EXPECT_TRUE(x > 400 && y < 60) << x << ' ' << y;
+            }
+    EXPECT_GT(differing, 20);
+    EXPECT_LT(differing, 400);  // one digit: those of one width stay in place
+}
+
+TEST(Text, StaysInsideItsArea) {
+    const std::string words =
+        "Some words of different lengths, incomprehensibilities included, in two paragraphs.\nThe end.";
+    for (const int width : {8, 40, 200, 1000})
+        for (const int height : {4, 30, 300}) {
+            const Rectangle area{13, 17, width, height};
+            const Stamp stamp = set_text(words, {area, 0.5, 1.0, 30.0, {}, false, true, {}});
+            EXPECT_TRUE(inside(stamp.box, area)) << width << ' ' << height;
+            EXPECT_EQ(stamp.pixels.width, stamp.box.width);
+        }
+    // Where the text has to be smaller, it uses the room.
+    const Stamp small = set_text(words, {{0, 0, 400, 60}, 0.0, 0.0, 30.0, {}, false, true, {}});
+    EXPECT_GT(small.box.width, 200);
+    EXPECT_GT(small.box.height, 40);
+}
+
+TEST(Composition, ChangesWithTheTextOnly) {
+    const Composition composition = with_everything();
+    Composition captions = composition;
+    captions.plots.clear();
+    captions.text.clock = false;
+    EXPECT_TRUE(captions.changes(0.0, 0.1));
+    EXPECT_FALSE(captions.changes(0.1, 0.25));
+    EXPECT_TRUE(captions.changes(0.25, 0.35));
+    EXPECT_FALSE(captions.changes(0.6, 5.0));
+    captions.text.clock = true;
+    EXPECT_TRUE(captions.changes(0.6, 0.601));
+    EXPECT_FALSE(captions.changes(0.6, 0.6));
+    SceneDescription scene;
+    scene.output.width = 64;
+    EXPECT_TRUE(Composition(scene).plain());
+    EXPECT_FALSE(Composition(scene).changes(0.0, 1.0));
+    EXPECT_FALSE(composition.plain());
+}
+
+TEST(Composition, NamesTheModeThatAllScenesShare) {
+    SceneDescription scene;
+    scene.output.width = 640;
+    scene.output.height = 360;
+    scene.overlay.show.add(Overlay::mode);
+    const auto first = std::make_shared<const SceneDescription>(scene);
+    scene.simulation.integrator = IntegratorKind::exact;
+    const auto second = std::make_shared<const SceneDescription>(scene);
+    const FrameTiming timing{60.0, 16};
+    const std::vector<ClipScene> one{{first, "", timing}}, both{{first, "a", timing}, {second, "b", timing}};
+    EXPECT_EQ(make_composition(one, {}).text.mode, "symplectic-euler, impacts stepped, h = 1/960 s, seed 1");
+    EXPECT_EQ(make_composition(both, {}).text.mode, "impacts stepped, h = 1/960 s, seed 1");
+}
+
+}  // namespace
+}  // namespace tumble::composition_test
