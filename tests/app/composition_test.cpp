@@ -72,7 +72,7 @@ TEST(FrameLayout, TooSmallFramesAreRefused) {
     EXPECT_NO_THROW(lay_out({20, 10000, 1, {}, false, false, false, {}, 1}));
 }
 
-// What the scene's frame shows up to its edges, the panel shows as well: with t = tan(fov / 2), the half width of the
+// The panel shows everything up to the edges of the scene's frame: with t = tan(fov / 2), the half width of the
 // view at distance 1 is t width / height.
 TEST(PanelScene, ShowsTheWholeViewOfTheScene) {
     SceneDescription scene;
@@ -213,10 +213,13 @@ TEST(Text, StaysInsideItsArea) {
             EXPECT_TRUE(inside(stamp.box, area)) << width << ' ' << height;
             EXPECT_EQ(stamp.pixels.width, stamp.box.width);
         }
-    // Where the text has to be smaller, it uses the room.
-    const Stamp small = set_text(words, {{0, 0, 400, 60}, 0.0, 0.0, 30.0, {}, false, true, {}});
-    EXPECT_GT(small.box.width, 200);
-    EXPECT_GT(small.box.height, 40);
+    // A long word is set smaller, not cut: the ground has its margin at the right.
+    const Stamp small = set_text("Incomprehensibilities", {{0, 0, 150, 60}, 0.0, 0.0, 30.0, {}, false, true, {}});
+    EXPECT_GT(small.box.width, 120);
+    const std::uint8_t* const ground = small.pixels.at(small.box.width / 2, 1);
+    for (int y = small.box.height / 3; y < small.box.height / 2; ++y)
+        for (int x = small.box.width - 4; x < small.box.width - 1; ++x)
+            EXPECT_TRUE(std::equal(ground, ground + 4, small.pixels.at(x, y))) << x << ' ' << y;
 }
 
 TEST(Composition, ChangesWithTheTextOnly) {
