@@ -18,14 +18,14 @@ TEST(FrameLayout, PanelsLabelsAndPlotShareTheFrameWithoutOverlap) {
     for (const std::size_t panels : {1u, 2u, 3u, 4u, 5u, 9u})
         for (const auto arrangement : {PanelArrangement::automatic, PanelArrangement::row, PanelArrangement::grid})
             for (const auto place : {PlotPlace::beside, PlotPlace::below}) {
-                const LayoutRequest request{1281, 719, panels, arrangement, true, true, true, place, 2};
+                const LayoutRequest request{1281, 719, panels, arrangement, true, true, true, true, place, 2};
                 const FrameLayout layout = lay_out(request);
                 ASSERT_EQ(layout.panels.size(), panels);
                 EXPECT_EQ(layout.plots.size(), place == PlotPlace::below ? 2u : 1u);
                 std::vector<Rectangle> all = layout.panels;
                 all.insert(all.end(), layout.labels.begin(), layout.labels.end());
                 all.insert(all.end(), layout.plots.begin(), layout.plots.end());
-                if (panels > 1) all.push_back(layout.header), all.push_back(layout.footer);
+                if (panels > 1) all.insert(all.end(), {layout.header, layout.captions, layout.footer});
                 for (std::size_t i = 0; i < all.size(); ++i) {
                     EXPECT_TRUE(inside(all[i], {0, 0, 1281, 719})) << panels << ' ' << i;
                     EXPECT_GT(all[i].width * all[i].height, 0);
@@ -43,7 +43,7 @@ TEST(FrameLayout, PanelsLabelsAndPlotShareTheFrameWithoutOverlap) {
 
 TEST(FrameLayout, RowsAndGrids) {
     const auto rows_of = [](std::size_t panels, PanelArrangement arrangement) {
-        const FrameLayout layout = lay_out({1280, 720, panels, arrangement, false, false, false, {}, 1});
+        const FrameLayout layout = lay_out({1280, 720, panels, arrangement, false, false, false, false, {}, 1});
         int rows = 1;
         for (std::size_t i = 1; i < panels; ++i) rows += layout.panels[i].y != layout.panels[i - 1].y;
         return rows;
@@ -57,19 +57,19 @@ TEST(FrameLayout, RowsAndGrids) {
 }
 
 TEST(FrameLayout, AnInsetIsForASinglePanel) {
-    const FrameLayout one = lay_out({1280, 720, 1, {}, false, false, false, PlotPlace::inset, 1});
+    const FrameLayout one = lay_out({1280, 720, 1, {}, false, false, false, false, PlotPlace::inset, 1});
     EXPECT_EQ(one.panels[0], (Rectangle{0, 0, 1280, 720}));
     EXPECT_TRUE(one.plots_on_picture);
     EXPECT_TRUE(inside(one.plots[0], one.panels[0]));
-    const FrameLayout two = lay_out({1280, 720, 2, {}, false, false, false, PlotPlace::inset, 1});
+    const FrameLayout two = lay_out({1280, 720, 2, {}, false, false, false, false, PlotPlace::inset, 1});
     EXPECT_FALSE(two.plots_on_picture);
     for (const Rectangle& panel : two.panels) EXPECT_EQ(intersection(panel, two.plots[0]).width, 0);
 }
 
 TEST(FrameLayout, TooSmallFramesAreRefused) {
-    EXPECT_THROW(lay_out({200, 100, 9, {}, false, false, false, {}, 1}), InputError);
-    EXPECT_THROW(lay_out({300, 200, 1, {}, false, false, false, PlotPlace::beside, 1}), InputError);
-    EXPECT_NO_THROW(lay_out({20, 10000, 1, {}, false, false, false, {}, 1}));
+    EXPECT_THROW(lay_out({200, 100, 9, {}, false, false, false, false, {}, 1}), InputError);
+    EXPECT_THROW(lay_out({300, 200, 1, {}, false, false, false, false, PlotPlace::beside, 1}), InputError);
+    EXPECT_NO_THROW(lay_out({20, 10000, 1, {}, false, false, false, false, {}, 1}));
 }
 
 // The panel shows everything up to the edges of the scene's frame: with t = tan(fov / 2), the half width of the

@@ -85,7 +85,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("scene", c.scenes, "The scene files (TOML); several are shown side by side")
         ->check(some_name())
         ->required()
-        ->type_name("SCENE...");
+        ->type_name("SCENE");
     command
         ->add_option("-o,--output", c.clip,
                      "The clip to write; its ending chooses the format: .mp4 .mov .mkv (H.264),\n"

@@ -41,7 +41,10 @@ struct ClipText {
     std::vector<Caption> captions;
     Rectangle area;    // of the panels: title and clock stand at its top, captions and mode at its bottom
     Rectangle header;  // for title and clock, if not empty
+    Rectangle band;    // for captions, if not empty
     Rectangle footer;  // for the mode, if not empty
+
+    std::optional<int> title_end;  // pixels from the left: a plot is to the right of it
 
     bool empty() const { return title.empty() && mode.empty() && !clock && captions.empty(); }
 };

@@ -13,8 +13,8 @@ namespace {
 constexpr std::size_t most_in_automatic_row = 3;
 constexpr int least_panel_side = 48, least_plot_width = 160, least_plot_height = 100;  // pixels
 // Fractions of the text unit.
-constexpr double gap_size = 0.014, header_height = 0.09, label_height = 0.06, footer_height = 0.05, inset_margin = 0.03,
-                 below_clock = 0.11;
+constexpr double gap_size = 0.014, header_height = 0.09, label_height = 0.06, caption_height = 0.075,
+                 footer_height = 0.05, inset_margin = 0.03, below_clock = 0.11;
 // Fractions of the frame or the area.
 constexpr double beside_share = 1.0 / 3.0, below_share = 0.37, inset_width = 0.4, inset_height = 0.34,
                  inset_growth = 0.17, most_inset = 0.8;
@@ -94,11 +94,13 @@ FrameLayout lay_out(const LayoutRequest& given) {
         space.y += layout.header.height;
         space.height -= layout.header.height;
     }
-    if (several && request.footer) {
-        const int height = even(footer_height * unit);
+    const auto cut_band = [&](double share) {
+        const int height = even(share * unit);
         space.height -= height;
-        layout.footer = {gap, space.y + space.height, space.width, height};
-    }
+        return Rectangle{gap, space.y + space.height, space.width, height};
+    };
+    if (several && request.footer) layout.footer = cut_band(footer_height);
+    if (several && request.captions) layout.captions = cut_band(caption_height);
     Rectangle plot;
     if (request.plot && *request.plot != PlotPlace::inset) plot = cut_plot(space, *request.plot, gap);
     if (several) {

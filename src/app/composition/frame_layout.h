@@ -19,6 +19,7 @@ struct LayoutRequest {
     std::size_t panels = 1;
     PanelArrangement arrangement = PanelArrangement::automatic;
     bool header = false;            // title or clock above several panels
+    bool captions = false;          // below several panels
     bool footer = false;            // mode below several panels
     bool clock = false;             // in the corner of an inset plot
     std::optional<PlotPlace> plot;  // empty: no plot; an inset would hide a panel of several: it is below them
@@ -27,7 +28,7 @@ struct LayoutRequest {
 
 struct FrameLayout {
     std::vector<Rectangle> panels, labels;  // labels: above each panel; empty for a single one
-    Rectangle header, footer;               // above and below everything else; empty without one
+    Rectangle header, captions, footer;     // above and below several panels and their plots; empty without one
     Rectangle area;                         // of all panels
     bool plots_on_picture = false;          // as an inset
     std::vector<Rectangle> plots;           // below the panels one for each panel of the plot, else a single one

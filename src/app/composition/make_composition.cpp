@@ -110,15 +110,16 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
     composition.aov_scene = scenes.front().scene;
     composition.text = text_of(scenes, options);
     ClipText& text = composition.text;
-    LayoutRequest request{composition.width,
-                          composition.height,
-                          scenes.size(),
-                          options.arrangement,
-                          text.clock || !text.title.empty(),
-                          !text.mode.empty(),
-                          text.clock,
-                          {},
-                          options.plot_panels};
+    LayoutRequest request{.width = composition.width,
+                          .height = composition.height,
+                          .panels = scenes.size(),
+                          .arrangement = options.arrangement,
+                          .header = text.clock || !text.title.empty(),
+                          .captions = !text.captions.empty(),
+                          .footer = !text.mode.empty(),
+                          .clock = text.clock,
+                          .plot = {},
+                          .plot_panels = options.plot_panels};
     if (options.plot_panels > 0) request.plot = options.plot_place;
     const FrameLayout layout = lay_out(request);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
@@ -130,7 +131,9 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
         if (!layout.labels.empty()) composition.labels.push_back({scenes[i].label, layout.labels[i]});
     }
     text.header = layout.header;
+    text.band = layout.captions;
     text.footer = layout.footer;
+    if (layout.plots_on_picture) text.title_end = layout.plots.front().x;
     text.area = layout.area;
     const double unit = text_unit(composition.width, composition.height);
     for (const Rectangle& place : layout.plots)

@@ -39,6 +39,10 @@ TextLayer::TextLayer(const Composition& composition)
     if (!text_.title.empty()) set_title(head);
     caption_box_ = {area, 0.5, 1.0, caption_size * unit_, TextBox{}.color, false, true, {}};
     if (!text_.mode.empty()) set_mode(area);
+    if (text_.band.width > 0) {
+        caption_box_ = {text_.band, 0.5, 0.5, caption_size * unit_, on_margin, false, false, {}};
+        return;
+    }
     const int width = std::max(1, int(caption_width * area.width));
     const int height = std::min(std::max(1, int(most_captions * area.height)), caption_box_.area.height);
     Rectangle& box = caption_box_.area;
@@ -56,6 +60,10 @@ void TextLayer::set_title(const Rectangle& head) {
     if (text_.clock) {
         const int clock = set_text(clock_box_.widest, clock_box_).box.width + int(2.0 * stack_gap * unit_);
         box.area.width = std::max(1, head.width - clock);
+    }
+    if (text_.title_end) {
+        const int end = *text_.title_end - int(stack_gap * unit_);
+        box.area.width = std::clamp(end - head.x, 1, box.area.width);
     }
     fixed_.push_back(set_text(text_.title, box));
 }
