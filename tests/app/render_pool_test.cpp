@@ -58,7 +58,7 @@ Snapshot at_frame(std::int64_t n) {
     return snapshot;
 }
 
-MotionBlurFrame sharp(std::int64_t n) { return {n, at_frame(n).time, {{at_frame(n)}}, {}}; }
+MotionBlurFrame sharp(std::int64_t n) { return {n, at_frame(n).time, {{at_frame(n)}}, {}, {}}; }
 
 /// The shutter is open while the box moves to its next place; without movement, all blur samples are the same.
 MotionBlurFrame blurred(std::int64_t n) {
@@ -165,7 +165,7 @@ Snapshot trembling(std::int64_t n) {
 }
 
 MotionBlurFrame with_aovs(std::int64_t n) {
-    return {n, trembling(n).time, {{trembling(n)}}, AovPoses{trembling(n), trembling(n + 1)}};
+    return {n, trembling(n).time, {{trembling(n)}}, {}, AovPoses{trembling(n), trembling(n + 1)}};
 }
 
 TEST(RenderPool, AovsAreIndependentOfTheNumberOfProcessesAndOfPictures) {
@@ -173,7 +173,7 @@ TEST(RenderPool, AovsAreIndependentOfTheNumberOfProcessesAndOfPictures) {
     FrameOutputs with = both, alone;
     with.aovs = alone.aovs = depth_and_motion();
     const auto without_aovs = [](std::int64_t n) {
-        return MotionBlurFrame{n, trembling(n).time, {{trembling(n)}}, {}};
+        return MotionBlurFrame{n, trembling(n).time, {{trembling(n)}}, {}, {}};
     };
     std::vector<Seen> pictures, first;
     {
@@ -291,7 +291,7 @@ TEST(RenderPool, ADyingProcessIsReportedWithItsFrame) {
                 last = n;
             };
             draw(render_pool, scene, std::int64_t(1) << 40, meanwhile, [](std::int64_t n) {
-                return MotionBlurFrame{n, at_frame(n).time, {{at_frame(n % 8)}}, {}};
+                return MotionBlurFrame{n, at_frame(n).time, {{at_frame(n % 8)}}, {}, {}};
             });
         });
         constexpr std::string_view words = "error: cannot draw frame ";
