@@ -222,6 +222,30 @@ TEST(Text, StaysInsideItsArea) {
             EXPECT_TRUE(std::equal(ground, ground + 4, small.pixels.at(x, y))) << x << ' ' << y;
 }
 
+TEST(Text, ALongTitleEndsBeforeTheClockAndAnInsetPlot) {
+    SceneDescription scene;
+    scene.title = "A title with far more words than fit into one line of a picture that also has a clock and a plot";
+    scene.output.width = 640;
+    scene.output.height = 360;
+    scene.overlay.show.add(Overlay::title);
+    scene.overlay.show.add(Overlay::clock);
+    const auto one = std::make_shared<const SceneDescription>(scene);
+    for (const std::size_t plot_panels : {0u, 1u}) {
+        const Composition composition =
+            make_composition(std::vector<ClipScene>{{one, "", {}}}, {{}, plot_panels, PlotPlace::inset, 1.0});
+        TextLayer text(composition);
+        std::vector<Rectangle> changed;
+        text.update(0.0, changed);
+        std::vector<const Stamp*> stamps;
+        text.add_stamps(stamps);
+        ASSERT_EQ(stamps.size(), 2u);
+        EXPECT_EQ(intersection(stamps[0]->box, stamps[1]->box).width, 0);
+        EXPECT_GT(stamps[0]->box.width, 200);
+        for (const ClipPlot& plot : composition.plots)
+            for (const Stamp* stamp : stamps) EXPECT_EQ(intersection(stamp->box, plot.place).width, 0);
+    }
+}
+
 TEST(Composition, ChangesWithTheTextOnly) {
     const Composition composition = with_everything();
     Composition captions = composition;

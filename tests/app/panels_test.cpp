@@ -52,7 +52,9 @@ PanelPoses blurred(std::int64_t n, double speed) {
 
 /// The poses of two panels: the box of the second one is faster.
 MotionBlurFrame two(std::int64_t n) { return {n, double(n) / 10.0, {{at_frame(n, 0.1)}, {at_frame(n, 0.3)}}, {}, {}}; }
-MotionBlurFrame two_blurred(std::int64_t n) { return {n, double(n) / 10.0, {blurred(n, 0.1), blurred(n, 0.3)}, {}, {}}; }
+MotionBlurFrame two_blurred(std::int64_t n) {
+    return {n, double(n) / 10.0, {blurred(n, 0.1), blurred(n, 0.3)}, {}, {}};
+}
 
 std::shared_ptr<const SceneDescription> shared(SceneDescription scene) {
     return std::make_shared<const SceneDescription>(std::move(scene));

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -52,6 +54,13 @@ bool is_name(const std::string& value) {
            value != "inf" && value != "nan";
 }
 
+/// The name of the file; with its folder if another scene's file has the same name.
+std::string label_among(std::span<const std::filesystem::path> scenes, const std::filesystem::path& scene) {
+    const auto same = std::ranges::count_if(scenes, [&](const auto& other) { return other.stem() == scene.stem(); });
+    const std::string folder = scene.parent_path().filename().string();
+    return same > 1 && !folder.empty() ? fmt::format("{}/{}", folder, scene.stem().string()) : scene.stem().string();
+}
+
 }  // namespace
 
 std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes, const SceneOverrides& overrides,
@@ -60,7 +69,7 @@ std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes
     for (const std::string& text : vary) varied.push_back(parse(text));
     std::vector<Variant> variants;
     for (const auto& scene : scenes)
-        variants.push_back({scene, overrides, scenes.size() > 1 ? scene.stem().string() : std::string()});
+        variants.push_back({scene, overrides, scenes.size() > 1 ? label_among(scenes, scene) : std::string()});
     for (const Varied& one : varied) {
         std::vector<Variant> more;
         for (const Variant& base : variants)
