@@ -222,15 +222,35 @@ TEST(Text, StaysInsideItsArea) {
             EXPECT_TRUE(std::equal(ground, ground + 4, small.pixels.at(x, y))) << x << ' ' << y;
 }
 
+TEST(Plot, TheWholeCursorIsDrawn) {
+    const Composition composition = with_everything();
+    PlotLayer plot(composition.plots[0]);
+    std::vector<Rectangle> changed;
+    plot.update(0.5, changed);
+    std::vector<const Stamp*> stamps;
+    plot.add_stamps(stamps);
+    ASSERT_EQ(stamps.size(), 2u);
+    const Image& cursor = stamps[1]->pixels;
+    int left = cursor.width, right = -1;
+    for (int y = 0; y < cursor.height; ++y)
+        for (int x = 0; x < cursor.width; ++x)
+            if (cursor.at(x, y)[3] > 0) left = std::min(left, x), right = std::max(right, x);
+    EXPECT_NEAR(right - left + 1, 2.0 * cursor_dot * composition.plots[0].figure.text_size, 2.0);
+    EXPECT_GT(left, 0);
+    EXPECT_LT(right, cursor.width - 1);
+}
+
 TEST(Text, ALongTitleEndsBeforeTheClockAndAnInsetPlot) {
     SceneDescription scene;
-    scene.title = "A title with far more words than fit into one line of a picture that also has a clock and a plot";
     scene.output.width = 640;
     scene.output.height = 360;
     scene.overlay.show.add(Overlay::title);
     scene.overlay.show.add(Overlay::clock);
-    const auto one = std::make_shared<const SceneDescription>(scene);
-    for (const std::size_t plot_panels : {0u, 1u}) {
+    int widest = 0;
+    for (int words = 1; words < 40; ++words) {
+        scene.title += "words ";
+        const auto one = std::make_shared<const SceneDescription>(scene);
+        const std::size_t plot_panels = words % 2;
         const Composition composition =
             make_composition(std::vector<ClipScene>{{one, "", {}}}, {{}, plot_panels, PlotPlace::inset, 1.0});
         TextLayer text(composition);
@@ -239,11 +259,12 @@ TEST(Text, ALongTitleEndsBeforeTheClockAndAnInsetPlot) {
         std::vector<const Stamp*> stamps;
         text.add_stamps(stamps);
         ASSERT_EQ(stamps.size(), 2u);
-        EXPECT_EQ(intersection(stamps[0]->box, stamps[1]->box).width, 0);
-        EXPECT_GT(stamps[0]->box.width, 200);
+        EXPECT_EQ(intersection(stamps[0]->box, stamps[1]->box).width, 0) << words;
+        widest = std::max(widest, stamps[0]->box.width);
         for (const ClipPlot& plot : composition.plots)
-            for (const Stamp* stamp : stamps) EXPECT_EQ(intersection(stamp->box, plot.place).width, 0);
+            for (const Stamp* stamp : stamps) EXPECT_EQ(intersection(stamp->box, plot.place).width, 0) << words;
     }
+    EXPECT_GT(widest, 400);
 }
 
 TEST(Composition, ChangesWithTheTextOnly) {
