@@ -125,7 +125,7 @@ struct Composed {
 
 class Composing {
 public:
-    explicit Composing(const Composition& composition) : composition_(composition), composer_(composition) {}
+    explicit Composing(const Composition& composition) : composition_(composition), composer_(composition, false) {}
 
     /// Frame n, at n / 10 s. The pattern of the panels changes in frames 0, 3, 6 and so on.
     Composed frame(int n) {
