@@ -59,6 +59,9 @@ class Panels(program.ProgramTest):
                                 "row": (*VARY, "--layout", "row", "--vary", "simulation.seed=1,2")}.items():
             pictures[name] = self.frames(name.replace(" ", "-"), "text.toml", "--duration", "0", *arguments)[0]
         self.assertEqual(len(set(pictures.values())), len(pictures))
+        self.write("text.toml", TEXT.replace("[overlay]", '[overlay]\nplot = ["energy"]'))
+        for name, arguments in {"inset": (), "no plot": ("--plot", "none")}.items():
+            self.assertEqual(self.frames("file-" + name, "text.toml", "--duration", "0", *arguments)[0], pictures[name])
 
     def test_a_caption_has_its_time(self):
         self.write("text.toml", TEXT.replace('["title", "clock", "mode"]', "[]"))

@@ -68,7 +68,7 @@ void add_text(CLI::App& command, SceneOverrides& overrides) {
         ->type_name("LIST");
     command
         .add_option("--plot", overrides.plot,
-                    "Curves of quantities in the clip, with a cursor at each frame's time: a list such as\n"
+                    "Curves of quantities in the clip, with a cursor at each frame's time: none, or a list such as\n"
                     "energy,body.ball.y (names: tumble plot --help)")
         ->type_name("LIST");
     command

@@ -75,7 +75,7 @@ void RenderScenes::load(const RenderCommand& command) {
 void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& options) {
     const auto with_plot =
         std::ranges::find_if(scenes, [](const ClipScene& one) { return !one.scene->overlay.plot.empty(); });
-    if (with_plot == scenes.end() && !command.overrides.plot) return;
+    if (with_plot == scenes.end() && (!command.overrides.plot || command.overrides.plot == "none")) return;
     const OverlayDescription& overlay = (with_plot == scenes.end() ? scenes.front() : *with_plot).scene->overlay;
     for (const ClipScene& one : scenes) {
         try {

@@ -134,7 +134,7 @@ OverlayDescription read_overlay(const TomlTable& root, const std::vector<BodyDes
         overlay.show = read_list(*overrides.overlay);
         if (*overrides.overlay == "none") overlay.captions.clear(), overlay.plot.clear();
     }
-    if (overrides.plot) overlay.plot = *overrides.plot;
+    if (overrides.plot) overlay.plot = *overrides.plot == "none" ? "" : *overrides.plot;
     if (overrides.plot_place)
         overlay.plot_place = chosen<PlotPlace>(*overrides.plot_place, plot_places, {"--plot-place", {}});
     return overlay;
