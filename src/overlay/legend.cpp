@@ -143,7 +143,7 @@ std::vector<std::vector<double>> place_entries(const std::vector<Row>& rows, con
 std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, int height) {
     const std::vector<Row> rows = make_rows(scene, scales);
     if (rows.empty()) return std::nullopt;
-    const double unit = height / 720.0;  // pixels
+    const double unit = overlay_unit(height);
     TextStyle style;
     style.size = 15.0;
     style.paint = {{236, 240, 246}, 1.0};

@@ -213,10 +213,10 @@ void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
     if (shows(Overlay::aabb)) add_box(i, state);
     if (shows(Overlay::axes)) add_axes(i, state);
     const Vec3& center = state.center_of_mass;
-    if (shows(Overlay::velocity)) arrow(ArrowQuantity::velocity, center, state.velocity);
-    if (shows(Overlay::omega)) arrow(ArrowQuantity::omega, center, state.angular_velocity);
-    if (shows(Overlay::momentum)) arrow(ArrowQuantity::momentum, center, state.momentum);
-    if (shows(Overlay::angular_momentum)) arrow(ArrowQuantity::angular_momentum, center, state.angular_momentum);
+    if (shows(Overlay::velocity)) body_arrow(ArrowQuantity::velocity, i, state, state.velocity);
+    if (shows(Overlay::omega)) body_arrow(ArrowQuantity::omega, i, state, state.angular_velocity);
+    if (shows(Overlay::momentum)) body_arrow(ArrowQuantity::momentum, i, state, state.momentum);
+    if (shows(Overlay::angular_momentum)) body_arrow(ArrowQuantity::angular_momentum, i, state, state.angular_momentum);
     if (shows(Overlay::com))
         frame_.markers.push_back({center, {{250, 250, 250}, 1.0f, false}, MarkerShape::center_of_mass, 6.5f});
     if (shows(Overlay::names))
@@ -250,7 +250,7 @@ void OverlayBuilder::add_axes(std::size_t body, const BodyState& state) {
     for (int k = 0; k < 3; ++k)
         frame_.arrows.push_back({state.center_of_mass,
                                  state.center_of_mass + length * rotation.col(k),
-                                 {axis_colors[std::size_t(k)], 1.0f, true},
+                                 {axis_colors[std::size_t(k)], 1.0f, true, float(2.0 * radii_[body])},
                                  2.4f,
                                  false});
 }
@@ -287,6 +287,13 @@ void OverlayBuilder::add_impulses(double time) {
         arrow(ArrowQuantity::impulse, impact.point, vector_of(impact, *scene_).total(),
               float(1.0 - 0.75 * std::clamp(age, 0.0, 1.0)));
     }
+}
+
+// It starts inside of its own body, which must not hide it.
+void OverlayBuilder::body_arrow(ArrowQuantity quantity, std::size_t body, const BodyState& state, const Vec3& value) {
+    const std::size_t before = frame_.arrows.size();
+    arrow(quantity, state.center_of_mass, value);
+    if (frame_.arrows.size() > before) frame_.arrows.back().paint.allowance = float(2.0 * radii_[body]);
 }
 
 void OverlayBuilder::arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity) {

@@ -44,6 +44,7 @@ private:
     void add_box(std::size_t body, const BodyState& state);
     void add_axes(std::size_t body, const BodyState& state);
     void add_islands(const Snapshot& snapshot, const ContactRecords& records);
+    void body_arrow(ArrowQuantity quantity, std::size_t body, const BodyState& state, const Vec3& value);
     void arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity = 1.0f);
     bool shows(Overlay overlay) const { return scene_->overlay.show.has(overlay); }
 

@@ -64,6 +64,7 @@ void paint(Stream& s, Paint& p) {
     s.number(p.color.b);
     s.number(p.opacity);
     s.number(p.behind_bodies);
+    s.number(p.allowance);
 }
 
 template <class Stream, class List, class Each>

@@ -5,6 +5,7 @@
 #include "core/color.h"
 #include "core/vector.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -14,11 +15,15 @@
 
 namespace tumble {
 
+/// Pixels of a unit of sizes on the screen. In small pictures shapes stay thick and text stays readable.
+inline double overlay_unit(int height) { return std::max(height / 720.0, 0.6); }
+
 /// How a shape is seen: its color, its opacity (0 to 1), and whether bodies in front of it make it faint.
 struct OverlayPaint {
     Color color;
     float opacity = 1.0f;
     bool behind_bodies = true;
+    float allowance = 0.0f;  // m: surfaces that are nearer by less, such as those of its own body, do not hide it
 };
 
 struct OverlayArrow {

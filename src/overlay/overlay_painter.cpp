@@ -12,10 +12,9 @@
 namespace tumble {
 namespace {
 
-constexpr double reference_height = 720.0;  // pixels: the picture that the sizes of shapes are made for
-constexpr double nearest = 1e-3;            // of the distance to the camera's target: nearer parts of lines are cut off
-constexpr int ball_level = 3;               // 1280 triangles: smooth as a ghost of any size
-constexpr double margin = 14.0;             // of the legend, in units of the shapes' sizes
+constexpr double nearest = 1e-3;  // of the distance to the camera's target: nearer parts of lines are cut off
+constexpr int ball_level = 3;     // 1280 triangles: smooth as a ghost of any size
+constexpr double margin = 14.0;   // of the legend, in units of the shapes' sizes
 constexpr Color damage_color{255, 64, 200};
 
 using Vertex = std::pair<Vec3, Vec3>;
@@ -57,7 +56,9 @@ void add_shape(const Shape& shape, const Vec3& origin, const Quat& rotation, std
     }
 }
 
-ScreenPaint screen_paint(const OverlayPaint& paint) { return {paint.color, paint.opacity, paint.behind_bodies}; }
+ScreenPaint screen_paint(const OverlayPaint& paint) {
+    return {paint.color, paint.opacity, paint.behind_bodies, paint.allowance};
+}
 
 ScreenPoint project(const Camera& camera, const Vec3& relative) {
     return {camera.pixel(relative), relative.dot(camera.forward())};
@@ -82,7 +83,7 @@ void copy(const Image& from, Image& to, const Rectangle& r) {
 OverlayPainter::OverlayPainter(const SceneDescription& scene, const OverlayScales& scales,
                                std::optional<int> legend_height)
     : scene_(&scene),
-      unit_(scene.output.height / reference_height),
+      unit_(overlay_unit(scene.output.height)),
       raster_(scene.output.width, scene.output.height,
               Camera(scene.camera, scene.output.width, scene.output.height).pixel_size()),
       image_(scene.output.width, scene.output.height),

@@ -9,7 +9,7 @@ namespace tumble {
 namespace {
 
 // Parts of the visible height at the camera's target.
-constexpr double common_length = 1.0 / 14.0, longest_length = 0.7;
+constexpr double common_length = 1.0 / 10.0, longest_length = 0.8;
 constexpr double noise = 1e-3;  // of the largest size: smaller ones are not counted
 
 constexpr std::array<Overlay, arrow_quantity_count> shown_by{Overlay::forces,   Overlay::impulses,

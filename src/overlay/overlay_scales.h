@@ -34,7 +34,7 @@ struct RecordVector {
 RecordVector vector_of(const ContactRecord& record, const SceneDescription& scene);
 RecordVector vector_of(const ImpactRecord& record, const SceneDescription& scene);
 
-/// Chooses the scales from all frames of a run: half of the arrows get at least a fourteenth of the picture's height, if
+/// Chooses the scales from all frames of a run: half of the arrows get at least a tenth of the picture's height, if
 /// the longest then fits into the picture; rounded to 1, 2 or 5 times a power of ten.
 class ScaleSurvey {
 public:

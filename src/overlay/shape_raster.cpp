@@ -15,13 +15,16 @@ using Eigen::Vector2d;
 
 constexpr int tile = 16;               // pixels
 constexpr double faint = 0.5;          // opacity of hidden parts: readable, and clearly behind
-constexpr double halo_width = 1.3;     // pixels of dark outline, so that shapes are seen on bright and on dark ground
+constexpr double most_halo = 1.3;      // pixels of dark outline, so that shapes are seen on bright and on dark ground
 constexpr double halo_opacity = 0.55;  // of that outline
 constexpr Color halo_color{16, 20, 28};
 // A shape that lies in a surface counts as visible: relative depth, and pixels at the surface's distance.
 constexpr double depth_tolerance = 2e-3, depth_tolerance_pixels = 4.0;
 constexpr double head_length = 4.2, head_half_width = 1.75;  // in widths of the shaft
 constexpr double second_head = 0.62;                         // distance of the second head, in lengths of a head
+
+/// Thin shapes have a thin outline, which would else be all that is seen of them.
+double halo_width(double width) { return std::min(most_halo, 0.4 * width); }
 
 double coverage(double distance) { return std::clamp(0.5 - distance, 0.0, 1.0); }
 
@@ -34,7 +37,8 @@ struct ArrowOutline {
         half_base = std::max(scale * head_half_width * width, half_width);
         shaft_end = std::max(0.0, length - (0.7 + second_head * (heads - 1)) * head);
         slope = std::hypot(head, half_base);
-        heads_start = length - (1.0 + second_head * (heads - 1)) * head - halo_width - 0.5;
+        halo = halo_width(width);
+        heads_start = length - (1.0 + second_head * (heads - 1)) * head - halo - 0.5;
     }
 
     double distance(double along, double across) const {
@@ -48,7 +52,7 @@ struct ArrowOutline {
         return d;
     }
 
-    double length, half_width, head, half_base, shaft_end, slope, heads_start;
+    double length, half_width, head, half_base, shaft_end, slope, halo, heads_start;
     int heads;
 };
 
@@ -164,8 +168,9 @@ ShapeRaster::Box ShapeRaster::clipped(double left, double top, double right, dou
     return box;
 }
 
-bool ShapeRaster::hidden(int x, int y, double nearness) const {
-    return depths_ != nullptr && nearness * (*depths_->at(x, y) * surface_factor_) < 1.0;
+bool ShapeRaster::hidden(int x, int y, double nearness, const ScreenPaint& paint) const {
+    if (depths_ == nullptr || !paint.depth_tested) return false;
+    return nearness * (*depths_->at(x, y) * surface_factor_ + paint.allowance) < 1.0;
 }
 
 // The rows of a slanted band are cut to the pixels that it can reach; touched tiles are added a row of tiles at a time.
@@ -200,29 +205,30 @@ void ShapeRaster::arrow(const ScreenArrow& a, const ScreenPaint& paint) {
     const Brush brush(paint);
     const ArrowOutline outline(length, a.width, a.heads);
     const double near_from = 1.0 / a.from.depth, nearness = 1.0 / a.to.depth - near_from;
-    for_pixels_along(a.from.pixel, a.to.pixel, outline.half_base + halo_width + 0.5, [&](int x, int y) {
+    for_pixels_along(a.from.pixel, a.to.pixel, outline.half_base + outline.halo + 0.5, [&](int x, int y) {
         const double dx = x + 0.5 - a.from.pixel.x(), dy = y + 0.5 - a.from.pixel.y();
         const double along = dx * axis.x() + dy * axis.y(), across = std::fabs(dx * axis.y() - dy * axis.x());
-        if (across > outline.half_width + halo_width + 0.5 && along < outline.heads_start) return;
+        if (across > outline.half_width + outline.halo + 0.5 && along < outline.heads_start) return;
         const double d = outline.distance(along, across);
-        const double halo = coverage(d - halo_width);
+        const double halo = coverage(d - outline.halo);
         if (halo <= 0.0) return;
         const double near = near_from + nearness * std::clamp(along * per_length, 0.0, 1.0);
-        brush.draw(image_->at(x, y), coverage(d), halo, paint.depth_tested && hidden(x, y, near) ? faint : 1.0);
+        brush.draw(image_->at(x, y), coverage(d), halo, hidden(x, y, near, paint) ? faint : 1.0);
     });
 }
 
-void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, bool depth_tested) {
+void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const ScreenPaint& paint) {
     const Vector2d way = to.pixel - from.pixel;
     const double squared = way.squaredNorm(), per_square = squared > 0.0 ? 1.0 / squared : 0.0;
     const double near_from = 1.0 / from.depth, nearness = 1.0 / to.depth - near_from;
-    for_pixels_along(from.pixel, to.pixel, radius + halo_width + 0.5, [&](int x, int y) {
+    const double halo_reach = halo_width(2.0 * radius);
+    for_pixels_along(from.pixel, to.pixel, radius + halo_reach + 0.5, [&](int x, int y) {
         const Vector2d from_start = Vector2d(x + 0.5, y + 0.5) - from.pixel;
         const double t = std::clamp(from_start.dot(way) * per_square, 0.0, 1.0);
         const double d = (from_start - t * way).norm() - radius;
-        const double halo = coverage(d - halo_width);
+        const double halo = coverage(d - halo_reach);
         if (halo <= 0.0) return;
-        const double visibility = depth_tested && hidden(x, y, near_from + nearness * t) ? faint : 1.0;
+        const double visibility = hidden(x, y, near_from + nearness * t, paint) ? faint : 1.0;
         const std::size_t index = std::size_t(y) * std::size_t(width_) + std::size_t(x);
         Cover& cover = cover_[index];
         if (cover.halo == 0.0f) covered_.push_back(index);
@@ -234,8 +240,7 @@ void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, doub
 // The largest coverage of all segments counts, so that joints are not drawn twice.
 void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const ScreenPaint& paint) {
     cover_.resize(std::size_t(width_) * std::size_t(height_));
-    for (std::size_t i = 0; i + 1 < points.size(); ++i)
-        add_cover(points[i], points[i + 1], 0.5 * width, paint.depth_tested);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) add_cover(points[i], points[i + 1], 0.5 * width, paint);
     const Brush brush(paint);
     for (const std::size_t index : covered_) {
         Cover& cover = cover_[index];
@@ -246,20 +251,20 @@ void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const 
 }
 
 void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint) {
-    const double reach = 1.3 * radius + halo_width + 0.5;
+    const double halo_reach = halo_width(radius), reach = 1.3 * radius + halo_reach + 0.5;
     const Box box = clipped(at.pixel.x() - reach, at.pixel.y() - reach, at.pixel.x() + reach, at.pixel.y() + reach);
     if (box.empty()) return;
     touched_.add({box.left, box.top, box.right - box.left, box.bottom - box.top});
     const double near = 1.0 / at.depth;
-    const Brush brush(paint), dark({{24, 28, 36}, paint.opacity, paint.depth_tested});
+    const Brush brush(paint), dark({{24, 28, 36}, paint.opacity});
     with_marker_distance(shape, radius, [&](const auto& distance) {
         for (int y = box.top; y < box.bottom; ++y)
             for (int x = box.left; x < box.right; ++x) {
                 const double dx = x + 0.5 - at.pixel.x(), dy = y + 0.5 - at.pixel.y();
                 const double d = distance(dx, dy);
-                const double halo = coverage(d - halo_width);
+                const double halo = coverage(d - halo_reach);
                 if (halo <= 0.0) continue;
-                const double visibility = paint.depth_tested && hidden(x, y, near) ? faint : 1.0;
+                const double visibility = hidden(x, y, near, paint) ? faint : 1.0;
                 brush.draw(image_->at(x, y), coverage(d), halo, visibility);
                 if (shape != ScreenMarker::center_of_mass) continue;
                 const double edge = std::min(std::fabs(dx), std::fabs(dy));
@@ -316,7 +321,7 @@ void ShapeRaster::surface(const SurfaceCover& cover, const ScreenPaint& paint) {
     const auto lit = [&](std::uint8_t channel, float light) { return std::uint8_t(float(channel) * light + 0.5f); };
     for (int y = cover.box.y; y < cover.box.y + cover.box.height; ++y)
         for (int x = cover.box.x; x < cover.box.x + cover.box.width; ++x, ++pixel) {
-            if (pixel->share == 0.0f || hidden(x, y, pixel->nearness)) continue;
+            if (pixel->share == 0.0f || hidden(x, y, pixel->nearness, paint)) continue;
             const Color color{lit(paint.color.r, pixel->light), lit(paint.color.g, pixel->light),
                               lit(paint.color.b, pixel->light)};
             mix(image_->at(x, y), color, int(256.0 * paint.opacity * pixel->share + 0.5));

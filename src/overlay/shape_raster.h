@@ -25,6 +25,7 @@ struct ScreenPaint {
     Color color;
     double opacity = 1.0;
     bool depth_tested = true;
+    double allowance = 0.0;  // m: surfaces that are nearer by less do not hide the shape
 };
 
 /// An arrow head or a marker as signed distances from the outline, pixels, positive outside.
@@ -95,7 +96,7 @@ private:
         bool empty() const { return left >= right || top >= bottom; }
     };
     Box clipped(double left, double top, double right, double bottom);
-    bool hidden(int x, int y, double nearness) const;  // 1 / depth, 1/m
+    bool hidden(int x, int y, double nearness, const ScreenPaint& paint) const;  // nearness: 1 / depth, 1/m
     struct CornerValue {
         double nearness, light;  // 1 / depth, 1/m; brightness
     };
@@ -104,7 +105,7 @@ private:
     /// Calls draw(x, y) for at least the pixels whose centers are within `reach` (pixels) of the line.
     template <class Draw>
     void for_pixels_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double reach, const Draw& draw);
-    void add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, bool depth_tested);
+    void add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const ScreenPaint& paint);
 
     int width_, height_;
     double surface_factor_;  // a shape is hidden beyond this many times the depth of the surface

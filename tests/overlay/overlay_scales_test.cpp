@@ -29,11 +29,11 @@ Snapshot moving_at(double speed, double time = 0.0) {
     return snapshot;
 }
 
-TEST(OverlayScales, HalfOfTheArrowsAreAFourteenthOfThePictureRoundedDown) {
+TEST(OverlayScales, HalfOfTheArrowsAreATenthOfThePictureRoundedDown) {
     const SceneDescription scene = scene_with_velocity();
     ScaleSurvey survey(scene);
     for (int i = 1; i <= 9; ++i) survey.add(moving_at(i), nullptr);
-    // The median is 5 m/s, and its bin ends at 5.5 m/s at most: 10 m / 14 / 5.5 = 0.13 m per m/s.
+    // The median is 5 m/s, and its bin ends at 5.5 m/s at most: 10 m / 10 / 5.5 = 0.18 m per m/s.
     EXPECT_EQ(survey.scales()[velocity], 0.1);
 }
 
@@ -42,8 +42,8 @@ TEST(OverlayScales, TheLongestArrowFitsIntoThePicture) {
     ScaleSurvey survey(scene);
     for (int i = 0; i < 100; ++i) survey.add(moving_at(1.0), nullptr);
     survey.add(moving_at(500.0), nullptr);
-    EXPECT_LE(survey.scales()[velocity] * 500.0, 7.0 + 1e-9);
-    EXPECT_GT(survey.scales()[velocity] * 500.0, 7.0 / 2.5);
+    EXPECT_LE(survey.scales()[velocity] * 500.0, 8.0 + 1e-9);
+    EXPECT_GT(survey.scales()[velocity] * 500.0, 8.0 / 2.5);
 }
 
 TEST(OverlayScales, RestIsNotCounted) {
