@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace tumble {
 namespace {
@@ -14,7 +13,6 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr int tile = 16;               // pixels
-constexpr double faint = 0.5;          // opacity of hidden parts: readable, and clearly behind
 constexpr double most_halo = 1.3;      // pixels of dark outline, so that shapes are seen on bright and on dark ground
 constexpr double halo_opacity = 0.55;  // of that outline
 constexpr Color halo_color{16, 20, 28};
@@ -26,7 +24,7 @@ constexpr double second_head = 0.62;                         // distance of the 
 /// Thin shapes have a thin outline, which would else be all that is seen of them.
 double halo_width(double width) { return std::min(most_halo, 0.4 * width); }
 
-double coverage(double distance) { return std::clamp(0.5 - distance, 0.0, 1.0); }
+float coverage(float distance) { return std::min(std::max(0.5f - distance, 0.0f), 1.0f); }
 
 /// An arrow in its own coordinates: along from the foot, across from the axis, in pixels.
 struct ArrowOutline {
@@ -41,47 +39,57 @@ struct ArrowOutline {
         heads_start = length - (1.0 + second_head * (heads - 1)) * head - halo - 0.5;
     }
 
-    double distance(double along, double across) const {
-        const double before = along - std::clamp(along, 0.0, shaft_end);
-        double d = (before == 0.0 ? across : std::sqrt(before * before + across * across)) - half_width;
-        for (int k = 0; k < heads; ++k) {
-            const double tip = length - k * second_head * head;
-            const double side = ((along - tip) * half_base + across * head) / slope;
-            d = std::min(d, std::max(tip - head - along, side));
-        }
-        return d;
-    }
-
     double length, half_width, head, half_base, shaft_end, slope, halo, heads_start;
     int heads;
 };
 
+/// The same in the form that a run of pixels is computed with: in single precision, without branches.
+struct ArrowDistance {
+    explicit ArrowDistance(const ArrowOutline& o)
+        : half_width(float(o.half_width)),
+          shaft_end(float(o.shaft_end)),
+          head(float(o.head)),
+          tip(float(o.length)),
+          second_tip(float(o.heads > 1 ? o.length - second_head * o.head : o.length)),
+          along_part(float(o.half_base / o.slope)),
+          across_part(float(o.head / o.slope)) {}
+
+    float operator()(float along, float across) const {
+        const float before = along - std::min(std::max(along, 0.0f), shaft_end);
+        const float shaft = std::sqrt(before * before + across * across) - half_width;
+        return std::min(shaft, std::min(head_distance(tip, along, across), head_distance(second_tip, along, across)));
+    }
+    float head_distance(float at, float along, float across) const {
+        return std::max(at - head - along, (along - at) * along_part + across * across_part);
+    }
+
+    float half_width, shaft_end, head, tip, second_tip, along_part, across_part;
+};
+
 /// Calls use(distance) with the signed distance from the outline of a marker as a function of the place (pixels).
 template <class Use>
-void with_marker_distance(ScreenMarker shape, double radius, const Use& use) {
+void with_marker_distance(ScreenMarker shape, float radius, const Use& use) {
+    constexpr float half_root = 0.70710678f;
     switch (shape) {
         case ScreenMarker::ring:
-            use([=](double x, double y) { return std::fabs(std::sqrt(x * x + y * y) - 0.8 * radius) - 0.3 * radius; });
+            use([=](float x, float y) { return std::fabs(std::sqrt(x * x + y * y) - 0.8f * radius) - 0.3f * radius; });
             break;
         case ScreenMarker::square:
-            use([=](double x, double y) { return std::max(std::fabs(x), std::fabs(y)) - 0.85 * radius; });
+            use([=](float x, float y) { return std::max(std::fabs(x), std::fabs(y)) - 0.85f * radius; });
             break;
         case ScreenMarker::diamond:
-            use([=](double x, double y) {
-                return (std::fabs(x) + std::fabs(y) - 1.3 * radius) * std::numbers::sqrt2 * 0.5;
-            });
+            use([=](float x, float y) { return (std::fabs(x) + std::fabs(y) - 1.3f * radius) * half_root; });
             break;
         case ScreenMarker::cross:
-            use([=](double x, double y) {
-                const double u = std::fabs(x + y) * std::numbers::sqrt2 * 0.5;
-                const double v = std::fabs(x - y) * std::numbers::sqrt2 * 0.5;
-                const double arm = 1.15 * radius, half = 0.32 * radius;
+            use([=](float x, float y) {
+                const float u = std::fabs(x + y) * half_root, v = std::fabs(x - y) * half_root;
+                const float arm = 1.15f * radius, half = 0.32f * radius;
                 return std::min(std::max(u - arm, v - half), std::max(v - arm, u - half));
             });
             break;
         case ScreenMarker::disc:
         case ScreenMarker::center_of_mass:
-            use([=](double x, double y) { return std::sqrt(x * x + y * y) - radius; });
+            use([=](float x, float y) { return std::sqrt(x * x + y * y) - radius; });
             break;
     }
 }
@@ -100,13 +108,11 @@ void mix(std::uint8_t* p, Color color, int share) {
     p[2] = channel(p[2], color.b);
 }
 
-/// A paint with its shares, for a whole shape.
+/// A paint, and its shares where the shape covers a whole pixel: 256 is opaque.
 struct Brush {
     explicit Brush(const ScreenPaint& paint)
-        : color(paint.color), share(256.0 * paint.opacity), halo_share(halo_opacity * share) {}
-    /// `visibility`: 1, or less where the shape is hidden.
-    void draw(std::uint8_t* p, double cover, double halo, double visibility) const {
-        const int own = int(cover * share * visibility + 0.5);
+        : color(paint.color), share(float(256.0 * paint.opacity)), halo_share(float(halo_opacity) * share) {}
+    void draw(std::uint8_t* p, int own, int halo) const {
         if (own >= 256) {  // most pixels of a shape
             p[0] = color.r;
             p[1] = color.g;
@@ -114,11 +120,11 @@ struct Brush {
             p[3] = 255;
             return;
         }
-        if (halo > 0.0) mix(p, halo_color, int(halo * halo_share * visibility + 0.5));
+        if (halo > 0) mix(p, halo_color, halo);
         if (own > 0) mix(p, color, own);
     }
     Color color;
-    double share, halo_share;
+    float share, halo_share;
 };
 
 }  // namespace
@@ -173,9 +179,40 @@ bool ShapeRaster::hidden(int x, int y, double nearness, const ScreenPaint& paint
     return nearness * (*depths_->at(x, y) * surface_factor_ + paint.allowance) < 1.0;
 }
 
+// Distances, coverage and visibility are computed for a run of pixels at a time, in loops that become vector instructions.
+template <class Distance, class Nearness>
+void ShapeRaster::draw_run(int y, int left, int right, const ScreenPaint& paint, double halo, const Distance& distance,
+                           const Nearness& nearness) {
+    constexpr int most = 64;  // pixels: a run fits into the registers and the first cache
+    const Brush brush(paint);
+    const auto reach = float(halo), surface_factor = float(surface_factor_), allowance = float(paint.allowance);
+    const bool tested = depths_ != nullptr && paint.depth_tested;
+    std::array<int, most> own, dark;
+    for (int first = left; first < right; first += most) {
+        const int count = std::min(most, right - first);
+        for (int k = 0; k < count; ++k) {
+            const float d = distance(first + k);
+            own[std::size_t(k)] = int(coverage(d) * brush.share + 0.5f);
+            dark[std::size_t(k)] = int(coverage(d - reach) * brush.halo_share + 0.5f);
+        }
+        if (tested) {
+            const float* const surface = depths_->at(first, y);
+            for (int k = 0; k < count; ++k) {
+                const int hidden = nearness(first + k) * (surface[k] * surface_factor + allowance) < 1.0f ? 1 : 0;
+                own[std::size_t(k)] >>= hidden;
+                dark[std::size_t(k)] >>= hidden;
+            }
+        }
+        std::uint8_t* pixel = image_->at(first, y);
+        for (int k = 0; k < count; ++k, pixel += 4)
+            if ((own[std::size_t(k)] | dark[std::size_t(k)]) != 0)
+                brush.draw(pixel, own[std::size_t(k)], dark[std::size_t(k)]);
+    }
+}
+
 // The rows of a slanted band are cut to the pixels that it can reach; touched tiles are added a row of tiles at a time.
 template <class Draw>
-void ShapeRaster::for_pixels_along(const Vector2d& from, const Vector2d& to, double reach, const Draw& draw) {
+void ShapeRaster::for_runs_along(const Vector2d& from, const Vector2d& to, double reach, const Draw& draw) {
     const Vector2d way = to - from;
     const double least = std::min(from.x(), to.x()) - reach, most = std::max(from.x(), to.x()) + reach;
     const Box box = clipped(least, std::min(from.y(), to.y()) - reach, most, std::max(from.y(), to.y()) + reach);
@@ -187,7 +224,7 @@ void ShapeRaster::for_pixels_along(const Vector2d& from, const Vector2d& to, dou
         const double middle = slanted ? from.x() + (y + 0.5 - from.y()) * slope : least;
         const int left = int(std::clamp(middle - half, double(box.left), double(box.right)));
         const int right = int(std::clamp(middle + half + 1.0, double(box.left), double(box.right)));
-        for (int x = left; x < right; ++x) draw(x, y);
+        if (left < right) draw(y, left, right);
         tile_left = std::min(tile_left, left);
         tile_right = std::max(tile_right, right);
         if (y % tile != tile - 1 && y + 1 < box.bottom) continue;
@@ -200,20 +237,23 @@ void ShapeRaster::arrow(const ScreenArrow& a, const ScreenPaint& paint) {
     const Vector2d way = a.to.pixel - a.from.pixel;
     const double length = way.norm();
     if (!(length > 0.0)) return;
-    const double per_length = 1.0 / length;
-    const Vector2d axis = way * per_length;
-    const Brush brush(paint);
+    const Vector2d axis = way / length;
     const ArrowOutline outline(length, a.width, a.heads);
-    const double near_from = 1.0 / a.from.depth, nearness = 1.0 / a.to.depth - near_from;
-    for_pixels_along(a.from.pixel, a.to.pixel, outline.half_base + outline.halo + 0.5, [&](int x, int y) {
-        const double dx = x + 0.5 - a.from.pixel.x(), dy = y + 0.5 - a.from.pixel.y();
-        const double along = dx * axis.x() + dy * axis.y(), across = std::fabs(dx * axis.y() - dy * axis.x());
-        if (across > outline.half_width + outline.halo + 0.5 && along < outline.heads_start) return;
-        const double d = outline.distance(along, across);
-        const double halo = coverage(d - outline.halo);
-        if (halo <= 0.0) return;
-        const double near = near_from + nearness * std::clamp(along * per_length, 0.0, 1.0);
-        brush.draw(image_->at(x, y), coverage(d), halo, hidden(x, y, near, paint) ? faint : 1.0);
+    const ArrowDistance distance(outline);
+    const auto near_from = float(1.0 / a.from.depth),
+               near_change = float((1.0 / a.to.depth - 1.0 / a.from.depth) / length);
+    const auto axis_x = float(axis.x()), axis_y = float(axis.y()), end = float(length);
+    for_runs_along(a.from.pixel, a.to.pixel, outline.half_base + outline.halo + 0.5, [&](int y, int left, int right) {
+        const double dx = left + 0.5 - a.from.pixel.x(), dy = y + 0.5 - a.from.pixel.y();
+        const auto along = float(dx * axis.x() + dy * axis.y()), across = float(dx * axis.y() - dy * axis.x());
+        draw_run(
+            y, left, right, paint, outline.halo,
+            [&, left](int x) {
+                return distance(along + float(x - left) * axis_x, std::fabs(across + float(x - left) * axis_y));
+            },
+            [&, left](int x) {
+                return near_from + near_change * std::min(std::max(along + float(x - left) * axis_x, 0.0f), end);
+            });
     });
 }
 
@@ -222,18 +262,20 @@ void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, doub
     const double squared = way.squaredNorm(), per_square = squared > 0.0 ? 1.0 / squared : 0.0;
     const double near_from = 1.0 / from.depth, nearness = 1.0 / to.depth - near_from;
     const double halo_reach = halo_width(2.0 * radius);
-    for_pixels_along(from.pixel, to.pixel, radius + halo_reach + 0.5, [&](int x, int y) {
-        const Vector2d from_start = Vector2d(x + 0.5, y + 0.5) - from.pixel;
-        const double t = std::clamp(from_start.dot(way) * per_square, 0.0, 1.0);
-        const double d = (from_start - t * way).norm() - radius;
-        const double halo = coverage(d - halo_reach);
-        if (halo <= 0.0) return;
-        const double visibility = hidden(x, y, near_from + nearness * t, paint) ? faint : 1.0;
-        const std::size_t index = std::size_t(y) * std::size_t(width_) + std::size_t(x);
-        Cover& cover = cover_[index];
-        if (cover.halo == 0.0f) covered_.push_back(index);
-        cover.line = std::max(cover.line, float(coverage(d) * visibility));
-        cover.halo = std::max(cover.halo, float(halo * visibility));
+    for_runs_along(from.pixel, to.pixel, radius + halo_reach + 0.5, [&](int y, int left, int right) {
+        for (int x = left; x < right; ++x) {
+            const Vector2d from_start = Vector2d(x + 0.5, y + 0.5) - from.pixel;
+            const double t = std::clamp(from_start.dot(way) * per_square, 0.0, 1.0);
+            const double d = (from_start - t * way).norm() - radius;
+            const float halo = coverage(float(d - halo_reach));
+            if (halo <= 0.0f) continue;
+            const float visibility = hidden(x, y, near_from + nearness * t, paint) ? 0.5f : 1.0f;
+            const std::size_t index = std::size_t(y) * std::size_t(width_) + std::size_t(x);
+            Cover& cover = cover_[index];
+            if (cover.halo == 0.0f) covered_.push_back(index);
+            cover.line = std::max(cover.line, coverage(float(d)) * visibility);
+            cover.halo = std::max(cover.halo, halo * visibility);
+        }
     });
 }
 
@@ -244,32 +286,39 @@ void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const 
     const Brush brush(paint);
     for (const std::size_t index : covered_) {
         Cover& cover = cover_[index];
-        brush.draw(image_->pixels.data() + 4 * index, cover.line, cover.halo, 1.0);
+        brush.draw(image_->pixels.data() + 4 * index, int(cover.line * brush.share + 0.5f),
+                   int(cover.halo * brush.halo_share + 0.5f));
         cover = {};
     }
     covered_.clear();
 }
 
 void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint) {
-    const double halo_reach = halo_width(radius), reach = 1.3 * radius + halo_reach + 0.5;
+    const double halo = halo_width(radius), reach = 1.3 * radius + halo + 0.5;
     const Box box = clipped(at.pixel.x() - reach, at.pixel.y() - reach, at.pixel.x() + reach, at.pixel.y() + reach);
     if (box.empty()) return;
     touched_.add({box.left, box.top, box.right - box.left, box.bottom - box.top});
-    const double near = 1.0 / at.depth;
-    const Brush brush(paint), dark({{24, 28, 36}, paint.opacity});
-    with_marker_distance(shape, radius, [&](const auto& distance) {
-        for (int y = box.top; y < box.bottom; ++y)
-            for (int x = box.left; x < box.right; ++x) {
-                const double dx = x + 0.5 - at.pixel.x(), dy = y + 0.5 - at.pixel.y();
-                const double d = distance(dx, dy);
-                const double halo = coverage(d - halo_reach);
-                if (halo <= 0.0) continue;
-                const double visibility = hidden(x, y, near, paint) ? faint : 1.0;
-                brush.draw(image_->at(x, y), coverage(d), halo, visibility);
-                if (shape != ScreenMarker::center_of_mass) continue;
-                const double edge = std::min(std::fabs(dx), std::fabs(dy));
-                dark.draw(image_->at(x, y), coverage(std::max(d, dx * dy >= 0.0 ? -edge : edge)), 0.0, visibility);
-            }
+    const auto near = float(1.0 / at.depth);
+    const auto nearness = [near](int) { return near; };
+    const auto center = float(box.left + 0.5 - at.pixel.x());
+    ScreenPaint dark = paint;
+    dark.color = {24, 28, 36};
+    with_marker_distance(shape, float(radius), [&](const auto& distance) {
+        for (int y = box.top; y < box.bottom; ++y) {
+            const auto dy = float(y + 0.5 - at.pixel.y());
+            draw_run(
+                y, box.left, box.right, paint, halo, [&](int x) { return distance(center + float(x - box.left), dy); },
+                nearness);
+            if (shape != ScreenMarker::center_of_mass) continue;
+            draw_run(
+                y, box.left, box.right, dark, 0.0,
+                [&](int x) {
+                    const float dx = center + float(x - box.left);
+                    const float edge = std::min(std::fabs(dx), std::fabs(dy));
+                    return std::max(distance(dx, dy), dx * dy >= 0.0f ? -edge : edge);
+                },
+                nearness);
+        }
     });
 }
 
@@ -367,7 +416,7 @@ void ShapeRaster::picture(const Image& picture, int left, int top, double opacit
 void ShapeRaster::outline(const Rectangle& r, const ScreenPaint& paint) {
     touched_.add(r);
     const Brush brush(paint);
-    const auto draw = [&](int x, int y) { brush.draw(image_->at(x, y), 1.0, 0.0, 1.0); };
+    const auto draw = [&](int x, int y) { brush.draw(image_->at(x, y), int(brush.share + 0.5f), 0); };
     const auto row = [&](int y) {
         for (int x = r.x; x < r.x + r.width; ++x) draw(x, y);
     };
