@@ -34,7 +34,8 @@ std::string scale_text(double scale, std::string_view unit) {
 
 using Row = std::vector<Entry>;
 
-void add_arrows(const SceneDescription& scene, const OverlayScales& scales, std::vector<Row>& rows) {
+void add_arrows(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks,
+                std::vector<Row>& rows) {
     const OverlayDescription& overlay = scene.overlay;
     for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
         const auto quantity = ArrowQuantity(q);
@@ -42,10 +43,13 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, std:
         const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum;
         rows.push_back({{axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
                          fmt::format("{}, {}", quantity_names[q], scale_text(scales[q], quantity_units[q]))}});
-        const bool friction =
-            std::ranges::any_of(scene.bodies, [](const BodyDescription& body) { return body.friction > 0.0; });
-        if (quantity == ArrowQuantity::force && friction)
+        if (quantity != ArrowQuantity::force) continue;
+        if (!overlay.show.has(Overlay::forces)) rows.pop_back();
+        if (overlay.show.has(Overlay::forces) && marks.friction)
             rows.push_back({{Entry::Symbol::arrow, friction_color, "its friction part"}});
+        if (overlay.show.has(Overlay::loads))
+            rows.push_back({{Entry::Symbol::arrow, load_color,
+                             fmt::format("weight, applied force, {}", scale_text(scales[q], quantity_units[q]))}});
     }
     if (overlay.show.has(Overlay::normals))
         rows.push_back({{Entry::Symbol::arrow, normal_color, "normal, from A to B"}});
@@ -55,28 +59,34 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, std:
                         {Entry::Symbol::arrow, axis_colors[2], "z of the body"}});
 }
 
-void add_contacts(std::vector<Row>& rows) {
+/// The states and features that occur, two in a row.
+void add_contacts(const OverlayMarks& marks, std::vector<Row>& rows) {
     using State = ContactRecord::State;
-    const auto of_state = [](State state, const char* text) {
-        return Entry{Entry::Symbol::marker, contact_color(state), text};
+    const std::size_t first = rows.size();
+    const auto add = [&](Entry entry) {
+        if (rows.size() == first || rows.back().size() == 2) rows.emplace_back();
+        rows.back().push_back(std::move(entry));
     };
-    const auto of_features = [](ContactFeatures features, const char* text) {
-        return Entry{Entry::Symbol::marker, normal_color, text, contact_shape(features)};
-    };
-    rows.push_back({of_state(State::stick, "sticks"), of_state(State::slip, "slips")});
-    rows.push_back({of_state(State::asleep, "asleep"), of_state(State::open, "no load")});
-    rows.push_back({of_features(ContactFeatures::vertex_face, "vertex on face"),
-                    of_features(ContactFeatures::face_face, "face on face")});
-    rows.push_back(
-        {of_features(ContactFeatures::edge_edge, "edge on edge"), of_features(ContactFeatures::sphere, "sphere")});
-    rows.push_back({of_features(ContactFeatures::mesh, "triangle mesh")});
+    for (const auto& [state, text] : {std::pair(State::stick, "sticks"), std::pair(State::slip, "slips"),
+                                      std::pair(State::asleep, "asleep"), std::pair(State::open, "no load")})
+        if ((marks.states >> unsigned(state) & 1u) != 0) add({Entry::Symbol::marker, contact_color(state), text});
+    // Both orders of vertex and face have one mark.
+    std::uint32_t features = marks.features;
+    if ((features >> unsigned(ContactFeatures::face_vertex) & 1u) != 0)
+        features |= 1u << unsigned(ContactFeatures::vertex_face);
+    for (const auto& [feature, text] :
+         {std::pair(ContactFeatures::vertex_face, "vertex on face"),
+          std::pair(ContactFeatures::face_face, "face on face"), std::pair(ContactFeatures::edge_edge, "edge on edge"),
+          std::pair(ContactFeatures::sphere, "sphere"), std::pair(ContactFeatures::mesh, "triangle mesh")})
+        if ((features >> unsigned(feature) & 1u) != 0)
+            add({Entry::Symbol::marker, normal_color, text, contact_shape(feature)});
 }
 
-std::vector<Row> make_rows(const SceneDescription& scene, const OverlayScales& scales) {
+std::vector<Row> make_rows(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks) {
     const OverlayDescription& overlay = scene.overlay;
     std::vector<Row> rows;
-    add_arrows(scene, scales, rows);
-    if (overlay.show.has(Overlay::contacts)) add_contacts(rows);
+    add_arrows(scene, scales, marks, rows);
+    if (overlay.show.has(Overlay::contacts)) add_contacts(marks, rows);
     if (overlay.show.has(Overlay::com))
         rows.push_back({{Entry::Symbol::marker, {250, 250, 250}, "center of mass", MarkerShape::center_of_mass}});
     if (overlay.show.has(Overlay::ghosts))
@@ -140,8 +150,9 @@ std::vector<std::vector<double>> place_entries(const std::vector<Row>& rows, con
 
 }  // namespace
 
-std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, int height) {
-    const std::vector<Row> rows = make_rows(scene, scales);
+std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks,
+                                 int height) {
+    const std::vector<Row> rows = make_rows(scene, scales, marks);
     if (rows.empty()) return std::nullopt;
     const double unit = overlay_unit(height);
     TextStyle style;

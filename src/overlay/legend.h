@@ -10,6 +10,7 @@
 namespace tumble {
 
 /// A picture with straight alpha; empty if no overlay needs an explanation. `height`: of the frame, pixels.
-std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, int height);
+std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks,
+                                 int height);
 
 }  // namespace tumble

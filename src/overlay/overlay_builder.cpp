@@ -10,14 +10,14 @@
 namespace tumble {
 namespace {
 
-constexpr float ghost_opacity = 0.34f, tint_opacity = 0.5f, sleep_opacity = 0.45f;
+constexpr float ghost_opacity = 0.34f, tint_opacity = 0.5f, sleep_opacity = 0.32f;
 constexpr double rested = 0.02;  // radii of the body, and rad: a ghost nearer than that to another pose adds nothing
 constexpr double shortest_way = 2e-3;     // radii: a trail gets a point when the body has moved that far
 constexpr std::size_t most_ghosts = 400;  // of all bodies: more hide the picture, and each costs a drawing
 constexpr double normal_length = 0.35, axis_length = 1.2;  // radii of the body
 constexpr std::array<Color, arrow_quantity_count> colors{Color{255, 190, 30}, Color{255, 64, 112},
                                                          Color{60, 196, 255}, Color{186, 140, 255},
-                                                         Color{60, 214, 130}, Color{255, 140, 212}};
+                                                         Color{170, 224, 50}, Color{255, 140, 212}};
 /// Neighbors in this order differ for people with color blindness as well.
 constexpr std::array<Color, 8> island_colors{Color{0, 158, 255},   Color{255, 150, 0},   Color{0, 190, 120},
                                              Color{240, 110, 190}, Color{120, 220, 255}, Color{250, 220, 70},
@@ -28,6 +28,10 @@ Color mixed(Color a, Color b, double share) {
         return std::uint8_t(x + share * (double(y) - x) + 0.5);
     };
     return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+}
+
+Color trail_color(const SceneDescription& scene, std::size_t body) {
+    return mixed(scene.bodies[body].appearance.color, {255, 255, 255}, 0.45);
 }
 
 double radius_about_origin(const Shape& shape) {
@@ -120,10 +124,11 @@ OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScale
         shown_.push_back(shows_body(scene, i) ? 1 : 0);
     }
     if (!shows(Overlay::trails)) return;
-    for (const TrailPoint& point : scene.overlay.trail_points) trails_.push_back({point.body, point.point, false, {}});
+    for (const TrailPoint& point : scene.overlay.trail_points)
+        trails_.push_back({point.body, point.point, false, point.color.value_or(trail_color(scene, point.body)), {}});
     if (trails_.empty())
         for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-            if (shown_[i] != 0) trails_.push_back({i, Vec3::Zero(), true, {}});
+            if (shown_[i] != 0) trails_.push_back({i, Vec3::Zero(), true, trail_color(scene, i), {}});
 }
 
 const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const ContactRecords* records) {
@@ -137,6 +142,7 @@ const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const Contact
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
         if (shown_[i] != 0) add_body(i, snapshot.bodies[i]);
     if (records != nullptr) add_contacts(*records);
+    if (shows(Overlay::loads)) add_loads(snapshot);
     if (shows(Overlay::impulses)) add_impulses(snapshot.time);
     if (shows(Overlay::damage)) frame_.damage = snapshot.frame;
     frame_.legend = overlay.legend;
@@ -201,7 +207,7 @@ void OverlayBuilder::add_trails() {
         if (trail.places.size() < 2) continue;
         OverlayLine line;
         for (const auto& [when, place] : trail.places) line.points.push_back(place);
-        line.paint = {mixed(scene_->bodies[trail.body].appearance.color, {255, 255, 255}, 0.45), 0.95f, true};
+        line.paint = {trail.color, 0.95f, true};
         line.width = 2.2f;
         frame_.lines.push_back(std::move(line));
     }
@@ -220,10 +226,7 @@ void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
     if (shows(Overlay::com))
         frame_.markers.push_back({center, {{250, 250, 250}, 1.0f, false}, MarkerShape::center_of_mass, 6.5f});
     if (shows(Overlay::names))
-        frame_.labels.push_back({state.origin + Vec3(0.0, 1.15 * radii_[i], 0.0),
-                                 {{250, 250, 250}, 1.0f, false},
-                                 scene_->bodies[i].name,
-                                 15.0f});
+        frame_.labels.push_back({center, {{250, 250, 250}, 1.0f, false}, scene_->bodies[i].name, 15.0f});
 }
 
 void OverlayBuilder::add_box(std::size_t body, const BodyState& state) {
@@ -262,7 +265,7 @@ void OverlayBuilder::add_contacts(const ContactRecords& records) {
         if (shown_[r.b] == 0 && shown_[r.a] == 0) continue;
         if (shows(Overlay::forces)) {
             arrow(ArrowQuantity::force, r.point, v.total());
-            if (v.tangential.norm() > 0.02 * v.normal.norm()) {
+            if (shows_friction(v.normal, v.tangential)) {
                 frame_.arrows.push_back({r.point,
                                          r.point + scales_[std::size_t(ArrowQuantity::force)] * v.tangential,
                                          {friction_color, 1.0f, true},
@@ -276,6 +279,23 @@ void OverlayBuilder::add_contacts(const ContactRecords& records) {
         }
         if (shows(Overlay::contacts))
             frame_.markers.push_back({r.point, {contact_color(r.state), 1.0f, true}, contact_shape(r.features), 4.2f});
+    }
+}
+
+void OverlayBuilder::add_loads(const Snapshot& snapshot) {
+    const double scale = scales_[std::size_t(ArrowQuantity::force)];
+    const auto add = [&](std::size_t body, const Vec3& from, const Vec3& force) {
+        if (shown_[body] == 0 || force == Vec3::Zero()) return;
+        frame_.arrows.push_back(
+            {from, from + scale * force, {load_color, 1.0f, true, float(2.0 * radii_[body])}, 3.2f, false});
+    };
+    for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+        add(i, snapshot.bodies[i].center_of_mass, snapshot.bodies[i].mass * scene_->simulation.gravity);
+    for (const ForceDescription& force : scene_->forces) {
+        if (snapshot.time < force.start || snapshot.time >= force.end) continue;
+        const BodyState& body = snapshot.bodies[force.body];
+        add(force.body, body.origin + body.orientation * force.point,
+            force.body_frame ? Vec3(body.orientation * force.force) : force.force);
     }
 }
 

@@ -29,6 +29,7 @@ private:
         std::size_t body;
         Vec3 point;   // body frame, from the body's origin; unused for the center of mass
         bool center;  // of the center of mass
+        Color color;
         std::deque<std::pair<double, Vec3>> places;  // times (s) and places (m)
     };
     struct Ghost {
@@ -39,6 +40,7 @@ private:
     void add_ghosts(const Snapshot& snapshot);
     void add_trails();
     void add_contacts(const ContactRecords& records);
+    void add_loads(const Snapshot& snapshot);
     void add_impulses(double time);
     void add_body(std::size_t body, const BodyState& state);
     void add_box(std::size_t body, const BodyState& state);
@@ -60,8 +62,8 @@ private:
 
 /// The color of the arrows of a quantity.
 Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity);
-/// Of the friction part of a contact force, and of normals.
-inline constexpr Color friction_color{255, 122, 60}, normal_color{236, 240, 246};
+/// Of the friction part of a contact force, of weights and forces at points, and of normals.
+inline constexpr Color friction_color{255, 122, 60}, load_color{70, 120, 255}, normal_color{236, 240, 246};
 /// Of contact points, by state.
 Color contact_color(ContactRecord::State state);
 MarkerShape contact_shape(ContactFeatures features);

@@ -80,15 +80,15 @@ void copy(const Image& from, Image& to, const Rectangle& r) {
 
 }  // namespace
 
-OverlayPainter::OverlayPainter(const SceneDescription& scene, const OverlayScales& scales,
-                               std::optional<int> legend_height)
+OverlayPainter::OverlayPainter(const SceneDescription& scene, const PanelOverlay& overlay)
     : scene_(&scene),
       unit_(overlay_unit(scene.output.height)),
       raster_(scene.output.width, scene.output.height,
               Camera(scene.camera, scene.output.width, scene.output.height).pixel_size()),
+      legend_top_(overlay.legend_top),
       image_(scene.output.width, scene.output.height),
       previous_(scene.output.width, scene.output.height) {
-    if (legend_height) legend_ = draw_legend(scene, scales, *legend_height);
+    if (overlay.legend) legend_ = draw_legend(scene, overlay.scales, overlay.marks, overlay.frame_height);
 }
 
 const Image& OverlayPainter::draw(const PlainFrame& frame, const OverlayFrame& shapes) {
@@ -103,10 +103,7 @@ const Image& OverlayPainter::draw(const PlainFrame& frame, const OverlayFrame& s
     draw_shapes(frame.camera, shapes);
     if (shapes.damage)
         for (const Rectangle& r : frame.changed) raster_.outline(r, {damage_color, 0.85, false});
-    if (shapes.legend && legend_) {
-        const int edge = int(margin * unit_);
-        raster_.picture(*legend_, image_.width - legend_->width - edge, image_.height - legend_->height - edge, 1.0);
-    }
+    if (shapes.legend && legend_) raster_.picture(*legend_, int(margin * unit_), legend_top_, 1.0);
     dirty.add(raster_.touched());
     changed_ = dirty.rectangles();
     previous_ = raster_.touched();

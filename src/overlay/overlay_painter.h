@@ -28,11 +28,19 @@ struct PlainFrame {
     const Camera& camera;
 };
 
+/// The scales and the legend of the shapes over a scene. They are found before the first frame.
+struct PanelOverlay {
+    OverlayScales scales{};
+    OverlayMarks marks{};
+    bool legend = false;
+    int frame_height = 720;  // pixels, of the whole frame: the legend has a size that suits it
+    int legend_top = 0;      // pixels, from the upper edge of the panel
+};
+
 class OverlayPainter {
 public:
     /// `scene` must outlive it.
-    /// `legend_height`: of the frame that the size of the legend suits, pixels; empty: no legend.
-    OverlayPainter(const SceneDescription& scene, const OverlayScales& scales, std::optional<int> legend_height);
+    OverlayPainter(const SceneDescription& scene, const PanelOverlay& overlay);
 
     /// The frame with the shapes. It equals a full drawing, and is valid until the next call.
     const Image& draw(const PlainFrame& frame, const OverlayFrame& shapes);
@@ -56,6 +64,7 @@ private:
     double unit_;  // pixels of a unit of the shapes' sizes
     ShapeRaster raster_;
     std::optional<Image> legend_;
+    int legend_top_;  // pixels
     Image image_;
     TouchedTiles previous_;  // drawn to in the previous frame
     bool first_ = true;

@@ -10,7 +10,8 @@ namespace {
 
 // Parts of the visible height at the camera's target.
 constexpr double common_length = 1.0 / 10.0, longest_length = 0.8;
-constexpr double noise = 1e-3;  // of the largest size: smaller ones are not counted
+constexpr double least_friction = 0.02;  // of the normal force
+constexpr double noise = 1e-3;           // of the largest size: smaller ones are not counted
 
 constexpr std::array<Overlay, arrow_quantity_count> shown_by{Overlay::forces,   Overlay::impulses,
                                                              Overlay::velocity, Overlay::omega,
@@ -45,8 +46,19 @@ double upper_end(int bin) {
 
 }  // namespace
 
+void OverlayMarks::add(const OverlayMarks& others) {
+    states |= others.states;
+    features |= others.features;
+    friction = friction || others.friction;
+}
+
+bool shows_friction(const Vec3& normal, const Vec3& tangential) {
+    return tangential.norm() > least_friction * normal.norm();
+}
+
 bool shows(const OverlayDescription& overlay, ArrowQuantity quantity) {
-    return overlay.show.has(shown_by[std::size_t(quantity)]);
+    return overlay.show.has(shown_by[std::size_t(quantity)]) ||
+           (quantity == ArrowQuantity::force && overlay.show.has(Overlay::loads));
 }
 
 bool draws_shapes(const OverlayDescription& overlay) {
@@ -55,7 +67,9 @@ bool draws_shapes(const OverlayDescription& overlay) {
     return !shapes.empty();
 }
 
+// The marks of contacts are found in the same run.
 bool needs_survey(const OverlayDescription& overlay) {
+    if (overlay.legend && (overlay.show.has(Overlay::contacts) || overlay.show.has(Overlay::forces))) return true;
     for (std::size_t q = 0; q < arrow_quantity_count; ++q)
         if (shows(overlay, ArrowQuantity(q)) && !overlay.scale[q]) return true;
     return false;
@@ -104,8 +118,20 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
         add(ArrowQuantity::momentum, body.momentum.norm());
         add(ArrowQuantity::angular_momentum, body.angular_momentum.norm());
     }
+    if (overlay.show.has(Overlay::loads)) {
+        for (const BodyState& body : snapshot.bodies)
+            add(ArrowQuantity::force, body.mass * scene_->simulation.gravity.norm());
+        for (const ForceDescription& force : scene_->forces) add(ArrowQuantity::force, force.force.norm());
+    }
     if (records == nullptr) return;
-    for (const ContactRecord& r : records->contacts) add(ArrowQuantity::force, vector_of(r, *scene_).total().norm());
+    for (const ContactRecord& r : records->contacts) {
+        if (r.a == ContactRecord::nobody) continue;  // a correction of the method
+        const RecordVector v = vector_of(r, *scene_);
+        if (overlay.show.has(Overlay::forces)) add(ArrowQuantity::force, v.total().norm());
+        marks_.states |= 1u << unsigned(r.state);
+        marks_.features |= 1u << unsigned(r.features);
+        marks_.friction = marks_.friction || shows_friction(v.normal, v.tangential);
+    }
     for (const ImpactRecord& r : records->impacts) add(ArrowQuantity::impulse, vector_of(r, *scene_).total().norm());
 }
 
@@ -114,6 +140,7 @@ void ScaleSurvey::add(const ScaleSurvey& other) {
         sizes_[q].most = std::max(sizes_[q].most, other.sizes_[q].most);
         for (const auto& [bin, count] : other.sizes_[q].counts) sizes_[q].counts[bin] += count;
     }
+    marks_.add(other.marks_);
 }
 
 OverlayScales ScaleSurvey::scales() const {

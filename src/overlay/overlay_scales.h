@@ -14,6 +14,16 @@ namespace tumble {
 /// Meters in the scene for a unit of each quantity; 0: there was nothing to show.
 using OverlayScales = std::array<double, arrow_quantity_count>;
 
+/// Marks that occur in a clip, for its legend.
+struct OverlayMarks {
+    std::uint32_t states = 0, features = 0;  // a bit for each ContactRecord::State, and for each ContactFeatures
+    bool friction = false;                   // of contact forces
+    void add(const OverlayMarks& others);
+};
+
+/// True if the friction part of a contact force is drawn as an arrow of its own.
+bool shows_friction(const Vec3& normal, const Vec3& tangential);
+
 /// Quantities that the arrows of these overlays show.
 bool shows(const OverlayDescription& overlay, ArrowQuantity quantity);
 /// True if anything but text is drawn.
@@ -43,7 +53,8 @@ public:
     /// Counts the arrows of another panel as well, so that both have the same scales.
     void add(const ScaleSurvey& other);
     /// Takes the counts of another panel in place of its own.
-    void take_sizes(const ScaleSurvey& other) { sizes_ = other.sizes_; }
+    void take(const ScaleSurvey& other) { sizes_ = other.sizes_, marks_ = other.marks_; }
+    const OverlayMarks& marks() const { return marks_; }
     /// The scene's scales where given.
     OverlayScales scales() const;
 
@@ -55,6 +66,7 @@ private:
     };
     const SceneDescription* scene_;
     std::array<Sizes, arrow_quantity_count> sizes_;
+    OverlayMarks marks_;
 };
 
 }  // namespace tumble

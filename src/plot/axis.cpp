@@ -66,6 +66,17 @@ Axis Axis::linear(double least, double most, int about) {
     return axis;
 }
 
+Axis Axis::exact(double least, double most, int about) {
+    Axis axis = linear(least, most, about);
+    if (!(most > least)) return axis;
+    axis.least_ = least;
+    axis.most_ = most;
+    const double slack = 1e-9 * (most - least);
+    std::erase_if(axis.ticks_,
+                  [&](const Tick& tick) { return tick.value < least - slack || tick.value > most + slack; });
+    return axis;
+}
+
 Axis Axis::logarithmic(double least, double most, int about) {
     Axis axis;
     axis.log_ = true;

@@ -10,6 +10,8 @@ class Axis {
 public:
     /// Covers the values from `least` to `most`; `about` ticks. A logarithmic axis needs least > 0.
     static Axis linear(double least, double most, int about);
+    /// From `least` to `most` exactly, with the ticks in between.
+    static Axis exact(double least, double most, int about);
     static Axis logarithmic(double least, double most, int about);
 
     struct Tick {

@@ -75,8 +75,8 @@ public:
         make_panel_axes(inner);
         left_ = inner.left + tick_room_ + 0.5 * size_;
         right_ = inner.right - label_room();
-        places_.x = Axis::linear(x.empty() ? 0.0 : x.least, x.empty() ? 1.0 : x.most,
-                                 std::max(2, int((right_ - left_) / (6.0 * size_))));
+        places_.x = Axis::exact(x.empty() ? 0.0 : x.least, x.empty() ? 1.0 : x.most,
+                                std::max(2, int((right_ - left_) / (6.0 * size_))));
         const double bottom = inner.bottom - (figure_.x_title.empty() ? 1.6 : 3.2) * size_;
         const double each = (bottom - inner.top) / double(std::max<std::size_t>(1, figure_.panels.size()));
         for (std::size_t k = 0; k < figure_.panels.size(); ++k) {

@@ -229,15 +229,11 @@ Snapshot World::snapshot() const {
     snapshot.bodies.resize(set.bodies.size());
     for (std::size_t i = 0; i < set.bodies.size(); ++i) {
         const Body& body = set.bodies[i];
-        BodyState state{set.origin + body.origin(),
-                        set.origin + body.position,
-                        body.orientation,
-                        body.velocity,
-                        body.angular_velocity,
-                        Vec3::Zero(),
-                        Vec3::Zero(),
-                        body.asleep};
+        BodyState state{set.origin + body.origin(), set.origin + body.position, body.orientation, body.velocity,
+                        body.angular_velocity};
+        state.asleep = body.asleep;
         if (body.dynamic()) {
+            state.mass = body.mass;
             state.momentum = body.momentum;
             state.angular_momentum = body.angular_momentum;
         }

@@ -2,7 +2,7 @@
 # or a plot. golden_draw fills a folder with its frames.
 golden_here=$(dirname "${BASH_SOURCE[0]}")
 golden_scenes=(falling_boxes bouncing_balls dominoes tower_hit tennis_racket mixed_heap newtons_cradle paddle furniture turntable)
-golden_overlays=(contacts normals impulses forces velocity omega momentum angular-momentum trails ghosts aabb axes com islands
+golden_overlays=(contacts normals impulses forces loads velocity omega momentum angular-momentum trails ghosts aabb axes com islands
     sleep names damage title,clock,mode)
 golden_cases=("${golden_scenes[@]}" furniture_transparent "${golden_overlays[@]/#/overlay_}"
     plot_inset plot_beside plot_below plot_file layout_row layout_grid layout_plot)

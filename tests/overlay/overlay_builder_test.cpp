@@ -83,6 +83,24 @@ TEST(OverlayBuilder, AnArrowStartsAtTheRecordedPointAndHasTheScaledLength) {
     }
 }
 
+TEST(OverlayBuilder, LoadsAreTheWeightAndTheForcesWhileTheyAct) {
+    const SceneDescription scene = scene_showing("\"loads\"", R"(
+[[force]]
+body = "crate"
+point = [0.5, 0.5, 0.0]
+force = [20, 0, 0]
+start = 0.1
+end = 0.2
+)");
+    const OverlayFrame before = frame_after(scene, 5), during = frame_after(scene, 6), after = frame_after(scene, 12);
+    ASSERT_EQ(before.arrows.size(), 1u);
+    EXPECT_LT((before.arrows[0].to - before.arrows[0].from - Vec3(0, -98.1, 0)).norm(), 1e-12);
+    ASSERT_EQ(during.arrows.size(), 2u);
+    EXPECT_LT((during.arrows[1].from - Vec3(0.5, 1.0, 0.0)).norm(), 1e-3);
+    EXPECT_LT((during.arrows[1].to - during.arrows[1].from - Vec3(20, 0, 0)).norm(), 1e-12);
+    EXPECT_EQ(after.arrows.size(), 1u);
+}
+
 // The force on the dynamic body is shown, whichever of both comes first in the scene.
 TEST(OverlayBuilder, ForcesOnAFixedBodyAreShownOnTheOther) {
     SceneDescription scene = parse_scene(R"(
@@ -123,6 +141,29 @@ angular_velocity = [0.5, -1, 2]
     EXPECT_FALSE(frame.arrows[2].double_head);
     EXPECT_TRUE(frame.arrows[1].double_head);
     EXPECT_TRUE(frame.arrows[3].double_head);
+}
+
+TEST(OverlayBuilder, TheSurveyFindsTheMarksOfContacts) {
+    const SceneDescription scene = scene_showing("\"forces\", \"contacts\"", R"(
+[[body]]
+name = "slider"
+shape = { type = "sphere", radius = 0.5 }
+material = "wood"
+position = [5, 0.5, 0]
+velocity = [3, 0, 0]
+)");
+    World world(scene);
+    world.record_contacts();
+    ScaleSurvey survey(scene);
+    for (int n = 0; n < 5; ++n) {
+        world.advance_frame();
+        survey.add(world.snapshot(), &world.contact_records());
+    }
+    const auto bit = [](auto value) { return 1u << unsigned(value); };
+    EXPECT_EQ(survey.marks().states, bit(ContactRecord::State::stick) | bit(ContactRecord::State::slip));
+    EXPECT_NE(survey.marks().features & bit(ContactFeatures::sphere), 0u);
+    EXPECT_EQ(survey.marks().features & bit(ContactFeatures::mesh), 0u);
+    EXPECT_TRUE(survey.marks().friction);
 }
 
 // Notes eq. 5: p = x + R p_body.

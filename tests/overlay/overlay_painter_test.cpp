@@ -60,13 +60,21 @@ OverlayScales some_scales() {
     return scales;
 }
 
+PanelOverlay with_legend(const SceneDescription& scene) {
+    PanelOverlay overlay;
+    overlay.scales = some_scales();
+    overlay.legend = true;
+    overlay.frame_height = scene.output.height;
+    return overlay;
+}
+
 TEST(OverlayPainter, AnArrowLiesOnTheProjectionOfItsEnds) {
     SceneDescription scene = parse_scene(drop, "test.toml");
     scene.overlay = {};
     const Snapshot snapshot = World(scene).snapshot();
     Renderer renderer(scene, with_depths());
     const Image plain = renderer.render(snapshot);
-    OverlayPainter painter(scene, {}, std::nullopt);
+    OverlayPainter painter(scene, {});
     OverlayFrame shapes;
     const OverlayArrow arrow{{-1.5, 0.2, 0.8}, {0.9, 2.4, 1.1}, {{255, 0, 255}, 1.0f, false}, 6.0f, false};
     shapes.arrows.push_back(arrow);
@@ -106,7 +114,7 @@ TEST(OverlayPainter, ABodyHidesAnArrow) {
     const Image plain = renderer.render(snapshot);
     const Vec3 toward_eye = (renderer.camera().eye() - snapshot.bodies[1].origin).normalized();
     const auto difference = [&](double distance) {
-        OverlayPainter painter(scene, {}, std::nullopt);
+        OverlayPainter painter(scene, {});
         OverlayFrame shapes;
         shapes.markers.push_back({snapshot.bodies[1].origin + distance * toward_eye, {{255, 0, 255}, 1.0f, true}});
         const Image& drawn = painter.draw({plain, renderer.changed(), renderer.depths(), renderer.camera()}, shapes);
@@ -127,7 +135,7 @@ TEST(OverlayPainter, AFrameDoesNotDependOnThoseDrawnBefore) {
         world.record_contacts();
         OverlayBuilder builder(scene, some_scales());
         Renderer renderer(scene, with_depths());
-        OverlayPainter painter(scene, some_scales(), scene.output.height);
+        OverlayPainter painter(scene, with_legend(scene));
         std::vector<Image> images;
         for (int n = 0; n <= 48; ++n) {
             if (n > 0) world.advance_frame();
@@ -150,7 +158,7 @@ TEST(OverlayPainter, ChangedRegionsContainEveryChange) {
     world.record_contacts();
     OverlayBuilder builder(scene, some_scales());
     Renderer renderer(scene, with_depths());
-    OverlayPainter painter(scene, some_scales(), scene.output.height);
+    OverlayPainter painter(scene, with_legend(scene));
     Image before;
     for (int n = 0; n <= 30; ++n) {
         if (n > 0) world.advance_frame();

@@ -16,6 +16,9 @@
 namespace tumble {
 namespace {
 
+// Parts of the height of the frame: a title of one line with the space around it; the distance of a legend from the edge.
+constexpr double title_height = 0.125, legend_margin = 0.02;
+
 std::string name_of(const ClipScene& clip_scene) {
     const std::string file = safe_path(clip_scene.scene->file);
     return clip_scene.label.empty() ? file : fmt::format("{} ({})", file, safe_text(clip_scene.label));
@@ -91,15 +94,17 @@ void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& o
     options.plot_place = overlay.plot_place;
 }
 
-// Legends of several panels would say the same: the last one that has an overlay shows it.
+// Legends of several panels would say the same: the first one that has an overlay shows it, below the title.
 void RenderScenes::add_overlays() {
-    ClipPanel* last = nullptr;
+    const bool below_title = !composition.text.title.empty() && composition.text.header.width == 0;
+    bool legend = true;
     for (ClipPanel& panel : composition.panels) {
         if (!draws_shapes(panel.scene->overlay)) continue;
         panel.overlay.emplace();
-        last = &panel;
+        panel.overlay->legend = std::exchange(legend, false);
+        panel.overlay->frame_height = composition.height;
+        panel.overlay->legend_top = int((below_title ? title_height : legend_margin) * composition.height);
     }
-    if (last != nullptr) last->overlay->legend_height = composition.height;
 }
 
 void RenderScenes::survey_clip(int threads, Interrupt& interrupt) {
@@ -116,8 +121,11 @@ void RenderScenes::survey_clip(int threads, Interrupt& interrupt) {
     // One scale for all panels, so that their arrows can be compared.
     for (std::size_t i = 1; i < scales.size(); ++i) scales[0].sizes.add(scales[i].sizes);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (i > 0) scales[i].sizes.take_sizes(scales[0].sizes);
-        if (composition.panels[i].overlay) composition.panels[i].overlay->scales = scales[i].sizes.scales();
+        if (i > 0) scales[i].sizes.take(scales[0].sizes);
+        std::optional<PanelOverlay>& overlay = composition.panels[i].overlay;
+        if (!overlay) continue;
+        overlay->scales = scales[i].sizes.scales();
+        overlay->marks = scales[i].sizes.marks();
     }
     fill_plots();
 }

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/rectangle.h"
-#include "overlay/overlay_scales.h"
+#include "overlay/overlay_painter.h"
 #include "plot/figure.h"
 #include "scene/description/description.h"
 
@@ -13,12 +13,6 @@
 #include <vector>
 
 namespace tumble {
-
-/// The shapes that are drawn over a scene. Their scales are found before the first frame.
-struct PanelOverlay {
-    OverlayScales scales{};
-    std::optional<int> legend_height;  // pixels: of the frame that the size of the legend suits; empty: no legend
-};
 
 /// A region of the frame that shows one scene.
 struct ClipPanel {

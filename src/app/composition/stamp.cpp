@@ -33,6 +33,23 @@ std::vector<std::string> words_of(std::string_view line) {
     return words;
 }
 
+/// No line ends between a number and its unit, or at an equals sign: "F = 2 N" is one word.
+std::vector<std::string> joined(const std::vector<std::string>& words) {
+    const auto is_number = [](const std::string& word) {
+        return !word.empty() && word.find_first_not_of("0123456789.,-") == std::string::npos;
+    };
+    std::vector<std::string> all;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const bool joins =
+            i > 0 && (words[i] == "=" || words[i - 1] == "=" || (is_number(words[i - 1]) && !is_number(words[i])));
+        if (joins)
+            all.back() += ' ' + words[i];
+        else
+            all.push_back(words[i]);
+    }
+    return all;
+}
+
 SetLines break_lines(std::string_view text, const TextStyle& style, double width, const Canvas& canvas) {
     SetLines set;
     const auto put = [&](const std::string& line) {
@@ -44,7 +61,7 @@ SetLines break_lines(std::string_view text, const TextStyle& style, double width
     for (std::size_t first = 0; first <= text.size();) {
         const std::size_t end = std::min(text.find('\n', first), text.size());
         std::string line;
-        for (const std::string& word : words_of(text.substr(first, end - first))) {
+        for (const std::string& word : joined(words_of(text.substr(first, end - first)))) {
             const std::string longer = line.empty() ? word : line + ' ' + word;
             if (!line.empty() && canvas.text_width(longer, style) > width) {
                 put(line);

@@ -16,7 +16,7 @@ PanelDrawing::PanelDrawing(const ClipPanel& panel, const RenderSwitches& options
     : renderer_(*panel.scene, switches_for(panel, options)),
       mean_(options.transparent),
       whole_{{0, 0, panel.scene->output.width, panel.scene->output.height}} {
-    if (panel.overlay) painter_.emplace(*panel.scene, panel.overlay->scales, panel.overlay->legend_height);
+    if (panel.overlay) painter_.emplace(*panel.scene, *panel.overlay);
 }
 
 void PanelDrawing::draw_samples(const SharedFrames& memory, std::size_t panel, std::int64_t frame) {

@@ -20,6 +20,7 @@ enum class Overlay : std::uint8_t {
     normals,           // contact normals, from A to B
     impulses,          // impulses of impacts, shown for a while
     forces,            // contact forces on B, mean over the frame
+    loads,             // weight, and forces at points ([[force]])
     velocity,          // of the center of mass
     omega,             // angular velocity
     momentum,          // linear
@@ -37,7 +38,7 @@ enum class Overlay : std::uint8_t {
     clock,             // the frame's time
     mode,              // integrator, impacts and step
 };
-inline constexpr std::size_t overlay_count = 20;
+inline constexpr std::size_t overlay_count = 21;
 
 struct OverlayName {
     std::string_view name;
@@ -45,16 +46,13 @@ struct OverlayName {
 };
 /// All overlays with their names in scenes and on the command line.
 inline constexpr std::array<OverlayName, overlay_count> overlay_names{{
-    {"contacts", Overlay::contacts}, {"normals", Overlay::normals},
-    {"impulses", Overlay::impulses}, {"forces", Overlay::forces},
-    {"velocity", Overlay::velocity}, {"omega", Overlay::omega},
-    {"momentum", Overlay::momentum}, {"angular-momentum", Overlay::angular_momentum},
-    {"trails", Overlay::trails},     {"ghosts", Overlay::ghosts},
-    {"aabb", Overlay::aabb},         {"axes", Overlay::axes},
-    {"com", Overlay::com},           {"islands", Overlay::islands},
-    {"sleep", Overlay::sleep},       {"names", Overlay::names},
-    {"damage", Overlay::damage},     {"title", Overlay::title},
-    {"clock", Overlay::clock},       {"mode", Overlay::mode},
+    {"contacts", Overlay::contacts}, {"normals", Overlay::normals},   {"impulses", Overlay::impulses},
+    {"forces", Overlay::forces},     {"loads", Overlay::loads},       {"velocity", Overlay::velocity},
+    {"omega", Overlay::omega},       {"momentum", Overlay::momentum}, {"angular-momentum", Overlay::angular_momentum},
+    {"trails", Overlay::trails},     {"ghosts", Overlay::ghosts},     {"aabb", Overlay::aabb},
+    {"axes", Overlay::axes},         {"com", Overlay::com},           {"islands", Overlay::islands},
+    {"sleep", Overlay::sleep},       {"names", Overlay::names},       {"damage", Overlay::damage},
+    {"title", Overlay::title},       {"clock", Overlay::clock},       {"mode", Overlay::mode},
 }};
 
 class OverlaySet {
@@ -75,7 +73,8 @@ inline constexpr std::size_t arrow_quantity_count = 6;
 /// A point of a body whose path is drawn.
 struct TrailPoint {
     std::size_t body = 0;
-    Vec3 point = Vec3::Zero();  // body frame, from the body's origin, m
+    Vec3 point = Vec3::Zero();     // body frame, from the body's origin, m
+    std::optional<Color> color{};  // of the path; empty: a light one of the body's
 };
 
 enum class PlotPlace : std::uint8_t { inset, beside, below };

@@ -58,10 +58,11 @@ void read_trail_points(const TomlTable& table, const BodyIndex& index, std::vect
     const auto list = table.find("trail_points");
     if (!list) return;
     for (const TomlTable& one : list->tables("; write trail_points = [{ body = \"ball\", point = [0, 0, 0] }]")) {
-        one.expect_keys({"body", "point"});
+        one.expect_keys({"body", "point", "color"});
         TrailPoint point;
         point.body = index.find(one.require("body"));
         one.read("point", point.point, limits::coordinate);
+        if (const auto color = one.find("color")) point.color = color->color();
         points.push_back(point);
     }
 }

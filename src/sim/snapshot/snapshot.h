@@ -15,7 +15,8 @@ struct BodyState {
     Quat orientation;                      // unit
     Vec3 velocity;                         // m/s, of the center of mass
     Vec3 angular_velocity;                 // rad/s
-    Vec3 momentum = Vec3::Zero();          // kg m/s; zero of bodies that are not dynamic, as the next
+    double mass = 0.0;                     // kg; zero of bodies that are not dynamic, as the next two
+    Vec3 momentum = Vec3::Zero();          // kg m/s
     Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s, about the center of mass
     bool asleep = false;
 };
