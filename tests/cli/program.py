@@ -125,6 +125,29 @@ def png_size(path):
     return struct.unpack(">II", data[16:24])
 
 
+def png_pixels(path):
+    """Width, height, channels and the bytes of the pixels of a PNG as the program writes it: rows without filter or by Sub."""
+    data = pathlib.Path(path).read_bytes()
+    width, height = png_size(path)
+    channels = {b"\x08\x02": 3, b"\x08\x06": 4}[data[24:26]]
+    packed, place = b"", 8
+    while place < len(data):
+        size = int.from_bytes(data[place:place + 4], "big")
+        if data[place + 4:place + 8] == b"IDAT":
+            packed += data[place + 8:place + 8 + size]
+        place += 12 + size
+    rows, pixels = zlib.decompress(packed), bytearray()
+    for y in range(height):
+        start = y * (channels * width + 1)
+        row = bytearray(rows[start + 1:start + 1 + channels * width])
+        assert rows[start] in (0, 1), rows[start]
+        if rows[start] == 1:
+            for i in range(channels, len(row)):
+                row[i] = (row[i] + row[i - channels]) & 255
+        pixels += row
+    return width, height, channels, bytes(pixels)
+
+
 def frame_names(count):
     return [f"frame_{n:06}.png" for n in range(count)]
 

@@ -1,29 +1,15 @@
 """`render --transparent` and `encode --transparent`: frames and clips with alpha."""
 
 import subprocess
-import zlib
 
 import program
 
 
 def rgba(path):
-    """Width, height and the bytes of the pixels of a PNG with alpha as the program writes it."""
-    data = path.read_bytes()
-    width, height = program.png_size(path)
-    assert data[24:26] == b"\x08\x06", f"{path} has no alpha"
-    packed, place = b"", 8
-    while place < len(data):
-        size = int.from_bytes(data[place:place + 4], "big")
-        if data[place + 4:place + 8] == b"IDAT":
-            packed += data[place + 8:place + 8 + size]
-        place += 12 + size
-    rows, pixels = zlib.decompress(packed), bytearray()
-    for y in range(height):
-        row = bytearray(rows[y * (4 * width + 1) + 1:(y + 1) * (4 * width + 1)])
-        for i in range(4, len(row)):
-            row[i] = (row[i] + row[i - 4]) & 255
-        pixels += row
-    return width, height, bytes(pixels)
+    """Width, height and the bytes of the pixels of a PNG with alpha."""
+    width, height, channels, pixels = program.png_pixels(path)
+    assert channels == 4, f"{path} has no alpha"
+    return width, height, pixels
 
 
 class Transparent(program.ProgramTest):
