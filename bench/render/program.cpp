@@ -1,9 +1,11 @@
 // bench_render: the cost of drawing and the quality of edges. One process, one thread.
 //   bench_render cost SCENE   [--size WxH] [--samples N] [--frames FIRST:END] [--rounds N] [--full] [--stages]
+//   bench_render overlay SCENE --overlay LIST [--size WxH] [--frames FIRST:END] [--full]
 //   bench_render edges SCENE  [--size WxH] [--samples N] [--frames FIRST:END] [--pictures FOLDER]
 #include "harness/clock.h"
 #include "output/png_writer.h"
 #include "render/clip.h"
+#include "render/overlay_cost.h"
 #include "render/passes/pass_timer.h"
 #include "render/picture_error.h"
 #include "render/render_switches.h"
@@ -33,7 +35,7 @@ std::pair<int, int> two_numbers(const std::string& text, char between) {
 }
 
 Arguments read_arguments(int argc, char** argv) {
-    if (argc < 3) throw std::runtime_error("bench_render cost|edges SCENE [options]");
+    if (argc < 3) throw std::runtime_error("bench_render cost|overlay|edges SCENE [options]");
     Arguments a{argv[1], argv[2], {}, {}};
     for (int i = 3; i < argc; ++i) {
         const std::string option = argv[i];
@@ -54,6 +56,8 @@ Arguments read_arguments(int argc, char** argv) {
             a.full = true;
         } else if (option == "--stages") {
             a.stages = true;
+        } else if (option == "--overlay") {
+            a.overrides.overlay = value();
         } else if (option == "--pictures") {
             a.pictures = value();
         } else {
@@ -152,10 +156,13 @@ int main(int argc, char** argv) {
         const tumble::bench::Arguments arguments = tumble::bench::read_arguments(argc, argv);
         if (arguments.command == "cost") {
             tumble::bench::measure_cost(arguments);
+        } else if (arguments.command == "overlay") {
+            tumble::bench::measure_overlay(tumble::load_scene(arguments.scene, arguments.overrides), arguments.first,
+                                           arguments.end, arguments.full);
         } else if (arguments.command == "edges") {
             tumble::bench::measure_edges(arguments);
         } else {
-            throw std::runtime_error("the first argument must be cost or edges");
+            throw std::runtime_error("the first argument must be cost, overlay or edges");
         }
     } catch (const std::exception& error) {
         fmt::print(stderr, "bench_render: {}\n", error.what());

@@ -94,12 +94,15 @@ void with_marker_distance(ScreenMarker shape, float radius, const Use& use) {
     }
 }
 
+/// mix() into a pixel that is transparent itself.
+[[gnu::noinline]] void mix_into_transparent(std::uint8_t* p, Color color, int share) {
+    const std::uint8_t channels[] = {color.r, color.g, color.b};
+    put_over(channels, std::uint32_t(255 * share + 128) >> 8, p);
+}
+
 /// Moves a color toward another by a share of 0 to 256.
-void mix(std::uint8_t* p, Color color, int share) {
-    if (p[3] != 255) {  // of pictures that are transparent themselves
-        const std::uint8_t channels[] = {color.r, color.g, color.b};
-        return put_over(channels, std::uint32_t(255 * share + 128) >> 8, p);
-    }
+inline void mix(std::uint8_t* p, Color color, int share) {
+    if (p[3] != 255) return mix_into_transparent(p, color, share);
     const auto channel = [&](std::uint8_t from, int to) {
         return std::uint8_t(from + (((to - from) * share + 128) >> 8));
     };
@@ -112,6 +115,7 @@ void mix(std::uint8_t* p, Color color, int share) {
 struct Brush {
     explicit Brush(const ScreenPaint& paint)
         : color(paint.color), share(float(256.0 * paint.opacity)), halo_share(float(halo_opacity) * share) {}
+    /// `own`, `halo`: shares of the shape and of its dark outline below it.
     void draw(std::uint8_t* p, int own, int halo) const {
         if (own >= 256) {  // most pixels of a shape
             p[0] = color.r;
