@@ -68,8 +68,9 @@ void add_text(CLI::App& command, SceneOverrides& overrides) {
         ->type_name("LIST");
     command
         .add_option("--plot", overrides.plot,
-                    "Curves of quantities in the clip, with a cursor at each frame's time: none, or a list such as\n"
-                    "energy,body.ball.y (names: tumble plot --help)")
+                    "Curves of quantities in the clip, with a cursor at each frame's time: none, or a list\n"
+                    "such as energy,body.ball.y (names: tumble plot --help)")
+
         ->type_name("LIST");
     command
         .add_option("--plot-place", overrides.plot_place, "Place of the plot: in a corner, or a third of the picture")
