@@ -118,11 +118,8 @@ MarkerShape contact_shape(ContactFeatures features) {
 }
 
 OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScales& scales)
-    : scene_(&scene), scales_(scales) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        radii_.push_back(radius_about_origin(scene.bodies[i].shape));
-        shown_.push_back(shows_body(scene, i) ? 1 : 0);
-    }
+    : scene_(&scene), scales_(scales), shown_(shown_bodies(scene)) {
+    for (const BodyDescription& body : scene.bodies) radii_.push_back(radius_about_origin(body.shape));
     if (!shows(Overlay::trails)) return;
     for (const TrailPoint& point : scene.overlay.trail_points)
         trails_.push_back({point.body, point.point, false, point.color.value_or(trail_color(scene, point.body)), {}});

@@ -81,11 +81,13 @@ bool needs_records(const OverlayDescription& overlay) {
         [&](Overlay one) { return overlay.show.has(one); });
 }
 
-bool shows_body(const SceneDescription& scene, std::size_t body) {
-    const std::vector<std::size_t>& chosen = scene.overlay.bodies;
-    if (!chosen.empty()) return std::find(chosen.begin(), chosen.end(), body) != chosen.end();
-    const BodyDescription& description = scene.bodies[body];
-    return description.type == BodyType::dynamic || !description.keyframes.empty();
+std::vector<char> shown_bodies(const SceneDescription& scene) {
+    std::vector<char> shown(scene.bodies.size(), 0);
+    for (const std::size_t body : scene.overlay.bodies) shown[body] = 1;
+    if (!scene.overlay.bodies.empty()) return shown;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        shown[i] = scene.bodies[i].type == BodyType::dynamic || !scene.bodies[i].keyframes.empty() ? 1 : 0;
+    return shown;
 }
 
 RecordVector vector_of(const ContactRecord& r, const SceneDescription& scene) {
@@ -100,6 +102,8 @@ RecordVector vector_of(const ImpactRecord& r, const SceneDescription& scene) {
     return {on_b ? r.b : r.a, sign * r.impulse * r.normal, sign * r.friction};
 }
 
+ScaleSurvey::ScaleSurvey(const SceneDescription& scene) : scene_(&scene), shown_(shown_bodies(scene)) {}
+
 void ScaleSurvey::add(ArrowQuantity quantity, double size) {
     if (!(size > 0.0)) return;
     Sizes& sizes = sizes_[std::size_t(quantity)];
@@ -111,7 +115,7 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
     const OverlayDescription& overlay = scene_->overlay;
     if (snapshot.time < overlay.start || snapshot.time >= overlay.end) return;
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-        if (!shows_body(*scene_, i)) continue;
+        if (shown_[i] == 0) continue;
         const BodyState& body = snapshot.bodies[i];
         add(ArrowQuantity::velocity, body.velocity.norm());
         add(ArrowQuantity::omega, body.angular_velocity.norm());

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <vector>
 
 namespace tumble {
 
@@ -32,8 +33,8 @@ bool draws_shapes(const OverlayDescription& overlay);
 bool needs_survey(const OverlayDescription& overlay);
 /// True if contacts and impacts have to be recorded.
 bool needs_records(const OverlayDescription& overlay);
-/// True if the overlay shows the body.
-bool shows_body(const SceneDescription& scene, std::size_t body);
+/// The bodies that the overlay shows: 1 for each.
+std::vector<char> shown_bodies(const SceneDescription& scene);
 
 /// The vector of a record that an arrow shows: on B, or on A where only A is dynamic.
 struct RecordVector {
@@ -48,7 +49,8 @@ RecordVector vector_of(const ImpactRecord& record, const SceneDescription& scene
 /// the longest then fits into the picture; rounded to 1, 2 or 5 times a power of ten.
 class ScaleSurvey {
 public:
-    explicit ScaleSurvey(const SceneDescription& scene) : scene_(&scene) {}
+    /// `scene` must outlive it.
+    explicit ScaleSurvey(const SceneDescription& scene);
     void add(const Snapshot& snapshot, const ContactRecords* records);
     /// Counts the arrows of another panel as well, so that both have the same scales.
     void add(const ScaleSurvey& other);
@@ -65,6 +67,7 @@ private:
         std::map<int, std::int64_t> counts;  // by bin: eight in each factor of two
     };
     const SceneDescription* scene_;
+    std::vector<char> shown_;  // by body
     std::array<Sizes, arrow_quantity_count> sizes_;
     OverlayMarks marks_;
 };
