@@ -165,8 +165,8 @@ void OverlayBuilder::remember(const Snapshot& snapshot, const ContactRecords* re
 }
 
 void OverlayBuilder::add_ghosts(const Snapshot& snapshot) {
-    if (snapshot.frame % scene_->overlay.ghost_every == 0 && ghosts_.size() < most_ghosts)
-        for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    if (snapshot.frame % scene_->overlay.ghost_every == 0)
+        for (std::size_t i = 0; i < snapshot.bodies.size() && ghosts_.size() < most_ghosts; ++i) {
             if (shown_[i] == 0 || radii_[i] == 0.0) continue;
             const BodyState& now = snapshot.bodies[i];
             const auto last =

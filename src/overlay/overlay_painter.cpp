@@ -8,13 +8,15 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 namespace tumble {
 namespace {
 
 constexpr double nearest = 1e-3;  // of the distance to the camera's target: nearer parts of lines are cut off
 constexpr int ball_level = 3;     // 1280 triangles: smooth as a ghost of any size
-constexpr double margin = 14.0;   // of the legend, in units of the shapes' sizes
+constexpr std::size_t most_kept_pixels = 4 << 20;  // of ghosts: 48 MiB in each render process
+constexpr double margin = 14.0;                    // of the legend, in units of the shapes' sizes
 constexpr Color damage_color{255, 64, 200};
 
 using Vertex = std::pair<Vec3, Vec3>;
@@ -96,7 +98,10 @@ const Image& OverlayPainter::draw(const PlainFrame& frame, const OverlayFrame& s
     if (first_) dirty.add(Rectangle{0, 0, image_.width, image_.height});
     for (const Rectangle& r : frame.changed) dirty.add(r);
     for (const Rectangle& r : dirty.rectangles()) copy(frame.image, image_, r);
-    if (frame.camera.eye() != ghost_eye_ || frame.camera.clip_from_relative(1.0) != ghost_view_) ghosts_.clear();
+    if (frame.camera.eye() != ghost_eye_ || frame.camera.clip_from_relative(1.0) != ghost_view_) {
+        ghosts_.clear();
+        ghost_pixels_ = 0;
+    }
     ghost_eye_ = frame.camera.eye();
     ghost_view_ = frame.camera.clip_from_relative(1.0);
     raster_.begin(image_, &frame.depths);
@@ -154,10 +159,15 @@ void OverlayPainter::draw_surface(const Camera& camera, const OverlaySurface& su
         return;
     }
     const auto& q = surface.orientation.coeffs();
-    const auto [found, added] = ghosts_.try_emplace(
-        {double(surface.body), surface.origin.x(), surface.origin.y(), surface.origin.z(), q[0], q[1], q[2], q[3]});
-    if (added) found->second = cover(camera, surface);
-    raster_.surface(found->second, screen_paint(surface.paint));
+    const std::array<double, 8> key{
+        double(surface.body), surface.origin.x(), surface.origin.y(), surface.origin.z(), q[0], q[1], q[2], q[3]};
+    if (const auto kept = ghosts_.find(key); kept != ghosts_.end())
+        return raster_.surface(kept->second, screen_paint(surface.paint));
+    SurfaceCover ghost = cover(camera, surface);
+    raster_.surface(ghost, screen_paint(surface.paint));
+    if (ghost_pixels_ + ghost.pixels.size() > most_kept_pixels) return;
+    ghost_pixels_ += ghost.pixels.size();
+    ghosts_.emplace(key, std::move(ghost));
 }
 
 // Ghosts are lit from the eye and from above.

@@ -11,6 +11,7 @@
 #include "scene/description/description.h"
 
 #include <array>
+#include <cstddef>
 #include <map>
 #include <optional>
 #include <span>
@@ -74,6 +75,7 @@ private:
     std::map<std::size_t, Triangles> triangles_;  // by body, made on first use
     std::map<std::pair<std::string, float>, Image> texts_;
     std::map<std::array<double, 8>, SurfaceCover> ghosts_;  // by body and pose, for the camera below
+    std::size_t ghost_pixels_ = 0;                          // of all of these
     Vec3 ghost_eye_ = Vec3::Zero();
     glm::mat4 ghost_view_{0.0f};
 };

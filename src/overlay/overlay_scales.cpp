@@ -12,6 +12,7 @@ namespace {
 constexpr double common_length = 1.0 / 10.0, longest_length = 0.8;
 constexpr double least_friction = 0.02;  // of the normal force
 constexpr double noise = 1e-3;           // of the largest size: smaller ones are not counted
+constexpr double least_size = 1e-100;    // SI units: smaller ones are zero but for rounding, and have no finite scale
 
 constexpr std::array<Overlay, arrow_quantity_count> shown_by{Overlay::forces,   Overlay::impulses,
                                                              Overlay::velocity, Overlay::omega,
@@ -83,10 +84,12 @@ bool needs_records(const OverlayDescription& overlay) {
 
 std::vector<char> shown_bodies(const SceneDescription& scene) {
     std::vector<char> shown(scene.bodies.size(), 0);
-    for (const std::size_t body : scene.overlay.bodies) shown[body] = 1;
+    for (const std::size_t chosen : scene.overlay.bodies) shown[chosen] = 1;
     if (!scene.overlay.bodies.empty()) return shown;
-    for (std::size_t i = 0; i < shown.size(); ++i)
-        shown[i] = scene.bodies[i].type == BodyType::dynamic || !scene.bodies[i].keyframes.empty() ? 1 : 0;
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        if (body.type == BodyType::dynamic || !body.keyframes.empty()) shown[i] = 1;
+    }
     return shown;
 }
 
@@ -105,7 +108,7 @@ RecordVector vector_of(const ImpactRecord& r, const SceneDescription& scene) {
 ScaleSurvey::ScaleSurvey(const SceneDescription& scene) : scene_(&scene), shown_(shown_bodies(scene)) {}
 
 void ScaleSurvey::add(ArrowQuantity quantity, double size) {
-    if (!(size > 0.0)) return;
+    if (!(size >= least_size)) return;
     Sizes& sizes = sizes_[std::size_t(quantity)];
     sizes.most = std::max(sizes.most, size);
     ++sizes.counts[bin_of(size)];
@@ -123,20 +126,24 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
         add(ArrowQuantity::angular_momentum, body.angular_momentum.norm());
     }
     if (overlay.show.has(Overlay::loads)) {
-        for (const BodyState& body : snapshot.bodies)
-            add(ArrowQuantity::force, body.mass * scene_->simulation.gravity.norm());
-        for (const ForceDescription& force : scene_->forces) add(ArrowQuantity::force, force.force.norm());
+        for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
+            if (shown_[i] != 0) add(ArrowQuantity::force, snapshot.bodies[i].mass * scene_->simulation.gravity.norm());
+        for (const ForceDescription& force : scene_->forces)
+            if (shown_[force.body] != 0) add(ArrowQuantity::force, force.force.norm());
     }
     if (records == nullptr) return;
     for (const ContactRecord& r : records->contacts) {
         if (r.a == ContactRecord::nobody) continue;  // a correction of the method
+        if (shown_[r.a] == 0 && shown_[r.b] == 0) continue;
         const RecordVector v = vector_of(r, *scene_);
         if (overlay.show.has(Overlay::forces)) add(ArrowQuantity::force, v.total().norm());
         marks_.states |= 1u << unsigned(r.state);
         marks_.features |= 1u << unsigned(r.features);
         marks_.friction = marks_.friction || shows_friction(v.normal, v.tangential);
     }
-    for (const ImpactRecord& r : records->impacts) add(ArrowQuantity::impulse, vector_of(r, *scene_).total().norm());
+    for (const ImpactRecord& r : records->impacts)
+        if (const RecordVector v = vector_of(r, *scene_); shown_[v.body] != 0)
+            add(ArrowQuantity::impulse, v.total().norm());
 }
 
 void ScaleSurvey::add(const ScaleSurvey& other) {

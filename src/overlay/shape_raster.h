@@ -28,7 +28,7 @@ struct ScreenPaint {
     double allowance = 0.0;  // m: surfaces that are nearer by less do not hide the shape
 };
 
-/// An arrow head or a marker as signed distances from the outline, pixels, positive outside.
+/// The shapes of marks at points, in the order of MarkerShape (overlay_frame.h).
 enum class ScreenMarker { disc, ring, square, diamond, cross, center_of_mass };
 
 struct ScreenArrow {

@@ -236,6 +236,17 @@ position = [5, 30, 0]
     EXPECT_TRUE(std::ranges::none_of(frame.surfaces, [](const OverlaySurface& ghost) { return ghost.body == 1; }));
 }
 
+TEST(OverlayBuilder, GhostsOfAllBodiesTogetherAreLimited) {
+    SceneDescription scene = scene_showing("\"ghosts\"");
+    scene.overlay.ghost_every = 1;
+    for (int i = 0; i < 500; ++i) {
+        scene.bodies.push_back(scene.bodies[1]);
+        scene.bodies.back().position.x() = 3.0 * (i + 1);
+        scene.bodies.back().velocity.y() = 5.0;
+    }
+    EXPECT_EQ(frame_after(scene, 2).surfaces.size(), 399u);  // the crate at rest has one as well, which is not drawn
+}
+
 TEST(OverlayBuilder, BodiesInContactShareTheColorOfTheirIsland) {
     const SceneDescription scene = scene_showing("\"islands\"", R"(
 [[body]]

@@ -55,6 +55,35 @@ TEST(OverlayScales, RestIsNotCounted) {
     EXPECT_EQ(moving.scales(), resting_too.scales());
 }
 
+TEST(OverlayScales, SizesWithoutAFiniteScaleCountAsRest) {
+    const SceneDescription scene = scene_with_velocity();
+    ScaleSurvey survey(scene);
+    survey.add(moving_at(1e-310), nullptr);
+    EXPECT_EQ(survey.scales()[velocity], 0.0);
+}
+
+TEST(OverlayScales, BodiesThatAreNotShownAreNotCounted) {
+    SceneDescription scene = scene_with_velocity();
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.overlay.bodies = {1};
+    scene.overlay.show.add(Overlay::loads);
+    scene.forces.emplace_back();
+    scene.forces[0].force = {1.0, 0.0, 0.0};  // on body 0
+    ContactRecords records;
+    ContactRecord contact;
+    contact.a = contact.b = 0;
+    contact.normal_force = 1.0;
+    contact.normal = {0.0, 1.0, 0.0};
+    records.contacts.push_back(contact);
+    Snapshot snapshot = moving_at(100.0);
+    snapshot.bodies[0].mass = 1.0;
+    snapshot.bodies.emplace_back();
+    ScaleSurvey survey(scene);
+    survey.add(snapshot, &records);
+    EXPECT_EQ(survey.scales(), OverlayScales{});
+    EXPECT_EQ(survey.marks().states, 0u);
+}
+
 TEST(OverlayScales, TimesOutsideOfTheOverlayAreNotCounted) {
     SceneDescription scene = scene_with_velocity();
     scene.overlay.start = 1.0;

@@ -18,18 +18,21 @@ constexpr std::uint64_t image_bytes = 4;  // RGBA
 constexpr std::uint64_t drawing = 10;  // buffers of antialiasing and readback: measured, see docs/explanation/output.md
 constexpr std::uint64_t light = 12;    // the sums of a mean of blur samples (image_mean.h)
 constexpr std::uint64_t coverage = 4;  // of these sums
+constexpr std::uint64_t overlay = 16;  // depths, the image with the shapes, coverage of a line (shape_raster.h)
 constexpr std::uint64_t surface = 16;  // visibility buffer: depth, surface, triangle (visibility_buffer.h)
 
 constexpr std::int64_t slots = 4;  // of a worker (render_pool.cpp); a frame takes one
 
 std::uint64_t pixels_of(int width, int height) { return std::uint64_t(width) * std::uint64_t(height); }
 
-std::uint64_t panel_memory(const SceneDescription& scene, const RenderWork& work) {
+std::uint64_t panel_memory(const ClipPanel& panel, const RenderWork& work) {
+    const SceneDescription& scene = *panel.scene;
     const std::uint64_t pixels = pixels_of(scene.output.width, scene.output.height);
     const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(scene.output.samples);  // the renderer's rule
     std::uint64_t bytes = pixels * (targets * samples * sample + image_bytes + drawing);
     if (samples > 1) bytes += pixels * image_bytes;  // their mean
     if (work.blur_samples > 1) bytes += pixels * (light + (work.outputs.transparent ? coverage : 0) + image_bytes);
+    if (panel.overlay) bytes += pixels * overlay;
     return bytes;
 }
 
@@ -39,7 +42,7 @@ RenderMemory render_memory(const Composition& composition, const RenderWork& wor
     const int width = composition.width, height = composition.height;
     RenderMemory memory;
     if (work.outputs.image()) {
-        for (const ClipPanel& panel : composition.panels) memory.worker += panel_memory(*panel.scene, work);
+        for (const ClipPanel& panel : composition.panels) memory.worker += panel_memory(panel, work);
         if (!composition.plain()) memory.worker += pixels_of(width, height) * image_bytes;
     }
     if (work.outputs.video) {
