@@ -42,6 +42,32 @@ TEST(Survey, ShowsEachFrameOfTheClipToAllObservers) {
     }
 }
 
+struct ImpactCounter : SurveyObserver {
+    void see(const Snapshot&, const Measurement&, const ContactRecords* records) override {
+        impacts += records->impacts.size();
+    }
+    std::size_t impacts = 0;
+};
+
+TEST(Survey, ShowsTheImpactsOfAllIntervalsOfTheShutter) {
+    SceneDescription scene = falling_ball();
+    scene.bodies[0].position.y() = 1.0;
+    scene.bodies[0].restitution = 1.0;
+    scene.bodies.emplace_back();
+    scene.bodies[1].type = BodyType::fixed;
+    scene.bodies[1].shape = PlaneShape{};
+    scene.simulation.impacts = ImpactMode::exact;
+    for (const int intervals : {1, 4}) {
+        ImpactCounter counter;
+        SurveyObserver* const observers[] = {&counter};
+        World world(scene, divided(scene.timing(), intervals), 1);
+        world.record_contacts();
+        Interrupt interrupt;
+        survey(world, {21, intervals}, observers, interrupt);
+        EXPECT_EQ(counter.impacts, 3u);  // at sqrt(2 h / g) (1 + 2 k) = 0.32, 0.96 and 1.60 s, h = 0.5 m
+    }
+}
+
 TEST(Survey, PlotsHaveAPanelForEachUnitAndASeriesForEachRun) {
     const SceneDescription scene = falling_ball();
     const auto quantities = parse_quantities("energy,body.ball.y", scene);

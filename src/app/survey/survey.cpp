@@ -1,6 +1,7 @@
 #include "app/survey/survey.h"
 
 #include "core/error.h"
+#include "sim/frames/frame_sequence.h"
 
 #include <algorithm>
 
@@ -10,13 +11,11 @@ void survey(World& world, const SurveyFrames& frames, std::span<SurveyObserver* 
             Interrupt& interrupt) {
     const bool measures =
         std::ranges::any_of(observers, [](const SurveyObserver* observer) { return observer->needs_measurement(); });
+    FrameSequence sequence(world, {frames.intervals, 1});
     for (std::int64_t n = 0; n < frames.count; ++n) {
-        if (n > 0)
-            for (int i = 0; i < frames.intervals; ++i) world.advance_frame();
-        const Snapshot snapshot = world.snapshot();
+        const Snapshot snapshot = sequence.next_start();
         const Measurement measurement = measures ? world.measure() : Measurement{};
-        const ContactRecords* const records = world.records_contacts() ? &world.contact_records() : nullptr;
-        for (SurveyObserver* observer : observers) observer->see(snapshot, measurement, records);
+        for (SurveyObserver* observer : observers) observer->see(snapshot, measurement, sequence.records());
         if (interrupt.pending()) throw RunError("interrupted");
     }
 }

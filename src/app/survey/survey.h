@@ -17,7 +17,7 @@ public:
     virtual ~SurveyObserver() = default;
     virtual bool needs_measurement() const { return false; }
     /// The measurement is empty unless an observer needs it.
-    /// `records`: of the last interval, if the world records contacts, else null.
+    /// `records`: of the frame (frame_sequence.h), if the world records contacts, else null.
     virtual void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords* records) = 0;
 };
 
