@@ -82,17 +82,17 @@ void add_contacts(const OverlayMarks& marks, std::vector<Row>& rows) {
             add({Entry::Symbol::marker, normal_color, text, contact_shape(feature)});
 }
 
-std::vector<Row> make_rows(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks) {
+std::vector<Row> make_rows(const SceneDescription& scene, const PanelOverlay& panel) {
     const OverlayDescription& overlay = scene.overlay;
     std::vector<Row> rows;
-    add_arrows(scene, scales, marks, rows);
-    if (overlay.show.has(Overlay::contacts)) add_contacts(marks, rows);
+    add_arrows(scene, panel.scales, panel.marks, rows);
+    if (overlay.show.has(Overlay::contacts)) add_contacts(panel.marks, rows);
     if (overlay.show.has(Overlay::com))
         rows.push_back({{Entry::Symbol::marker, {250, 250, 250}, "center of mass", MarkerShape::center_of_mass}});
     if (overlay.show.has(Overlay::ghosts))
         rows.push_back({{Entry::Symbol::patch,
                          {200, 206, 216},
-                         fmt::format("pose every {:.3g} s", overlay.ghost_every / scene.output.fps)}});
+                         fmt::format("pose every {:.3g} s", overlay.ghost_every * panel.frame_step)}});
     if (overlay.show.has(Overlay::sleep)) rows.push_back({{Entry::Symbol::patch, asleep_color, "asleep"}});
     if (overlay.show.has(Overlay::islands))
         rows.push_back({{Entry::Symbol::patch, {0, 158, 255}, "island: bodies in contact"}});
@@ -150,11 +150,10 @@ std::vector<std::vector<double>> place_entries(const std::vector<Row>& rows, con
 
 }  // namespace
 
-std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks,
-                                 int height) {
-    const std::vector<Row> rows = make_rows(scene, scales, marks);
+std::optional<Image> draw_legend(const SceneDescription& scene, const PanelOverlay& panel) {
+    const std::vector<Row> rows = make_rows(scene, panel);
     if (rows.empty()) return std::nullopt;
-    const double unit = overlay_unit(height);
+    const double unit = overlay_unit(panel.frame_height);
     TextStyle style;
     style.size = 15.0;
     style.paint = {{236, 240, 246}, 1.0};

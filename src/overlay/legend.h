@@ -9,8 +9,17 @@
 
 namespace tumble {
 
-/// A picture with straight alpha; empty if no overlay needs an explanation. `height`: of the frame, pixels.
-std::optional<Image> draw_legend(const SceneDescription& scene, const OverlayScales& scales, const OverlayMarks& marks,
-                                 int height);
+/// The scales and the legend of the shapes over a scene. They are found before the first frame.
+struct PanelOverlay {
+    OverlayScales scales{};
+    OverlayMarks marks{};
+    bool legend = false;
+    double frame_step = 1.0 / 60.0;  // s of the scene's motion from frame to frame
+    int frame_height = 720;          // pixels, of the whole frame: the legend has a size that suits it
+    int legend_top = 0;              // pixels, from the upper edge of the panel
+};
+
+/// A picture with straight alpha; empty if no overlay needs an explanation.
+std::optional<Image> draw_legend(const SceneDescription& scene, const PanelOverlay& overlay);
 
 }  // namespace tumble

@@ -131,9 +131,10 @@ OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScale
 const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const ContactRecords* records) {
     const OverlayDescription& overlay = scene_->overlay;
     frame_.clear();
+    const std::int64_t frame = frames_++;
     if (snapshot.time < overlay.start || snapshot.time >= overlay.end) return frame_;
     remember(snapshot, records);
-    if (shows(Overlay::ghosts)) add_ghosts(snapshot);
+    if (shows(Overlay::ghosts)) add_ghosts(snapshot, frame);
     if (shows(Overlay::islands) && records != nullptr) add_islands(snapshot, *records);
     add_trails();
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
@@ -164,8 +165,8 @@ void OverlayBuilder::remember(const Snapshot& snapshot, const ContactRecords* re
             impacts_.push_back(impact);
 }
 
-void OverlayBuilder::add_ghosts(const Snapshot& snapshot) {
-    if (snapshot.frame % scene_->overlay.ghost_every == 0)
+void OverlayBuilder::add_ghosts(const Snapshot& snapshot, std::int64_t frame) {
+    if (frame % scene_->overlay.ghost_every == 0)
         for (std::size_t i = 0; i < snapshot.bodies.size() && ghosts_.size() < most_ghosts; ++i) {
             if (shown_[i] == 0 || radii_[i] == 0.0) continue;
             const BodyState& now = snapshot.bodies[i];
@@ -220,7 +221,7 @@ void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
     if (shows(Overlay::omega)) body_arrow(ArrowQuantity::omega, i, state, state.angular_velocity);
     if (shows(Overlay::momentum)) body_arrow(ArrowQuantity::momentum, i, state, state.momentum);
     if (shows(Overlay::angular_momentum)) body_arrow(ArrowQuantity::angular_momentum, i, state, state.angular_momentum);
-    if (shows(Overlay::com))
+    if (shows(Overlay::com) && radii_[i] > 0.0)
         frame_.markers.push_back({center, {{250, 250, 250}, 1.0f, false}, MarkerShape::center_of_mass, 6.5f});
     if (shows(Overlay::names))
         frame_.labels.push_back({center, {{250, 250, 250}, 1.0f, false}, scene_->bodies[i].name, 15.0f});

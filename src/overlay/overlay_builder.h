@@ -37,7 +37,7 @@ private:
         BodyState state;
     };
     void remember(const Snapshot& snapshot, const ContactRecords* records);
-    void add_ghosts(const Snapshot& snapshot);
+    void add_ghosts(const Snapshot& snapshot, std::int64_t frame);
     void add_trails();
     void add_contacts(const ContactRecords& records);
     void add_loads(const Snapshot& snapshot);
@@ -56,6 +56,7 @@ private:
     std::vector<double> radii_;  // m, of a ball about the origin that contains the body; 0 of planes
     std::vector<Trail> trails_;
     std::vector<Ghost> ghosts_;
+    std::int64_t frames_ = 0;  // of the clip so far: with a shutter, the frames of snapshots are parts of these
     std::deque<ImpactRecord> impacts_;  // those that are still visible
     OverlayFrame frame_;
 };

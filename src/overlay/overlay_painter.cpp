@@ -1,6 +1,5 @@
 #include "overlay/overlay_painter.h"
 
-#include "overlay/legend.h"
 #include "plot/canvas.h"
 #include "render/mesh/primitive_meshes.h"
 
@@ -90,7 +89,7 @@ OverlayPainter::OverlayPainter(const SceneDescription& scene, const PanelOverlay
       legend_top_(overlay.legend_top),
       image_(scene.output.width, scene.output.height),
       previous_(scene.output.width, scene.output.height) {
-    if (overlay.legend) legend_ = draw_legend(scene, overlay.scales, overlay.marks, overlay.frame_height);
+    if (overlay.legend) legend_ = draw_legend(scene, overlay);
 }
 
 const Image& OverlayPainter::draw(const PlainFrame& frame, const OverlayFrame& shapes) {

@@ -4,8 +4,8 @@
 #include "core/depth_image.h"
 #include "core/image.h"
 #include "core/rectangle.h"
+#include "overlay/legend.h"
 #include "overlay/overlay_frame.h"
-#include "overlay/overlay_scales.h"
 #include "overlay/shape_raster.h"
 #include "render/camera/camera.h"
 #include "scene/description/description.h"
@@ -27,15 +27,6 @@ struct PlainFrame {
     const std::vector<Rectangle>& changed;  // since the previous one
     const DepthImage& depths;
     const Camera& camera;
-};
-
-/// The scales and the legend of the shapes over a scene. They are found before the first frame.
-struct PanelOverlay {
-    OverlayScales scales{};
-    OverlayMarks marks{};
-    bool legend = false;
-    int frame_height = 720;  // pixels, of the whole frame: the legend has a size that suits it
-    int legend_top = 0;      // pixels, from the upper edge of the panel
 };
 
 class OverlayPainter {

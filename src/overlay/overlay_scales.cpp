@@ -88,7 +88,8 @@ std::vector<char> shown_bodies(const SceneDescription& scene) {
     if (!scene.overlay.bodies.empty()) return shown;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const BodyDescription& body = scene.bodies[i];
-        if (body.type == BodyType::dynamic || !body.keyframes.empty()) shown[i] = 1;
+        const bool moves = body.type == BodyType::dynamic || !body.keyframes.empty();
+        if (moves && body.appearance.visible) shown[i] = 1;
     }
     return shown;
 }

@@ -2,6 +2,7 @@
 #include "overlay/overlay_builder.h"
 
 #include "scene/load.h"
+#include "sim/frames/frame_sequence.h"
 #include "sim/world.h"
 
 #include <gtest/gtest.h>
@@ -234,6 +235,28 @@ position = [5, 30, 0]
     }
     // The crate rests: its ghost stands where it is.
     EXPECT_TRUE(std::ranges::none_of(frame.surfaces, [](const OverlaySurface& ghost) { return ghost.body == 1; }));
+}
+
+TEST(OverlayBuilder, GhostsAreCountedInFramesOfTheClipWithAShutter) {
+    SceneDescription scene = scene_showing("\"ghosts\"");
+    scene.bodies[1].position.y() = 30.0;
+    scene.overlay.ghost_every = 6;
+    for (const int intervals : {1, 4}) {
+        World world(scene, divided(scene.timing(), intervals), 1);
+        FrameSequence sequence(world, {intervals, 1});
+        OverlayBuilder builder(scene, scales_of_one());
+        OverlayFrame frame;
+        for (int n = 0; n <= 20; ++n) frame = builder.next(sequence.next_start(), nullptr);
+        EXPECT_EQ(frame.surfaces.size(), 4u) << intervals;
+    }
+}
+
+TEST(OverlayBuilder, InvisibleBodiesAreShownOnRequestOnly) {
+    SceneDescription scene = scene_showing("\"com\"");
+    scene.bodies[1].appearance.visible = false;
+    EXPECT_TRUE(frame_after(scene, 1).markers.empty());
+    scene.overlay.bodies = {0, 1};
+    EXPECT_EQ(frame_after(scene, 1).markers.size(), 1u);  // a plane has no center of mass
 }
 
 TEST(OverlayBuilder, GhostsOfAllBodiesTogetherAreLimited) {

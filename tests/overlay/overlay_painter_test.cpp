@@ -68,6 +68,17 @@ PanelOverlay with_legend(const SceneDescription& scene) {
     return overlay;
 }
 
+TEST(OverlayPainter, TheLegendShowsTheTimeBetweenGhostsInTheScene) {
+    SceneDescription scene = parse_scene(drop, "test.toml");
+    PanelOverlay slow = with_legend(scene);
+    scene.overlay.ghost_every = 1;
+    const Image plain = *draw_legend(scene, slow);
+    slow.frame_step /= 4.0;
+    EXPECT_NE(draw_legend(scene, slow)->pixels, plain.pixels);
+    scene.overlay.ghost_every = 4;
+    EXPECT_EQ(draw_legend(scene, slow)->pixels, plain.pixels);
+}
+
 TEST(OverlayPainter, AnArrowLiesOnTheProjectionOfItsEnds) {
     SceneDescription scene = parse_scene(drop, "test.toml");
     scene.overlay = {};

@@ -98,9 +98,11 @@ void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& o
 void RenderScenes::add_overlays() {
     const bool below_title = !composition.text.title.empty() && composition.text.header.width == 0;
     bool legend = true;
-    for (ClipPanel& panel : composition.panels) {
+    for (std::size_t i = 0; i < composition.panels.size(); ++i) {
+        ClipPanel& panel = composition.panels[i];
         if (!draws_shapes(panel.scene->overlay)) continue;
         panel.overlay.emplace();
+        panel.overlay->frame_step = shutter_.intervals / scenes[i].timing.fps;
         panel.overlay->legend = std::exchange(legend, false);
         panel.overlay->frame_height = composition.height;
         panel.overlay->legend_top = int((below_title ? title_height : legend_margin) * composition.height);

@@ -113,8 +113,9 @@ void SharedFrames::read_poses(std::size_t panel, std::size_t sample, Snapshot& s
 
 void SharedFrames::write_overlay(std::size_t panel, std::span<const std::byte> shapes) {
     if (shapes.size() > overlay_space)
-        throw RunError(fmt::format("the overlays of a frame take {} MiB, and the limit is {}: show fewer bodies",
-                                   shapes.size() >> 20, overlay_space >> 20));
+        throw RunError(fmt::format(
+            "the overlays of a frame take {} MiB, and the limit is {}: show fewer bodies, or set trail_time",
+            shapes.size() >> 20, overlay_space >> 20));
     std::byte* const to = memory_ + *overlays_at_[panel];
     const std::size_t size = shapes.size();
     std::memcpy(to, &size, sizeof size);

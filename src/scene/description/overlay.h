@@ -88,7 +88,7 @@ struct Caption {
 
 struct OverlayDescription {
     OverlaySet show;
-    std::vector<std::size_t> bodies;  // that overlays show; empty: all that move
+    std::vector<std::size_t> bodies;  // that overlays show; empty: all visible ones that move
     double start = 0.0;               // s: overlays are shown in [start, end); title, clock and captions always
     double end = std::numeric_limits<double>::infinity();
     double impulse_time = 0.25;                                   // s that an impulse stays visible
@@ -96,7 +96,7 @@ struct OverlayDescription {
     std::vector<TrailPoint> trail_points;                         // empty: centers of mass
     int ghost_every = 10;                                         // frames between two ghosts
     bool legend = true;
-    std::array<std::optional<double>, arrow_quantity_count> scale;  // m per SI unit; empty: by the clip's largest value
+    std::array<std::optional<double>, arrow_quantity_count> scale;  // m per SI unit; empty: found from the clip
     std::array<std::optional<Color>, arrow_quantity_count> color;
     std::string plot;  // quantities, separated by commas; empty: no plot
     PlotPlace plot_place = PlotPlace::inset;
