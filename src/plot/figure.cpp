@@ -150,10 +150,18 @@ private:
             points.clear();
             for (std::size_t i = 0; i < series.x.size(); ++i)
                 points.push_back({x_of(series.x[i]), y_of(axis, box, series.y[i])});
-            canvas_.polyline(points, {series_color(series.color, figure_.theme.dark)}, width,
-                             series.dashed ? 0.5 * size_ : 0.0);
+            const Paint paint{series_color(series.color, figure_.theme.dark)};
+            canvas_.polyline(points, paint, width, series.dashed ? 0.5 * size_ : 0.0);
+            draw_single_points(points, paint, 2.0 * width);
         }
         canvas_.unclip();
+    }
+
+    /// Dots at points without a neighbor, which no line shows.
+    void draw_single_points(const std::vector<Point2>& points, const Paint& paint, double radius) {
+        const auto has_value = [&](std::size_t i) { return i < points.size() && std::isfinite(points[i].y); };
+        for (std::size_t i = 0; i < points.size(); ++i)
+            if (has_value(i) && !has_value(i - 1) && !has_value(i + 1)) canvas_.disc(points[i], radius, paint);
     }
 
     void draw_line_labels(const Panel& panel, const Axis& axis, const Box2& box) {

@@ -126,6 +126,22 @@ TEST(Figure, LeavesAGapWhereThereIsNoValue) {
     EXPECT_NEAR(double(found) / (last - first), 0.78, 0.04);
 }
 
+TEST(Figure, DrawsADotWhereAValueHasNoNeighbors) {
+    Figure figure = ramp();
+    Series& series = figure.panels[0].series[0];
+    for (std::size_t i = 0; i < series.y.size(); ++i)
+        if (i % 10 != 5) series.y[i] = std::numeric_limits<double>::quiet_NaN();
+    Canvas canvas(400, 300, 1.0);
+    draw(figure, canvas, {0.0, 0.0, 400.0, 300.0});
+    int dots = 0;
+    bool before = false;
+    for (const double row : rows_of_line(canvas.image())) {
+        dots += std::isfinite(row) && !before ? 1 : 0;
+        before = std::isfinite(row);
+    }
+    EXPECT_EQ(dots, 10);
+}
+
 TEST(Figure, CursorMarksTheValueAtItsTime) {
     const Figure figure = ramp();
     Canvas with(400, 300, 1.0), without(400, 300, 1.0);
