@@ -233,6 +233,12 @@ restitution = 0.5
         self.assertEqual(table, (self.folder / "b.csv").read_text())
         self.check(2, "info", "scene.toml", "--bodies", "scene.toml")
 
+    def test_tables_in_csv_only_are_not_written_as_npz(self):
+        for command in (("info", "--bodies"), ("simulate", "--trajectory"), ("simulate", "--energy")):
+            error = self.check(2, command[0], "scene.toml", command[1], "t.npz").stderr
+            self.assertIn(f"{command[1]}: is written as CSV", error)
+            self.assertFalse((self.folder / "t.npz").exists())
+
     def test_the_inertia_of_a_compound(self):
         # Two balls of 1 kg, and one of 2 kg, off the axes.
         parts = ((0, 0, 0, 1), (1, 0.5, 0, 1), (0, -1, 2, 2))

@@ -3,6 +3,7 @@
 #include "core/error.h"
 
 #include <charconv>
+#include <filesystem>
 
 namespace tumble {
 
@@ -19,6 +20,17 @@ CLI::Validator number_within(double least, double most) {
 
 CLI::Validator some_name() {
     return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
+CLI::Validator csv_name() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            if (text.empty()) return "must not be empty";
+            return std::filesystem::path(text).extension() == ".npz"
+                       ? "is written as CSV; give it another ending than .npz"
+                       : "";
+        },
+        "");
 }
 
 void add_scene(CLI::App& command, std::filesystem::path& scene) {

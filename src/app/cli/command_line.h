@@ -38,6 +38,8 @@ void add_doctor(CLI::App& app, CommandLine& line);
 CLI::Validator number_within(double least, double most);
 /// Not empty: an empty name comes from an unset variable of a script.
 CLI::Validator some_name();
+/// A file that is written as CSV only.
+CLI::Validator csv_name();
 /// Takes "-" as the file of standard output.
 CLI::Validator or_standard_output();
 

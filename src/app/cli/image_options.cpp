@@ -69,7 +69,7 @@ CLI::App* add_info(CLI::App& app, CommandLine& line) {
         ->add_option("--bodies", line.info.bodies,
                      "CSV: one row per body, with mass, center of mass and inertia tensor in 17 digits; -\nis standard "
                      "output, in place of the description")
-        ->check(some_name())
+        ->check(csv_name())
         ->transform(or_standard_output())
         ->type_name("B.csv");
     command->footer("Example:\n  tumble info scene.toml");

@@ -29,13 +29,13 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->add_option("--trajectory", c.trajectory,
                      "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
                      "is standard output")
-        ->check(some_name())
+        ->check(csv_name())
         ->transform(or_standard_output())
         ->type_name("T.csv");
     command
         ->add_option("--energy", c.energy,
                      "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
-        ->check(some_name())
+        ->check(csv_name())
         ->transform(or_standard_output())
         ->type_name("E.csv");
     CLI::Option* step = command

@@ -71,8 +71,9 @@ void read_trail_points(const TomlTable& table, const BodyIndex& index, std::vect
 template <class Value, class Read>
 void read_by_quantity(const TomlTable& table, std::string_view key,
                       std::array<std::optional<Value>, arrow_quantity_count>& values, const Read& read) {
-    const auto by_quantity = table.find_table(key);
+    auto by_quantity = table.find_table(key);
     if (!by_quantity) return;
+    by_quantity->set_title(fmt::format("[overlay.{}]", key));
     by_quantity->expect_keys({"force", "impulse", "velocity", "omega", "momentum", "angular-momentum"});
     for (const auto& quantity : arrow_quantities)
         if (const auto value = by_quantity->find(quantity.name)) values[std::size_t(quantity.value)] = read(*value);
