@@ -18,18 +18,21 @@ constexpr std::size_t most_kept_pixels = 4 << 20;  // of ghosts: 48 MiB in each 
 constexpr double margin = 14.0;                    // of the legend, in units of the shapes' sizes
 constexpr Color damage_color{255, 64, 200};
 
-using Vertex = std::pair<Vec3, Vec3>;
+/// A vertex of a surface, without color.
+struct Corner {
+    Vec3 position, normal;
+};
 
-void add_mesh(std::span<const MeshAsset::Vertex> vertices, std::span<const std::uint32_t> indices, const Vec3& scale,
-              const Vec3& origin, const Quat& rotation, std::vector<Vertex>& to) {
+void add_mesh(std::span<const MeshAsset::Vertex> vertices, std::span<const std::uint32_t> indices, double scale,
+              std::vector<Corner>& to) {
     for (const std::uint32_t index : indices) {
         const MeshAsset::Vertex& v = vertices[index];
-        const Vec3 position(v.position[0], v.position[1], v.position[2]), normal(v.normal[0], v.normal[1], v.normal[2]);
-        to.emplace_back(origin + rotation * position.cwiseProduct(scale), rotation * normal);
+        to.push_back(
+            {scale * Vec3(v.position[0], v.position[1], v.position[2]), Vec3(v.normal[0], v.normal[1], v.normal[2])});
     }
 }
 
-void add_box(const Vec3& half, const Vec3& origin, const Quat& rotation, std::vector<Vertex>& to) {
+void add_box(const Vec3& half, std::vector<Corner>& to) {
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {-1.0, 1.0}) {
             Vec3 normal = Vec3::Zero(), u = Vec3::Zero(), v = Vec3::Zero();
@@ -39,22 +42,21 @@ void add_box(const Vec3& half, const Vec3& origin, const Quat& rotation, std::ve
             const Vec3 center = side * half[axis] * Vec3::Unit(axis);
             for (const auto& [s, t] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, -1),
                                        std::pair(1, 1), std::pair(-1, 1)})
-                to.emplace_back(origin + rotation * (center + s * u + t * v), rotation * normal);
+                to.push_back({center + s * u + t * v, normal});
         }
 }
 
-void add_shape(const Shape& shape, const Vec3& origin, const Quat& rotation, std::vector<Vertex>& to) {
+std::vector<Corner> corners_of(const Shape& shape) {
+    std::vector<Corner> corners;
     if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        add_box(0.5 * box->size, origin, rotation, to);
+        add_box(0.5 * box->size, corners);
     } else if (const auto* ball = std::get_if<SphereShape>(&shape)) {
         static const DrawMesh mesh = make_ball(ball_level);
-        add_mesh(mesh.vertices, mesh.indices, Vec3::Constant(ball->radius), origin, rotation, to);
+        add_mesh(mesh.vertices, mesh.indices, ball->radius, corners);
     } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
-        add_mesh(mesh->asset->vertices, mesh->asset->indices, Vec3::Ones(), origin, rotation, to);
-    } else if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
-        for (const CompoundPart& part : *compound->parts)
-            add_shape(part.shape, origin + rotation * part.position, rotation * part.rotation, to);
+        add_mesh(mesh->asset->vertices, mesh->asset->indices, 1.0, corners);
     }
+    return corners;
 }
 
 ScreenPaint screen_paint(const OverlayPaint& paint) {
@@ -154,16 +156,16 @@ void OverlayPainter::draw_line(const Camera& camera, const OverlayLine& line) {
 // While the camera stands still, ghosts keep their pixels.
 void OverlayPainter::draw_surface(const Camera& camera, const OverlaySurface& surface) {
     if (!surface.shaded) {
-        raster_.surface(cover(camera, surface), screen_paint(surface.paint));
+        raster_.surface(cover(camera, surface), surface.paint.opacity);
         return;
     }
     const auto& q = surface.orientation.coeffs();
     const std::array<double, 8> key{
         double(surface.body), surface.origin.x(), surface.origin.y(), surface.origin.z(), q[0], q[1], q[2], q[3]};
     if (const auto kept = ghosts_.find(key); kept != ghosts_.end())
-        return raster_.surface(kept->second, screen_paint(surface.paint));
+        return raster_.surface(kept->second, surface.paint.opacity);
     SurfaceCover ghost = cover(camera, surface);
-    raster_.surface(ghost, screen_paint(surface.paint));
+    raster_.surface(ghost, surface.paint.opacity);
     if (ghost_pixels_ + ghost.pixels.size() > most_kept_pixels) return;
     ghost_pixels_ += ghost.pixels.size();
     ghosts_.emplace(key, std::move(ghost));
@@ -181,21 +183,36 @@ SurfaceCover OverlayPainter::cover(const Camera& camera, const OverlaySurface& s
         std::array<ScreenCorner, 3> triangle;
         bool in_front = true;
         for (std::size_t k = 0; k < 3 && in_front; ++k) {
-            const Vec3 place = center + rotation * all[i + k].first;
+            const Vec3 place = center + rotation * all[i + k].position;
             in_front = place.dot(camera.forward()) > least;
             if (in_front)
                 triangle[k] = {
                     project(camera, place),
-                    surface.shaded ? 0.25 + 0.75 * std::max(0.0, (rotation * all[i + k].second).dot(light)) : 1.0};
+                    surface.shaded ? 0.25 + 0.75 * std::max(0.0, (rotation * all[i + k].normal).dot(light)) : 1.0,
+                    surface.shaded ? all[i + k].color : surface.paint.color};
         }
         if (in_front) corners_.insert(corners_.end(), triangle.begin(), triangle.end());
     }
     return raster_.cover(corners_);
 }
 
+void OverlayPainter::add_shape(const Shape& shape, const Vec3& origin, const Quat& rotation, Color color,
+                               Triangles& to) {
+    if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
+        for (const CompoundPart& part : *compound->parts)
+            add_shape(part.shape, origin + rotation * part.position, rotation * part.rotation,
+                      part.color.value_or(color), to);
+        return;
+    }
+    for (const Corner& corner : corners_of(shape))
+        to.push_back({origin + rotation * corner.position, rotation * corner.normal, color});
+}
+
 const OverlayPainter::Triangles& OverlayPainter::triangles(std::size_t body) {
     const auto [found, added] = triangles_.try_emplace(body);
-    if (added) add_shape(scene_->bodies[body].shape, Vec3::Zero(), Quat::Identity(), found->second);
+    const BodyDescription& description = scene_->bodies[body];
+    if (added)
+        add_shape(description.shape, Vec3::Zero(), Quat::Identity(), description.appearance.color, found->second);
     return found->second;
 }
 

@@ -48,8 +48,13 @@ private:
     void draw_label(const Camera& camera, const OverlayLabel& label);
     const Image& text_picture(const OverlayLabel& label);
 
-    /// Triangles of a body's surface: positions and normals in the body's frame, three vertices each.
-    using Triangles = std::vector<std::pair<Vec3, Vec3>>;
+    /// Triangles of a body's surface in the body's frame: three vertices each.
+    struct Vertex {
+        Vec3 position, normal;
+        Color color;
+    };
+    using Triangles = std::vector<Vertex>;
+    static void add_shape(const Shape& shape, const Vec3& origin, const Quat& rotation, Color color, Triangles& to);
     const Triangles& triangles(std::size_t body);
 
     const SceneDescription* scene_;

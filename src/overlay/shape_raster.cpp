@@ -348,48 +348,48 @@ SurfaceCover ShapeRaster::cover(std::span<const ScreenCorner> corners) {
         fill({place(a.point), place(b.point), place(c.point)},
              {CornerValue{1.0 / a.point.depth, a.light}, CornerValue{1.0 / b.point.depth, b.light},
               CornerValue{1.0 / c.point.depth, c.light}},
-             columns, rows);
+             a.color, columns, rows);
     }
     cover.pixels.reserve(samples_.size() / 4);
     for (int y = 0; y < rows; y += 2)
         for (int x = 0; x < columns; x += 2) {
             const std::size_t at = std::size_t(y) * std::size_t(columns) + std::size_t(x);
             SurfaceCover::Pixel pixel;
+            int count = 0, r = 0, g = 0, b = 0;
             for (const std::size_t k : {at, at + 1, at + std::size_t(columns), at + std::size_t(columns) + 1}) {
                 const SurfaceSample& sample = samples_[k];
                 if (sample.nearness <= 0.0f) continue;
                 pixel.nearness = std::max(pixel.nearness, sample.nearness);
-                pixel.share += 0.25f;
-                pixel.light += 0.25f * sample.light;
+                ++count;
+                r += sample.color.r, g += sample.color.g, b += sample.color.b;
             }
-            if (pixel.share > 0.0f) pixel.light /= pixel.share;
+            pixel.share = 0.25f * float(count);
+            if (count > 0) pixel.color = {std::uint8_t(r / count), std::uint8_t(g / count), std::uint8_t(b / count)};
             cover.pixels.push_back(pixel);
         }
     return cover;
 }
 
-void ShapeRaster::surface(const SurfaceCover& cover, const ScreenPaint& paint) {
+void ShapeRaster::surface(const SurfaceCover& cover, double opacity) {
     touched_.add(cover.box);
     const SurfaceCover::Pixel* pixel = cover.pixels.data();
-    const auto lit = [&](std::uint8_t channel, float light) { return std::uint8_t(float(channel) * light + 0.5f); };
     for (int y = cover.box.y; y < cover.box.y + cover.box.height; ++y)
-        for (int x = cover.box.x; x < cover.box.x + cover.box.width; ++x, ++pixel) {
-            if (pixel->share == 0.0f || hidden(x, y, pixel->nearness, paint)) continue;
-            const Color color{lit(paint.color.r, pixel->light), lit(paint.color.g, pixel->light),
-                              lit(paint.color.b, pixel->light)};
-            mix(image_->at(x, y), color, int(256.0 * paint.opacity * pixel->share + 0.5));
-        }
+        for (int x = cover.box.x; x < cover.box.x + cover.box.width; ++x, ++pixel)
+            if (pixel->share > 0.0f && !hidden(x, y, pixel->nearness, {}))
+                mix(image_->at(x, y), pixel->color, int(256.0 * opacity * pixel->share + 0.5));
 }
 
 // Edge functions are linear: each row adds the same to them from sample to sample.
-void ShapeRaster::fill(const std::array<Vector2d, 3>& p, const std::array<CornerValue, 3>& values, int columns,
-                       int rows) {
+void ShapeRaster::fill(const std::array<Vector2d, 3>& p, const std::array<CornerValue, 3>& values, Color color,
+                       int columns, int rows) {
     const double area = (p[1] - p[0]).x() * (p[2] - p[0]).y() - (p[1] - p[0]).y() * (p[2] - p[0]).x();
     if (area == 0.0) return;
-    const int first_row = std::max(0, int(std::ceil(std::min({p[0].y(), p[1].y(), p[2].y()}))));
-    const int last_row = std::min(rows - 1, int(std::floor(std::max({p[0].y(), p[1].y(), p[2].y()}))));
-    const int first = std::max(0, int(std::ceil(std::min({p[0].x(), p[1].x(), p[2].x()}))));
-    const int last = std::min(columns - 1, int(std::floor(std::max({p[0].x(), p[1].x(), p[2].x()}))));
+    const auto bound = [](double value, int most) { return int(std::clamp(value, 0.0, double(most))); };
+    const int first_row = bound(std::ceil(std::min({p[0].y(), p[1].y(), p[2].y()})), rows);
+    const int last_row = bound(std::floor(std::max({p[0].y(), p[1].y(), p[2].y()})) + 1.0, rows) - 1;
+    const int first = bound(std::ceil(std::min({p[0].x(), p[1].x(), p[2].x()})), columns);
+    const int last = bound(std::floor(std::max({p[0].x(), p[1].x(), p[2].x()})) + 1.0, columns) - 1;
+    const auto lit = [](std::uint8_t channel, double light) { return std::uint8_t(channel * light + 0.5); };
     const double wa_step = -(p[2] - p[1]).y() / area, wb_step = -(p[0] - p[2]).y() / area;
     for (int y = first_row; y <= last_row; ++y) {
         const double wa_first = ((p[2] - p[1]).x() * (y - p[1].y()) - (p[2] - p[1]).y() * (first - p[1].x())) / area;
@@ -399,8 +399,9 @@ void ShapeRaster::fill(const std::array<Vector2d, 3>& p, const std::array<Corner
             const double wa = wa_first + k * wa_step, wb = wb_first + k * wb_step, wc = 1.0 - wa - wb;
             if (wa < 0.0 || wb < 0.0 || wc < 0.0) continue;
             const auto nearness = float(wa * values[0].nearness + wb * values[1].nearness + wc * values[2].nearness);
-            if (nearness > sample->nearness)
-                *sample = {nearness, float(wa * values[0].light + wb * values[1].light + wc * values[2].light)};
+            if (nearness <= sample->nearness) continue;
+            const double light = wa * values[0].light + wb * values[1].light + wc * values[2].light;
+            *sample = {nearness, {lit(color.r, light), lit(color.g, light), lit(color.b, light)}};
         }
     }
 }

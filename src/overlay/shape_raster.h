@@ -37,17 +37,18 @@ struct ScreenArrow {
     int heads = 1;
 };
 
-/// A corner of a surface's triangle, with its brightness (0 to 1).
+/// A corner of a surface's triangle, with its brightness (0 to 1). The color is that of the triangle's first corner.
 struct ScreenCorner {
     ScreenPoint point;
     double light = 1.0;
+    Color color{255, 255, 255};
 };
 
 /// The pixels of a surface.
 struct SurfaceCover {
     struct Pixel {
-        float nearness = 0.0f, light = 0.0f,
-              share = 0.0f;  // 1 / depth, 1/m; mean brightness; covered part of the pixel
+        float nearness = 0.0f, share = 0.0f;  // 1 / depth of the nearest part, 1/m; covered part of the pixel
+        Color color;                          // mean, lit
     };
     Rectangle box;
     std::vector<Pixel> pixels;  // of the box, row by row
@@ -81,7 +82,7 @@ public:
     /// The pixels of one surface's triangles: three corners each, in any order and orientation.
     SurfaceCover cover(std::span<const ScreenCorner> corners);
     /// Hidden parts are not drawn.
-    void surface(const SurfaceCover& cover, const ScreenPaint& paint);
+    void surface(const SurfaceCover& cover, double opacity);
     /// Straight alpha; its top left corner is at the pixel.
     void picture(const Image& picture, int x, int y, double opacity);
     /// The outline of a rectangle.
@@ -100,8 +101,8 @@ private:
     struct CornerValue {
         double nearness, light;  // 1 / depth, 1/m; brightness
     };
-    void fill(const std::array<Eigen::Vector2d, 3>& places, const std::array<CornerValue, 3>& values, int columns,
-              int rows);
+    void fill(const std::array<Eigen::Vector2d, 3>& places, const std::array<CornerValue, 3>& values, Color color,
+              int columns, int rows);
     /// Draws the pixels left to right - 1 of a row. distance(x): from the outline, pixels, positive outside; nearness(x):
     /// 1 / depth, 1/m.
     template <class Distance, class Nearness>
@@ -123,9 +124,10 @@ private:
     };
     std::vector<Cover> cover_;
     std::vector<std::size_t> covered_;
-    // Of a surface that is being drawn, at 2 x 2 samples a pixel: 1 / depth of the nearest triangle (0: none), brightness.
+    // Of a surface that is being drawn, at 2 x 2 samples a pixel: 1 / depth of the nearest triangle (0: none), lit color.
     struct SurfaceSample {
-        float nearness = 0.0f, light = 0.0f;
+        float nearness = 0.0f;
+        Color color;
     };
     std::vector<SurfaceSample> samples_;
 };

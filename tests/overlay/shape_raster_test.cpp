@@ -118,8 +118,8 @@ TEST(ShapeRaster, ASurfaceIsCoveredOnceWhereTrianglesOverlap) {
     for (int k = 0; k < 2; ++k)  // the same square twice
         for (const auto& [x, y] : {std::pair(20.0, 20.0), std::pair(60.0, 20.0), std::pair(60.0, 60.0),
                                    std::pair(20.0, 20.0), std::pair(60.0, 60.0), std::pair(20.0, 60.0)})
-            corners.push_back({at(x, y, 5.0 + k), 1.0});
-    paper.raster.surface(paper.raster.cover(corners), {red, 0.5, true});
+            corners.push_back({at(x, y, 5.0 + k), 1.0, red});
+    paper.raster.surface(paper.raster.cover(corners), 0.5);
     EXPECT_NEAR(paper.area(), 0.5 * 1600.0, 8.0);
     EXPECT_NEAR(paper.red_at(40, 40), 0.5, 0.01);
 }
