@@ -124,6 +124,14 @@ TEST(ShapeRaster, ASurfaceIsCoveredOnceWhereTrianglesOverlap) {
     EXPECT_NEAR(paper.red_at(40, 40), 0.5, 0.01);
 }
 
+TEST(ShapeRaster, ATriangleWithCornersFarOutsideCoversThePicture) {
+    Paper paper;
+    const std::array corners{ScreenCorner{at(-1.0, -1.0), 1.0, red}, ScreenCorner{at(1e10, -1.0), 1.0, red},
+                             ScreenCorner{at(-1.0, 1e10), 1.0, red}};
+    paper.raster.surface(paper.raster.cover(corners), 1.0);
+    EXPECT_NEAR(paper.area(), width * height, 1.0);
+}
+
 TEST(ShapeRaster, TouchedTilesContainEveryChangedPixel) {
     Paper paper;
     const Image before = paper.image;

@@ -101,10 +101,6 @@ struct OverlayDescription {
     std::string plot;  // quantities, separated by commas; empty: no plot
     PlotPlace plot_place = PlotPlace::inset;
     std::vector<Caption> captions;
-
-    bool text() const {
-        return show.has(Overlay::title) || show.has(Overlay::clock) || show.has(Overlay::mode) || !captions.empty();
-    }
 };
 
 }  // namespace tumble
