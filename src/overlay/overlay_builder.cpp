@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -14,6 +15,7 @@ constexpr float ghost_opacity = 0.34f, tint_opacity = 0.5f, sleep_opacity = 0.32
 constexpr double rested = 0.02;  // radii of the body, and rad: a ghost nearer than that to another pose adds nothing
 constexpr double shortest_way = 2e-3;     // radii: a trail gets a point when the body has moved that far
 constexpr std::size_t most_ghosts = 400;  // of all bodies: more hide the picture, and each costs a drawing
+constexpr std::size_t longest_name = 40;  // characters of a label: a longer one hides the picture
 constexpr double normal_length = 0.35, axis_length = 1.2;  // radii of the body
 constexpr std::array<Color, arrow_quantity_count> colors{Color{255, 190, 30}, Color{255, 64, 112},
                                                          Color{60, 196, 255}, Color{186, 140, 255},
@@ -56,6 +58,16 @@ void add_bounds(const Shape& shape, const Vec3& origin, const Quat& orientation,
         for (const CompoundPart& part : *compound->parts)
             add_bounds(part.shape, origin + orientation * part.position, orientation * part.rotation, bounds);
     }
+}
+
+/// At most `longest_name` characters (UTF-8).
+std::string shortened(const std::string& name) {
+    std::size_t characters = 0;
+    for (std::size_t i = 0; i < name.size(); ++i) {
+        const bool starts_character = (static_cast<unsigned char>(name[i]) & 0xc0u) != 0x80u;
+        if (starts_character && ++characters > longest_name) return name.substr(0, i) + "…";
+    }
+    return name;
 }
 
 bool near(const BodyState& a, const BodyState& b, double radius) {
@@ -224,7 +236,7 @@ void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
     if (shows(Overlay::com) && radii_[i] > 0.0)
         frame_.markers.push_back({center, {{250, 250, 250}, 1.0f, false}, MarkerShape::center_of_mass, 6.5f});
     if (shows(Overlay::names))
-        frame_.labels.push_back({center, {{250, 250, 250}, 1.0f, false}, scene_->bodies[i].name, 15.0f});
+        frame_.labels.push_back({center, {{250, 250, 250}, 1.0f, false}, shortened(scene_->bodies[i].name), 15.0f});
 }
 
 void OverlayBuilder::add_box(std::size_t body, const BodyState& state) {

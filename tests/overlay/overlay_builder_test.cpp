@@ -259,6 +259,18 @@ TEST(OverlayBuilder, InvisibleBodiesAreShownOnRequestOnly) {
     EXPECT_EQ(frame_after(scene, 1).markers.size(), 1u);  // a plane has no center of mass
 }
 
+TEST(OverlayBuilder, LongNamesAreCutBetweenCharacters) {
+    SceneDescription scene = scene_showing("\"names\"");
+    scene.bodies[1].name = "crate";
+    EXPECT_EQ(frame_after(scene, 0).labels.at(0).text, "crate");
+    std::string characters;
+    for (int i = 0; i < 40; ++i) characters += "ω";
+    scene.bodies[1].name = characters;
+    EXPECT_EQ(frame_after(scene, 0).labels.at(0).text, characters);
+    scene.bodies[1].name += "ω";
+    EXPECT_EQ(frame_after(scene, 0).labels.at(0).text, characters + "…");
+}
+
 TEST(OverlayBuilder, GhostsOfAllBodiesTogetherAreLimited) {
     SceneDescription scene = scene_showing("\"ghosts\"");
     scene.overlay.ghost_every = 1;
