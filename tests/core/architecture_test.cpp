@@ -37,10 +37,13 @@ const std::map<std::string, Layer> layers = {
     {"overlay",
      {{"core/", "scene/description/", "sim/snapshot/", "render/", "plot/", "overlay/"},
       {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
+    {"gltf",
+     {{"core/", "scene/description/", "sim/snapshot/", "gltf/"},
+      {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"api",
      {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
-    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "api/", "tumble/", "app/"}, {}}},
+    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "gltf/", "api/", "tumble/", "app/"}, {}}},
 };
 
 /// The included folders of each folder below src/.

@@ -20,6 +20,7 @@ struct CommandLine {
     RenderCommand render;
     SimulateCommand simulate;
     PlotCommand plot;
+    ExportCommand export_scene;
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
@@ -29,6 +30,7 @@ struct CommandLine {
 CLI::App* add_render(CLI::App& app, CommandLine& line);
 CLI::App* add_simulate(CLI::App& app, CommandLine& line);
 CLI::App* add_plot(CLI::App& app, CommandLine& line);
+CLI::App* add_export(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);

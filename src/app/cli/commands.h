@@ -59,6 +59,15 @@ struct PlotCommand {
 };
 void run_plot(const PlotCommand& command);
 
+struct ExportCommand {
+    std::filesystem::path scene;
+    std::filesystem::path output;  // .glb
+    SceneOverrides overrides;
+    int threads = 1;
+    bool quiet = false;
+};
+void run_export(const ExportCommand& command);
+
 struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;

@@ -28,6 +28,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* render = add_render(app, line);
     const CLI::App* simulate = add_simulate(app, line);
     const CLI::App* plot = add_plot(app, line);
+    const CLI::App* export_scene = add_export(app, line);
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
@@ -47,6 +48,8 @@ int run_command_line(int argc, char** argv) {
         run_simulate(line.simulate);
     else if (plot->parsed())
         run_plot(line.plot);
+    else if (export_scene->parsed())
+        run_export(line.export_scene);
     else if (encode->parsed())
         run_encode(line.encode);
     else if (compare->parsed())

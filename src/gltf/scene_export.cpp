@@ -1,0 +1,267 @@
+#include "gltf/scene_export.h"
+
+#include "core/deterministic_math.h"
+#include "core/rotation.h"
+#include "gltf/glb_buffer.h"
+#include "gltf/primitives.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <tuple>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+constexpr double least_patch = 2.0, most_patch = 1000.0;  // m, half the side of a plane's square
+constexpr double light_intensity = 3.0;                   // lux; viewers show white surfaces in it as white
+constexpr double near_fraction = 1e-3;                    // near plane of the camera, of the distance to its target
+
+Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+Json quaternion_json(const Eigen::Vector4d& q) { return {q.x(), q.y(), q.z(), q.w()}; }
+
+class SceneWriter {
+public:
+    explicit SceneWriter(const GltfExport& source) : source_(source), scene_(source.scene) {}
+
+    std::vector<std::byte> write() {
+        for (std::size_t i = 0; i < scene_.bodies.size(); ++i)
+            if (scene_.bodies[i].appearance.visible) add_body(i);
+        add_camera();
+        add_light();
+        return buffer_.finish(root());
+    }
+
+private:
+    struct Geometry {
+        std::size_t positions, normals, indices;  // accessors
+    };
+    struct Placed {
+        std::size_t mesh;
+        Vec3 scale;
+    };
+    using MaterialKey = std::tuple<int, int, int, double, double>;
+
+    void add_body(std::size_t index);
+    Json shape_node(const BodyDescription& body, const Shape& shape, const Appearance& look, const Vec3& place,
+                    const Quat& rotation);
+    Placed placed(const BodyDescription& body, const Shape& shape, const Appearance& look);
+    Placed unit(std::optional<Geometry>& geometry, Triangles (*make)(), const Appearance& look, const Vec3& scale);
+    std::size_t mesh(const Geometry& geometry, const Appearance& look);
+    std::size_t material(const Appearance& look);
+    Geometry add_triangles(const Triangles& triangles);
+    Geometry asset(const MeshAsset& asset);
+    Geometry patch(const BodyDescription& body, const PlaneShape& plane);
+    void add_camera();
+    void add_light();
+    std::size_t add_node(Json node);
+    void set_pose(Json& node, const PoseKeys& keys) const;
+    void animate(std::size_t node, const PoseKeys& keys);
+    template <int N>
+    void add_channel(std::size_t node, const char* path, const KeyTrack<N>& track);
+    Json root() const;
+
+    const GltfExport& source_;
+    const SceneDescription& scene_;
+    GlbBuffer buffer_;
+    Json nodes_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array();
+    Json samplers_ = Json::array(), channels_ = Json::array(), top_ = Json::array();
+    std::optional<Geometry> box_, sphere_;
+    std::map<const MeshAsset*, Geometry> assets_;  // only looked up: their order has no effect
+    std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of_;  // by positions and material
+    std::map<MaterialKey, std::size_t> material_of_;
+};
+
+std::size_t SceneWriter::add_node(Json node) {
+    nodes_.push_back(std::move(node));
+    return nodes_.size() - 1;
+}
+
+void SceneWriter::set_pose(Json& node, const PoseKeys& keys) const {
+    node["translation"] = vector_json(keys.position.keys().front().value.cast<double>());
+    node["rotation"] = quaternion_json(keys.rotation.keys().front().value.cast<double>());
+}
+
+/// A node at the body's center of mass, whose path in flight is a parabola. Shapes that do not lie there are children.
+void SceneWriter::add_body(std::size_t index) {
+    const BodyDescription& body = scene_.bodies[index];
+    const PoseKeys& keys = source_.motion.bodies()[index];
+    const Vec3 origin = -source_.motion.node_place(index);
+    Json node{{"name", body.name}};
+    set_pose(node, keys);
+    std::vector<Json> parts;
+    if (const auto* compound = std::get_if<CompoundShape>(&body.shape)) {
+        for (const CompoundPart& part : *compound->parts) {
+            Appearance look = body.appearance;
+            look.color = part.color.value_or(look.color);
+            parts.push_back(shape_node(body, part.shape, look, origin + part.position, part.rotation));
+        }
+    } else if (!origin.isZero(0.0)) {
+        parts.push_back(shape_node(body, body.shape, body.appearance, origin, Quat::Identity()));
+    } else {
+        const Placed shape = placed(body, body.shape, body.appearance);
+        if (shape.scale != Vec3::Ones()) node["scale"] = vector_json(shape.scale);
+        node["mesh"] = shape.mesh;
+    }
+    if (!parts.empty()) {
+        Json children = Json::array();
+        for (Json& part : parts) children.push_back(add_node(std::move(part)));
+        node["children"] = std::move(children);
+    }
+    const std::size_t number = add_node(std::move(node));
+    top_.push_back(number);
+    animate(number, keys);
+}
+
+Json SceneWriter::shape_node(const BodyDescription& body, const Shape& shape, const Appearance& look, const Vec3& place,
+                             const Quat& rotation) {
+    const Placed result = placed(body, shape, look);
+    Json node{{"translation", vector_json(place)}};
+    if (!rotation.isApprox(Quat::Identity(), 0.0)) node["rotation"] = quaternion_json(rotation.coeffs());
+    if (result.scale != Vec3::Ones()) node["scale"] = vector_json(result.scale);
+    node["mesh"] = result.mesh;
+    return node;
+}
+
+SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape& shape, const Appearance& look) {
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return unit(box_, unit_box, look, box->size);
+    if (const auto* ball = std::get_if<SphereShape>(&shape))
+        return unit(sphere_, unit_sphere, look, Vec3::Constant(ball->radius));
+    if (const auto* plane = std::get_if<PlaneShape>(&shape)) return {mesh(patch(body, *plane), look), Vec3::Ones()};
+    return {mesh(asset(*std::get<MeshShape>(shape).asset), look), Vec3::Ones()};
+}
+
+SceneWriter::Placed SceneWriter::unit(std::optional<Geometry>& geometry, Triangles (*make)(), const Appearance& look,
+                                      const Vec3& scale) {
+    if (!geometry) geometry = add_triangles(make());
+    return {mesh(*geometry, look), scale};
+}
+
+std::size_t SceneWriter::mesh(const Geometry& geometry, const Appearance& look) {
+    const std::size_t surface = material(look);
+    const auto [place, is_new] = mesh_of_.try_emplace({geometry.positions, surface}, meshes_.size());
+    if (is_new)
+        meshes_.push_back(
+            {{"primitives", Json::array({{{"attributes", {{"POSITION", geometry.positions}, {"NORMAL", geometry.normals}}},
+                                          {"indices", geometry.indices},
+                                          {"material", surface}}})}});
+    return place->second;
+}
+
+std::size_t SceneWriter::material(const Appearance& look) {
+    const MaterialKey key{look.color.r, look.color.g, look.color.b, look.roughness, look.metallic};
+    const auto [place, is_new] = material_of_.try_emplace(key, materials_.size());
+    if (is_new) {
+        const std::array<double, 3> color = to_linear(look.color);
+        materials_.push_back({{"pbrMetallicRoughness",
+                               {{"baseColorFactor", {color[0], color[1], color[2], 1.0}},
+                                {"metallicFactor", look.metallic},
+                                {"roughnessFactor", look.roughness}}}});
+    }
+    return place->second;
+}
+
+SceneWriter::Geometry SceneWriter::add_triangles(const Triangles& triangles) {
+    return {buffer_.add(triangles.positions, 3, GlbBuffer::Use::vertices, true),
+            buffer_.add(triangles.normals, 3, GlbBuffer::Use::vertices, false), buffer_.add(triangles.indices)};
+}
+
+SceneWriter::Geometry SceneWriter::asset(const MeshAsset& asset) {
+    const auto known = assets_.find(&asset);
+    if (known != assets_.end()) return known->second;
+    Triangles triangles;
+    for (const MeshAsset::Vertex& vertex : asset.vertices) {
+        triangles.positions.insert(triangles.positions.end(), vertex.position, vertex.position + 3);
+        triangles.normals.insert(triangles.normals.end(), vertex.normal, vertex.normal + 3);
+    }
+    triangles.indices = asset.indices;
+    return assets_.emplace(&asset, add_triangles(triangles)).first->second;
+}
+
+/// A square of the plane below the motion of all bodies.
+SceneWriter::Geometry SceneWriter::patch(const BodyDescription& body, const PlaneShape& plane) {
+    Bounds bounds = source_.motion.bounds();
+    bounds.add(source_.camera.target);
+    const Vec3 center = body.rotation.conjugate() * (bounds.center() - body.position);
+    const double half_side = std::clamp(1.5 * bounds.extent().norm(), least_patch, most_patch);
+    return add_triangles(
+        square(center - (plane.normal.dot(center) - plane.offset) * plane.normal, plane.normal, half_side));
+}
+
+void SceneWriter::add_camera() {
+    Json node{{"name", "camera"}, {"camera", 0}};
+    set_pose(node, source_.motion.camera());
+    const std::size_t number = add_node(std::move(node));
+    top_.push_back(number);
+    animate(number, source_.motion.camera());
+}
+
+void SceneWriter::add_light() {
+    const Quat rotation = rotation_between(-Vec3::UnitZ(), scene_.light.direction);
+    top_.push_back(add_node({{"name", "light"},
+                             {"rotation", quaternion_json(rotation.coeffs())},
+                             {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
+}
+
+void SceneWriter::animate(std::size_t node, const PoseKeys& keys) {
+    add_channel(node, "translation", keys.position);
+    add_channel(node, "rotation", keys.rotation);
+}
+
+template <int N>
+void SceneWriter::add_channel(std::size_t node, const char* path, const KeyTrack<N>& track) {
+    if (track.keys().size() < 2) return;
+    std::vector<float> times, values;
+    for (const typename KeyTrack<N>::Key& key : track.keys()) {
+        times.push_back(key.time);
+        for (const auto* part : {&key.in, &key.value, &key.out}) values.insert(values.end(), part->data(), part->data() + N);
+    }
+    samplers_.push_back({{"input", buffer_.add(times, 1, GlbBuffer::Use::animation, true)},
+                         {"interpolation", "CUBICSPLINE"},
+                         {"output", buffer_.add(values, N, GlbBuffer::Use::animation, false)}});
+    channels_.push_back({{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
+}
+
+Json SceneWriter::root() const {
+    const CameraDescription& camera = source_.camera;
+    Json scene{{"nodes", top_}};
+    if (!scene_.title.empty()) scene["name"] = scene_.title;
+    Json root{{"asset",
+               {{"version", "2.0"},
+                {"generator", source_.generator},
+                {"extras",
+                 {{"duration", scene_.simulation.duration},
+                  {"fps", scene_.output.fps},
+                  {"largestPositionError", source_.motion.position_error()},
+                  {"largestRotationError", source_.motion.rotation_error()},
+                  {"momentsPerSecond", source_.moments_per_second},
+                  {"errors",
+                   "m and rad, of the keys (single precision) against the simulation at momentsPerSecond moments"}}}}},
+              {"extensionsUsed", {"KHR_lights_punctual"}},
+              {"extensions",
+               {{"KHR_lights_punctual",
+                 {{"lights", Json::array({{{"type", "directional"}, {"intensity", light_intensity}}})}}}}},
+              {"scene", 0},
+              {"scenes", Json::array({scene})},
+              {"nodes", nodes_},
+              {"cameras",
+               Json::array({{{"type", "perspective"},
+                             {"perspective",
+                              {{"aspectRatio", double(scene_.output.width) / scene_.output.height},
+                               {"yfov", camera.vertical_fov * pi / 180.0},
+                               {"znear", near_fraction * (camera.eye - camera.target).norm()}}}}})}};
+    if (!meshes_.empty()) {
+        root["meshes"] = meshes_;
+        root["materials"] = materials_;
+    }
+    if (!channels_.empty())
+        root["animations"] = Json::array({{{"name", "motion"}, {"samplers", samplers_}, {"channels", channels_}}});
+    return root;
+}
+
+}  // namespace
+
+std::vector<std::byte> make_glb(const GltfExport& source) { return SceneWriter(source).write(); }
+
+}  // namespace tumble
