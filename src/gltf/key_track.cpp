@@ -5,7 +5,9 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t most_samples = 256;  // in a segment: bounds the time, which grows with their square
+constexpr std::size_t most_samples = 256;          // in a segment: bounds the time, which grows with their square
+constexpr std::size_t most_steady_samples = 8192;  // in a segment of one cubic: bounds the memory
+constexpr double steady_fraction = 0.1;  // of the tolerance; leaves room for an impact's time in single precision
 
 /// The cubic of glTF between two keys, `u` in 0..1 of `span` s.
 template <class Value>
@@ -43,7 +45,7 @@ void KeyTrack<N>::add(const KeySample<N>& sample) {
         samples_.back() = sample;
         return;
     }
-    if (samples_.size() >= most_samples || still_) close();
+    if (samples_.size() >= (steady_ ? most_steady_samples : most_samples) || still_) close();
     still_ = samples_.empty() && sample.value == start_.value;
     samples_.push_back(sample);
     std::optional<Tangents> tangents = fit();
@@ -60,7 +62,8 @@ void KeyTrack<N>::add(const KeySample<N>& sample) {
 
 /// Tangents with which the segment passes all its samples; a single interval always has some.
 template <int N>
-std::optional<typename KeyTrack<N>::Tangents> KeyTrack<N>::fit() const {
+std::optional<typename KeyTrack<N>::Tangents> KeyTrack<N>::fit() {
+    steady_ = false;
     if (still_) return Tangents{Value::Zero(), Value::Zero()};
     const KeySample<N>& end = samples_.back();
     const double span = end.time - start_.time;
@@ -71,7 +74,11 @@ std::optional<typename KeyTrack<N>::Tangents> KeyTrack<N>::fit() const {
         const double off = span * (0.5 * (start_.out + end.in) - chord).norm();
         return usable && off <= tolerance_ ? Tangents{start_.out, end.in} : Tangents{chord, chord};
     }
-    if (usable && fits({start_.out, end.in})) return Tangents{start_.out, end.in};
+    if (usable) {
+        const Tangents tangents{start_.out, end.in};
+        steady_ = continues(tangents);
+        if (steady_ || fits(tangents)) return tangents;
+    }
     const Tangents tangents = differences();
     if (fits(tangents)) return tangents;
     return {};
@@ -79,13 +86,28 @@ std::optional<typename KeyTrack<N>::Tangents> KeyTrack<N>::fit() const {
 
 template <int N>
 bool KeyTrack<N>::fits(const Tangents& tangents) const {
+    return std::all_of(samples_.rbegin() + 1, samples_.rend(),
+                       [&](const KeySample<N>& sample) { return passes(tangents, sample, tolerance_); });
+}
+
+/// Whether the segment's cubic is nearly that of the segment without its last sample, which passes all others: both
+/// begin alike, and pass samples in all parts of the segment closely.
+template <int N>
+bool KeyTrack<N>::continues(const Tangents& tangents) const {
+    constexpr std::size_t least = 8;
+    const std::size_t n = samples_.size();
+    const double tolerance = steady_fraction * tolerance_;
+    const auto close_to = [&](std::size_t i) { return passes(tangents, samples_[i], tolerance); };
+    return n >= least && tangents_.first == tangents.first && close_to(n / 4) && close_to(n / 2) &&
+           close_to(3 * n / 4) && close_to(n - 2);
+}
+
+template <int N>
+bool KeyTrack<N>::passes(const Tangents& tangents, const KeySample<N>& sample, double tolerance) const {
     const KeySample<N>& end = samples_.back();
-    const double span = end.time - start_.time;
-    return std::all_of(samples_.rbegin() + 1, samples_.rend(), [&](const KeySample<N>& sample) {
-        const double u = (sample.time - start_.time) / span;
-        return deviation<N>(cubic(start_.value, tangents.first, tangents.second, end.value, u, span), sample.value) <=
-               tolerance_;
-    });
+    const double span = end.time - start_.time, u = (sample.time - start_.time) / span;
+    return deviation<N>(cubic(start_.value, tangents.first, tangents.second, end.value, u, span), sample.value) <=
+           tolerance;
 }
 
 template <int N>

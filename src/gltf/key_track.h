@@ -49,8 +49,10 @@ public:
 private:
     using Tangents = std::pair<Value, Value>;  // at the start and the end of the segment
 
-    std::optional<Tangents> fit() const;
+    std::optional<Tangents> fit();
     bool fits(const Tangents& tangents) const;
+    bool continues(const Tangents& tangents) const;
+    bool passes(const Tangents& tangents, const KeySample<N>& sample, double tolerance) const;
     Tangents differences() const;
     void close();
     void measure();
@@ -59,6 +61,7 @@ private:
     bool velocities_;
     bool started_ = false;
     bool still_ = false;  // all samples of the segment have the value of its start
+    bool steady_ = false;      // the segment is one cubic, as in free flight
     bool ends_still_ = false;  // the last closed segment was still
     KeySample<N> start_;
     std::vector<KeySample<N>> samples_;  // of the segment, after its start

@@ -14,7 +14,7 @@ namespace tumble {
 
 /// Tolerances of the keys at the samples, in double precision. Below the rounding of single precision at 40 m.
 inline constexpr double key_tolerance = 5e-6;           // m
-inline constexpr double key_rotation_tolerance = 5e-6;  // rad
+inline constexpr double key_rotation_tolerance = 4e-6;  // rad
 
 /// The keys of a node: position and rotation.
 struct PoseKeys {
