@@ -45,7 +45,9 @@ void KeyTrack<N>::add(const KeySample<N>& sample) {
         samples_.back() = sample;
         return;
     }
-    if (samples_.size() >= (steady_ ? most_steady_samples : most_samples) || still_) close();
+    const bool full = samples_.size() >= (steady_ ? most_steady_samples : most_samples);
+    const bool stops = !samples_.empty() && sample.value == samples_.back().value;
+    if (full || stops || still_) close();
     still_ = samples_.empty() && sample.value == start_.value;
     samples_.push_back(sample);
     std::optional<Tangents> tangents = fit();

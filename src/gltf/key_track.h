@@ -60,7 +60,7 @@ private:
     double tolerance_;
     bool velocities_;
     bool started_ = false;
-    bool still_ = false;  // all samples of the segment have the value of its start
+    bool still_ = false;       // all samples of the segment have the value of its start
     bool steady_ = false;      // the segment is one cubic, as in free flight
     bool ends_still_ = false;  // the last closed segment was still
     KeySample<N> start_;

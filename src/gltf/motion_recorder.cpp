@@ -60,12 +60,9 @@ Vec3 MotionRecorder::node_place(std::size_t body) const {
 MotionRecorder::Pose MotionRecorder::pose_of(std::size_t body, const Snapshot& snapshot) const {
     const BodyState& state = snapshot.bodies[body];
     const bool dynamic = scene_.bodies[body].type == BodyType::dynamic;
-    Pose pose{snapshot.time,
-              dynamic ? state.center_of_mass : state.origin,
-              state.velocity,
-              state.orientation,
-              state.angular_velocity,
-              state.angular_momentum};
+    Pose pose{snapshot.time,          dynamic ? state.center_of_mass : state.origin,
+              state.velocity,         state.orientation,
+              state.angular_velocity, state.angular_momentum};
     if (!dynamic) pose.velocity -= state.angular_velocity.cross(state.center_of_mass - state.origin);
     return pose;
 }
@@ -152,8 +149,12 @@ void MotionRecorder::add_keyframes(std::size_t body, const Pose& now) {
         const Pose& last = last_[body];
         const double time = time_between(keyframe.time, last.time, now.time);
         if (!(keyframe.time > last.time && keyframe.time < now.time) || time == infinity) continue;
-        Pose before{time, keyframe.position, (keyframe.position - last.position) / (time - last.time),
-                    keyframe.rotation, last.angular_velocity, Vec3::Zero()};
+        Pose before{time,
+                    keyframe.position,
+                    (keyframe.position - last.position) / (time - last.time),
+                    keyframe.rotation,
+                    last.angular_velocity,
+                    Vec3::Zero()};
         Pose after = before;
         after.velocity = (now.position - keyframe.position) / (now.time - time);
         after.angular_velocity = now.angular_velocity;
@@ -166,8 +167,8 @@ void MotionRecorder::add_corner(std::size_t body, const Pose& before, const Pose
     PoseKeys& keys = bodies_[body];
     keys.position.add({before.time, before.position, before.velocity, after.velocity, true});
     const Eigen::Vector4d rotation = aligned(before.rotation, last_[body].rotation);
-    keys.rotation.add({before.time, rotation, rate(before.angular_velocity, rotation),
-                       rate(after.angular_velocity, rotation), true});
+    keys.rotation.add(
+        {before.time, rotation, rate(before.angular_velocity, rotation), rate(after.angular_velocity, rotation), true});
     last_[body] = after;
     last_[body].rotation.coeffs() = rotation;
 }

@@ -70,8 +70,8 @@ private:
     const SceneDescription& scene_;
     std::vector<BodyReport> reports_;
     std::vector<PoseKeys> bodies_;
-    std::vector<Pose> last_;          // by body
-    std::vector<Impacts> impacts_;    // by body
+    std::vector<Pose> last_;        // by body
+    std::vector<Impacts> impacts_;  // by body
     PoseKeys camera_{false};
     Quat last_camera_ = Quat::Identity();
     double last_time_ = 0.0;  // s

@@ -68,7 +68,7 @@ private:
     Json nodes_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array();
     Json samplers_ = Json::array(), channels_ = Json::array(), top_ = Json::array();
     std::optional<Geometry> box_, sphere_;
-    std::map<const MeshAsset*, Geometry> assets_;  // only looked up: their order has no effect
+    std::map<const MeshAsset*, Geometry> assets_;                         // only looked up: their order has no effect
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of_;  // by positions and material
     std::map<MaterialKey, std::size_t> material_of_;
 };
@@ -143,9 +143,10 @@ std::size_t SceneWriter::mesh(const Geometry& geometry, const Appearance& look) 
     const auto [place, is_new] = mesh_of_.try_emplace({geometry.positions, surface}, meshes_.size());
     if (is_new)
         meshes_.push_back(
-            {{"primitives", Json::array({{{"attributes", {{"POSITION", geometry.positions}, {"NORMAL", geometry.normals}}},
-                                          {"indices", geometry.indices},
-                                          {"material", surface}}})}});
+            {{"primitives",
+              Json::array({{{"attributes", {{"POSITION", geometry.positions}, {"NORMAL", geometry.normals}}},
+                            {"indices", geometry.indices},
+                            {"material", surface}}})}});
     return place->second;
 }
 
@@ -215,7 +216,8 @@ void SceneWriter::add_channel(std::size_t node, const char* path, const KeyTrack
     std::vector<float> times, values;
     for (const typename KeyTrack<N>::Key& key : track.keys()) {
         times.push_back(key.time);
-        for (const auto* part : {&key.in, &key.value, &key.out}) values.insert(values.end(), part->data(), part->data() + N);
+        for (const auto* part : {&key.in, &key.value, &key.out})
+            values.insert(values.end(), part->data(), part->data() + N);
     }
     samplers_.push_back({{"input", buffer_.add(times, 1, GlbBuffer::Use::animation, true)},
                          {"interpolation", "CUBICSPLINE"},
@@ -245,12 +247,11 @@ Json SceneWriter::root() const {
               {"scene", 0},
               {"scenes", Json::array({scene})},
               {"nodes", nodes_},
-              {"cameras",
-               Json::array({{{"type", "perspective"},
-                             {"perspective",
-                              {{"aspectRatio", double(scene_.output.width) / scene_.output.height},
-                               {"yfov", camera.vertical_fov * pi / 180.0},
-                               {"znear", near_fraction * (camera.eye - camera.target).norm()}}}}})}};
+              {"cameras", Json::array({{{"type", "perspective"},
+                                        {"perspective",
+                                         {{"aspectRatio", double(scene_.output.width) / scene_.output.height},
+                                          {"yfov", camera.vertical_fov * pi / 180.0},
+                                          {"znear", near_fraction * (camera.eye - camera.target).norm()}}}}})}};
     if (!meshes_.empty()) {
         root["meshes"] = meshes_;
         root["materials"] = materials_;

@@ -4,6 +4,7 @@ import bisect
 import json
 import math
 import random
+import resource
 import struct
 
 import program
@@ -218,8 +219,9 @@ class Export(program.ProgramTest):
     def test_a_bouncing_ball_in_closed_form(self):
         glb = self.export(FLIGHT)
         g, fall = 9.81, math.sqrt(2 * 1.0 / 9.81)
+        moments = random.Random(5)
         for _ in range(1000):
-            time = random.uniform(0.0, 2.0)
+            time = moments.uniform(0.0, 2.0)
             x, y, _ = glb.value("ball", "translation", time)
             t, speed = time - fall, g * fall
             height = 1.0 - 0.5 * g * time**2
@@ -248,6 +250,107 @@ class Export(program.ProgramTest):
         self.assertLess(extras["largestPositionError"], 1e-5)
         self.assertLess(extras["largestRotationError"], 1e-5)
         self.assertEqual((extras["fps"], extras["momentsPerSecond"], extras["duration"]), (60, 960, 2))
+
+    def test_meshes_materials_and_children(self):
+        self.write("tetrahedron.obj", TETRAHEDRON)
+        glb = self.export(VARIED)
+        nodes = glb.json["nodes"]
+        self.assertNotIn("hidden", glb.nodes)
+        self.assertEqual(glb.json["scenes"][0]["name"], "Shapes")
+
+        rest = nodes[glb.nodes["rest"]]
+        self.assertEqual(rest["scale"], [1.0, 0.5, 1.0])
+        material = glb.json["materials"][glb.json["meshes"][rest["mesh"]]["primitives"][0]["material"]]
+        look = material["pbrMetallicRoughness"]
+        self.assertEqual((look["roughnessFactor"], look["metallicFactor"]), (0.25, 1.0))
+        orange = 1.0, ((128 / 255 + 0.055) / 1.055)**2.4, 0.0, 1.0  # sRGB in linear light
+        for value, expected in zip(look["baseColorFactor"], orange, strict=True):
+            self.assertAlmostEqual(value, expected, places=12)
+
+        # A mesh lies at its center of mass, and is in the file once.
+        shapes = [nodes[child] for name in ("tetrahedron", "twin") for child in nodes[glb.nodes[name]]["children"]]
+        self.assertEqual(shapes[0], shapes[1])
+        for coordinate in shapes[0]["translation"]:
+            self.assertAlmostEqual(coordinate, -0.25, places=12)
+
+        parts = [nodes[child] for child in nodes[glb.nodes["hammer"]]["children"]]
+        self.assertEqual([part["scale"] for part in parts], [[0.2, 1.0, 0.2], [0.3, 0.3, 0.3]])
+        self.assertAlmostEqual(parts[1]["translation"][1] - parts[0]["translation"][1], 0.6, places=12)
+
+    def test_camera_and_light(self):
+        self.write("tetrahedron.obj", TETRAHEDRON)
+        glb = self.export(VARIED)
+        for time in (0.0, 0.4567, 1.5):
+            turn = math.radians(40.0) * time
+            eye = [9.0 * math.sin(turn), 3.0, 9.0 * math.cos(turn)]
+            self.assertLess(math.dist(glb.value("camera", "translation", time), eye), 1e-5)
+            x, y, z, w = glb.value("camera", "rotation", time)
+            back = [2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)]
+            side = [1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)]
+            for value, expected in zip(back, minus(eye, [0.0, 1.0, 0.0])):
+                self.assertAlmostEqual(value, expected / math.hypot(9.0, 2.0), delta=1e-5)
+            self.assertAlmostEqual(side[1], 0.0, delta=1e-5)
+        x, y, z, w = glb.json["nodes"][glb.nodes["light"]]["rotation"]
+        for value, expected in zip([-2 * (x * z + w * y), -2 * (y * z - w * x), 2 * (x * x + y * y) - 1], (0, -1, 0)):
+            self.assertAlmostEqual(value, expected, places=12)
+
+    def test_resting_bodies_have_no_keys_after_they_come_to_rest(self):
+        glb = self.export(FLIGHT.replace("duration = 2.0", "duration = 8.0").replace("restitution = 0.9", "restitution = 0.2"),
+                          "--set", "body.box.friction=1", "--set", "body.0.friction=1")
+        self.check(0, "simulate", "scene.toml", "--trajectory", "t.csv", "--quiet",
+                   "--set", "body.box.friction=1", "--set", "body.0.friction=1")
+        rows = [row for row in self.rows("t.csv") if row["body"] == "box"]
+        pose = [rows[-1][c] for c in ("x", "y", "z", "qw", "qx", "qy", "qz")]
+        at_rest = min(float(row["time"]) for row in rows if [row[c] for c in ("x", "y", "z", "qw", "qx", "qy", "qz")] == pose)
+        self.assertLess(at_rest, 7.0)
+        for path in ("translation", "rotation"):
+            self.assertLess(glb.tracks[glb.nodes["box"], path][0][-1], at_rest + 1e-6)
+
+    def test_a_scene_without_motion(self):
+        glb = self.export(FLIGHT, "--duration", 0)
+        self.assertNotIn("animations", glb.json)
+        self.assertEqual(glb.value("ball", "translation", 0.0), [-2.0, 1.5, 0.0])
+
+    def test_the_program_reads_its_own_meshes(self):
+        self.write("box.toml", '''format = 1
+[[body]]
+type = "fixed"
+shape = { type = "box", size = [1.0, 2.0, 3.0] }
+rotation = { axis = [1.0, 2.0, 3.0], angle = 50.0 }
+''')
+        self.check(0, "export", "box.toml", "-o", "box.glb", "--duration", 0)
+        self.write("scene.toml", 'format = 1\n[[body]]\nshape = { type = "mesh", file = "box.glb" }\n')
+        self.check(0, "info", "scene.toml", "--bodies", "b.csv")
+        self.assertAlmostEqual(float(self.rows("b.csv")[0]["mass"]), 6000.0, delta=1e-2)
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        self.write("tetrahedron.obj", TETRAHEDRON)
+        self.write("scene.toml", VARIED)
+        for threads in (1, 2, 5):
+            self.check(0, "export", "scene.toml", "-o", f"{threads}.glb", "--threads", threads)
+        self.assertEqual(len({(self.folder / f"{threads}.glb").read_bytes() for threads in (1, 2, 5)}), 1)
+
+    def test_overrides(self):
+        glb = self.export(FLIGHT, "--fps", 30, "--set", "body.ball.position=[0,5,0]")
+        self.assertEqual(glb.json["asset"]["extras"]["fps"], 30)
+        self.assertEqual(glb.value("ball", "translation", 0.0), [0.0, 5.0, 0.0])
+
+    def test_misuse(self):
+        for message, *arguments in (("must end with .glb", "scene.toml", "-o", "clip.gltf"),
+                                    ("--output", "scene.toml"),
+                                    ('unknown key "masss"', "scene.toml", "-o", "clip.glb", "--set", "body.crate.masss=1"),
+                                    ("missing.toml", "missing.toml", "-o", "clip.glb")):
+            run = self.check(2, "export", *arguments)
+            self.assertIn(message, run.stderr)
+            self.assertEqual(self.names(), [])
+
+    def test_failures_keep_the_existing_file(self):
+        self.write("clip.glb", "old")
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))  # bytes of a file
+        run = self.check(1, "export", "scene.toml", "-o", "clip.glb", "--quiet", preexec_fn=limit)
+        self.assertIn("clip.glb", run.stderr)
+        self.assertEqual((self.folder / "clip.glb").read_text(), "old")
+        self.assertEqual(self.names(), ["clip.glb"])
 
 
 if __name__ == "__main__":

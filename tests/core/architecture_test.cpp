@@ -43,7 +43,8 @@ const std::map<std::string, Layer> layers = {
     {"api",
      {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
-    {"app", {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "gltf/", "api/", "tumble/", "app/"}, {}}},
+    {"app",
+     {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "gltf/", "api/", "tumble/", "app/"}, {}}},
 };
 
 /// The included folders of each folder below src/.

@@ -68,7 +68,8 @@ void run_export(const ExportCommand& command) {
 
     const int parts = moments_per_frame(scene.simulation.steps_per_frame);
     const FrameTiming timing{scene.output.fps * parts, scene.simulation.steps_per_frame / parts};
-    std::vector<std::byte> file;
+    TemporaryFile file(command.output);
+    std::size_t size = 0;
     double position_error = 0.0, rotation_error = 0.0;
     {
         Interrupt interrupt;
@@ -82,14 +83,17 @@ void run_export(const ExportCommand& command) {
         SurveyObserver* const observers[] = {&observer};
         survey(world, {moments, 1}, observers, interrupt);
         motion.finish();
-        file = make_glb({scene, motion, observer.start(), timing.fps, "Tumble " TUMBLE_VERSION});
+        const std::vector<std::byte> bytes =
+            make_glb({scene, motion, observer.start(), timing.fps, "Tumble " TUMBLE_VERSION});
+        file.write(bytes);
+        size = bytes.size();
         position_error = motion.position_error();
         rotation_error = motion.rotation_error();
     }
-    write_file(command.output, file);
+    file.commit();
     if (!command.quiet)
         say("wrote {} ({:.4g} kB; largest error {:.2g} m, {:.2g} rad)\n", safe_path(command.output),
-            1e-3 * double(file.size()), position_error, rotation_error);
+            1e-3 * double(size), position_error, rotation_error);
 }
 
 }  // namespace tumble
