@@ -27,6 +27,11 @@ Eigen::Vector4d rate(const Vec3& angular_velocity, const Eigen::Vector4d& rotati
     return (Quat(0.0, half.x(), half.y(), half.z()) * Quat(rotation)).coeffs();
 }
 
+/// The same rotation, with the sign for which a cubic takes the short way from `with`.
+Eigen::Vector4d aligned(const Quat& rotation, const Quat& with) {
+    return rotation.dot(with) < 0.0 ? -rotation.coeffs() : rotation.coeffs();
+}
+
 /// The nearest time in single precision strictly between two others, so that keys have increasing times. Returns
 /// infinity if there is none.
 double time_between(double time, double before, double after) {
@@ -96,10 +101,6 @@ void MotionRecorder::add(const Snapshot& snapshot, const CameraDescription& came
     add_pose(camera_, eye);
     last_time_ = snapshot.time;
     started_ = true;
-}
-
-Eigen::Vector4d MotionRecorder::aligned(const Quat& rotation, const Quat& with) const {
-    return rotation.dot(with) < 0.0 ? -rotation.coeffs() : rotation.coeffs();
 }
 
 /// The pose in free flight under gravity, at a time near that of `from`: the rotation is that of the middle of the time,

@@ -65,7 +65,6 @@ private:
     void add_keyframes(std::size_t body, const Pose& now);
     void add_corner(std::size_t body, const Pose& before, const Pose& after);
     void add_pose(PoseKeys& keys, const Pose& pose);
-    Eigen::Vector4d aligned(const Quat& rotation, const Quat& with) const;
 
     const SceneDescription& scene_;
     std::vector<BodyReport> reports_;
