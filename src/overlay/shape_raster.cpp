@@ -66,6 +66,19 @@ struct ArrowDistance {
     float half_width, shaft_end, head, tip, second_tip, along_part, across_part;
 };
 
+/// Half of the width of a marker, in radii.
+double marker_extent(ScreenMarker shape) {
+    switch (shape) {
+        case ScreenMarker::diamond:
+            return 1.3;
+        case ScreenMarker::ring:
+        case ScreenMarker::cross:
+            return 1.1;
+        default:
+            return 1.0;
+    }
+}
+
 /// Calls use(distance) with the signed distance from the outline of a marker as a function of the place (pixels).
 template <class Use>
 void with_marker_distance(ScreenMarker shape, float radius, const Use& use) {
@@ -298,7 +311,7 @@ void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const 
 }
 
 void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint) {
-    const double halo = halo_width(radius), reach = 1.3 * radius + halo + 0.5;
+    const double halo = halo_width(radius), reach = marker_extent(shape) * radius + halo + 0.5;
     const Box box = clipped(at.pixel.x() - reach, at.pixel.y() - reach, at.pixel.x() + reach, at.pixel.y() + reach);
     if (box.empty()) return;
     touched_.add({box.left, box.top, box.right - box.left, box.bottom - box.top});
