@@ -41,15 +41,15 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, cons
         const auto quantity = ArrowQuantity(q);
         if (!shows(overlay, quantity)) continue;
         const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum;
-        rows.push_back({{axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
-                         fmt::format("{}, {}", quantity_names[q], scale_text(scales[q], quantity_units[q]))}});
-        if (quantity != ArrowQuantity::force) continue;
-        if (!overlay.show.has(Overlay::forces)) rows.pop_back();
-        if (overlay.show.has(Overlay::forces) && marks.friction)
+        const std::string scale = scale_text(scales[q], quantity_units[q]);
+        const bool force = quantity == ArrowQuantity::force;
+        if (!force || overlay.show.has(Overlay::forces))
+            rows.push_back({{axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
+                             fmt::format("{}, {}", quantity_names[q], scale)}});
+        if (force && overlay.show.has(Overlay::forces) && marks.friction)
             rows.push_back({{Entry::Symbol::arrow, friction_color, "its friction part"}});
-        if (overlay.show.has(Overlay::loads))
-            rows.push_back({{Entry::Symbol::arrow, load_color,
-                             fmt::format("weight, applied force, {}", scale_text(scales[q], quantity_units[q]))}});
+        if (force && overlay.show.has(Overlay::loads))
+            rows.push_back({{Entry::Symbol::arrow, load_color, fmt::format("weight, applied force, {}", scale)}});
     }
     if (overlay.show.has(Overlay::normals))
         rows.push_back({{Entry::Symbol::arrow, normal_color, "normal, from A to B"}});
@@ -108,11 +108,11 @@ double symbol_width(const Entry& entry) {
 }
 
 void draw_symbol(const Entry& entry, double left, double y, double unit, ShapeRaster& raster) {
-    const ScreenPaint paint{entry.color, 1.0, false};
+    const OverlayPaint paint{entry.color, 1.0, false};
     const auto at = [&](double x) { return ScreenPoint{{(left + x) * unit, y * unit}, 1.0}; };
     switch (entry.symbol) {
         case Entry::Symbol::marker:
-            raster.marker(at(0.5 * marker_width), 5.5 * unit, ScreenMarker(entry.shape), paint);
+            raster.marker(at(0.5 * marker_width), 5.5 * unit, entry.shape, paint);
             break;
         case Entry::Symbol::patch:
             raster.line(std::array{at(4.0), at(marker_width - 4.0)}, 12.0 * unit, paint);
@@ -126,22 +126,19 @@ void draw_symbol(const Entry& entry, double left, double y, double unit, ShapeRa
 /// The left edge of each entry of each row, and the right edge of the last.
 std::vector<std::vector<double>> place_entries(const std::vector<Row>& rows, const TextStyle& style) {
     const Canvas measure(1, 1, 1.0);
-    std::vector<std::vector<double>> lefts;
-    std::size_t columns = 0;
-    for (const Row& row : rows) columns = std::max(columns, row.size());
-    // Columns of markers are aligned.
-    std::vector<double> widths(columns, 0.0);
+    const auto width_of = [&](const Entry& entry) {
+        return symbol_width(entry) + symbol_gap + measure.text_width(entry.text, style);
+    };
+    double first_column = 0.0;  // of the rows of two, whose second entries are aligned
     for (const Row& row : rows)
-        for (std::size_t k = 0; k < row.size(); ++k)
-            if (row.size() == 2)
-                widths[k] =
-                    std::max(widths[k], symbol_width(row[k]) + symbol_gap + measure.text_width(row[k].text, style));
+        if (row.size() == 2) first_column = std::max(first_column, width_of(row[0]));
+    std::vector<std::vector<double>> lefts;
     for (const Row& row : rows) {
         std::vector<double> places{legend_margin};
         for (std::size_t k = 0; k < row.size(); ++k) {
-            const double own = symbol_width(row[k]) + symbol_gap + measure.text_width(row[k].text, style);
             const bool last = k + 1 == row.size();
-            places.push_back(places.back() + (row.size() == 2 && !last ? widths[k] : own) + (last ? 0.0 : column_gap));
+            const double width = row.size() == 2 && !last ? first_column : width_of(row[k]);
+            places.push_back(places.back() + width + (last ? 0.0 : column_gap));
         }
         lefts.push_back(std::move(places));
     }

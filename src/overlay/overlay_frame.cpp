@@ -63,7 +63,7 @@ void paint(Stream& s, Paint& p) {
     s.number(p.color.g);
     s.number(p.color.b);
     s.number(p.opacity);
-    s.number(p.behind_bodies);
+    s.number(p.depth_tested);
     s.number(p.allowance);
 }
 

@@ -1,5 +1,5 @@
-// The shapes that overlays draw in one frame, without pixels. Positions are in the world frame, m; sizes
-// on the screen are in units of a picture 720 pixels high.
+// The shapes that overlays draw in one frame, without pixels. Positions are in the world frame, m; sizes on the screen
+// are in units of a picture 720 pixels high.
 #pragma once
 
 #include "core/color.h"
@@ -22,7 +22,7 @@ inline double overlay_unit(int height) { return std::max(height / 720.0, 0.6); }
 struct OverlayPaint {
     Color color;
     float opacity = 1.0f;
-    bool behind_bodies = true;
+    bool depth_tested = true;
     float allowance = 0.0f;  // m: surfaces that are nearer by less, such as those of its own body, do not hide it
 };
 

@@ -59,10 +59,6 @@ std::vector<Corner> corners_of(const Shape& shape) {
     return corners;
 }
 
-ScreenPaint screen_paint(const OverlayPaint& paint) {
-    return {paint.color, paint.opacity, paint.behind_bodies, paint.allowance};
-}
-
 ScreenPoint project(const Camera& camera, const Vec3& relative) {
     return {camera.pixel(relative), relative.dot(camera.forward())};
 }
@@ -124,13 +120,12 @@ void OverlayPainter::draw_shapes(const Camera& camera, const OverlayFrame& shape
         Vec3 from = camera.relative(arrow.from), to = camera.relative(arrow.to);
         if (!cut(camera, from, to)) continue;
         raster_.arrow({project(camera, from), project(camera, to), arrow.width * unit_, arrow.double_head ? 2 : 1},
-                      screen_paint(arrow.paint));
+                      arrow.paint);
     }
     for (const OverlayMarker& marker : shapes.markers) {
         const Vec3 at = camera.relative(marker.at);
         if (at.dot(camera.forward()) < nearest * camera.target_distance()) continue;
-        raster_.marker(project(camera, at), marker.radius * unit_, ScreenMarker(marker.shape),
-                       screen_paint(marker.paint));
+        raster_.marker(project(camera, at), marker.radius * unit_, marker.shape, marker.paint);
     }
     for (const OverlayLabel& label : shapes.labels) draw_label(camera, label);
 }
@@ -138,7 +133,7 @@ void OverlayPainter::draw_shapes(const Camera& camera, const OverlayFrame& shape
 // Parts behind the eye are cut out, which may leave several lines.
 void OverlayPainter::draw_line(const Camera& camera, const OverlayLine& line) {
     const auto finish = [&] {
-        raster_.line(points_, line.width * unit_, screen_paint(line.paint));
+        raster_.line(points_, line.width * unit_, line.paint);
         points_.clear();
     };
     points_.clear();

@@ -67,12 +67,12 @@ struct ArrowDistance {
 };
 
 /// Half of the width of a marker, in radii.
-double marker_extent(ScreenMarker shape) {
+double marker_extent(MarkerShape shape) {
     switch (shape) {
-        case ScreenMarker::diamond:
+        case MarkerShape::diamond:
             return 1.3;
-        case ScreenMarker::ring:
-        case ScreenMarker::cross:
+        case MarkerShape::ring:
+        case MarkerShape::cross:
             return 1.1;
         default:
             return 1.0;
@@ -81,27 +81,27 @@ double marker_extent(ScreenMarker shape) {
 
 /// Calls use(distance) with the signed distance from the outline of a marker as a function of the place (pixels).
 template <class Use>
-void with_marker_distance(ScreenMarker shape, float radius, const Use& use) {
+void with_marker_distance(MarkerShape shape, float radius, const Use& use) {
     constexpr float half_root = 0.70710678f;
     switch (shape) {
-        case ScreenMarker::ring:
+        case MarkerShape::ring:
             use([=](float x, float y) { return std::fabs(std::sqrt(x * x + y * y) - 0.8f * radius) - 0.3f * radius; });
             break;
-        case ScreenMarker::square:
+        case MarkerShape::square:
             use([=](float x, float y) { return std::max(std::fabs(x), std::fabs(y)) - 0.85f * radius; });
             break;
-        case ScreenMarker::diamond:
+        case MarkerShape::diamond:
             use([=](float x, float y) { return (std::fabs(x) + std::fabs(y) - 1.3f * radius) * half_root; });
             break;
-        case ScreenMarker::cross:
+        case MarkerShape::cross:
             use([=](float x, float y) {
                 const float u = std::fabs(x + y) * half_root, v = std::fabs(x - y) * half_root;
                 const float arm = 1.15f * radius, half = 0.32f * radius;
                 return std::min(std::max(u - arm, v - half), std::max(v - arm, u - half));
             });
             break;
-        case ScreenMarker::disc:
-        case ScreenMarker::center_of_mass:
+        case MarkerShape::disc:
+        case MarkerShape::center_of_mass:
             use([=](float x, float y) { return std::sqrt(x * x + y * y) - radius; });
             break;
     }
@@ -126,7 +126,7 @@ inline void mix(std::uint8_t* p, Color color, int share) {
 
 /// A paint, and its shares where the shape covers a whole pixel: 256 is opaque.
 struct Brush {
-    explicit Brush(const ScreenPaint& paint)
+    explicit Brush(const OverlayPaint& paint)
         : color(paint.color), share(float(256.0 * paint.opacity)), halo_share(float(halo_opacity) * share) {}
     /// `own`, `halo`: shares of the shape and of its dark outline below it.
     void draw(std::uint8_t* p, int own, int halo) const {
@@ -191,14 +191,14 @@ ShapeRaster::Box ShapeRaster::clipped(double left, double top, double right, dou
     return box;
 }
 
-bool ShapeRaster::hidden(int x, int y, double nearness, const ScreenPaint& paint) const {
+bool ShapeRaster::hidden(int x, int y, double nearness, const OverlayPaint& paint) const {
     if (depths_ == nullptr || !paint.depth_tested) return false;
     return nearness * (*depths_->at(x, y) * surface_factor_ + paint.allowance) < 1.0;
 }
 
 // Distances, coverage and visibility are computed for a run of pixels at a time, in loops that become vector instructions.
 template <class Distance, class Nearness>
-void ShapeRaster::draw_run(int y, int left, int right, const ScreenPaint& paint, double halo, const Distance& distance,
+void ShapeRaster::draw_run(int y, int left, int right, const OverlayPaint& paint, double halo, const Distance& distance,
                            const Nearness& nearness) {
     constexpr int most = 64;  // pixels: a run fits into the registers and the first cache
     const Brush brush(paint);
@@ -250,7 +250,7 @@ void ShapeRaster::for_runs_along(const Vector2d& from, const Vector2d& to, doubl
     }
 }
 
-void ShapeRaster::arrow(const ScreenArrow& a, const ScreenPaint& paint) {
+void ShapeRaster::arrow(const ScreenArrow& a, const OverlayPaint& paint) {
     const Vector2d way = a.to.pixel - a.from.pixel;
     const double length = way.norm();
     if (!(length > 0.0)) return;
@@ -274,7 +274,7 @@ void ShapeRaster::arrow(const ScreenArrow& a, const ScreenPaint& paint) {
     });
 }
 
-void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const ScreenPaint& paint) {
+void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const OverlayPaint& paint) {
     const Vector2d way = to.pixel - from.pixel;
     const double squared = way.squaredNorm(), per_square = squared > 0.0 ? 1.0 / squared : 0.0;
     const double near_from = 1.0 / from.depth, nearness = 1.0 / to.depth - near_from;
@@ -297,7 +297,7 @@ void ShapeRaster::add_cover(const ScreenPoint& from, const ScreenPoint& to, doub
 }
 
 // The largest coverage of all segments counts, so that joints are not drawn twice.
-void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const ScreenPaint& paint) {
+void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const OverlayPaint& paint) {
     cover_.resize(std::size_t(width_) * std::size_t(height_));
     for (std::size_t i = 0; i + 1 < points.size(); ++i) add_cover(points[i], points[i + 1], 0.5 * width, paint);
     const Brush brush(paint);
@@ -310,7 +310,7 @@ void ShapeRaster::line(std::span<const ScreenPoint> points, double width, const 
     covered_.clear();
 }
 
-void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint) {
+void ShapeRaster::marker(const ScreenPoint& at, double radius, MarkerShape shape, const OverlayPaint& paint) {
     const double halo = halo_width(radius), reach = marker_extent(shape) * radius + halo + 0.5;
     const Box box = clipped(at.pixel.x() - reach, at.pixel.y() - reach, at.pixel.x() + reach, at.pixel.y() + reach);
     if (box.empty()) return;
@@ -318,7 +318,7 @@ void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shap
     const auto near = float(1.0 / at.depth);
     const auto nearness = [near](int) { return near; };
     const auto center = float(box.left + 0.5 - at.pixel.x());
-    ScreenPaint dark = paint;
+    OverlayPaint dark = paint;
     dark.color = {24, 28, 36};
     with_marker_distance(shape, float(radius), [&](const auto& distance) {
         for (int y = box.top; y < box.bottom; ++y) {
@@ -326,7 +326,7 @@ void ShapeRaster::marker(const ScreenPoint& at, double radius, ScreenMarker shap
             draw_run(
                 y, box.left, box.right, paint, halo, [&](int x) { return distance(center + float(x - box.left), dy); },
                 nearness);
-            if (shape != ScreenMarker::center_of_mass) continue;
+            if (shape != MarkerShape::center_of_mass) continue;
             draw_run(
                 y, box.left, box.right, dark, 0.0,
                 [&](int x) {
@@ -431,7 +431,7 @@ void ShapeRaster::picture(const Image& picture, int left, int top, double opacit
         }
 }
 
-void ShapeRaster::outline(const Rectangle& r, const ScreenPaint& paint) {
+void ShapeRaster::outline(const Rectangle& r, const OverlayPaint& paint) {
     touched_.add(r);
     const Brush brush(paint);
     const auto draw = [&](int x, int y) { brush.draw(image_->at(x, y), int(brush.share + 0.5f), 0); };

@@ -6,6 +6,7 @@
 #include "core/depth_image.h"
 #include "core/image.h"
 #include "core/rectangle.h"
+#include "overlay/overlay_frame.h"
 
 #include <Eigen/Core>
 
@@ -20,16 +21,6 @@ struct ScreenPoint {
     Eigen::Vector2d pixel;
     double depth = 0.0;
 };
-
-struct ScreenPaint {
-    Color color;
-    double opacity = 1.0;
-    bool depth_tested = true;
-    double allowance = 0.0;  // m: surfaces that are nearer by less do not hide the shape
-};
-
-/// The shapes of marks at points, in the order of MarkerShape (overlay_frame.h).
-enum class ScreenMarker { disc, ring, square, diamond, cross, center_of_mass };
 
 struct ScreenArrow {
     ScreenPoint from, to;
@@ -76,9 +67,9 @@ public:
     /// Draws to this image from now on. The depths may be null: no shape is then hidden.
     void begin(Image& image, const DepthImage* depths);
 
-    void arrow(const ScreenArrow& arrow, const ScreenPaint& paint);
-    void line(std::span<const ScreenPoint> points, double width, const ScreenPaint& paint);
-    void marker(const ScreenPoint& at, double radius, ScreenMarker shape, const ScreenPaint& paint);
+    void arrow(const ScreenArrow& arrow, const OverlayPaint& paint);
+    void line(std::span<const ScreenPoint> points, double width, const OverlayPaint& paint);
+    void marker(const ScreenPoint& at, double radius, MarkerShape shape, const OverlayPaint& paint);
     /// The pixels of one surface's triangles: three corners each, in any order and orientation.
     SurfaceCover cover(std::span<const ScreenCorner> corners);
     /// Hidden parts are not drawn.
@@ -86,7 +77,7 @@ public:
     /// Straight alpha; its top left corner is at the pixel.
     void picture(const Image& picture, int x, int y, double opacity);
     /// The outline of a rectangle.
-    void outline(const Rectangle& rectangle, const ScreenPaint& paint);
+    void outline(const Rectangle& rectangle, const OverlayPaint& paint);
 
     /// The tiles that were drawn to since begin().
     const TouchedTiles& touched() const { return touched_; }
@@ -97,7 +88,7 @@ private:
         bool empty() const { return left >= right || top >= bottom; }
     };
     Box clipped(double left, double top, double right, double bottom);
-    bool hidden(int x, int y, double nearness, const ScreenPaint& paint) const;  // nearness: 1 / depth, 1/m
+    bool hidden(int x, int y, double nearness, const OverlayPaint& paint) const;  // nearness: 1 / depth, 1/m
     struct CornerValue {
         double nearness, light;  // 1 / depth, 1/m; brightness
     };
@@ -106,12 +97,12 @@ private:
     /// Draws the pixels left to right - 1 of a row. distance(x): from the outline, pixels, positive outside; nearness(x):
     /// 1 / depth, 1/m.
     template <class Distance, class Nearness>
-    void draw_run(int y, int left, int right, const ScreenPaint& paint, double halo, const Distance& distance,
+    void draw_run(int y, int left, int right, const OverlayPaint& paint, double halo, const Distance& distance,
                   const Nearness& nearness);
     /// Calls draw(y, left, right) for runs with at least the pixels whose centers are within `reach` (pixels) of the line.
     template <class Draw>
     void for_runs_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double reach, const Draw& draw);
-    void add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const ScreenPaint& paint);
+    void add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const OverlayPaint& paint);
 
     int width_, height_;
     double surface_factor_;  // a shape is hidden beyond this many times the depth of the surface

@@ -34,7 +34,7 @@ ScreenPoint at(double x, double y, double depth = 5.0) { return {{x, y}, depth};
 // The halo darkens pixels outside of the shape and adds 16/255 of red at most there.
 TEST(ShapeRaster, ADiscCoversItsArea) {
     Paper paper;
-    paper.raster.marker(at(80.3, 60.7), 20.0, ScreenMarker::disc, {red, 1.0, false});
+    paper.raster.marker(at(80.3, 60.7), 20.0, MarkerShape::disc, {red, 1.0, false});
     EXPECT_NEAR(paper.area(), std::numbers::pi * 400.0, 0.02 * std::numbers::pi * 400.0);
     EXPECT_EQ(paper.red_at(80, 60), 1.0);
     EXPECT_EQ(paper.red_at(80, 60 + 23), 0.0);
@@ -136,7 +136,7 @@ TEST(ShapeRaster, TouchedTilesContainEveryChangedPixel) {
     Paper paper;
     const Image before = paper.image;
     paper.raster.arrow({at(-30.0, 20.0), at(90.0, 150.0), 4.0, 2}, {red, 1.0, false});
-    paper.raster.marker(at(199.0, 3.0), 8.0, ScreenMarker::cross, {red, 1.0, false});
+    paper.raster.marker(at(199.0, 3.0), 8.0, MarkerShape::cross, {red, 1.0, false});
     std::vector<char> touched(std::size_t(width * height));
     for (const Rectangle& r : paper.raster.touched().rectangles())
         for (int y = r.y; y < r.y + r.height; ++y)
@@ -155,7 +155,7 @@ TEST(ShapeRaster, ShapesFarOutsideChangeNothing) {
     Paper paper;
     const Image before = paper.image;
     paper.raster.arrow({at(-1e9, -1e9), at(-1e8, 2e9), 4.0, 1}, {red, 1.0, false});
-    paper.raster.marker(at(1e12, 50.0), 8.0, ScreenMarker::disc, {red, 1.0, false});
+    paper.raster.marker(at(1e12, 50.0), 8.0, MarkerShape::disc, {red, 1.0, false});
     EXPECT_EQ(paper.image, before);
 }
 

@@ -16,8 +16,7 @@ class SurveyObserver {
 public:
     virtual ~SurveyObserver() = default;
     virtual bool needs_measurement() const { return false; }
-    /// The measurement is empty unless an observer needs it.
-    /// `records`: of the frame (frame_sequence.h), if the world records contacts, else null.
+    /// The measurement is empty unless an observer needs it. `records`: of the frame (frame_sequence.h), if the world records contacts, else null.
     virtual void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords* records) = 0;
 };
 
