@@ -1,0 +1,237 @@
+// A clip as the player sees it: one or several runs of a scene, ready to be asked for any moment. SI units, world frame,
+// y up, unless said otherwise. `decode_clip()` makes it from the data of a page; the player knows nothing of its layout.
+
+export type Vec3 = [number, number, number];
+/** w, x, y, z; unit. */
+export type Quat = [number, number, number, number];
+/** Rows, one after the other. */
+export type Mat3 = [number, number, number, number, number, number, number, number, number];
+/** sRGB, "#rrggbb". */
+export type ColorText = string;
+
+export interface Clip {
+  title: string;
+  /** Name and version of the program. */
+  generator: string;
+  /** Texts that the clip was made from: the scene file, or a block of a lesson. */
+  sources: { name: string; text: string }[];
+  /** At least one; several come from `--vary` or from several scenes. */
+  runs: Run[];
+}
+
+export interface Run {
+  /** Tells it from the other runs: "restitution 0.5". Empty if it is the only one. */
+  label: string;
+  /** Seconds; the last frame's time. */
+  duration: number;
+  fps: number;
+  /** Frame n shows n / fps. */
+  frames: number;
+  settings: RunSettings;
+  scene: Scene;
+  motion: Motion;
+  energy: EnergyTable;
+  /** In order of time. */
+  impacts: Impact[];
+  contacts: ContactTable;
+  loads: LoadTable;
+  overlays: OverlaySettings;
+}
+
+export interface RunSettings {
+  impacts: "exact" | "stepped";
+  /** "tumble", or "notes": the course notes to the letter. */
+  method: string;
+  integrator: string;
+  /** Step in s. */
+  step: number;
+  gravity: Vec3;
+}
+
+export interface Scene {
+  /** In scene order, fixed ones included. */
+  bodies: Body[];
+  /** Triangle meshes that shapes name by index. */
+  meshes: Mesh[];
+  light: { direction: Vec3; shadows: boolean };
+  /** Whether the camera moves by itself: keyframes, an orbit or a followed body. */
+  camera_moves: boolean;
+  camera(time: number): Camera;
+}
+
+export interface Camera {
+  eye: Vec3;
+  target: Vec3;
+  up: Vec3;
+  /** Degrees. */
+  vertical_fov: number;
+}
+
+export interface Mesh {
+  /** Three numbers a vertex, m, in the frame of the shape. */
+  positions: Float32Array;
+  normals: Float32Array;
+  indices: Uint32Array;
+}
+
+/** In the body's frame, from the body's origin. */
+export type Shape =
+  | { type: "plane"; normal: Vec3; offset: number }
+  | { type: "box"; size: Vec3 }
+  | { type: "sphere"; radius: number }
+  | { type: "mesh"; mesh: number }
+  | { type: "compound"; parts: { shape: Shape; position: Vec3; rotation: Quat; color: ColorText }[] };
+
+export interface Body {
+  /** The scene's name for it, or its index. */
+  name: string;
+  type: "dynamic" | "fixed" | "kinematic";
+  shape: Shape;
+  color: ColorText;
+  /** 0 mirror to 1 chalk. */
+  roughness: number;
+  metallic: number;
+  pattern: "plain" | "grid" | "checker";
+  visible: boolean;
+  /** kg; 0 of bodies that are not dynamic: their inverse mass is zero. */
+  mass: number;
+  /** kg m^2, about the center of mass, body frame; zero of bodies that are not dynamic. */
+  inertia: Mat3;
+  /** Body frame, from the body's origin, m. */
+  center_of_mass: Vec3;
+  restitution: number;
+  friction: number;
+}
+
+/** A body at a moment. */
+export interface BodyState {
+  /** Of the center of mass, m. */
+  position: Vec3;
+  /** Of the body's own origin, where its shape is drawn, m. */
+  origin: Vec3;
+  rotation: Quat;
+  /** Of the center of mass, m/s. */
+  velocity: Vec3;
+  /** rad/s. */
+  angular_velocity: Vec3;
+  /** kg m/s; zero of bodies that are not dynamic, as the next. */
+  momentum: Vec3;
+  /** About the center of mass, kg m^2/s. */
+  angular_momentum: Vec3;
+  asleep: boolean;
+}
+
+export interface Motion {
+  /** The state at a time in [0, duration], s; times outside are clamped. At an impact's own time: the state after it. */
+  state(body: number, time: number): BodyState;
+  /** The state just before an impact at that time. */
+  state_before(body: number, time: number): BodyState;
+  /** Only position, origin and rotation: cheaper, for drawing. Writes into and returns `out`. */
+  pose(body: number, time: number, out: Pose): Pose;
+  /** "keys": exact between keys. "frames": quantized at each frame, interpolated in between. */
+  kind(body: number): "still" | "keys" | "frames";
+  /** Largest deviations from the simulation at the times that it was recorded. */
+  error: { position: number; rotation: number; velocity: number; angular_velocity: number };
+}
+
+export interface Pose {
+  position: Vec3;
+  origin: Vec3;
+  rotation: Quat;
+}
+
+/** Columns by frame; the columns of `tumble simulate --energy`, J. */
+export interface EnergyTable {
+  kinetic_linear: Float64Array;
+  kinetic_angular: Float64Array;
+  potential: Float64Array;
+  elastic: Float64Array;
+  work: Float64Array;
+  impact_loss: Float64Array;
+  friction_loss: Float64Array;
+  /** Touching contact points. */
+  contacts: Float64Array;
+  /** Deepest overlap, m. */
+  max_penetration: Float64Array;
+}
+
+/** A row of `tumble simulate --impacts`, with the same names, and the poses of both bodies at its time. */
+export interface Impact {
+  time: number;
+  exact: 0 | 1;
+  frame: number;
+  /** Names; `body_a` and `body_b` are their indices. */
+  a: string;
+  b: string;
+  body_a: number;
+  body_b: number;
+  px: number; py: number; pz: number;
+  nx: number; ny: number; nz: number;
+  feature: string;
+  v_before: number;
+  v_after: number;
+  restitution: number;
+  impulse: number;
+  fx: number; fy: number; fz: number;
+  pass: number;
+  mx: number; my: number; mz: number;
+  /** Centers of mass (m) and rotations of A and B when the impulse acts. */
+  pose_a: { position: Vec3; rotation: Quat };
+  pose_b: { position: Vec3; rotation: Quat };
+}
+
+/** Contacts of all frames: the rows of frame n are first[n] .. first[n + 1]. */
+export interface ContactTable {
+  /** frames + 1 numbers. */
+  first: Uint32Array;
+  /** Body indices; 4294967295: nobody, a correction of the method that acts on B alone. */
+  a: Uint32Array;
+  b: Uint32Array;
+  /** Three numbers a row. */
+  point: Float32Array;
+  normal: Float32Array;
+  /** N. */
+  normal_force: Float32Array;
+  /** On B, three numbers a row, N. */
+  tangential_force: Float32Array;
+  /** Index into contact_states. */
+  state: Uint8Array;
+  /** Index into features. */
+  feature: Uint8Array;
+}
+export const contact_states = ["stick", "slip", "asleep", "open"] as const;
+export const features = ["vertex-face", "face-vertex", "edge-edge", "face-face", "sphere", "mesh"] as const;
+export const nobody = 0xffffffff;
+
+/** Gravity, wind and forces at points, on dynamic bodies: means over the frame that ends at a frame's time. */
+export interface LoadTable {
+  /** N. */
+  force(body: number, frame: number): Vec3;
+  /** About the world origin, N m. */
+  moment(body: number, frame: number): Vec3;
+}
+
+export type OverlayName =
+  | "contacts" | "normals" | "impulses" | "forces" | "loads" | "velocity" | "omega" | "momentum" | "angular-momentum"
+  | "trails" | "ghosts" | "aabb" | "axes" | "com" | "islands" | "sleep" | "names";
+export type ArrowQuantity = "force" | "impulse" | "velocity" | "omega" | "momentum" | "angular-momentum";
+
+export interface OverlaySettings {
+  /** Shown at the start. */
+  show: OverlayName[];
+  /** Body indices that overlays show. */
+  bodies: number[];
+  /** Meters in the scene for an SI unit of each quantity, found from the clip. */
+  scale: Record<ArrowQuantity, number>;
+  color: Record<ArrowQuantity, ColorText>;
+  /** s that an impulse stays visible. */
+  impulse_time: number;
+  /** s of the path that stay visible; Infinity: all. */
+  trail_time: number;
+  /** Body points whose paths are drawn, body frame from the body's origin; empty: centers of mass. */
+  trail_points: { body: number; point: Vec3; color: ColorText | null }[];
+  /** Frames between two ghosts. */
+  ghost_every: number;
+  /** Quantities of `--plot`, separated by commas: "energy,body.ball.y". */
+  plot: string;
+}
