@@ -1,0 +1,7 @@
+#include "page/clip_data.h"
+
+namespace tumble {
+
+ClipData make_clip_data(const PageClip&) { return {}; }
+
+}  // namespace tumble

@@ -1,0 +1,39 @@
+// The data of a page: one or several runs as compressed bytes, which decode_clip() of web/src/data reads.
+//
+//     PageClip clip{scene.title, "Tumble 0.1.0", {{"ball.toml", text}}, {}};
+//     clip.runs.push_back(record_run(scene, {.threads = 2}, interrupt));   // app/page/record_run.h
+//     const ClipData data = make_clip_data(clip);
+//     page << base64(data.bytes);
+#pragma once
+
+#include "page/page_run.h"
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A text that the clip was made from.
+struct PageSource {
+    std::string name;
+    std::string text;
+};
+
+struct PageClip {
+    std::string title;
+    std::string generator;  // name and version of the program
+    std::vector<PageSource> sources;
+    std::vector<PageRun> runs;     // at least one
+    std::size_t budget = 375'000;  // bytes of a run's motion, compressed: the quanta are as fine as it allows
+};
+
+struct ClipData {
+    std::vector<std::byte> bytes;  // raw deflate
+    // Largest deviations of all runs from the simulation at the frames, m, rad, m/s and rad/s.
+    double position_error = 0.0, rotation_error = 0.0, velocity_error = 0.0, angular_velocity_error = 0.0;
+};
+
+ClipData make_clip_data(const PageClip& clip);
+
+}  // namespace tumble
