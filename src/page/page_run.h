@@ -21,6 +21,23 @@ struct BodySample {
     bool asleep = false;
 };
 
+/// A body at an impact of it.
+struct BodyEvent {
+    double time = 0.0;  // s, when the body is there: the start of the step, where a step resolves the impact
+    StruckBody body;
+};
+
+struct BodyRecord {
+    std::vector<BodySample> samples;  // by frame; a single one of a fixed body
+    std::vector<BodyEvent> events;    // in order of time
+    bool all_events = true;           // false: there were more than are kept
+};
+
+struct PageImpact {
+    ImpactRecord record;
+    std::size_t event_a = 0, event_b = 0;  // indices into the bodies' events; may be past the end of those kept
+};
+
 /// A row of the energy table, J.
 struct EnergySample {
     double kinetic_linear = 0.0, kinetic_angular = 0.0, potential = 0.0, elastic = 0.0;
@@ -32,14 +49,16 @@ struct EnergySample {
 struct PageRun {
     std::string label;       // tells it from the other runs of a clip; empty if it is the only one
     SceneDescription scene;  // with its own timing
-    std::string integrator;  // name in a scene file
+    std::string integrator;  // its name in a scene file
     std::int64_t frames = 0;
     std::vector<BodyReport> reports;                   // by body
-    std::vector<std::vector<BodySample>> bodies;       // by body; fixed ones have one sample, the others one a frame
+    std::vector<BodyRecord> bodies;                    // by body
     std::vector<CameraDescription> cameras;            // one, or one a frame if it moves
     std::vector<EnergySample> energy;                  // by frame
-    std::vector<ImpactRecord> impacts;                 // in order of time
-    std::vector<std::vector<ContactRecord>> contacts;  // by frame
+    std::vector<PageImpact> impacts;                   // in order of time; the strongest, if there are too many
+    std::int64_t all_impacts = 0;                      // in the run
+    std::vector<std::vector<ContactRecord>> contacts;  // by frame; those with the largest forces, if there are too many
+    std::int64_t all_contacts = 0;                     // of all frames
     std::vector<std::vector<ExternalLoad>> loads;      // by frame
     OverlayScales scales{};
 };

@@ -44,8 +44,8 @@ void push_before(StruckBody& struck, const Body& body, const Impulse& impulse) {
 
 /// A body after an impact, with the velocities after it as those before.
 StruckBody struck_body(const Body& body) {
-    return {body.position,         body.orientation,      body.velocity,
-            body.velocity,         body.angular_velocity, body.angular_velocity};
+    return {body.position, body.orientation,      body.velocity,
+            body.velocity, body.angular_velocity, body.angular_velocity};
 }
 
 Vec3 acting_point_of(const Manifold& m, int i, const Body& a, const Body& b) {
