@@ -40,11 +40,16 @@ const std::map<std::string, Layer> layers = {
     {"gltf",
      {{"core/", "scene/description/", "sim/snapshot/", "gltf/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"page",
+     {{"core/", "scene/description/", "sim/snapshot/", "overlay/", "page/"},
+      {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"api",
      {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"app",
-     {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "gltf/", "api/", "tumble/", "app/"}, {}}},
+     {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "gltf/", "page/", "api/", "tumble/",
+       "app/"},
+      {}}},
 };
 
 /// The included folders of each folder below src/.

@@ -338,7 +338,15 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
         contact.arm_a = ball->radius * n;
         contact.arm_b = -(other_ball ? other_ball->radius : 0.0) * n;
         const double after = v + impulse * (a.inverse_mass + b.inverse_mass);
-        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies, impact_time(now));
+        const Vec3 there = other_ball ? events_[j].path.position(tb) : b.position;
+        const auto struck = [&](std::uint32_t k, double t, const Vec3& place, const Vec3& velocity,
+                                const Vec3& change) -> StruckBody {
+            const Vec3& spin = bodies[k].angular_velocity;
+            return {place, events_[k].path.orientation(t), velocity, velocity + change, spin, spin};
+        };
+        log_->add_entry({0, 0, v, after, e, impulse}, contact, at + contact.arm_a, bodies, impact_time(now),
+                        struck(i, ta, at, va, -(a.inverse_mass * impulse) * n),
+                        struck(j, tb, there, vb, (b.inverse_mass * impulse) * n));
         const auto deflect = [&](std::uint32_t k, const Vec3& place, const Vec3& velocity, const Vec3& change) {
             log_->end_flight(k, bodies[k], place, bodies[k].mass * velocity);
             log_->start_flight(k, bodies[k], place, bodies[k].mass * (velocity + change));

@@ -7,8 +7,13 @@ namespace tumble {
 void FrameSequence::advance() {
     world_.advance_frame();
     if (!world_.records_contacts()) return;
-    const std::vector<ImpactRecord>& impacts = world_.contact_records().impacts;
-    impacts_.insert(impacts_.end(), impacts.begin(), impacts.end());
+    const ContactRecords& records = world_.contact_records();
+    for (ImpactRecord impact : records.impacts) {
+        impact.struck_a += struck_.size();
+        impact.struck_b += struck_.size();
+        impacts_.push_back(impact);
+    }
+    struck_.insert(struck_.end(), records.struck.begin(), records.struck.end());
 }
 
 Snapshot FrameSequence::next_start() {
@@ -17,6 +22,7 @@ Snapshot FrameSequence::next_start() {
     if (world_.records_contacts()) {
         records_ = world_.contact_records();
         records_.impacts = std::exchange(impacts_, {});
+        records_.struck = std::exchange(struck_, {});
     }
     return world_.snapshot();
 }

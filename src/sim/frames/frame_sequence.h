@@ -32,6 +32,7 @@ private:
     int intervals_to_start_ = 0;  // from the world's time to the start of the next frame
     ContactRecords records_;
     std::vector<ImpactRecord> impacts_;  // since the start of the last frame
+    std::vector<StruckBody> struck_;     // of these
 };
 
 }  // namespace tumble

@@ -12,6 +12,7 @@ namespace {
 constexpr double stick_share = 1e-3;
 // Corrections below this fraction of a body's impulses, or moments, in the frame are rounding.
 constexpr double correction_rounding = 1e-13;
+constexpr std::size_t none = SIZE_MAX;
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
@@ -34,6 +35,19 @@ ContactFeatures swapped(ContactFeatures features) {
     return features;
 }
 
+/// Subtracts an impulse (about the body's center) from the velocities before an impact.
+void push_before(StruckBody& struck, const Body& body, const Impulse& impulse) {
+    if (!body.dynamic()) return;
+    struck.velocity_before -= body.inverse_mass * impulse.linear;
+    struck.angular_velocity_before -= body.inverse_inertia * impulse.angular;
+}
+
+/// A body after an impact, with the velocities after it as those before.
+StruckBody struck_body(const Body& body) {
+    return {body.position, body.orientation,      body.velocity,
+            body.velocity, body.angular_velocity, body.angular_velocity};
+}
+
 Vec3 acting_point_of(const Manifold& m, int i, const Body& a, const Body& b) {
     const ContactPoint& p = m.points[std::size_t(i)];
     return acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
@@ -45,7 +59,8 @@ ContactLog::ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& o
     : scene_index_(scene_index.begin(), scene_index.end()),
       origin_(origin),
       gravity_(gravity),
-      accounts_(scene_index.size()) {}
+      accounts_(scene_index.size()),
+      struck_(scene_index.size(), none) {}
 
 Impulse ContactLog::momenta(const Body& body, const Vec3& place, const Vec3& momentum) const {
     return {momentum, (origin_ + place).cross(momentum) + body.angular_momentum};
@@ -66,6 +81,7 @@ double ContactLog::energy(const Body& body) const {
 void ContactLog::begin_frame(const std::vector<Body>& bodies) {
     sums_.clear();
     records_.impacts.clear();
+    records_.struck.clear();
     records_.contacts.clear();
     records_.loads.clear();
     friction_ = 0.0;
@@ -80,6 +96,47 @@ void ContactLog::begin_frame(const std::vector<Body>& bodies) {
 
 void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, const Vec3& point,
                            const std::vector<Body>& bodies, const ImpactTime& when) {
+    StruckBody a = struck_body(bodies[c.a]), b = struck_body(bodies[c.b]);
+    const Vec3 j = entry.impulse * c.normal;
+    push_before(a, bodies[c.a], {-j, -c.arm_a.cross(j)});
+    push_before(b, bodies[c.b], {j, c.arm_b.cross(j)});
+    add_entry(entry, c, point, bodies, when, a, b);
+}
+
+void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, const Vec3& point,
+                           const std::vector<Body>& bodies, const ImpactTime& when, const StruckBody& a,
+                           const StruckBody& b) {
+    struck_[c.a] = records_.struck.size();
+    struck_[c.b] = records_.struck.size() + 1;
+    for (StruckBody struck : {a, b}) {
+        struck.position += origin_;
+        records_.struck.push_back(struck);
+    }
+    add_record(entry, c, point, bodies, when);
+    struck_[c.a] = struck_[c.b] = none;
+}
+
+/// The bodies of an impact: each impulse is subtracted once.
+void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts,
+                            const std::vector<Body>& bodies) {
+    const auto at = [&](std::uint32_t body) -> StruckBody& {
+        if (struck_[body] == none) {
+            struck_[body] = records_.struck.size();
+            records_.struck.push_back(struck_body(bodies[body]));
+            records_.struck.back().position += origin_;
+        }
+        return records_.struck[struck_[body]];
+    };
+    for (const ImpactTrace::Entry& entry : trace.entries) {
+        const Contact& c = contacts[entry.contact];
+        const Vec3 j = entry.impulse * c.normal;
+        push_before(at(c.a), bodies[c.a], {-j, -c.arm_a.cross(j)});
+        push_before(at(c.b), bodies[c.b], {j, c.arm_b.cross(j)});
+    }
+}
+
+void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, const Vec3& point,
+                            const std::vector<Body>& bodies, const ImpactTime& when) {
     const Body &a = bodies[c.a], &b = bodies[c.b];
     ImpactRecord record;
     record.when = when;
@@ -95,6 +152,8 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
     record.pass = entry.pass;
     const Vec3 j = entry.impulse * c.normal;
     record.moment = record.point.cross(j);
+    record.struck_a = struck_[c.a];
+    record.struck_b = struck_[c.b];
     records_.impacts.push_back(record);
     add_contact(c.a, c.b, {j, record.moment});
     accounts_[c.a].touched = accounts_[c.b].touched = true;
@@ -104,20 +163,26 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
 
 void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts,
                             const std::vector<Body>& bodies, const ImpactTime& when) {
+    add_struck(trace, contacts, bodies);
     for (std::size_t k = 0; k < trace.entries.size(); ++k) {
         const ImpactTrace::Entry& entry = trace.entries[k];
         const Contact& c = contacts[entry.contact];
-        add_entry(entry, c, bodies[c.a].position + c.arm_a, bodies, when);
+        add_record(entry, c, bodies[c.a].position + c.arm_a, bodies, when);
         const bool last = std::none_of(trace.entries.begin() + std::ptrdiff_t(k) + 1, trace.entries.end(),
                                        [&](const ImpactTrace::Entry& e) { return e.contact == entry.contact; });
         if (!last) continue;
         if (c.impact_friction.isZero(0.0)) continue;
         ImpactRecord& record = records_.impacts.back();
         const Vec3 moment = (record.point + c.rub).cross(c.impact_friction);
+        const Vec3 &f = c.impact_friction, arm_a = c.arm_a + c.rub, arm_b = c.arm_b + c.rub;
+        push_before(records_.struck[record.struck_a], bodies[c.a], {-f, -arm_a.cross(f)});
+        push_before(records_.struck[record.struck_b], bodies[c.b], {f, arm_b.cross(f)});
         record.friction = c.impact_friction;
         record.moment += moment;
         add_contact(c.a, c.b, {c.impact_friction, moment});
     }
+    for (const ImpactTrace::Entry& entry : trace.entries)
+        struck_[contacts[entry.contact].a] = struck_[contacts[entry.contact].b] = none;
 }
 
 void ContactLog::set_place(ContactRecord& record, const Manifold& m, int i, const std::vector<Body>& bodies) const {
@@ -314,6 +379,7 @@ void ContactLog::name_by_scene() {
         r.b = scene_index_[r.b];
         if (r.a < r.b) continue;
         std::swap(r.a, r.b);
+        std::swap(r.struck_a, r.struck_b);
         r.features = swapped(r.features);
         for (Vec3* v : {&r.normal, &r.friction, &r.moment}) *v = -*v;
     }

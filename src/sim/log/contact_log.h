@@ -27,12 +27,16 @@ public:
 
     void begin_frame(const std::vector<Body>& bodies);
 
-    /// Adds one impact with the entries of its trace, at the bodies' poses of the impact.
+    /// Adds one impact with the entries of its trace, at the bodies' poses of the impact. Their velocities are those after
+    /// it.
     void add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                     const ImpactTime& when);
-    /// The same for one entry without friction, at a point (m) in the bodies' coordinates.
+    /// The same for an impact of one entry without friction, at a point (m) in the bodies' coordinates.
     void add_entry(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
                    const std::vector<Body>& bodies, const ImpactTime& when);
+    /// The same for bodies that were not brought to the impact: their motions then, in the bodies' coordinates.
+    void add_entry(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
+                   const std::vector<Body>& bodies, const ImpactTime& when, const StruckBody& a, const StruckBody& b);
 
     /// Adds the impulses of a solve of resting contact. `totals` by manifold of the problem.
     void add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
@@ -79,6 +83,9 @@ private:
         double work = 0.0;           // J, from outside
         bool touched = false;        // by an impact or a contact
     };
+    void add_record(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
+                    const std::vector<Body>& bodies, const ImpactTime& when);
+    void add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
     Impulse momenta(const Body& body, const Vec3& place, const Vec3& momentum) const;
     Impulse momenta(const Body& body) const { return momenta(body, body.position, body.momentum); }
     static void add_load(Account& account, const Impulse& impulse);
@@ -101,6 +108,7 @@ private:
     std::map<Key, Sum> sums_;
     std::map<Key, ContactRecord> asleep_;  // contacts that hold sleeping bodies, with their forces
     std::vector<Account> accounts_;        // by body
+    std::vector<std::size_t> struck_;      // by body: its entry in the records, of the impact that is added
     double friction_ = 0.0;                // J, lost in this frame
     ContactRecords records_;
 };

@@ -22,6 +22,14 @@ struct ImpactTime {
     bool exact = false;      // whether it is the impact's own, else the end of the step that resolves it
 };
 
+/// A body when an impact acts on it, or for an impact that a step resolves: at the start of that step.
+struct StruckBody {
+    Vec3 position = Vec3::Zero();  // m, of the center of mass
+    Quat rotation = Quat::Identity();
+    Vec3 velocity_before = Vec3::Zero(), velocity_after = Vec3::Zero();                  // m/s, of all its impulses
+    Vec3 angular_velocity_before = Vec3::Zero(), angular_velocity_after = Vec3::Zero();  // rad/s
+};
+
 /// One impulse at a contact point: of one contact, in one pass of the impact law (notes eqs. 14 and 20).
 struct ImpactRecord {
     ImpactTime when;
@@ -35,6 +43,7 @@ struct ImpactRecord {
     Vec3 friction = Vec3::Zero();                  // N s on B, across the normal; with the contact's last pass
     int pass = 0;                                  // of the law, from 0
     Vec3 moment = Vec3::Zero();                    // N m s on B about the world origin, of both impulses
+    std::size_t struck_a = 0, struck_b = 0;        // indices into ContactRecords::struck
 };
 
 /// One point of a resting or sliding contact. Forces are means over the frame.
@@ -72,6 +81,7 @@ struct EnergyLedger {
 
 struct ContactRecords {
     std::vector<ImpactRecord> impacts;    // in order of time
+    std::vector<StruckBody> struck;       // one for each impact and body of it
     std::vector<ContactRecord> contacts;  // ascending by bodies
     std::vector<ExternalLoad> loads;      // of all dynamic bodies, ascending
     EnergyLedger energy;

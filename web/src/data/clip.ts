@@ -31,9 +31,14 @@ export interface Run {
   scene: Scene;
   motion: Motion;
   energy: EnergyTable;
-  /** In order of time. */
+  /** In order of time; of too many, the strongest. */
   impacts: Impact[];
+  /** How many there were in the run. */
+  all_impacts: number;
+  /** Of too many in a frame, those with the largest forces. */
   contacts: ContactTable;
+  /** How many rows there were in all frames. */
+  all_contacts: number;
   loads: LoadTable;
   overlays: OverlaySettings;
 }
@@ -126,6 +131,8 @@ export interface Motion {
   state(body: number, time: number): BodyState;
   /** The state just before an impact at that time. */
   state_before(body: number, time: number): BodyState;
+  /** The state just after an impact at that time. Where a step resolves the impact, before forces change it. */
+  state_after(body: number, time: number): BodyState;
   /** Only position, origin and rotation: cheaper, for drawing. Writes into and returns `out`. */
   pose(body: number, time: number, out: Pose): Pose;
   /** "keys": exact between keys. "frames": quantized at each frame, interpolated in between. */

@@ -1,0 +1,22 @@
+// Simulates a scene and keeps what a page shows of it.
+#pragma once
+
+#include "app/threads/interrupt.h"
+#include "page/page_run.h"
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace tumble {
+
+struct RecordSettings {
+    int threads = 1;
+    std::string label;                           // of the run, among several
+    std::function<void(std::int64_t)> progress;  // called with the number of frames done; may be empty
+};
+
+/// Throws RunError after an interrupt, or if the simulation fails.
+PageRun record_run(const SceneDescription& scene, const RecordSettings& settings, Interrupt& interrupt);
+
+}  // namespace tumble

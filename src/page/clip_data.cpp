@@ -1,0 +1,99 @@
+#include "page/clip_data.h"
+
+#include "core/check.h"
+#include "page/motion_data.h"
+#include "page/scene_data.h"
+#include "page/table_data.h"
+
+#include <zlib.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+using Json = ArrayStore::Json;
+
+constexpr std::size_t most_events =
+    1000;  // of all bodies, 140 bytes each: more are left out, with the numbers of impacts rounded
+
+Json settings_json(const PageRun& run) {
+    const SimulationSettings& simulation = run.scene.simulation;
+    return {{"impacts", simulation.impacts == ImpactMode::exact ? "exact" : "stepped"},
+            {"method", simulation.method == SimulationMethod::notes ? "notes" : "tumble"},
+            {"integrator", run.integrator},
+            {"step", run.scene.step()},
+            {"gravity", vector_json(simulation.gravity)}};
+}
+
+/// Whether the bodies' events are few enough to be part of the data.
+bool few_events(const PageRun& run) {
+    std::size_t events = 0;
+    for (const BodyRecord& body : run.bodies) {
+        if (!body.all_events) return false;
+        events += body.events.size();
+    }
+    return events <= most_events;
+}
+
+Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, ArrayStore& arrays, MotionErrors& errors) {
+    const bool events = few_events(run);
+    MotionData motion = make_motion_data(run, clip.motion_budget, events, arrays);
+    errors.add(motion.errors);
+    return {{"label", run.label},
+            {"fps", run.scene.output.fps},
+            {"frames", run.frames},
+            {"settings", settings_json(run)},
+            {"bodies", make_bodies(run, meshes)},
+            {"light", {{"direction", vector_json(run.scene.light.direction)}, {"shadows", run.scene.light.shadows}}},
+            {"camera", make_camera(run, arrays)},
+            {"motion", std::move(motion.json)},
+            {"energy", make_energy_data(run, arrays)},
+            {"impacts", make_impact_data(run, events, arrays)},
+            {"all_impacts", run.all_impacts},
+            {"contacts", make_contact_data(run, arrays)},
+            {"all_contacts", run.all_contacts},
+            {"loads", make_load_data(run, arrays)},
+            {"overlays", make_overlays(run)}};
+}
+
+std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
+    constexpr int raw = -15, memory = 9;  // no header; the most memory, for the best compression
+    z_stream stream{};
+    TUMBLE_CHECK_EQ(deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, raw, memory, Z_DEFAULT_STRATEGY), Z_OK);
+    std::vector<std::byte> room(deflateBound(&stream, uLong(bytes.size())));
+    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
+    stream.avail_in = uInt(bytes.size());
+    stream.next_out = reinterpret_cast<Bytef*>(room.data());
+    stream.avail_out = uInt(room.size());
+    const int result = deflate(&stream, Z_FINISH);
+    room.resize(stream.total_out);
+    deflateEnd(&stream);
+    TUMBLE_CHECK_EQ(result, Z_STREAM_END);
+    return room;
+}
+
+}  // namespace
+
+ClipData make_clip_data(const PageClip& clip) {
+    ArrayStore arrays;
+    MeshTable meshes;
+    ClipData data;
+    Json header{{"format", 1}, {"title", clip.title}, {"generator", clip.generator}};
+    header["sources"] = Json::array();
+    for (const PageSource& source : clip.sources)
+        header["sources"].push_back({{"name", source.name}, {"text", source.text}});
+    header["runs"] = Json::array();
+    for (const PageRun& run : clip.runs) header["runs"].push_back(run_json(run, clip, meshes, arrays, data.errors));
+    header["meshes"] = meshes.write(arrays);
+    const std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
+    std::vector<std::byte> bytes;
+    for (int shift = 0; shift < 32; shift += 8) bytes.push_back(std::byte(text.size() >> shift & 0xffu));
+    for (const char c : text) bytes.push_back(std::byte(c));
+    bytes.insert(bytes.end(), arrays.bytes().begin(), arrays.bytes().end());
+    data.bytes = deflated(bytes);
+    return data;
+}
+
+}  // namespace tumble

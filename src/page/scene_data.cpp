@@ -1,0 +1,188 @@
+#include "page/scene_data.h"
+
+#include "overlay/overlay_builder.h"
+#include "page/prediction.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+using Json = ArrayStore::Json;
+
+constexpr double place_steps = 65535.0, normal_steps = 511.0;  // of a mesh's extent, and of a unit vector
+constexpr double camera_quantum = 1e-6;                        // m, and degrees
+
+Json quaternion_json(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
+
+Json shape_json(const Shape& shape, const Appearance& look, MeshTable& meshes);
+
+Json part_json(const CompoundPart& part, const Appearance& look, MeshTable& meshes) {
+    return {{"shape", shape_json(part.shape, look, meshes)},
+            {"position", vector_json(part.position)},
+            {"rotation", quaternion_json(part.rotation)},
+            {"color", to_string(part.color.value_or(look.color))}};
+}
+
+Json shape_json(const Shape& shape, const Appearance& look, MeshTable& meshes) {
+    if (const auto* plane = std::get_if<PlaneShape>(&shape))
+        return {{"type", "plane"}, {"normal", vector_json(plane->normal)}, {"offset", plane->offset}};
+    if (const auto* box = std::get_if<BoxShape>(&shape)) return {{"type", "box"}, {"size", vector_json(box->size)}};
+    if (const auto* ball = std::get_if<SphereShape>(&shape)) return {{"type", "sphere"}, {"radius", ball->radius}};
+    if (const auto* mesh = std::get_if<MeshShape>(&shape))
+        return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh->asset)}};
+    Json parts = Json::array();
+    for (const CompoundPart& part : *std::get<CompoundShape>(shape).parts)
+        parts.push_back(part_json(part, look, meshes));
+    return {{"type", "compound"}, {"parts", std::move(parts)}};
+}
+
+const char* type_name(BodyType type) {
+    if (type == BodyType::dynamic) return "dynamic";
+    return type == BodyType::fixed ? "fixed" : "kinematic";
+}
+
+const char* pattern_name(Pattern pattern) {
+    if (pattern == Pattern::plain) return "plain";
+    return pattern == Pattern::grid ? "grid" : "checker";
+}
+
+Json inertia_json(const Mat3& inertia) {
+    Json rows = Json::array();
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c) rows.push_back(inertia(r, c));
+    return rows;
+}
+
+std::vector<std::int64_t> whole_numbers(std::span<const double> values, double quantum) {
+    std::vector<std::int64_t> whole;
+    for (const double value : values) whole.push_back(std::llround(value / quantum));
+    return whole;
+}
+
+Json mesh_json(const MeshAsset& asset, ArrayStore& arrays) {
+    Bounds bounds;
+    for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
+    const double quantum = std::max(bounds.extent().maxCoeff() / place_steps, 1e-12);
+    Json positions = Json::array(), normals = Json::array();
+    for (int c = 0; c < 3; ++c) {
+        std::vector<std::int64_t> places, directions;
+        for (const MeshAsset::Vertex& v : asset.vertices) {
+            places.push_back(std::llround((double(v.position[c]) - bounds.min[c]) / quantum));
+            directions.push_back(std::llround(double(v.normal[c]) * normal_steps));
+        }
+        const int place_order = predict(places), direction_order = predict(directions);
+        positions.push_back({place_order, arrays.add(places)});
+        normals.push_back({direction_order, arrays.add(directions)});
+    }
+    std::vector<std::int64_t> indices(asset.indices.begin(), asset.indices.end());
+    const int order = predict(indices);
+    return {{"min", vector_json(asset.vertices.empty() ? Vec3(Vec3::Zero()) : bounds.min)},
+            {"quantum", quantum},
+            {"positions", std::move(positions)},
+            {"normals", std::move(normals)},
+            {"indices", {order, arrays.add(indices)}}};
+}
+
+}  // namespace
+
+Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
+
+std::size_t MeshTable::index_of(const MeshAsset& asset) {
+    const auto [place, is_new] = index_.try_emplace(&asset, assets_.size());
+    if (is_new) assets_.push_back(&asset);
+    return place->second;
+}
+
+Json MeshTable::write(ArrayStore& arrays) const {
+    Json all = Json::array();
+    for (const MeshAsset* asset : assets_) all.push_back(mesh_json(*asset, arrays));
+    return all;
+}
+
+Json make_bodies(const PageRun& run, MeshTable& meshes) {
+    Json bodies = Json::array();
+    for (std::size_t i = 0; i < run.scene.bodies.size(); ++i) {
+        const BodyDescription& body = run.scene.bodies[i];
+        const BodyReport& report = run.reports[i];
+        const Appearance& look = body.appearance;
+        const bool dynamic = body.type == BodyType::dynamic;
+        bodies.push_back({{"name", body.name},
+                          {"type", type_name(body.type)},
+                          {"shape", shape_json(body.shape, look, meshes)},
+                          {"color", to_string(look.color)},
+                          {"roughness", look.roughness},
+                          {"metallic", look.metallic},
+                          {"pattern", pattern_name(look.pattern)},
+                          {"visible", look.visible},
+                          {"mass", dynamic ? report.mass : 0.0},
+                          {"inertia", inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()))},
+                          {"center_of_mass", vector_json(report.center_of_mass)},
+                          {"restitution", body.restitution},
+                          {"friction", body.friction}});
+    }
+    return bodies;
+}
+
+Json make_camera(const PageRun& run, ArrayStore& arrays) {
+    const bool moves = run.cameras.size() > 1;
+    const CameraDescription& first = run.cameras.front();
+    Json json{{"eye", vector_json(first.eye)},
+              {"target", vector_json(first.target)},
+              {"up", vector_json(first.up)},
+              {"vertical_fov", first.vertical_fov}};
+    if (!moves) return json;
+    std::array<std::vector<double>, 10> columns;
+    for (const CameraDescription& camera : run.cameras) {
+        for (int c = 0; c < 3; ++c) {
+            columns[std::size_t(c)].push_back(camera.eye[c]);
+            columns[std::size_t(3 + c)].push_back(camera.target[c]);
+            columns[std::size_t(6 + c)].push_back(camera.up[c]);
+        }
+        columns[9].push_back(camera.vertical_fov);
+    }
+    Json frames = Json::array();
+    for (const auto& column : columns) {
+        std::vector<std::int64_t> whole = whole_numbers(column, camera_quantum);
+        const int order = predict(whole);
+        frames.push_back({order, arrays.add(whole)});
+    }
+    json["quantum"] = camera_quantum;
+    json["frames"] = std::move(frames);
+    return json;
+}
+
+Json make_overlays(const PageRun& run) {
+    constexpr std::array<const char*, arrow_quantity_count> quantities{"force", "impulse",  "velocity",
+                                                                       "omega", "momentum", "angular-momentum"};
+    const OverlayDescription& overlay = run.scene.overlay;
+    Json show = Json::array(), bodies = Json::array(), scale, color, points = Json::array();
+    for (const OverlayName& name : overlay_names)
+        if (overlay.show.has(name.overlay)) show.push_back(name.name);
+    const std::vector<char> shown = shown_bodies(run.scene);
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (shown[i] != 0) bodies.push_back(i);
+    for (std::size_t q = 0; q < quantities.size(); ++q) {
+        scale[quantities[q]] = run.scales[q];
+        color[quantities[q]] = to_string(arrow_color(overlay, ArrowQuantity(q)));
+    }
+    for (const TrailPoint& point : overlay.trail_points)
+        points.push_back({{"body", point.body},
+                          {"point", vector_json(point.point)},
+                          {"color", point.color ? Json(to_string(*point.color)) : Json(nullptr)}});
+    return {{"show", std::move(show)},
+            {"bodies", std::move(bodies)},
+            {"scale", std::move(scale)},
+            {"color", std::move(color)},
+            {"impulse_time", overlay.impulse_time},
+            {"trail_time", overlay.trail_time == infinity ? Json(nullptr) : Json(overlay.trail_time)},
+            {"trail_points", std::move(points)},
+            {"ghost_every", overlay.ghost_every},
+            {"plot", overlay.plot}};
+}
+
+}  // namespace tumble

@@ -1,0 +1,30 @@
+// What a run shows apart from numbers over time: bodies, meshes, light, camera and overlays.
+#pragma once
+
+#include "page/array_store.h"
+#include "page/page_run.h"
+
+#include <map>
+#include <vector>
+
+namespace tumble {
+
+/// The meshes of all runs, each once.
+class MeshTable {
+public:
+    std::size_t index_of(const MeshAsset& asset);
+    ArrayStore::Json write(ArrayStore& arrays) const;
+
+private:
+    std::vector<const MeshAsset*> assets_;
+    std::map<const MeshAsset*, std::size_t> index_;  // only looked up: their order has no effect
+};
+
+ArrayStore::Json make_bodies(const PageRun& run, MeshTable& meshes);
+ArrayStore::Json make_camera(const PageRun& run, ArrayStore& arrays);
+ArrayStore::Json make_overlays(const PageRun& run);
+
+/// Three numbers.
+ArrayStore::Json vector_json(const Vec3& v);
+
+}  // namespace tumble

@@ -1,0 +1,82 @@
+// The JSON header of the clip data, as src/page writes it.
+import type { ArrayReference, PredictedReference } from "./container.ts";
+import type { Body, Camera, EnergyTable, OverlaySettings, RunSettings, Vec3 } from "./clip.ts";
+
+export interface ClipHeader {
+  format: number;
+  title: string;
+  generator: string;
+  sources: { name: string; text: string }[];
+  runs: RunHeader[];
+  meshes: MeshHeader[];
+}
+
+export interface RunHeader {
+  label: string;
+  fps: number;
+  frames: number;
+  settings: RunSettings;
+  bodies: Body[];
+  light: { direction: Vec3; shadows: boolean };
+  camera: Camera & { quantum?: number; frames?: PredictedReference[] };
+  motion: MotionHeader;
+  energy: Record<keyof EnergyTable, ArrayReference>;
+  impacts: ImpactsHeader;
+  all_impacts: number;
+  contacts: ContactsHeader;
+  all_contacts: number;
+  /** Body, and quantum, order and array of each component. */
+  loads: [number, [number, number, ArrayReference][]][];
+  overlays: Omit<OverlaySettings, "trail_time"> & { trail_time: number | null };
+}
+
+export interface MeshHeader {
+  min: Vec3;
+  quantum: number;
+  positions: PredictedReference[];
+  normals: PredictedReference[];
+  indices: PredictedReference;
+}
+
+/** Values have columns: rotation w, x, y, z, position, velocity, angular velocity. */
+export interface MotionHeader {
+  still: { bodies: number[]; values: ArrayReference };
+  keys: { bodies: number[]; counts: ArrayReference; frames: ArrayReference; values: ArrayReference };
+  frames: { bodies: number[]; quanta: [number, number, number, number]; orders: ArrayReference; values: ArrayReference };
+  /** Columns: rotation, position, velocity and angular velocity before, the same after. */
+  events: { counts: ArrayReference; times: ArrayReference; values: ArrayReference } | null;
+  asleep: [number, number[]][];
+  error: { position: number; rotation: number; velocity: number; angular_velocity: number };
+}
+
+export interface ImpactsHeader {
+  count: number;
+  time: ArrayReference;
+  exact: ArrayReference;
+  frame: ArrayReference;
+  a: ArrayReference;
+  b: ArrayReference;
+  feature: ArrayReference;
+  pass: ArrayReference;
+  p: ArrayReference[];
+  n: ArrayReference[];
+  f: ArrayReference[];
+  m: ArrayReference[];
+  v_before: ArrayReference;
+  v_after: ArrayReference;
+  restitution: ArrayReference;
+  impulse: ArrayReference;
+  /** Indices into the bodies' events; -1: none. */
+  event_a?: ArrayReference;
+  event_b?: ArrayReference;
+}
+
+export interface ContactsHeader {
+  /** m, of a unit vector, N. */
+  quanta: [number, number, number];
+  counts: ArrayReference;
+  a: ArrayReference;
+  b: ArrayReference;
+  /** Point, normal, normal force, tangential force, state, feature. */
+  numbers: ArrayReference[];
+}

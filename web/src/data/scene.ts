@@ -1,0 +1,60 @@
+// Bodies, meshes, light and camera of a run (src/page/scene_data.h).
+import type { Camera, Mesh, Scene, Vec3 } from "./clip.ts";
+import type { Container } from "./container.ts";
+import type { MeshHeader, RunHeader } from "./header.ts";
+
+type Reader = Container<unknown>;
+
+export function read_mesh(header: MeshHeader, reader: Reader): Mesh {
+  const places = header.positions.map((part) => reader.predicted(part));
+  const directions = header.normals.map((part) => reader.predicted(part));
+  const count = places[0].length;
+  const mesh: Mesh = {
+    positions: new Float32Array(3 * count),
+    normals: new Float32Array(3 * count),
+    indices: Uint32Array.from(reader.predicted(header.indices)),
+  };
+  for (let i = 0; i < count; ++i) {
+    const length = Math.hypot(directions[0][i], directions[1][i], directions[2][i]) || 1;
+    for (let c = 0; c < 3; ++c) {
+      mesh.positions[3 * i + c] = header.min[c] + header.quantum * places[c][i];
+      mesh.normals[3 * i + c] = directions[c][i] / length;
+    }
+  }
+  return mesh;
+}
+
+/** The camera at any time: cubic between frames, with the slopes of their neighbors. */
+function read_camera(run: RunHeader, reader: Reader): (time: number) => Camera {
+  const { eye, target, up, vertical_fov, quantum, frames } = run.camera;
+  if (frames === undefined || quantum === undefined) return () => ({ eye, target, up, vertical_fov });
+  const columns = frames.map((part) => reader.predicted(part).map((value) => quantum * value));
+  const last = run.frames - 1;
+  const value = (column: Float64Array, n: number, u: number): number => {
+    if (n >= last) return column[last];
+    const way = column[n + 1] - column[n];
+    const slope = n > 0 ? 0.5 * (column[n + 1] - column[n - 1]) : way;
+    const next = n + 1 < last ? 0.5 * (column[n + 2] - column[n]) : way;
+    return column[n] + u * u * (3 - 2 * u) * way + u * (1 - u) * ((1 - u) * slope - u * next);
+  };
+  return (time) => {
+    const at = Math.min(Math.max(time * run.fps, 0), last), n = Math.floor(at + 1e-9), u = Math.max(0, at - n);
+    const values = columns.map((column) => value(column, n, u));
+    return {
+      eye: values.slice(0, 3) as Vec3,
+      target: values.slice(3, 6) as Vec3,
+      up: values.slice(6, 9) as Vec3,
+      vertical_fov: values[9],
+    };
+  };
+}
+
+export function read_scene(run: RunHeader, reader: Reader, meshes: Mesh[]): Scene {
+  return {
+    bodies: run.bodies,
+    meshes,
+    light: run.light,
+    camera_moves: run.camera.frames !== undefined,
+    camera: read_camera(run, reader),
+  };
+}
