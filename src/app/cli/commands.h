@@ -27,6 +27,7 @@ struct RenderCommand {
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
     double start = 0.0;          // s, scene time; earlier frames are not drawn
     double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
+    int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;        // images per frame while the shutter is open
     std::optional<int> threads;  // of the simulation; see thread_budget.h
