@@ -21,11 +21,11 @@ std::string fallback_html(const PlayerFigure& figure) {
             "<video class=\"player-fallback\" controls loop muted playsinline preload=\"metadata\"{}{} src=\"{}\" "
             "aria-label=\"{}\"></video>\n",
             size, figure.poster.empty() ? "" : fmt::format(" poster=\"{}\"", figure.poster), figure.film,
-            html_text(figure.alt));
+            html_text(figure.options.alt));
     if (!figure.poster.empty())
         return fmt::format("<img class=\"player-fallback\"{} src=\"{}\" alt=\"{}\">\n", size, figure.poster,
-                           html_text(figure.alt));
-    return fmt::format("<p class=\"player-fallback\">{}</p>\n", html_text(figure.alt));
+                           html_text(figure.options.alt));
+    return fmt::format("<p class=\"player-fallback\">{}</p>\n", html_text(figure.options.alt));
 }
 
 }  // namespace
@@ -43,14 +43,15 @@ std::string options_json(const PlayerOptions& options) {
     if (options.panels) json["panels"] = *options.panels;
     if (!options.layout.empty()) json["layout"] = options.layout;
     if (!options.compare.empty()) json["compare"] = options.compare;
+    if (!options.alt.empty()) json["alt"] = options.alt;
     return json.dump(-1, ' ', false, OrderedJson::error_handler_t::replace);
 }
 
 std::string figure_html(const PlayerFigure& figure) {
     std::string html = "<figure class=\"tumble-player\"";
     if (!figure.id.empty()) html += fmt::format(" id=\"{}\"", html_text(figure.id));
-    html += fmt::format(" data-clip=\"{}\" data-options=\"{}\" data-alt=\"{}\">\n", html_text(figure.clip),
-                        html_text(options_json(figure.options)), html_text(figure.alt));
+    html += fmt::format(" data-clip=\"{}\" data-options=\"{}\">\n", html_text(figure.clip),
+                        html_text(options_json(figure.options)));
     html += fallback_html(figure);
     html += "<noscript><p class=\"player-note\">Turning, scrubbing and plots need JavaScript.</p></noscript>\n";
     if (!figure.caption_html.empty()) html += fmt::format("<figcaption>{}</figcaption>\n", figure.caption_html);

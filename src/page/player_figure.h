@@ -25,6 +25,7 @@ struct PlayerOptions {
     std::optional<std::vector<std::string>> panels;   // plots, state, impacts, source
     std::string layout;                               // "page" or "lesson"
     std::string compare;                              // of runs: single, ghost, side-by-side
+    std::string alt;                                  // for readers that do not see the stage
 };
 std::string options_json(const PlayerOptions& options);
 
@@ -36,7 +37,6 @@ struct PlayerFigure {
     std::string poster;         // data address of a picture; empty: none
     std::string film;           // data address of an mp4 film; empty: none
     int width = 0, height = 0;  // of both, pixels
-    std::string alt;            // for readers that do not see the stage
     std::string caption_html;
 };
 /// <figure class="tumble-player" ...>.
