@@ -69,6 +69,25 @@ struct ExportCommand {
 };
 void run_export(const ExportCommand& command);
 
+struct PageCommand {
+    std::vector<std::filesystem::path> scenes;    // a run for each
+    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a run for each
+    std::optional<std::filesystem::path> output;  // without this, the first scene's name with .html
+    SceneOverrides overrides;
+    std::optional<std::string> title;  // without this, the first scene's
+    std::string language = "en";
+    std::string compare;                  // of runs: single, ghost, side-by-side; empty: single
+    std::string follow;                   // body that the camera follows
+    double time = 0.0;                    // s, shown at first
+    bool film = true;                     // in the page, for readers without WebGL
+    int film_width = 0, film_height = 0;  // pixels; 0: 640 at most, with the scene's aspect
+    bool embed_glb = false;
+    int threads = 1;
+    int workers = 1;  // render processes of the film
+    bool quiet = false;
+};
+void run_page(const PageCommand& command);
+
 struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;

@@ -39,8 +39,8 @@ public:
         path_ = name;
     }
     ~TemporaryFolder() {
-        std::error_code failed;
-        fs::remove_all(path_, failed);
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
     }
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -1,6 +1,5 @@
 #include "app/cli/command_line.h"
 #include "core/error.h"
-#include "scene/description/overlay.h"
 #include "scene/toml/limits.h"
 #include "sim/frames/clip_timing.h"
 
@@ -8,26 +7,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr int enough_workers = 8;  // 65 MiB each; the simulation and the encoder cannot keep more busy
-
-/// Breaks a list after the commas into lines for the help.
-std::string broken_list(const std::string& list) {
-    constexpr std::size_t most = 72;  // characters of a line
-    std::string lines;
-    std::size_t line = 0;
-    for (std::size_t first = 0; first < list.size();) {
-        const std::size_t end = std::min(list.find(',', first), list.size() - 1) + 1;
-        if (line > 0 && line + end - first > most) {
-            lines += '\n';
-            line = 0;
-        }
-        lines += list.substr(first, end - first);
-        line += end - first;
-        first = end;
-    }
-    return lines;
-}
 
 /// "depth,normal" to a set.
 AovSet read_aovs(const std::string& text) {
@@ -45,13 +24,7 @@ AovSet read_aovs(const std::string& text) {
 }
 
 void add_panels(CLI::App& command, RenderCommand& c) {
-    command
-        .add_option("--vary", c.vary,
-                    "A panel for each value of a key, side by side, as in\n"
-                    "simulation.integrator=explicit-euler,symplectic-euler; may be repeated")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->type_name("PATH=V,V");
+    add_vary(command, c.vary, "A panel");
     add_choice<PanelArrangement>(command, "--layout", c.arrangement,
                                  {{"row", PanelArrangement::row}, {"grid", PanelArrangement::grid}},
                                  "Arrangement of several panels; by default up to three are in a row, more in a grid")
@@ -59,13 +32,7 @@ void add_panels(CLI::App& command, RenderCommand& c) {
 }
 
 void add_text(CLI::App& command, SceneOverrides& overrides) {
-    std::string names;
-    for (const OverlayName& overlay : overlay_names)
-        names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
-    command
-        .add_option("--overlay", overrides.overlay,
-                    "Overlays of the pictures, in place of the scene's: none, or a list out of\n" + broken_list(names))
-        ->type_name("LIST");
+    add_overlay(command, overrides, "Overlays of the pictures, in place of the scene's: none, or a list out of");
     command
         .add_option("--plot", overrides.plot,
                     "Curves of quantities in the clip, with a cursor at each frame's time: none, or a list\n"
