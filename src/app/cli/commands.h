@@ -19,6 +19,7 @@ struct RenderCommand {
     std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
     std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
     std::optional<std::filesystem::path> frames;  // folder
+    std::optional<std::filesystem::path> report;  // .html
     AovSet aovs;
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     SceneOverrides overrides;

@@ -107,6 +107,7 @@ PageFilm draw_film(RenderCommand command, const FilmOptions& options) {
     const TemporaryFolder folder;
     const std::optional<fs::path> ffmpeg = find_program("ffmpeg");
     command.clip.reset();
+    command.report.reset();
     command.frames.reset();
     command.aovs = {};
     command.aov_folder.reset();

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/render_report.h"
 #include "app/cli/render_run.h"
 #include "app/cli/say.h"
 #include "app/files/aov_folder.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -64,8 +66,11 @@ void print_summary(const RenderFigures& done, const AovSet& aovs) {
 }  // namespace
 
 void run_render(const RenderCommand& command) {
+    std::optional<RenderReport> report;
+    if (command.report) report.emplace(command);
     const RenderFigures done = render_to_files(command);
     if (!command.quiet) print_summary(done, command.aovs);
+    if (report) report->write(done);
 }
 
 }  // namespace tumble

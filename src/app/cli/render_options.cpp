@@ -66,6 +66,13 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->check(some_name())
         ->type_name("DIR");
     command
+        ->add_option("--report", c.report,
+                     "Write a page about the run: the clip in 3D, energy balance, contacts, times of the\n"
+                     "stages, versions and the scene (docs/how-to/reports.md). Without --output and --frames\n"
+                     "the clip is written as well")
+        ->check(some_name())
+        ->type_name("R.html");
+    command
         ->add_option_function<std::string>(
             "--aov", [&c](const std::string& text) { c.aovs = read_aovs(text); },
             "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
@@ -129,7 +136,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all\n"
         "  tumble render a.toml b.toml                       side by side in a.mp4\n"
         "  tumble render scene.toml --vary simulation.integrator=explicit-euler,exact --overlay clock\n"
-        "  tumble render scene.toml --plot energy --plot-place below");
+        "  tumble render scene.toml --plot energy --plot-place below\n"
+        "  tumble render scene.toml --report report.html     writes scene.mp4 and a page about the run");
     return command;
 }
 

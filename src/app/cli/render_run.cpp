@@ -39,6 +39,7 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
     for (const fs::path& file : inputs) plan.add_input(file);
     if (clip) plan.add("--output", *clip);
     if (aovs_to && command.aovs.has(Aov::segmentation)) plan.add("--aov", segmentation_table_path(*aovs_to));
+    if (command.report) plan.add("--report", *command.report);
     if (command.frames) plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
     if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
 }
