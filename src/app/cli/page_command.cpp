@@ -46,6 +46,7 @@ PageFilm film_of(const PageCommand& command, const PageScenes& scenes) {
     render.scenes = command.scenes;
     render.vary = command.vary;
     render.overrides = command.overrides;
+    render.overrides.plot = "none";  // the player shows plots without WebGL, too
     render.threads = command.threads;
     render.workers = command.workers;
     render.quiet = command.quiet;

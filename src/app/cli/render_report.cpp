@@ -1,9 +1,9 @@
 #include "app/cli/render_report.h"
 
 #include "app/cli/driver_check.h"
-#include "app/cli/page_film.h"
 #include "app/cli/say.h"
 #include "app/threads/thread_budget.h"
+#include "core/error.h"
 #include "core/safe_text.h"
 #include "output/process.h"
 #include "output/temporary_file.h"
@@ -94,10 +94,19 @@ RenderReport::RenderReport(const RenderCommand& command)
       scenes_(load_page_scenes(command.scenes, command.overrides, command.vary)),
       template_(find_web_folder()) {}
 
+PageFilm RenderReport::draw() const {
+    const FilmOptions options{true, scenes_.scenes.front().output.fps, scenes_.duration()};
+    RenderCommand smaller = command_;
+    set_film_size(smaller.overrides, scenes_.scenes.front(), report_film_side);
+    try {
+        return draw_film(smaller, options);
+    } catch (const InputError&) {
+        return draw_film(command_, options);  // many panels and plots fit into the whole size alone
+    }
+}
+
 std::string RenderReport::body_html(const PageClip& clip, const ClipData& data, const RenderFigures& done) const {
-    RenderCommand command = command_;
-    set_film_size(command.overrides, scenes_.scenes.front(), report_film_side);
-    const PageFilm film = draw_film(command, {true, scenes_.scenes.front().output.fps, scenes_.duration()});
+    const PageFilm film = draw();
     PlayerFigure figure;
     figure.clip = report_clip;
     figure.poster = film.poster;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/commands.h"
+#include "app/cli/page_film.h"
 #include "app/cli/page_recording.h"
 #include "app/cli/render_run.h"
 #include "page/page_shell.h"
@@ -17,6 +18,7 @@ public:
     void write(const RenderFigures& done) const;
 
 private:
+    PageFilm draw() const;
     std::string body_html(const PageClip& clip, const ClipData& data, const RenderFigures& done) const;
 
     const RenderCommand& command_;
