@@ -1,22 +1,80 @@
-// Builds the player and the lesson compiler into ../build/web, or into the folder given.
+// Builds the player and the template of pages into ../build/web, or into the folder given.
 //   node build.mjs [FOLDER]
 import { build } from "esbuild";
-import { mkdir } from "node:fs/promises";
+import { createHash } from "node:crypto";
+import { existsSync } from "node:fs";
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
+import { deflateRawSync } from "node:zlib";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = resolve(process.argv[2] ?? join(here, "../build/web"));
-await mkdir(out, { recursive: true });
+const source = (name) => join(here, "src", name);
+const target = ["chrome110", "firefox115", "safari16.4"];
+
+/** The text of a bundle, and the files it was made of. */
+async function bundled(options) {
+  const result = await build({
+    bundle: true,
+    minify: true,
+    target,
+    charset: "ascii",
+    legalComments: "none",
+    metafile: true,
+    write: false,
+    absWorkingDir: here,
+    loader: { ".woff2": "dataurl" },
+    ...options,
+  });
+  return { text: result.outputFiles[0].text.trimEnd(), inputs: Object.keys(result.metafile.inputs) };
+}
 
 // A classic script: file:// refuses modules.
-await build({
-  entryPoints: [join(here, "src/player.ts")],
-  outfile: join(out, "player.js"),
-  bundle: true,
-  minify: true,
-  format: "iife",
-  target: ["chrome110", "firefox115", "safari16.4"],
-  charset: "ascii",
-  legalComments: "none",
+const script = (entry) => bundled({ entryPoints: [source(entry)], format: "iife" });
+
+/** The licenses of the packages that a bundle has code of; they ask for their text in every copy. */
+async function licenses_of(inputs) {
+  const packages = new Set(inputs.map((file) => /^node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(file)?.[1]).filter(Boolean));
+  let text = "";
+  for (const name of [...packages].sort()) {
+    const folder = join(here, "node_modules", name);
+    const license = ["LICENSE", "LICENSE.md", "LICENSE.txt", "license"].map((file) => join(folder, file)).find(existsSync);
+    if (!license) throw new Error(`${name} has no license file`);
+    text += `${name}:\n${(await readFile(license, "utf8")).trim()}\n\n`;
+  }
+  return text.trim();
+}
+
+const hash_of = (text) => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+
+/** Texts for the places of the template; none may look like a place that the program fills in, or end the element. */
+function fill(template, values) {
+  return template.replace(/\[\[(\w+)\]\]/g, (_, name) => {
+    const value = values[name];
+    if (value === undefined) throw new Error(`page.html: unknown place ${name}`);
+    if (/\{\{|<\/(script|style)/i.test(value)) throw new Error(`page.html: the text of ${name} cannot stand in a page`);
+    return value;
+  });
+}
+
+const { text: bundle, inputs } = await script("player.ts");
+const licenses = await licenses_of(inputs);
+const player = licenses ? `/*\n${licenses.replaceAll("*/", "* /")}\n*/\n${bundle}` : bundle;
+const { text: loader } = await script("loader.ts");
+const sheets = ["shell.css", "page.css"].filter((name) => existsSync(source(name)));
+const { text: style } = await bundled({
+  stdin: { contents: sheets.map((name) => `@import "./${name}";`).join("\n"), resolveDir: join(here, "src"), loader: "css" },
 });
+const icon = `data:image/svg+xml;base64,${(await readFile(source("icon.svg"))).toString("base64")}`;
+const page = fill(await readFile(source("page.html"), "utf8"), {
+  hashes: `${hash_of(loader)} ${hash_of(player)}`,
+  icon,
+  style,
+  loader,
+  player: deflateRawSync(player, { level: 9 }).toString("base64"),
+});
+
+await mkdir(out, { recursive: true });
+await writeFile(join(out, "player.js"), player);
+await writeFile(join(out, "page.html"), page);

@@ -38,6 +38,8 @@ Arguments h264(const ClipOptions& options) {
         case VideoQuality::best:
             return x264("medium", {"-crf", "8"}, two_way,
                         "keyint=120:rc-lookahead=40:ipratio=2:no-dct-decimate=1:chroma-qp-offset=-3");
+        case VideoQuality::small:
+            return x264("slow", {"-crf", "27"}, two_way, "keyint=240:rc-lookahead=40:ipratio=2");
     }
     return {};
 }
@@ -56,6 +58,9 @@ Arguments vp9(VideoQuality quality) {
             break;
         case VideoQuality::best:
             arguments.insert(arguments.end(), {"-deadline", "good", "-cpu-used", "5", "-crf", "8"});
+            break;
+        case VideoQuality::small:
+            arguments.insert(arguments.end(), {"-deadline", "good", "-cpu-used", "5", "-crf", "36"});
             break;
     }
     arguments.insert(arguments.end(), {"-b:v", "0", "-row-mt", "1", "-threads", "4", "-pix_fmt", "yuv420p"});

@@ -1,11 +1,33 @@
 #include "app/cli/command_line.h"
 
 #include "core/error.h"
+#include "scene/description/overlay.h"
 
 #include <charconv>
 #include <filesystem>
 
 namespace tumble {
+namespace {
+
+/// Breaks a list after the commas into lines for the help.
+std::string broken_list(const std::string& list) {
+    constexpr std::size_t most = 72;  // characters of a line
+    std::string lines;
+    std::size_t line = 0;
+    for (std::size_t first = 0; first < list.size();) {
+        const std::size_t end = std::min(list.find(',', first), list.size() - 1) + 1;
+        if (line > 0 && line + end - first > most) {
+            lines += '\n';
+            line = 0;
+        }
+        lines += list.substr(first, end - first);
+        line += end - first;
+        first = end;
+    }
+    return lines;
+}
+
+}  // namespace
 
 CLI::Validator number_within(double least, double most) {
     return CLI::Validator(
@@ -37,7 +59,7 @@ void add_scene(CLI::App& command, std::filesystem::path& scene) {
     command.add_option("scene", scene, "The scene file (TOML)")->check(some_name())->required()->type_name("SCENE");
 }
 
-std::pair<int, int> read_size(const std::string& text) {
+std::pair<int, int> read_size(const std::string& text, const char* option) {
     int width = 0, height = 0;
     const char* const last = text.data() + text.size();
     const auto [x, bad_width] = std::from_chars(text.data(), last, width);
@@ -47,8 +69,8 @@ std::pair<int, int> read_size(const std::string& text) {
         good = bad_height == std::errc() && end == last;
     }
     if (!good)
-        throw InputError(
-            fmt::format("--size: must be the width and height in pixels, as in 1280x720 (was '{}')", safe_text(text)));
+        throw InputError(fmt::format("{}: must be the width and height in pixels, as in 1280x720 (was '{}')", option,
+                                     safe_text(text)));
     return {width, height};
 }
 
@@ -78,6 +100,24 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
     command
         .add_option("--duration", overrides.duration, "Seconds to simulate, in place of the scene's; 0 is one frame")
         ->type_name("S");
+}
+
+void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string& help) {
+    std::string names;
+    for (const OverlayName& overlay : overlay_names)
+        names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
+    command.add_option("--overlay", overrides.overlay, help + "\n" + broken_list(names))->type_name("LIST");
+}
+
+void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what) {
+    command
+        .add_option("--vary", vary,
+                    what +
+                        " for each value of a key, side by side, as in\n"
+                        "simulation.integrator=explicit-euler,symplectic-euler; may be repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=V,V");
 }
 
 CLI::Validator or_standard_output() {

@@ -15,12 +15,16 @@
 
 namespace tumble {
 
+inline constexpr int enough_workers =
+    8;  // render processes, 65 MiB each; the simulation and the encoder keep no more busy
+
 /// All options of the command line; each command uses those that it declares.
 struct CommandLine {
     RenderCommand render;
     SimulateCommand simulate;
     PlotCommand plot;
     ExportCommand export_scene;
+    PageCommand page;
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
@@ -31,6 +35,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line);
 CLI::App* add_simulate(CLI::App& app, CommandLine& line);
 CLI::App* add_plot(CLI::App& app, CommandLine& line);
 CLI::App* add_export(CLI::App& app, CommandLine& line);
+CLI::App* add_page(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
@@ -47,7 +52,7 @@ CLI::Validator or_standard_output();
 
 void add_scene(CLI::App& command, std::filesystem::path& scene);
 /// "1280x720" to a width and a height. Their range is checked elsewhere. Throws InputError.
-std::pair<int, int> read_size(const std::string& text);
+std::pair<int, int> read_size(const std::string& text, const char* option = "--size");
 /// --size.
 template <class Number>
 CLI::Option* add_size(CLI::App& command, Number& width, Number& height, const std::string& help) {
@@ -61,6 +66,10 @@ CLI::Option* add_size(CLI::App& command, Number& width, Number& height, const st
 void add_values(CLI::App& command, SceneOverrides& overrides);
 /// The same with --fps and --duration.
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides);
+/// --overlay; the help is followed by the names.
+void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string& help);
+/// --vary; `what` is made for each value: "A panel", "A run".
+void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what);
 void add_quality(CLI::App& command, VideoQuality& quality);
 
 /// An option with one of a list of names as its value.

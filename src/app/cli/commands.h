@@ -19,6 +19,7 @@ struct RenderCommand {
     std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
     std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
     std::optional<std::filesystem::path> frames;  // folder
+    std::optional<std::filesystem::path> report;  // .html
     AovSet aovs;
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     SceneOverrides overrides;
@@ -27,6 +28,7 @@ struct RenderCommand {
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
     double start = 0.0;          // s, scene time; earlier frames are not drawn
     double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
+    int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;        // images per frame while the shutter is open
     std::optional<int> threads;  // of the simulation; see thread_budget.h
@@ -67,6 +69,25 @@ struct ExportCommand {
     bool quiet = false;
 };
 void run_export(const ExportCommand& command);
+
+struct PageCommand {
+    std::vector<std::filesystem::path> scenes;    // a run for each
+    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a run for each
+    std::optional<std::filesystem::path> output;  // without this, the first scene's name with .html
+    SceneOverrides overrides;
+    std::optional<std::string> title;  // without this, the first scene's
+    std::string language = "en";
+    std::string compare;                  // of runs: single, ghost, side-by-side; empty: single
+    std::string follow;                   // body that the camera follows
+    double time = 0.0;                    // s, shown at first
+    bool film = true;                     // in the page, for readers without WebGL
+    int film_width = 0, film_height = 0;  // pixels; 0: 640 at most, with the scene's aspect
+    bool embed_glb = false;
+    int threads = 1;
+    int workers = 1;  // render processes of the film
+    bool quiet = false;
+};
+void run_page(const PageCommand& command);
 
 struct EncodeCommand {
     std::filesystem::path frames;  // folder

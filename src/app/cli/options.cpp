@@ -29,6 +29,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* simulate = add_simulate(app, line);
     const CLI::App* plot = add_plot(app, line);
     const CLI::App* export_scene = add_export(app, line);
+    const CLI::App* page = add_page(app, line);
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
@@ -50,6 +51,8 @@ int run_command_line(int argc, char** argv) {
         run_plot(line.plot);
     else if (export_scene->parsed())
         run_export(line.export_scene);
+    else if (page->parsed())
+        run_page(line.page);
     else if (encode->parsed())
         run_encode(line.encode);
     else if (compare->parsed())

@@ -1,6 +1,5 @@
 #include "app/cli/command_line.h"
 #include "core/error.h"
-#include "scene/description/overlay.h"
 #include "scene/toml/limits.h"
 #include "sim/frames/clip_timing.h"
 
@@ -8,26 +7,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr int enough_workers = 8;  // 65 MiB each; the simulation and the encoder cannot keep more busy
-
-/// Breaks a list after the commas into lines for the help.
-std::string broken_list(const std::string& list) {
-    constexpr std::size_t most = 72;  // characters of a line
-    std::string lines;
-    std::size_t line = 0;
-    for (std::size_t first = 0; first < list.size();) {
-        const std::size_t end = std::min(list.find(',', first), list.size() - 1) + 1;
-        if (line > 0 && line + end - first > most) {
-            lines += '\n';
-            line = 0;
-        }
-        lines += list.substr(first, end - first);
-        line += end - first;
-        first = end;
-    }
-    return lines;
-}
 
 /// "depth,normal" to a set.
 AovSet read_aovs(const std::string& text) {
@@ -45,13 +24,7 @@ AovSet read_aovs(const std::string& text) {
 }
 
 void add_panels(CLI::App& command, RenderCommand& c) {
-    command
-        .add_option("--vary", c.vary,
-                    "A panel for each value of a key, side by side, as in\n"
-                    "simulation.integrator=explicit-euler,symplectic-euler; may be repeated")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->type_name("PATH=V,V");
+    add_vary(command, c.vary, "A panel");
     add_choice<PanelArrangement>(command, "--layout", c.arrangement,
                                  {{"row", PanelArrangement::row}, {"grid", PanelArrangement::grid}},
                                  "Arrangement of several panels; by default up to three are in a row, more in a grid")
@@ -59,13 +32,7 @@ void add_panels(CLI::App& command, RenderCommand& c) {
 }
 
 void add_text(CLI::App& command, SceneOverrides& overrides) {
-    std::string names;
-    for (const OverlayName& overlay : overlay_names)
-        names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
-    command
-        .add_option("--overlay", overrides.overlay,
-                    "Overlays of the pictures, in place of the scene's: none, or a list out of\n" + broken_list(names))
-        ->type_name("LIST");
+    add_overlay(command, overrides, "Overlays of the pictures, in place of the scene's: none, or a list out of");
     command
         .add_option("--plot", overrides.plot,
                     "Curves of quantities in the clip, with a cursor at each frame's time: none, or a list\n"
@@ -98,6 +65,13 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--frames", c.frames, "Write the frames as DIR/frame_000000.png and so on")
         ->check(some_name())
         ->type_name("DIR");
+    command
+        ->add_option("--report", c.report,
+                     "Write a page about the run: the clip in 3D, energy balance, contacts, times of the\n"
+                     "stages, versions and the scene (docs/how-to/reports.md). Without --output and --frames\n"
+                     "the clip is written as well")
+        ->check(some_name())
+        ->type_name("R.html");
     command
         ->add_option_function<std::string>(
             "--aov", [&c](const std::string& text) { c.aovs = read_aovs(text); },
@@ -162,7 +136,8 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all\n"
         "  tumble render a.toml b.toml                       side by side in a.mp4\n"
         "  tumble render scene.toml --vary simulation.integrator=explicit-euler,exact --overlay clock\n"
-        "  tumble render scene.toml --plot energy --plot-place below");
+        "  tumble render scene.toml --plot energy --plot-place below\n"
+        "  tumble render scene.toml --report report.html     writes scene.mp4 and a page about the run");
     return command;
 }
 

@@ -68,7 +68,10 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
 
 void RenderScenes::load(const RenderCommand& command) {
     for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary)) {
-        auto scene = std::make_shared<const SceneDescription>(load_scene(variant.scene, variant.overrides, &inputs));
+        SceneDescription loaded = load_scene(variant.scene, variant.overrides, &inputs);
+        loaded.output.fps /= command.frame_step;
+        loaded.simulation.steps_per_frame *= command.frame_step;
+        auto scene = std::make_shared<const SceneDescription>(std::move(loaded));
         const FrameTiming timing = divided(timing_at_speed(*scene, command.speed), shutter_.intervals);
         scenes.push_back({std::move(scene), variant.label, timing});
     }

@@ -1,0 +1,134 @@
+#include "app/cli/commands.h"
+#include "app/cli/export_run.h"
+#include "app/cli/page_film.h"
+#include "app/cli/page_recording.h"
+#include "app/cli/say.h"
+#include "app/files/output_plan.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/temporary_file.h"
+#include "page/html_text.h"
+#include "page/page_shell.h"
+#include "page/player_figure.h"
+#include "page/run_html.h"
+#include "page/web_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <span>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int film_side = 640, side_of_panels = 960;  // pixels, the longer one of the film
+constexpr const char* clip_id = "clip-1";
+
+void check_command(const PageCommand& command, const PageScenes& scenes) {
+    const SceneDescription& first = scenes.scenes.front();
+    if (!command.follow.empty() &&
+        std::ranges::none_of(first.bodies, [&](const auto& body) { return body.name == command.follow; }))
+        throw InputError(
+            fmt::format("--follow: {} has no body '{}'", safe_path(first.file), safe_text(command.follow)));
+    if (command.time > scenes.duration())
+        throw InputError(fmt::format("--time: the clip lasts {:g} s (given {:g})", scenes.duration(), command.time));
+    if (!command.compare.empty() && scenes.scenes.size() < 2)
+        throw InputError("--compare: needs two runs or more: give several scenes, or --vary (given one run)");
+    if (command.embed_glb && scenes.scenes.size() > 1)
+        throw InputError(fmt::format("--embed-glb: needs a single run (given {})", scenes.scenes.size()));
+}
+
+PageFilm film_of(const PageCommand& command, const PageScenes& scenes) {
+    RenderCommand render;
+    render.scenes = command.scenes;
+    render.vary = command.vary;
+    render.overrides = command.overrides;
+    render.overrides.plot = "none";  // the player shows plots without WebGL, too
+    render.threads = command.threads;
+    render.workers = command.workers;
+    render.quiet = command.quiet;
+    set_film_size(render.overrides, scenes.scenes.front(), scenes.scenes.size() > 1 ? side_of_panels : film_side);
+    if (command.film_width > 0) {
+        render.overrides.width = command.film_width;
+        render.overrides.height = command.film_height;
+    }
+    return draw_film(std::move(render), {command.film, scenes.scenes.front().output.fps, scenes.duration()});
+}
+
+/// A link that saves the clip as a file.
+std::string download_html(const PageCommand& command, const PageScenes& scenes) {
+    Interrupt interrupt;
+    const ExportedScene exported = export_scene(scenes.scenes.front(), command.threads, command.quiet, interrupt);
+    return fmt::format(
+        "<p class=\"download\"><a download=\"{}.glb\" href=\"{}\">Download the clip as glTF</a> for Blender and other "
+        "3D "
+        "programs ({:.0f}&#8239;kB)</p>\n",
+        html_text(command.scenes.front().stem().string()), data_address("model/gltf-binary", exported.bytes),
+        1e-3 * double(exported.bytes.size()));
+}
+
+std::string body_html(const PageCommand& command, const PageScenes& scenes, const PageClip& clip,
+                      const PageFilm& film) {
+    const PageRun& run = clip.runs.front();
+    PlayerFigure figure;
+    figure.clip = clip_id;
+    figure.poster = film.poster;
+    figure.film = film.film;
+    figure.width = film.width;
+    figure.height = film.height;
+    figure.options.layout = "page";
+    figure.options.time = command.time;
+    figure.options.follow = command.follow;
+    figure.options.compare = command.compare;
+    if (run.scene.overlay.plot.empty() && !command.overrides.plot) figure.options.plot = "energy";
+    figure.options.alt = summary_of(run);
+    std::string html = masthead_html(clip.title, "", summary_of(run)) + figure_html(figure);
+    if (command.embed_glb) html += download_html(command, scenes);
+    // The player shows the sources itself.
+    html += "<section class=\"without-player\" aria-label=\"Scene\">\n<h2>Scene</h2>\n" + sources_html(clip.sources) +
+            "</section>\n";
+    return html;
+}
+
+}  // namespace
+
+void run_page(const PageCommand& command) {
+    const PageScenes scenes = load_page_scenes(command.scenes, command.overrides, command.vary);
+    check_command(command, scenes);
+    const fs::path output = command.output.value_or(command.scenes.front().stem().string() + ".html");
+    OutputPlan plan;
+    for (const fs::path& file : scenes.inputs) plan.add_input(file);
+    plan.add("-o", output);
+    const PageTemplate page_template(find_web_folder());
+
+    TemporaryFile file(output);
+    const PageFilm film = film_of(command, scenes);
+    PageClip clip;
+    {
+        Interrupt interrupt;
+        clip = record_page(scenes, command.threads, command.quiet, interrupt);
+    }
+    if (command.title) clip.title = *command.title;
+    const ClipData data = make_clip_data(clip);
+    PageShell shell;
+    shell.title = clip.title;
+    shell.language = command.language;
+    shell.description = fmt::format("{}: a clip to turn and scrub ({})", clip.title, summary_of(clip.runs.front()));
+    shell.generator = clip.generator;
+    shell.clips = {{clip_id, data.bytes}};
+    shell.body_html = body_html(command, scenes, clip, film);
+    const std::string page = page_template.fill(shell);
+    file.write(std::as_bytes(std::span(page)));
+    file.commit();
+    if (!command.quiet)
+        say("wrote {} ({:.4g} kB: data {:.4g} kB, film and picture {:.4g} kB; errors of the motion up to {:.2g} m, "
+            "{:.2g} "
+            "rad)\n",
+            safe_path(output), 1e-3 * double(page.size()), 1e-3 * double(base64_length(data.bytes.size())),
+            1e-3 * double(film.film.size() + film.poster.size()), data.position_error, data.rotation_error);
+}
+
+}  // namespace tumble

@@ -1,0 +1,37 @@
+// A render from the command to its files, without messages but for the progress.
+#pragma once
+
+#include "app/cli/commands.h"
+#include "app/pipeline/frame_range.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+namespace tumble {
+
+/// CPU time of the stages, s, over all threads and processes.
+struct StageSeconds {
+    double simulation = 0.0, drawing = 0.0, png = 0.0, aovs = 0.0, conversion = 0.0, video = 0.0;
+};
+
+/// Figures of a finished render.
+struct RenderFigures {
+    int width = 0, height = 0;  // of the frames, pixels
+    double fps = 0.0;           // of the clip
+    FrameRange frames;
+    std::int64_t drawn = 0;                             // frames that differ from the one before
+    std::optional<std::filesystem::path> clip, folder;  // written; of the frames
+    std::optional<std::filesystem::path> aov_folder;
+    std::int64_t frames_in_clip = 0, frames_stored = 0;
+    int frame_step = 1;  // of the clip's format
+    int workers = 1, threads = 1;
+    StageSeconds cpu;
+    double seconds = 0.0;          // wall clock
+    std::int64_t peak_memory = 0;  // MiB, over all processes
+};
+
+/// Throws InputError before anything is simulated or written, RunError afterwards.
+RenderFigures render_to_files(const RenderCommand& command);
+
+}  // namespace tumble
