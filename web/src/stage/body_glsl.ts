@@ -92,7 +92,7 @@ void main() {
 #else
   float sun = sun_visible(v_world, normal);
   vec3 light = shade(normal, to_eye, color, paint, v_color.w, v_material.x, 1.0, sun);
-  light = mix(light, sky(-to_eye.y, -dot(to_eye, u_to_light)), fog_share(squared));
+  light = in_fog(light, to_eye, squared);
   pixel = vec4(mix(displayed(light), v_tint.rgb, v_tint.w), 1.0);
 #endif
 }

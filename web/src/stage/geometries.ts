@@ -2,11 +2,17 @@
 import * as THREE from "three";
 import type { Mesh } from "../data/clip.ts";
 
-/** From this number of balls on, each has fewer triangles, so that a heap of them is drawn in time. */
-const many_balls = 150;
+/** Segments around and from pole to pole: many balls are small, and each triangle costs in software. */
+const ball_segments = [
+  { up_to: 8, around: 48, down: 32 },
+  { up_to: 40, around: 32, down: 20 },
+  { up_to: 200, around: 20, down: 13 },
+  { up_to: Infinity, around: 14, down: 9 },
+];
 
 function ball(balls: number): THREE.BufferGeometry {
-  return balls < many_balls ? new THREE.SphereGeometry(1, 48, 32) : new THREE.SphereGeometry(1, 20, 14);
+  const { around, down } = ball_segments.find(({ up_to }) => balls <= up_to)!;
+  return new THREE.SphereGeometry(1, around, down);
 }
 
 function own_mesh(mesh: Mesh): THREE.BufferGeometry {

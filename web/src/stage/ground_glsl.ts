@@ -36,7 +36,7 @@ void main() {
   to_eye *= inversesqrt(squared);
   float sun = sun_visible(v_world, u_normal);
   vec3 light = u_dim * shade(u_normal, to_eye, u_color * paint, 1.0, u_material.x, u_material.y, 1.0, sun);
-  light = mix(light, sky(-to_eye.y, -dot(to_eye, u_to_light)), fog_share(squared));
+  light = in_fog(light, to_eye, squared);
   pixel = vec4(dithered(displayed(light)), 1.0);
 }
 `;

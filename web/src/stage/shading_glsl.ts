@@ -43,11 +43,9 @@ vec3 displayed(vec3 light) {
   return rise / (1.0 + s * (7.989843 + s * (8.709465 + s * (-30.195670 + s * 31.746583))));
 }
 
+// Jimenez 2014: noise that hides the bands of flat gradients, half a level up and down.
 vec3 dithered(vec3 shown) {
-  ivec2 at = ivec2(gl_FragCoord.xy);
-  int across = at.x ^ at.y;
-  int rank = (across & 1) << 5 | (at.y & 1) << 4 | (across & 2) << 2 | (at.y & 2) << 1 | (across & 4) >> 1 | (at.y & 4) >> 2;
-  return shown + (float(rank) - 31.5) / (64.0 * 255.0);
+  return shown + (fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5) / 255.0;
 }
 
 float fog_share(float squared) {
@@ -56,9 +54,14 @@ float fog_share(float squared) {
   return relative / (1.0 + relative);
 }
 
+vec3 in_fog(vec3 light, vec3 to_eye, float squared) {
+  float share = fog_share(squared);
+  return share < 1e-3 ? light : mix(light, sky(-to_eye.y, -dot(to_eye, u_to_light)), share);
+}
+
 // Castano 2013, Shadow Mapping Summary: a 3x3 filter by four comparisons that the hardware interpolates.
 float sun_visible(vec3 world, vec3 normal) {
-  if (u_shadow_texel == 0.0) return 1.0;
+  if (u_shadow_texel == 0.0 || dot(normal, u_to_light) <= 0.0) return 1.0;
   vec3 place = (u_shadow_matrix * vec4(world + normal * (1.5 * u_shadow_texel), 1.0)).xyz;
   vec2 from_middle = abs(place.xy - 0.5);
   if (max(from_middle.x, from_middle.y) > 0.495 || place.z > 1.0) return 1.0;
@@ -66,11 +69,12 @@ float sun_visible(vec3 world, vec3 normal) {
   vec2 base = floor(at), f = at - base;
   vec2 w0 = 3.0 - 2.0 * f, w1 = 1.0 + 2.0 * f;
   vec2 o0 = (base - 1.5 + (2.0 - f) / w0) / u_shadow_size, o1 = (base + 0.5 + f / w1) / u_shadow_size;
-  float lit = w0.x * w0.y * texture(u_shadow_map, vec3(o0, place.z)) +
-              w1.x * w0.y * texture(u_shadow_map, vec3(o1.x, o0.y, place.z)) +
-              w0.x * w1.y * texture(u_shadow_map, vec3(o0.x, o1.y, place.z)) +
-              w1.x * w1.y * texture(u_shadow_map, vec3(o1, place.z));
-  return lit / 16.0;
+  // Two opposite corners of the filter tell whether an edge is near: elsewhere the other two say the same.
+  float low = texture(u_shadow_map, vec3(o0, place.z)), high = texture(u_shadow_map, vec3(o1, place.z));
+  if (low == high && (low == 0.0 || low == 1.0)) return low;
+  return (w0.x * w0.y * low + w1.x * w1.y * high +
+          w1.x * w0.y * texture(u_shadow_map, vec3(o1.x, o0.y, place.z)) +
+          w0.x * w1.y * texture(u_shadow_map, vec3(o0.x, o1.y, place.z))) / 16.0;
 }
 
 vec3 blurred_sky(float height, float rough) {

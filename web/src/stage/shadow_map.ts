@@ -17,7 +17,7 @@ export class ShadowMap {
   private readonly texel: number;
 
   constructor(center: Vec3, radius: number, to_light: Vec3) {
-    const depth = new THREE.DepthTexture(size, size, THREE.UnsignedIntType);
+    const depth = new THREE.DepthTexture(size, size, THREE.UnsignedShortType);
     depth.compareFunction = THREE.LessEqualCompare;
     depth.minFilter = depth.magFilter = THREE.LinearFilter;
     this.target = new THREE.WebGLRenderTarget(size, size, { depthTexture: depth, minFilter: THREE.NearestFilter, magFilter: THREE.NearestFilter });
