@@ -1,0 +1,140 @@
+// Programs of bodies: boxes, balls and meshes with a pose and a material for each instance (see body_batch.ts).
+import { frame_glsl, light_glsl, pattern_glsl } from "./shading_glsl.ts";
+
+const instance_glsl = /* glsl */ `
+in vec4 i_place;      // m; w: cell of the pattern, m
+in vec4 i_rotation;   // x, y, z, w
+in vec4 i_size;       // factors on the mesh; w: bevel, m
+in vec4 i_color;      // linear; w: roughness
+in vec4 i_material;   // metallic, pattern, opacity, 0
+in vec4 i_tint;       // sRGB; w: share of it in the shown color
+`;
+
+export const body_vertex_glsl = /* glsl */ `
+${frame_glsl}
+${instance_glsl}
+out vec3 v_local, v_world;
+out vec3 v_normal;              // body frame
+flat out vec4 v_rotation, v_size, v_color, v_material, v_tint;
+flat out float v_cell;
+void main() {
+  vec3 size = i_size.xyz;
+  v_local = position * size;
+  v_normal = normal / size;
+  v_world = i_place.xyz + rotate(i_rotation, v_local);
+  float pixel = u_pixel_size * distance(i_place.xyz, cameraPosition);
+  float thinnest = min(size.x, min(size.y, size.z));
+  // A bevel narrower than a pixel flickers; a box of a few pixels has none.
+  float bevel = min(max(i_size.w, pixel), 0.5 * thinnest) * max(smoothstep(4.0 * pixel, 12.0 * pixel, thinnest), 1e-3);
+  v_rotation = i_rotation;
+  v_size = vec4(size, bevel);
+  v_color = i_color;
+  v_material = i_material;
+  v_tint = i_tint;
+  v_cell = i_place.w;
+  gl_Position = projectionMatrix * viewMatrix * vec4(v_world, 1.0);
+}
+`;
+
+export const body_fragment_glsl = /* glsl */ `
+${frame_glsl}
+${light_glsl}
+${pattern_glsl}
+in vec3 v_local, v_world;
+in vec3 v_normal;
+flat in vec4 v_rotation, v_size, v_color, v_material, v_tint;
+flat in float v_cell;
+layout(location = 0) out highp vec4 pixel;
+
+void main() {
+  vec3 color = v_color.rgb;
+  float paint = 1.0;
+#if defined(BOX)
+  vec3 local = clamp(v_local, -v_size.xyz, v_size.xyz), inner = v_size.xyz - v_size.w;
+  vec3 normal = normalize(local - clamp(local, -inner, inner));
+  if (v_material.y > 0.5) {
+    paint = triplanar_paint(v_material.y, v_cell, local, v_normal);
+  } else {
+    // The groove between the frame and the panel of a face.
+    vec3 to_edges = v_size.xyz - abs(local) + step(0.5, abs(normalize(v_normal))) * 1e9;
+    float edge = min(to_edges.x, min(to_edges.y, to_edges.z)), shortest = 2.0 * min(v_size.x, min(v_size.y, v_size.z));
+    float per_footprint = 1.0 / max(fwidth(edge), 1e-6), half_width = 0.006 * shortest;
+    float off = abs(edge - 0.13 * shortest);
+    float groove = clamp((half_width - off) * per_footprint + 0.5, 0.0, 1.0) * min(2.0 * half_width * per_footprint, 1.0);
+    paint = 1.0 - 0.30 * groove;
+  }
+#elif defined(BALL)
+  vec3 normal = normalize(v_local);
+  if (v_material.y > 0.5) {
+    paint = triplanar_paint(v_material.y, v_cell, v_local, normal);
+  } else {
+    // Paler paint on every second octant shows the rotation; metal has none.
+    vec3 side = clamp(normal / max(fwidth(normal), vec3(1e-6)), -1.0, 1.0);
+    float octant = 0.5 + 0.5 * side.x * side.y * side.z, metallic = v_material.x;
+    color += octant * 0.16 * (1.0 - metallic) * (1.0 - color);
+    paint = 1.0 - octant * 0.16 * metallic;
+  }
+#else
+  vec3 normal = normalize(v_normal);
+  normal = gl_FrontFacing ? normal : -normal;
+  if (v_material.y > 0.5) paint = triplanar_paint(v_material.y, v_cell, v_local, normal);
+#endif
+  normal = rotate(v_rotation, normal);
+  vec3 to_eye = cameraPosition - v_world;
+  float squared = dot(to_eye, to_eye);
+  to_eye *= inversesqrt(squared);
+#ifdef GHOST
+  // Lit from the eye and from above, as the program's ghosts are; the paint shows how it is turned.
+  vec3 above = normalize(vec3(0.0, 1.0, 0.0) + 1.2 * to_eye);
+  vec3 shown = displayed(color) * (0.25 + 0.75 * max(dot(normal, above), 0.0)) * (0.5 + 0.5 * paint);
+  shown = mix(shown, v_tint.rgb * (0.55 + 0.45 * max(dot(normal, above), 0.0)), v_tint.w);
+  pixel = vec4(shown * v_material.z, v_material.z);
+#else
+  float sun = sun_visible(v_world, normal);
+  vec3 light = shade(normal, to_eye, color, paint, v_color.w, v_material.x, 1.0, sun);
+  light = in_fog(light, to_eye, squared);
+  pixel = vec4(mix(displayed(light), v_tint.rgb, v_tint.w), 1.0);
+#endif
+}
+`;
+
+export const depth_vertex_glsl = /* glsl */ `
+${frame_glsl}
+in vec4 i_place, i_rotation, i_size;
+void main() {
+  vec3 world = i_place.xyz + rotate(i_rotation, position * i_size.xyz);
+  gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
+}
+`;
+
+export const depth_fragment_glsl = /* glsl */ `
+layout(location = 0) out highp vec4 pixel;
+void main() { pixel = vec4(0.0); }
+`;
+
+// The back of the body, moved outward by some pixels on the screen: what shows beside the body is its outline.
+export const outline_vertex_glsl = /* glsl */ `
+${frame_glsl}
+in vec4 i_place, i_rotation, i_size;
+uniform vec2 u_outline;         // of clip space, for the width of the outline
+void main() {
+  vec3 local = position * i_size.xyz;
+#ifdef BOX
+  vec3 out_of = sign(position);
+#elif defined(BALL)
+  vec3 out_of = position;
+#else
+  vec3 out_of = normal / i_size.xyz;
+#endif
+  mat4 clip = projectionMatrix * viewMatrix;
+  gl_Position = clip * vec4(i_place.xyz + rotate(i_rotation, local), 1.0);
+  vec2 way = (clip * vec4(rotate(i_rotation, out_of), 0.0)).xy / u_outline;
+  gl_Position.xy += way / max(length(way), 1e-9) * u_outline * gl_Position.w;
+}
+`;
+
+export const outline_fragment_glsl = /* glsl */ `
+uniform vec3 u_outline_color;
+layout(location = 0) out highp vec4 pixel;
+void main() { pixel = vec4(u_outline_color, 1.0); }
+`;

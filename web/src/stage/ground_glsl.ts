@@ -1,0 +1,62 @@
+// Programs of planes, and of the sky behind everything.
+import { frame_glsl, light_glsl, pattern_glsl } from "./shading_glsl.ts";
+
+export const plane_vertex_glsl = /* glsl */ `
+${frame_glsl}
+uniform vec3 u_center;          // a point of the plane near the eye, m
+uniform vec3 u_axis_u, u_axis_v;
+uniform float u_reach;          // half of the drawn part, m
+out vec3 v_world;
+void main() {
+  v_world = u_center + u_reach * (position.x * u_axis_u + position.y * u_axis_v);
+  gl_Position = projectionMatrix * viewMatrix * vec4(v_world, 1.0);
+}
+`;
+
+export const plane_fragment_glsl = /* glsl */ `
+${frame_glsl}
+${light_glsl}
+${pattern_glsl}
+uniform vec3 u_axis_u, u_axis_v, u_normal, u_origin;
+uniform vec3 u_color;           // linear
+uniform vec4 u_material;        // roughness, metallic, pattern, cell of it in m
+uniform float u_dim;            // factor on its light: a dark page has a dark ground
+in vec3 v_world;
+layout(location = 0) out highp vec4 pixel;
+void main() {
+  vec3 from_origin = v_world - u_origin;
+  vec2 cells = vec2(dot(from_origin, u_axis_u), dot(from_origin, u_axis_v)) / u_material.w;
+  vec2 width = max(abs(dFdx(cells)), abs(dFdy(cells)));
+  float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);
+  float paint = 1.0;
+  if (u_material.z > 1.5) paint = 1.0 - 0.26 * mix(0.5, checker(cells, width), distinct);
+  else if (u_material.z > 0.5) paint = 1.0 - 0.30 * mix(0.044, grid(cells, width, 0.022), distinct);
+  vec3 to_eye = cameraPosition - v_world;
+  float squared = dot(to_eye, to_eye);
+  to_eye *= inversesqrt(squared);
+  float sun = sun_visible(v_world, u_normal);
+  vec3 light = u_dim * shade(u_normal, to_eye, u_color * paint, 1.0, u_material.x, u_material.y, 1.0, sun);
+  light = in_fog(light, to_eye, squared);
+  pixel = vec4(dithered(displayed(light)), 1.0);
+}
+`;
+
+export const sky_vertex_glsl = /* glsl */ `
+uniform vec3 u_ray_center, u_ray_right, u_ray_up;
+out vec3 v_ray;
+void main() {
+  v_ray = u_ray_center + position.x * u_ray_right + position.y * u_ray_up;
+  gl_Position = vec4(position.xy, 1.0, 1.0);
+}
+`;
+
+export const sky_fragment_glsl = /* glsl */ `
+${frame_glsl}
+${light_glsl}
+in vec3 v_ray;
+layout(location = 0) out highp vec4 pixel;
+void main() {
+  vec3 ray = normalize(v_ray);
+  pixel = vec4(dithered(displayed(sky(ray.y, dot(ray, u_to_light)))), 1.0);
+}
+`;

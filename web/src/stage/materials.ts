@@ -1,0 +1,92 @@
+// The materials of a stage, and the values that all of them share. The values are set before each view is drawn.
+import * as THREE from "three";
+import { bytes } from "./color.ts";
+import {
+  body_fragment_glsl, body_vertex_glsl, depth_fragment_glsl, depth_vertex_glsl, outline_fragment_glsl, outline_vertex_glsl,
+} from "./body_glsl.ts";
+import { plane_fragment_glsl, plane_vertex_glsl, sky_fragment_glsl, sky_vertex_glsl } from "./ground_glsl.ts";
+import { theme_of, type Theme } from "./theme.ts";
+
+export type BodyKind = "box" | "ball" | "mesh";
+type Uniforms = Record<string, THREE.IUniform>;
+
+export class Materials {
+  readonly frame = {
+    u_to_light: { value: new THREE.Vector3(0, 1, 0) },
+    u_sky_horizon: { value: new THREE.Vector3() },
+    u_sky_zenith: { value: new THREE.Vector3() },
+    u_sky_nadir: { value: new THREE.Vector3() },
+    u_sun_glow: { value: 1 },
+    u_dim: { value: 1 },
+    u_fog: { value: 0 },
+    u_pixel_size: { value: 0 },
+    u_shadow_matrix: { value: new THREE.Matrix4() },
+    u_shadow_map: { value: null as THREE.Texture | null },
+    u_shadow_size: { value: 1 },
+    u_shadow_texel: { value: 0 },
+    u_outline: { value: new THREE.Vector2() },
+    u_outline_color: { value: new THREE.Vector3(...bytes(255, 176, 0)) },
+    u_ray_center: { value: new THREE.Vector3() },
+    u_ray_right: { value: new THREE.Vector3() },
+    u_ray_up: { value: new THREE.Vector3() },
+  };
+  readonly solid = this.for_kinds((kind) => this.body(kind, false));
+  readonly ghost = this.for_kinds((kind) => this.body(kind, true));
+  readonly outline = this.for_kinds((kind) =>
+    this.make(outline_vertex_glsl, outline_fragment_glsl, { defines: defines_of(kind), side: THREE.BackSide }),
+  );
+  readonly depth = this.make(depth_vertex_glsl, depth_fragment_glsl, { side: THREE.DoubleSide });
+  readonly sky = this.make(sky_vertex_glsl, sky_fragment_glsl, { depthWrite: false });
+
+  plane(uniforms: Uniforms): THREE.ShaderMaterial {
+    const material = this.make(plane_vertex_glsl, plane_fragment_glsl, {});
+    Object.assign(material.uniforms, uniforms);
+    return material;
+  }
+
+  set_theme(theme: Theme): void {
+    const { horizon, zenith, nadir, glow, ground } = theme_of(theme);
+    this.frame.u_sky_horizon.value.set(...horizon);
+    this.frame.u_sky_zenith.value.set(...zenith);
+    this.frame.u_sky_nadir.value.set(...nadir);
+    this.frame.u_sun_glow.value = glow;
+    this.frame.u_dim.value = ground;
+  }
+
+  dispose(): void {
+    for (const list of [this.solid, this.ghost, this.outline]) for (const material of Object.values(list)) material.dispose();
+    this.depth.dispose();
+    this.sky.dispose();
+  }
+
+  private body(kind: BodyKind, ghost: boolean): THREE.ShaderMaterial {
+    const defines = { ...defines_of(kind), ...(ghost ? { GHOST: "" } : {}) };
+    if (!ghost) return this.make(body_vertex_glsl, body_fragment_glsl, { defines, side: sides_of(kind) });
+    // Without writing depths: the front of a ghost is one layer, whatever is drawn first.
+    return this.make(body_vertex_glsl, body_fragment_glsl, { defines, ...translucent });
+  }
+
+  private make(vertexShader: string, fragmentShader: string, more: THREE.ShaderMaterialParameters): THREE.ShaderMaterial {
+    return new THREE.ShaderMaterial({
+      glslVersion: THREE.GLSL3, uniforms: { ...this.frame }, vertexShader, fragmentShader, ...more,
+    });
+  }
+
+  private for_kinds<T>(make: (kind: BodyKind) => T): Record<BodyKind, T> {
+    return { box: make("box"), ball: make("ball"), mesh: make("mesh") };
+  }
+}
+
+/** Colors multiplied by their opacity are blended over the picture. */
+export const translucent = {
+  transparent: true,
+  depthWrite: false,
+  blending: THREE.CustomBlending,
+  blendEquation: THREE.AddEquation,
+  blendSrc: THREE.OneFactor,
+  blendDst: THREE.OneMinusSrcAlphaFactor,
+} as const;
+
+const defines_of = (kind: BodyKind): Record<string, string> => ({ [kind.toUpperCase()]: "" });
+// The inside of an open mesh is visible.
+const sides_of = (kind: BodyKind) => (kind === "mesh" ? THREE.DoubleSide : THREE.FrontSide);
