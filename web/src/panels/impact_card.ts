@@ -12,7 +12,7 @@ const mi = (text: string): MathMLElement => mathml("mi", {}, text);
 const mo = (text: string, props = {}): MathMLElement => mathml("mo", props, text);
 /** Negative numbers in parentheses. */
 const mn = (value: number, plain = false): MathMLElement => {
-  const text = number_text(value, 6);
+  const text = trimmed_text(value);
   return mathml("mn", {}, value < 0 && !plain ? `(${text})` : text);
 };
 
@@ -25,7 +25,7 @@ function with_numbers(state: PlayerState, index: number): { math: MathMLElement;
   const friction = Math.abs(solved.friction) > 1e-12 ? [mo("\u2212"), mn(solved.friction)] : [];
   const math = mathml("math", { display: "block", class: "tp-with-numbers" },
     mathml("mrow", {}, mi("j"), mo("="), mathml("mfrac", {},
-      mathml("mrow", {}, mo("\u2212", { form: "prefix" }), mo("("), mathml("mn", {}, "1"), mo("+"), mathml("mn", {}, trimmed_text(terms.e)), mo(")"), mo("\u00b7"), mn(terms.vrel), ...friction),
+      mathml("mrow", {}, mo("\u2212", { form: "prefix" }), mo("(", { stretchy: "false" }), mathml("mn", {}, "1"), mo("+"), mathml("mn", {}, trimmed_text(terms.e)), mo(")", { stretchy: "false" }), mo("\u00b7"), mn(terms.vrel), ...friction),
       mathml("mrow", {}, ...sum)),
     mo("="), mn(solved.j, true), mathml("mspace", { width: "0.25em" }), mathml("mtext", {}, "N\u2009s")));
   return { math, recorded: terms.j, residual: solved.residual, friction: solved.friction };

@@ -70,7 +70,7 @@ export class Player {
       ...[build_run_bar(this.state)].filter((bar): bar is HTMLElement => bar !== null),
       overlays);
     if (caption) main.append(caption);
-    element.replaceChildren(main, panels.element, this.announcer.element, help.element);
+    element.replaceChildren(h("div", { class: "tp-body" }, main, panels.element), this.announcer.element, help.element);
     element.classList.add(options.layout === "lesson" ? "tp-lesson" : "tp-page");
     element.dataset.mounted = "";
 
