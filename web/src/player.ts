@@ -1,1 +1,5 @@
 // The entry of the player: finds the clips of the page and mounts a player on each.
+import { read_embedded_clip } from "./ui/embedded_clip.ts";
+import { mount_players } from "./ui/mount.ts";
+
+void mount_players(read_embedded_clip);

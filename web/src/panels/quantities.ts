@@ -1,0 +1,83 @@
+// Quantities that plots show: those of `tumble plot --of`, and more of a body.
+import type { BodyState, EnergyTable, Run, Vec3 } from "../data/clip.ts";
+import { dot, norm, transform, turned } from "./linear.ts";
+
+export interface BodyQuantity {
+  label: string;
+  symbol: string;
+  unit: string;
+  value(run: Run, body: number, state: BodyState): number;
+}
+
+export interface SceneQuantity {
+  label: string;
+  unit: string;
+  column(energy: EnergyTable, frame: number): number;
+}
+
+const axes = ["x", "y", "z"];
+
+function components(prefix: string, label: string, symbol: string, unit: string, vector: (state: BodyState) => Vec3): [string, BodyQuantity][] {
+  return axes.map((axis, index) => [prefix + axis, {
+    label: `${label} ${axis}`, symbol: `${symbol}${axis}`, unit, value: (_run, _body, state) => vector(state)[index],
+  }]);
+}
+
+export function rotation_energy(run: Run, body: number, state: BodyState): number {
+  const inertia = turned(run.scene.bodies[body].inertia, state.rotation);
+  return dot(state.angular_velocity, transform(inertia, state.angular_velocity)) / 2;
+}
+
+export function kinetic_energy(run: Run, body: number, state: BodyState): number {
+  return (run.scene.bodies[body].mass * dot(state.velocity, state.velocity)) / 2 + rotation_energy(run, body, state);
+}
+
+/** Of gravity, zero at the world origin. */
+export function potential_energy(run: Run, body: number, state: BodyState): number {
+  return -run.scene.bodies[body].mass * dot(run.settings.gravity, state.position);
+}
+
+export const body_quantities = new Map<string, BodyQuantity>([
+  ...axes.map((axis, index): [string, BodyQuantity] => [axis, {
+    label: index === 1 ? "height y" : `position ${axis}`, symbol: axis, unit: "m", value: (_run, _body, state) => state.position[index],
+  }]),
+  ...components("v", "velocity", "v", "m/s", (state) => state.velocity),
+  ["speed", { label: "speed", symbol: "|v|", unit: "m/s", value: (_run, _body, state) => norm(state.velocity) }],
+  ...components("w", "angular velocity", "\u03c9", "rad/s", (state) => state.angular_velocity),
+  ["spin", { label: "spin", symbol: "|\u03c9|", unit: "rad/s", value: (_run, _body, state) => norm(state.angular_velocity) }],
+  ...components("p", "momentum", "P", "N s", (state) => state.momentum),
+  ...components("l", "angular momentum", "L", "N m s", (state) => state.angular_momentum),
+  ["kinetic", { label: "kinetic energy", symbol: "E", unit: "J", value: kinetic_energy }],
+  ["potential", { label: "potential energy", symbol: "E", unit: "J", value: potential_energy }],
+]);
+
+export const scene_quantities = new Map<string, SceneQuantity>([
+  ["kinetic", { label: "kinetic energy", unit: "J", column: (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] }],
+  ["potential", { label: "potential energy", unit: "J", column: (e, i) => e.potential[i] }],
+  ["total", {
+    label: "total energy", unit: "J",
+    column: (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] + e.potential[i] + e.elastic[i],
+  }],
+  ["contacts", { label: "contact points", unit: "", column: (e, i) => e.contacts[i] }],
+  ["penetration", { label: "deepest overlap", unit: "m", column: (e, i) => e.max_penetration[i] }],
+]);
+
+/** A plot: the stacked energies, a quantity of the scene, or one of a body. */
+export type PlotSubject =
+  | { kind: "energy" }
+  | { kind: "scene"; quantity: string }
+  | { kind: "body"; quantity: string; body: number };
+
+/** Of a text as `--plot` has it; names that the clip lacks are left out. */
+export function read_subjects(text: string, run: Run): PlotSubject[] {
+  const subjects: PlotSubject[] = [];
+  for (const item of text.split(",").map((each) => each.trim())) {
+    if (item === "energy") subjects.push({ kind: "energy" });
+    else if (scene_quantities.has(item)) subjects.push({ kind: "scene", quantity: item });
+    // Names of bodies may hold dots; quantities do not.
+    const match = /^body\.(.+)\.([a-z]+)$/.exec(item);
+    const body = match ? run.scene.bodies.findIndex((each) => each.name === match[1]) : -1;
+    if (match && body >= 0 && body_quantities.has(match[2])) subjects.push({ kind: "body", quantity: match[2], body });
+  }
+  return subjects;
+}

@@ -1,0 +1,138 @@
+// The state X(t) = (x, R, P, L) of the chosen body, and the quantities that follow from it.
+import type { BodyState, Mat3, Run, Vec3 } from "../data/clip.ts";
+import { h, new_id, set_text } from "../ui/dom.ts";
+import { number_text, plain_text, time_text, type Digits } from "../ui/format.ts";
+import type { PlayerState } from "../ui/player_state.ts";
+import { build_body_select } from "../ui/toolbar.ts";
+import { rotation_matrix, turned } from "./linear.ts";
+import { kinetic_energy, potential_energy } from "./quantities.ts";
+
+interface Row {
+  name: string;
+  /** As HTML: bold vectors, italic scalars. */
+  symbol: string;
+  unit: string;
+  /** Numbers in a line of the table. */
+  columns: 1 | 3 | 4;
+  values(run: Run, body: number, state: BodyState): number[];
+}
+
+const vector = (name: string, symbol: string, unit: string, of: (state: BodyState) => Vec3): Row =>
+  ({ name, symbol: `<b>${symbol}</b>`, unit, columns: 3, values: (_run, _body, state) => of(state) });
+const matrix = (name: string, symbol: string, unit: string, of: (run: Run, body: number, state: BodyState) => Mat3): Row =>
+  ({ name, symbol: `<b>${symbol}</b>`, unit, columns: 3, values: of });
+const number = (name: string, symbol: string, unit: string, of: (run: Run, body: number, state: BodyState) => number): Row =>
+  ({ name, symbol, unit, columns: 1, values: (run, body, state) => [of(run, body, state)] });
+
+const position = vector("position", "x", "m", (state) => state.position);
+const quaternion: Row = { name: "rotation", symbol: "<i>q</i>", unit: "", columns: 4, values: (_run, _body, state) => state.rotation };
+const rotation = matrix("rotation", "R", "", (_run, _body, state) => rotation_matrix(state.rotation));
+const rest_of_state: Row[] = [
+  vector("momentum", "P", "N s", (state) => state.momentum),
+  vector("angular momentum", "L", "N m s", (state) => state.angular_momentum),
+];
+const derived: Row[] = [
+  vector("velocity", "v", "m/s", (state) => state.velocity),
+  vector("angular velocity", "\u03c9", "rad/s", (state) => state.angular_velocity),
+  matrix("inertia, world", "I", "kg m\u00b2", (run, body, state) => turned(run.scene.bodies[body].inertia, state.rotation)),
+  number("kinetic energy", "<i>E</i><sub>kin</sub>", "J", kinetic_energy),
+  number("potential energy", "<i>E</i><sub>pot</sub>", "J", potential_energy),
+];
+
+function table_row(row: Row): { element: HTMLTableRowElement; cells: HTMLElement[] } {
+  const cells = Array.from({ length: row.symbol === "<b>R</b>" || row.symbol === "<b>I</b>" ? 9 : row.columns }, () => h("span"));
+  const symbol = h("span", { class: "tp-symbol" });
+  symbol.innerHTML = row.symbol;
+  return {
+    cells,
+    element: h("tr", {}, h("th", { scope: "row" }, symbol, h("span", { class: "tp-name" }, row.name), h("span", { class: "tp-unit" }, row.unit)),
+      h("td", {}, h("div", { class: `tp-numbers tp-columns-${row.columns}` }, ...cells))),
+  };
+}
+
+export class StateTable {
+  readonly element = h("div", { class: "tp-state" });
+  private digits: Digits = 6;
+  private as_matrix = false;
+  private rows: { row: Row; cells: HTMLElement[] }[] = [];
+  private table = h("table", { class: "tp-state-table" });
+  private readonly moment = h("span", { class: "tp-moment" });
+
+  constructor(private readonly state: PlayerState) {
+    const copied = h("span", { class: "tp-copied", role: "status" });
+    const toggle = (label: string, change: (on: boolean) => void): HTMLButtonElement => {
+      const button = h("button", {
+        type: "button", class: "tp-chip", "aria-pressed": "false",
+        onclick: () => {
+          const on = button.getAttribute("aria-pressed") !== "true";
+          button.setAttribute("aria-pressed", String(on));
+          change(on);
+          this.build();
+        },
+      }, label);
+      return button;
+    };
+    const caption = new_id("tp-state");
+    this.table.setAttribute("aria-labelledby", caption);
+    this.element.append(
+      h("div", { class: "tp-row" }, build_body_select(state), h("span", { id: caption, class: "tp-caption" }, "at ", this.moment)),
+      h("div", { class: "tp-scroll", tabindex: 0, role: "region", "aria-label": "State of the body" }, this.table),
+      h("div", { class: "tp-row" },
+        toggle("Rotation as matrix", (on) => { this.as_matrix = on; }),
+        toggle("17 digits", (on) => { this.digits = on ? 17 : 6; }),
+        h("button", { type: "button", class: "tp-chip", onclick: () => void this.copy(copied) }, "Copy"), copied));
+    state.on(["time", "run", "body", "before"], () => this.show());
+    this.build();
+  }
+
+  private get listed(): Row[] {
+    return [position, this.as_matrix ? rotation : quaternion, ...rest_of_state, ...derived];
+  }
+
+  private build(): void {
+    const made = this.listed.map((row) => ({ row, ...table_row(row) }));
+    this.rows = made;
+    this.table.classList.toggle("tp-long", this.digits === 17);
+    this.table.replaceChildren(
+      h("tbody", {}, ...made.slice(0, 2 + rest_of_state.length).map((each) => each.element)),
+      h("tbody", { class: "tp-derived" }, ...made.slice(2 + rest_of_state.length).map((each) => each.element)));
+    this.show();
+  }
+
+  private body_state(): { body: number; state: BodyState } | null {
+    const body = this.state.get("body");
+    if (body === null) return null;
+    const motion = this.state.run.motion;
+    const time = this.state.get("time");
+    return { body, state: this.state.get("before") ? motion.state_before(body, time) : motion.state(body, time) };
+  }
+
+  private show(): void {
+    const now = this.body_state();
+    set_text(this.moment, `${time_text(this.state.get("time"))}${this.state.get("before") ? ", before the impact" : ""}`);
+    for (const { row, cells } of this.rows) {
+      const values = now ? row.values(this.state.run, now.body, now.state) : [];
+      for (const [index, cell] of cells.entries()) {
+        set_text(cell, index < values.length ? number_text(values[index], this.digits) : "\u2013");
+      }
+    }
+  }
+
+  /** Name, unit and numbers of each row, separated by tabs. */
+  private async copy(copied: HTMLElement): Promise<void> {
+    const now = this.body_state();
+    if (!now) return;
+    const lines = [`${this.state.run.scene.bodies[now.body].name}\tt = ${plain_text(this.state.get("time"))} s`];
+    for (const { row } of this.rows) {
+      const numbers = row.values(this.state.run, now.body, now.state).map((value) => plain_text(value, this.digits));
+      lines.push([row.name, row.unit, ...numbers].join("\t"));
+    }
+    try {
+      await navigator.clipboard.writeText(lines.join("\n"));
+      copied.textContent = "Copied";
+    } catch {
+      copied.textContent = "The browser refuses the clipboard";
+    }
+    setTimeout(() => { copied.textContent = ""; }, 2000);
+  }
+}

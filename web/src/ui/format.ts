@@ -1,0 +1,60 @@
+// Numbers as text.
+
+const minus = "\u2212";
+const superscripts: Record<string, string> = {
+  "-": "\u207b", "0": "\u2070", "1": "\u00b9", "2": "\u00b2", "3": "\u00b3", "4": "\u2074",
+  "5": "\u2075", "6": "\u2076", "7": "\u2077", "8": "\u2078", "9": "\u2079",
+};
+
+export type Digits = 3 | 4 | 6 | 17;
+
+/** With a typographic minus and powers of ten: −1.25, 3.1·10⁻⁷. Below 17 digits, numbers nearer to 0 than `zero` are "0". */
+export function number_text(value: number, digits: Digits = 6, zero = 1e-12): string {
+  if (Number.isNaN(value)) return "\u2013";
+  if (!Number.isFinite(value)) return value < 0 ? `${minus}\u221e` : "\u221e";
+  if (digits < 17 && Math.abs(value) < zero) return "0";
+  if (value === 0) return "0";
+  const magnitude = Math.floor(Math.log10(Math.abs(value)));
+  if (magnitude >= 7 || magnitude < -4) {
+    const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
+    const power = [...String(Number(exponent))].map((character) => superscripts[character]).join("");
+    return `${mantissa.replace("-", minus)}\u00b710${power}`;
+  }
+  return value.toPrecision(digits).replace("-", minus);
+}
+
+/** With the same number of decimals at any value: digits stand still while the time runs. */
+export function fixed_text(value: number, decimals: number): string {
+  const text = value.toFixed(decimals);
+  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", minus);
+}
+
+/** Without zeros at the end of the decimals. */
+export function trimmed_text(value: number, digits: Digits = 6): string {
+  return number_text(value, digits).replace(/(\.\d*?)0+(?=$|\u00b7)/, "$1").replace(/\.(?=$|\u00b7)/, "");
+}
+
+/** For files and the clipboard: the shortest text that gives the number back, with an ASCII minus. */
+export function plain_text(value: number, digits: Digits = 17): string {
+  return digits === 17 ? String(value) : String(Number(value.toPrecision(digits)));
+}
+
+export function time_text(time: number): string {
+  return `${time.toFixed(3)} s`;
+}
+
+/** "1 frame", "3 frames". */
+export function count_text(count: number, noun: string, plural = `${noun}s`): string {
+  return `${count} ${count === 1 ? noun : plural}`;
+}
+
+/** Speed of playing: "¼×". */
+export function speed_text(speed: number): string {
+  return `${speed === 0.25 ? "\u00bc" : speed === 0.5 ? "\u00bd" : speed}\u00d7`;
+}
+
+/** Two digits, without zeros at the end: for scales. */
+export function short_text(value: number): string {
+  const rounded = Number(value.toPrecision(2));
+  return rounded >= 1e-3 && rounded < 1e6 ? String(rounded) : number_text(rounded, 3);
+}

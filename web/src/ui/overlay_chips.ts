@@ -1,0 +1,97 @@
+// Toggles of the overlays that make sense for the clip, with the scale of the arrows that are on.
+import { contact_states, type ArrowQuantity, type Clip, type OverlayName, type Run } from "../data/clip.ts";
+import { h } from "./dom.ts";
+import { short_text } from "./format.ts";
+import type { PlayerState } from "./player_state.ts";
+
+interface OverlayKind {
+  name: OverlayName;
+  label: string;
+  quantity?: ArrowQuantity;
+  unit?: string;
+  makes_sense(run: Run): boolean;
+}
+
+const always = (): boolean => true;
+const dynamic = (run: Run): boolean => run.scene.bodies.some((body) => body.type === "dynamic");
+const has_contacts = (run: Run): boolean => run.contacts.a.length > 0;
+const turns = (run: Run): boolean => run.scene.bodies.some((body, index) =>
+  body.type !== "fixed" && [0, 0.25, 0.5, 0.75, 1].some((part) =>
+    run.motion.state(index, part * run.duration).angular_velocity.some((component) => Math.abs(component) > 1e-9)));
+const sleeps = (run: Run): boolean => run.contacts.state.includes(contact_states.indexOf("asleep")) ||
+  run.scene.bodies.some((body, index) => body.type === "dynamic" && run.motion.state(index, run.duration).asleep);
+
+const kinds: OverlayKind[] = [
+  { name: "velocity", label: "Velocity v", quantity: "velocity", unit: "m/s", makes_sense: dynamic },
+  { name: "omega", label: "Angular velocity \u03c9", quantity: "omega", unit: "rad/s", makes_sense: turns },
+  { name: "momentum", label: "Momentum P", quantity: "momentum", unit: "N s", makes_sense: dynamic },
+  { name: "angular-momentum", label: "Angular momentum L", quantity: "angular-momentum", unit: "N m s", makes_sense: turns },
+  { name: "impulses", label: "Impulses", quantity: "impulse", unit: "N s", makes_sense: (run) => run.impacts.length > 0 },
+  { name: "forces", label: "Contact forces", quantity: "force", unit: "N", makes_sense: has_contacts },
+  { name: "loads", label: "Loads", quantity: "force", unit: "N", makes_sense: dynamic },
+  { name: "contacts", label: "Contacts", makes_sense: has_contacts },
+  { name: "normals", label: "Normals", makes_sense: has_contacts },
+  { name: "trails", label: "Trails", makes_sense: dynamic },
+  { name: "ghosts", label: "Ghosts", makes_sense: dynamic },
+  { name: "com", label: "Centers of mass", makes_sense: dynamic },
+  { name: "axes", label: "Body axes", makes_sense: dynamic },
+  { name: "aabb", label: "Bounding boxes", makes_sense: always },
+  { name: "islands", label: "Islands", makes_sense: has_contacts },
+  { name: "sleep", label: "Sleep", makes_sense: sleeps },
+  { name: "names", label: "Names", makes_sense: always },
+];
+
+/** At first only these and the ones that are on; the others behind "More". */
+const common: OverlayName[] = ["velocity", "momentum", "angular-momentum", "omega", "impulses", "forces", "contacts", "trails"];
+
+export function overlays_of(clip: Clip): OverlayName[] {
+  return kinds.filter((kind) => clip.runs.some((run) => kind.makes_sense(run))).map((kind) => kind.name);
+}
+
+export function build_overlay_chips(state: PlayerState): HTMLElement {
+  const offered = overlays_of(state.clip);
+  const settings = state.run.overlays;
+  const toggle = (name: OverlayName): void => {
+    const overlays = new Set(state.get("overlays"));
+    if (!overlays.delete(name)) overlays.add(name);
+    state.set({ overlays });
+  };
+  const chips = kinds.filter((kind) => offered.includes(kind.name)).map((kind) => {
+    const color = kind.quantity ? settings.color[kind.quantity] : null;
+    const button = h("button", { type: "button", class: "tp-chip", "data-overlay": kind.name, onclick: () => toggle(kind.name) },
+      h("span", { class: "tp-swatch", style: color ? `--swatch: ${color}` : null }), kind.label);
+    const rare = !common.includes(kind.name) && !state.get("overlays").has(kind.name);
+    if (rare) button.dataset.rare = "";
+    return { kind, button };
+  });
+  const legend = h("p", { class: "tp-legend" });
+  const list = h("div", { class: "tp-chip-list", role: "group", "aria-label": "Overlays" }, ...chips.map((chip) => chip.button));
+  if (chips.some((chip) => "rare" in chip.button.dataset)) {
+    const more = h("button", {
+      type: "button", class: "tp-chip tp-more", "aria-expanded": "false",
+      onclick: () => {
+        const open = list.classList.toggle("tp-open");
+        more.setAttribute("aria-expanded", String(open));
+        more.textContent = open ? "Fewer" : "More";
+      },
+    }, "More");
+    list.append(more);
+  }
+
+  const show = (): void => {
+    const on = state.get("overlays");
+    const scales = new Map<string, string>();
+    for (const { kind, button } of chips) {
+      button.setAttribute("aria-pressed", String(on.has(kind.name)));
+      if (!on.has(kind.name) || !kind.quantity) continue;
+      const scale = state.run.overlays.scale[kind.quantity];
+      if (scale > 0) scales.set(kind.quantity, `${short_text(1 / scale)} ${kind.unit}`);
+    }
+    legend.replaceChildren(...[...scales].map(([quantity, text]) => h("span", {},
+      h("span", { class: "tp-arrow", style: `--swatch: ${settings.color[quantity as ArrowQuantity]}` }), `1 m of arrow: ${text}`)));
+    legend.hidden = scales.size === 0;
+  };
+  state.on(["overlays", "run"], show);
+  show();
+  return h("div", { class: "tp-overlays" }, list, legend);
+}

@@ -1,0 +1,72 @@
+// The slider of the time, with a mark at each moment of impact.
+import type { Actions } from "./actions.ts";
+import { h } from "./dom.ts";
+import { moments_of } from "./moments.ts";
+import type { PlayerState } from "./player_state.ts";
+import { on_theme } from "./theme.ts";
+
+const marks_height = 14;
+
+export class ScrubBar {
+  private readonly marks = h("canvas", { class: "tp-marks", "aria-hidden": "true" });
+  private readonly fill = h("div", { class: "tp-track-fill" });
+  private readonly thumb = h("div", { class: "tp-thumb" });
+  private readonly track = h("div", { class: "tp-track" }, this.fill, this.thumb);
+  readonly element = h("div", { class: "tp-scrub", role: "slider", tabindex: 0, "aria-label": "Time", "aria-valuemin": "0" },
+    this.marks, this.track);
+
+  constructor(private readonly state: PlayerState, private readonly actions: Actions) {
+    this.element.addEventListener("pointerdown", (event) => {
+      if (event.button !== 0) return;
+      this.element.setPointerCapture(event.pointerId);
+      this.seek_to(event);
+    });
+    this.element.addEventListener("pointermove", (event) => {
+      if (this.element.hasPointerCapture(event.pointerId)) this.seek_to(event);
+    });
+    state.on(["time"], () => this.show_time());
+    state.on(["run", "compare"], () => { this.show_time(); this.draw_marks(); });
+    on_theme(() => this.draw_marks());
+    new ResizeObserver(() => this.draw_marks()).observe(this.element);
+    this.show_time();
+  }
+
+  private seek_to(event: PointerEvent): void {
+    const box = this.track.getBoundingClientRect();
+    const fraction = Math.min(Math.max((event.clientX - box.left) / box.width, 0), 1);
+    this.actions.seek(fraction * this.state.duration);
+  }
+
+  private show_time(): void {
+    const time = this.state.get("time");
+    const percent = `${((100 * time) / this.state.duration || 0).toFixed(3)}%`;
+    this.fill.style.width = percent;
+    this.thumb.style.left = percent;
+    this.element.setAttribute("aria-valuemax", this.state.duration.toFixed(3));
+    this.element.setAttribute("aria-valuenow", time.toFixed(3));
+    this.element.setAttribute("aria-valuetext", `${Number(time.toFixed(3))} s, frame ${this.state.frame}`);
+  }
+
+  /** Taller marks for larger impulses; of impacts in one column of pixels the largest. */
+  private draw_marks(): void {
+    const width = this.track.clientWidth;
+    const ratio = devicePixelRatio || 1;
+    this.marks.width = width * ratio;
+    this.marks.height = marks_height * ratio;
+    const context = this.marks.getContext("2d");
+    if (!context || width === 0) return;
+    const run = this.state.run;
+    const largest = run.impacts.reduce((most, impact) => Math.max(most, impact.impulse), 0);
+    if (largest === 0) return;
+    context.scale(ratio, ratio);
+    context.fillStyle = getComputedStyle(this.element).getPropertyValue("--mark");
+    const heights = new Map<number, number>();
+    for (const moment of moments_of(run)) {
+      let impulse = 0;
+      for (let index = moment.first; index <= moment.last; index += 1) impulse = Math.max(impulse, run.impacts[index].impulse);
+      const column = Math.round((moment.time / this.state.duration) * width);
+      heights.set(column, Math.max(heights.get(column) ?? 0, 3 + (marks_height - 3) * Math.sqrt(impulse / largest)));
+    }
+    for (const [column, height] of heights) context.fillRect(column - 0.5, marks_height - height, 1, height);
+  }
+}

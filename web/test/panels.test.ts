@@ -1,0 +1,124 @@
+// The numbers behind the panels, without a browser: curves, moments, the impulse of an impact, texts.
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import type { Impact, Mat3, Run, Vec3 } from "../src/data/clip.ts";
+import { impulse_terms, solve_impulse } from "../src/panels/impulse_equation.ts";
+import { add, cross, dot, inverse, multiply, scaled, transform } from "../src/panels/linear.ts";
+import { read_subjects } from "../src/panels/quantities.ts";
+import { energy_stack, plot_series } from "../src/panels/series.ts";
+import { number_text, trimmed_text } from "../src/ui/format.ts";
+import { moment_at, moment_text, moments_of, next_moment, previous_moment } from "../src/ui/moments.ts";
+import { PlayerState } from "../src/ui/player_state.ts";
+import { ball_at, bounces, box_landing, make_synthetic_clip, make_synthetic_run } from "./synthetic_clip.ts";
+
+const run = make_synthetic_run(0.5);
+const ball = 1;
+
+test("curves of velocities jump at impacts and follow the closed form", () => {
+  const { times, series } = plot_series([run], { kind: "body", quantity: "vy", body: ball });
+  for (const bounce of bounces(0.5, run.duration)) {
+    const at = times.findIndex((time) => Math.abs(time - bounce.time) < 1e-9);
+    assert.ok(Math.abs(times[at + 1] - bounce.time) < 1e-9, "two rows at an impact");
+    assert.ok(Math.abs(Number(series[0].values[at]) - ball_at(0.5, bounce.time, true).speed) < 1e-9);
+    assert.ok(Math.abs(Number(series[0].values[at + 1]) - bounce.speed_after) < 1e-9);
+  }
+  for (let i = 1; i < times.length; i += 1) assert.ok(times[i] >= times[i - 1]);
+});
+
+test("a curve ends where its run ends", () => {
+  const short: Run = { ...run, duration: 1, frames: 61 };
+  const { times, series } = plot_series([run, short], { kind: "body", quantity: "y", body: ball });
+  const last = times.length - 1;
+  assert.equal(series[1].values[last], null);
+  assert.ok(Number.isFinite(series[0].values[last]));
+});
+
+test("the stack of energies ends at the energy of the start plus work", () => {
+  const stack = energy_stack(run);
+  const top = stack.layers[stack.layers.length - 1].edge;
+  const largest = Math.max(...top.map((value, frame) => Math.abs(value - stack.supply.values[frame])));
+  assert.ok(largest < 1e-9 * stack.supply.values[0], `off by ${largest} J`);
+  assert.ok(!stack.layers.some((layer) => layer.key === "elastic"), "a layer without energy is left out");
+});
+
+test("a potential energy below zero is stacked from its lowest value", () => {
+  const shifted = { ...run, energy: { ...run.energy, potential: run.energy.potential.map((value) => value - 100) } };
+  const stack = energy_stack(shifted);
+  assert.equal(Math.min(...stack.layers[0].edge), 0);
+  assert.ok(Math.abs(stack.layers[stack.layers.length - 1].edge[7] - stack.supply.values[7]) < 1e-9);
+});
+
+test("the impulse of eq. 20 is that of the closed form", () => {
+  const bounce = run.impacts.find((impact) => impact.body_a === ball || impact.body_b === ball)!;
+  assert.ok(solve_impulse(impulse_terms(run, bounce)).residual < 1e-12);
+});
+
+test("eq. 20 holds with two turned bodies and friction", () => {
+  // The impulse is made from the change of velocities that it causes, apart from the code that is tested.
+  const rotation: [number, number, number, number] = [0.5, 0.5, -0.5, 0.5];
+  const inertia: Mat3 = [0.2, 0.01, 0, 0.01, 0.3, 0.02, 0, 0.02, 0.25];
+  const bodies = [2, 3].map((mass) => ({ ...run.scene.bodies[ball], mass, inertia }));
+  const n: Vec3 = [0.6, 0.8, 0], f: Vec3 = [0.16, -0.12, 0.3], j = 1.7;
+  const positions: Vec3[] = [[0, 0, 0], [0.3, 0.7, 0.4]], p: Vec3 = [0.2, 0.1, 0.3];
+  // R turns x to z, y to -x and z to -y: R I R^T by hand.
+  const world: Mat3 = [0.3, 0.02, -0.01, 0.02, 0.25, 0, -0.01, 0, 0.2];
+  const velocity_change = (i: number, impulse: Vec3): Vec3 => {
+    const r = add(p, scaled(positions[i], -1));
+    return add(scaled(impulse, 1 / bodies[i].mass), cross(transform(inverse(world), cross(r, impulse)), r));
+  };
+  const on_b = add(scaled(n, j), f);
+  const change = dot(n, add(velocity_change(1, on_b), scaled(velocity_change(0, scaled(on_b, -1)), -1)));
+  const e = 0.4, v_before = -change / (1 + e);
+  const impact = {
+    ...run.impacts[0], body_a: 0, body_b: 1, px: p[0], py: p[1], pz: p[2], nx: n[0], ny: n[1], nz: n[2], fx: f[0], fy: f[1], fz: f[2],
+    impulse: j, restitution: e, v_before, v_after: -e * v_before,
+    pose_a: { position: positions[0], rotation }, pose_b: { position: positions[1], rotation },
+  } as Impact;
+  const solved = solve_impulse(impulse_terms({ ...run, scene: { ...run.scene, bodies } }, impact));
+  assert.ok(solved.residual < 1e-12, `residual ${solved.residual}`);
+  assert.ok(Math.abs(solved.friction) > 1e-3, "friction takes part");
+});
+
+test("an inverse times its matrix is one", () => {
+  const m: Mat3 = [2, 1, 0, 1, 3, 0.5, 0, 0.5, 4];
+  multiply(m, inverse(m)).forEach((value, i) => assert.ok(Math.abs(value - (i % 4 === 0 ? 1 : 0)) < 1e-14));
+});
+
+test("impacts at one time are one moment, found in both directions", () => {
+  const landing = moment_at(run, box_landing)!;
+  assert.deepEqual([landing.first, landing.last], [0, 3]);
+  assert.match(moment_text(run, landing), /^Impacts 1 to 4 at 0\.2473 s: box on ground$/);
+  assert.equal(next_moment(run, box_landing)!.first, 4);
+  assert.equal(previous_moment(run, box_landing), null);
+  assert.equal(previous_moment(run, box_landing + 1e-3), landing);
+  const moments = moments_of(run);
+  assert.equal(next_moment(run, moments[moments.length - 1].time), null);
+});
+
+test("names of plots are read as `tumble plot` has them", () => {
+  const named: Run = { ...run, scene: { ...run.scene, bodies: run.scene.bodies.map((body, i) => ({ ...body, name: ["a", "ball.v2", "c"][i] })) } };
+  assert.deepEqual(read_subjects("energy, body.ball.v2.spin,total,body.none.y,nonsense", named),
+    [{ kind: "energy" }, { kind: "body", quantity: "spin", body: 1 }, { kind: "scene", quantity: "total" }]);
+});
+
+test("a state tells each listener once, and leaves the side of an impact with the moment", () => {
+  const state = new PlayerState(make_synthetic_clip());
+  const calls: string[][] = [];
+  state.on(["time", "before"], (changed) => calls.push([...changed].sort()));
+  state.set({ time: 1, before: true });
+  state.set({ time: 1 });
+  state.set({ time: 9 });
+  assert.deepEqual(calls, [["before", "time"], ["before", "time"]]);
+  assert.equal(state.get("time"), state.duration);
+  assert.equal(state.get("before"), false);
+});
+
+test("numbers are short, aligned and complete as asked", () => {
+  assert.equal(number_text(-1.25, 6), "\u22121.25000");
+  assert.equal(number_text(3.14e-7, 3), "3.14\u00b710\u207b\u2077");
+  assert.equal(Number(number_text(0.1, 17)), 0.1);
+  assert.equal(trimmed_text(0), "0");
+  assert.equal(trimmed_text(200), "200");
+  assert.equal(trimmed_text(0.5), "0.5");
+  assert.equal(trimmed_text(2e9), "2\u00b710\u2079");
+});
