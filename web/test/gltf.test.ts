@@ -68,28 +68,40 @@ for (const scene of scenes) {
   });
 }
 
+/** Compares the file, as three.js plays it, with the last trajectory at 1,000 random rows. */
+async function compare_with_trajectory(file: Uint8Array): Promise<void> {
+  const player = await Player.of(file);
+  const rows = table("t.csv");
+  const random = random_numbers(29);
+  let position_error = 0, rotation_error = 0;
+  for (let i = 0; i < 1000; ++i) {
+    const row = rows[Math.floor(random() * rows.length)];
+    player.seek(Number(row.time));
+    const node = player.node(row.body);
+    position_error = Math.max(position_error, node.position.distanceTo(new Vector3(...numbers(row, "x", "y", "z"))));
+    rotation_error = Math.max(rotation_error, angle_between(node.quaternion, new Quaternion(...numbers(row, "qx", "qy", "qz", "qw"))));
+  }
+  assert.ok(position_error < 1e-5, `${position_error} m`);
+  assert.ok(rotation_error < 1e-5, `${rotation_error} rad`);
+}
+
 // Every moment of the simulation that the file was made from, of scenes with bounces, spin and keyframes. Of the pile of falling boxes
 // the frames only: the table would be large.
 for (const [scene, ...rate] of [["paddle", "--fps", 960, "--steps-per-frame", 1], ["tower_hit", "--fps", 960, "--steps-per-frame", 1],
                                 ["tennis_racket", "--fps", 120, "--steps-per-frame", 1],
                                 ["newtons_cradle", "--fps", 960, "--steps-per-frame", 2], ["falling_boxes"]] as const) {
   test(`three.js plays ${scene} as the simulation`, async () => {
-    const player = await Player.of(export_scene(scene));
     tumble("simulate", join(scenes_folder, `${scene}.toml`), "--trajectory", "t.csv", "--quiet", ...rate);
-    const rows = table("t.csv");
-    const random = random_numbers(29);
-    let position_error = 0, rotation_error = 0;
-    for (let i = 0; i < 1000; ++i) {
-      const row = rows[Math.floor(random() * rows.length)];
-      player.seek(Number(row.time));
-      const node = player.node(row.body);
-      position_error = Math.max(position_error, node.position.distanceTo(new Vector3(...numbers(row, "x", "y", "z"))));
-      rotation_error = Math.max(rotation_error, angle_between(node.quaternion, new Quaternion(...numbers(row, "qx", "qy", "qz", "qw"))));
-    }
-    assert.ok(position_error < 1e-5, `${position_error} m`);
-    assert.ok(rotation_error < 1e-5, `${rotation_error} rad`);
+    await compare_with_trajectory(export_scene(scene));
   });
 }
+
+test("three.js plays linear keys as the simulation", async () => {
+  tumble("simulate", join(scenes_folder, "turntable.toml"), "--trajectory", "t.csv", "--quiet");
+  const file = export_scene("turntable", "--keys", "frames");
+  assert.deepEqual((await validateBytes(file)).issues.messages, []);
+  await compare_with_trajectory(file);
+});
 
 test("three.js plays bouncing balls between frames as the closed form", async () => {
   const player = await Player.of(export_scene("bouncing_balls", "--set", "simulation.impacts=exact"));

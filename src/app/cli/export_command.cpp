@@ -66,7 +66,8 @@ void run_export(const ExportCommand& command) {
     for (const auto& file : inputs) plan.add_input(file);
     plan.add("-o", command.output);
 
-    const int parts = moments_per_frame(scene.simulation.steps_per_frame);
+    const bool cubic = command.keys == KeyKind::cubic;
+    const int parts = cubic ? moments_per_frame(scene.simulation.steps_per_frame) : 1;
     const FrameTiming timing{scene.output.fps * parts, scene.simulation.steps_per_frame / parts};
     TemporaryFile file(command.output);
     std::size_t size = 0;
@@ -74,10 +75,10 @@ void run_export(const ExportCommand& command) {
     {
         Interrupt interrupt;
         World world(scene, timing, command.threads);
-        if (scene.simulation.impacts == ImpactMode::exact) world.record_contacts();
+        if (cubic && scene.simulation.impacts == ImpactMode::exact) world.record_contacts();
         std::vector<BodyReport> reports;
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) reports.push_back(world.report(i));
-        MotionRecorder motion(scene, std::move(reports));
+        MotionRecorder motion(scene, std::move(reports), command.keys);
         const std::int64_t moments = (scene.frame_count() - 1) * parts + 1;
         ExportObserver observer(motion, scene.camera, moments, command.quiet);
         SurveyObserver* const observers[] = {&observer};
