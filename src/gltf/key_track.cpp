@@ -34,11 +34,11 @@ Eigen::Matrix<double, N, 1> slope(const KeySample<N>& a, const KeySample<N>& b, 
 
 template <int N>
 void KeyTrack<N>::add(const KeySample<N>& sample) {
+    if (kind_ == KeyKind::linear) return add_linear(sample);
     if (!started_) {
         started_ = true;
         start_ = sample;
-        keys_.push_back({float(sample.time), Eigen::Matrix<float, N, 1>::Zero(), sample.value.template cast<float>(),
-                         Eigen::Matrix<float, N, 1>::Zero()});
+        keys_.push_back(Key::of(sample.time, sample.value));
         return;
     }
     if (still_ && sample.value == start_.value && !sample.corner) {
@@ -60,6 +60,21 @@ void KeyTrack<N>::add(const KeySample<N>& sample) {
     }
     tangents_ = *tangents;
     if (sample.corner) close();
+}
+
+/// Of equal values in a row, only the first and the last become keys.
+template <int N>
+void KeyTrack<N>::add_linear(const KeySample<N>& sample) {
+    const Value moved = (double(float(sample.time)) - sample.time) * sample.in;  // until the rounded time
+    const Key key = Key::of(sample.time, sample.value + moved);
+    error_ = std::max(error_, deviation<N>(key.value.template cast<double>() - moved, sample.value));
+    if (ends_equal() && keys_.back().value == key.value) keys_.pop_back();
+    keys_.push_back(key);
+}
+
+template <int N>
+bool KeyTrack<N>::ends_equal() const {
+    return keys_.size() >= 2 && keys_.back().value == keys_[keys_.size() - 2].value;
 }
 
 /// Tangents with which the segment passes all its samples; a single interval always has some.
@@ -148,6 +163,10 @@ void KeyTrack<N>::measure() {
 
 template <int N>
 void KeyTrack<N>::finish() {
+    if (kind_ == KeyKind::linear) {
+        if (ends_equal()) keys_.pop_back();
+        return;
+    }
     if (!samples_.empty()) close();
     if (!ends_still_) return;
     keys_.pop_back();

@@ -1,5 +1,5 @@
-// Keys of one animated quantity, a position or a rotation, for glTF's CUBICSPLINE interpolation: as few as describe all
-// samples of the motion within a tolerance.
+// Keys of one animated quantity, a position or a rotation. For glTF's CUBICSPLINE interpolation: as few as describe all
+// samples of the motion within a tolerance. For LINEAR: one for each sample, except in rest.
 //
 // A segment between two keys grows sample by sample as long as its cubic passes all samples within the tolerance. Its
 // tangents are the given velocities: exact for parabolas. If these do not fit, because a stepped motion's velocities
@@ -24,6 +24,9 @@ struct KeySample {
     bool corner = false;                            // becomes a key, with both derivatives
 };
 
+/// glTF's interpolation between keys: CUBICSPLINE or LINEAR.
+enum class KeyKind { cubic, linear };
+
 template <int N>
 class KeyTrack {
 public:
@@ -32,16 +35,24 @@ public:
     struct Key {
         float time;
         Eigen::Matrix<float, N, 1> in, value, out;
+
+        static Key of(double time, const Value& value) {
+            using Floats = Eigen::Matrix<float, N, 1>;
+            return {float(time), Floats::Zero(), value.template cast<float>(), Floats::Zero()};
+        }
     };
 
-    /// `tolerance`: m or rad. `velocities`: whether the samples have derivatives.
-    KeyTrack(double tolerance, bool velocities) : tolerance_(tolerance), velocities_(velocities) {}
+    /// `tolerance`: of cubic keys, m or rad. `velocities`: whether the samples have derivatives.
+    KeyTrack(KeyKind kind, double tolerance, bool velocities)
+        : kind_(kind), tolerance_(tolerance), velocities_(velocities) {}
 
     /// Times must increase in single precision.
     void add(const KeySample<N>& sample);
     /// Closes the last segment. Keys of a value that no longer changes are left out; a single key means no motion.
     void finish();
 
+    KeyKind kind() const { return kind_; }
+    /// Linear keys have no derivatives.
     const std::vector<Key>& keys() const { return keys_; }
     /// Largest deviation of the keys, in single precision, from the samples, m or rad.
     double error() const { return error_; }
@@ -49,6 +60,8 @@ public:
 private:
     using Tangents = std::pair<Value, Value>;  // at the start and the end of the segment
 
+    void add_linear(const KeySample<N>& sample);
+    bool ends_equal() const;
     std::optional<Tangents> fit();
     bool fits(const Tangents& tangents) const;
     bool continues(const Tangents& tangents) const;
@@ -57,6 +70,7 @@ private:
     void close();
     void measure();
 
+    KeyKind kind_;
     double tolerance_;
     bool velocities_;
     bool started_ = false;

@@ -51,12 +51,13 @@ Quat camera_rotation(const CameraDescription& camera) {
     return Quat(axes).normalized();
 }
 
-MotionRecorder::MotionRecorder(const SceneDescription& scene, std::vector<BodyReport> reports)
+MotionRecorder::MotionRecorder(const SceneDescription& scene, std::vector<BodyReport> reports, KeyKind kind)
     : scene_(scene),
       reports_(std::move(reports)),
-      bodies_(scene.bodies.size(), PoseKeys(true)),
+      bodies_(scene.bodies.size(), PoseKeys(kind, true)),
       last_(scene.bodies.size()),
-      impacts_(scene.bodies.size()) {}
+      impacts_(scene.bodies.size()),
+      camera_(kind, false) {}
 
 Vec3 MotionRecorder::node_place(std::size_t body) const {
     return scene_.bodies[body].type == BodyType::dynamic ? reports_[body].center_of_mass : Vec3::Zero();

@@ -21,8 +21,8 @@ struct PoseKeys {
     KeyTrack<3> position;
     KeyTrack<4> rotation;
 
-    explicit PoseKeys(bool velocities)
-        : position(key_tolerance, velocities), rotation(key_rotation_tolerance, velocities) {}
+    PoseKeys(KeyKind kind, bool velocities)
+        : position(kind, key_tolerance, velocities), rotation(kind, key_rotation_tolerance, velocities) {}
 };
 
 /// Orientation of a camera that looks along -z with y up, as in glTF.
@@ -31,7 +31,7 @@ Quat camera_rotation(const CameraDescription& camera);
 class MotionRecorder {
 public:
     /// `reports`: of all bodies. The scene must outlive the recorder.
-    MotionRecorder(const SceneDescription& scene, std::vector<BodyReport> reports);
+    MotionRecorder(const SceneDescription& scene, std::vector<BodyReport> reports, KeyKind kind);
 
     /// Adds the next moment. `camera`: its pose then. `records`: since the moment before; null: without impacts at times
     /// of their own.
@@ -71,7 +71,7 @@ private:
     std::vector<PoseKeys> bodies_;
     std::vector<Pose> last_;        // by body
     std::vector<Impacts> impacts_;  // by body
-    PoseKeys camera_{false};
+    PoseKeys camera_;
     Quat last_camera_ = Quat::Identity();
     double last_time_ = 0.0;  // s
     bool started_ = false;

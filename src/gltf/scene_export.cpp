@@ -214,13 +214,18 @@ template <int N>
 void SceneWriter::add_channel(std::size_t node, const char* path, const KeyTrack<N>& track) {
     if (track.keys().size() < 2) return;
     std::vector<float> times, values;
+    const bool cubic = track.kind() == KeyKind::cubic;
+    const auto add = [&](const Eigen::Matrix<float, N, 1>& part) {
+        values.insert(values.end(), part.data(), part.data() + N);
+    };
     for (const typename KeyTrack<N>::Key& key : track.keys()) {
         times.push_back(key.time);
-        for (const auto* part : {&key.in, &key.value, &key.out})
-            values.insert(values.end(), part->data(), part->data() + N);
+        if (cubic) add(key.in);
+        add(key.value);
+        if (cubic) add(key.out);
     }
     samplers_.push_back({{"input", buffer_.add(times, 1, GlbBuffer::Use::animation, true)},
-                         {"interpolation", "CUBICSPLINE"},
+                         {"interpolation", cubic ? "CUBICSPLINE" : "LINEAR"},
                          {"output", buffer_.add(values, N, GlbBuffer::Use::animation, false)}});
     channels_.push_back({{"sampler", samplers_.size() - 1}, {"target", {{"node", node}, {"path", path}}}});
 }

@@ -153,21 +153,23 @@ class Glb:
                     self.test.assertGreater(dot(side, normals[a]), 0.0)  # counter-clockwise from outside
 
     def read_track(self, sampler):
-        self.test.assertEqual(sampler["interpolation"], "CUBICSPLINE")
+        values = {"CUBICSPLINE": 3, "LINEAR": 1}[sampler["interpolation"]]  # a key
         self.test.assertIn("min", self.json["accessors"][sampler["input"]])
         times = [t for t, in self.accessors[sampler["input"]]]
         output = self.accessors[sampler["output"]]
-        self.test.assertEqual(len(output), 3 * len(times))
+        self.test.assertEqual(len(output), values * len(times))
         self.test.assertTrue(all(a < b for a, b in zip(times, times[1:])))
         self.test.assertGreaterEqual(times[0], 0.0)
         return times, output
 
     def value(self, name, path, time):
-        """A node's value at a time, as the specification defines it."""
+        """A node's value at a time, as the specification defines it; of linear keys at a key or in rest."""
         node = self.nodes[name]
         if (node, path) not in self.tracks:
             return self.json["nodes"][node][path]
         times, output = self.tracks[node, path]
+        if len(output) == len(times):
+            return output[max(bisect.bisect_right(times, time + 1e-6) - 1, 0)]
         k = bisect.bisect_right(times, time) - 1
         if k < 0 or k == len(times) - 1:
             return output[3 * max(k, 0) + 1]
@@ -306,6 +308,24 @@ class Export(program.ProgramTest):
         for path in ("translation", "rotation"):
             self.assertLess(glb.tracks[glb.nodes["box"], path][0][-1], at_rest + 1e-6)
 
+    def test_linear_keys_at_frames(self):
+        text = FLIGHT.replace("duration = 2.0", "duration = 8.0").replace("restitution = 0.9", "restitution = 0.2\nfriction = 1.0")
+        glb = self.export(text, "--keys", "frames", "--set", "body.box.friction=1")
+        self.assertEqual({sampler["interpolation"] for sampler in glb.json["animations"][0]["samplers"]}, {"LINEAR"})
+        self.assertEqual(glb.json["asset"]["extras"]["momentsPerSecond"], 60)
+        self.check(0, "simulate", "scene.toml", "--trajectory", "t.csv", "--quiet", "--set", "body.box.friction=1")
+        for row in self.rows("t.csv"):
+            body, time = row["body"], float(row["time"])
+            position = [float(row[c]) for c in ("x", "y", "z")]
+            rotation = [float(row[c]) for c in ("qx", "qy", "qz", "qw")]
+            self.assertLess(math.dist(glb.value(body, "translation", time), position), 1e-5, (body, time))
+            self.assertLess(angle(glb.value(body, "rotation", time), rotation), 1e-5, (body, time))
+        # One key a frame while the box moves, none in rest.
+        times = glb.tracks[glb.nodes["box"], "translation"][0]
+        for i, time in enumerate(times):
+            self.assertAlmostEqual(time, i / 60, delta=1e-6)
+        self.assertLess(times[-1], 7.0)
+
     def test_a_scene_without_motion(self):
         glb = self.export(FLIGHT, "--duration", 0)
         self.assertNotIn("animations", glb.json)
@@ -338,6 +358,7 @@ rotation = { axis = [1.0, 2.0, 3.0], angle = 50.0 }
     def test_misuse(self):
         for message, *arguments in (("must end with .glb", "scene.toml", "-o", "clip.gltf"),
                                     ("--output", "scene.toml"),
+                                    ("cubic, frames", "scene.toml", "-o", "clip.glb", "--keys", "some"),
                                     ('unknown key "masss"', "scene.toml", "-o", "clip.glb", "--set", "body.crate.masss=1"),
                                     ("missing.toml", "missing.toml", "-o", "clip.glb")):
             run = self.check(2, "export", *arguments)

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/composition/frame_layout.h"
+#include "gltf/key_track.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
 #include "render/renderer.h"
@@ -64,6 +65,7 @@ void run_plot(const PlotCommand& command);
 struct ExportCommand {
     std::filesystem::path scene;
     std::filesystem::path output;  // .glb
+    KeyKind keys = KeyKind::cubic;
     SceneOverrides overrides;
     int threads = 1;
     bool quiet = false;

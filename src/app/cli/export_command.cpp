@@ -24,7 +24,7 @@ void run_export(const ExportCommand& command) {
     ExportedScene exported;
     {
         Interrupt interrupt;
-        exported = export_scene(scene, command.threads, command.quiet, interrupt);
+        exported = export_scene(scene, command.keys, command.threads, command.quiet, interrupt);
         file.write(exported.bytes);
     }
     file.commit();

@@ -47,14 +47,15 @@ private:
 
 }  // namespace
 
-ExportedScene export_scene(const SceneDescription& scene, int threads, bool quiet, Interrupt& interrupt) {
-    const int parts = moments_per_frame(scene.simulation.steps_per_frame);
+ExportedScene export_scene(const SceneDescription& scene, KeyKind keys, int threads, bool quiet, Interrupt& interrupt) {
+    const bool cubic = keys == KeyKind::cubic;
+    const int parts = cubic ? moments_per_frame(scene.simulation.steps_per_frame) : 1;
     const FrameTiming timing{scene.output.fps * parts, scene.simulation.steps_per_frame / parts};
     World world(scene, timing, threads);
-    if (scene.simulation.impacts == ImpactMode::exact) world.record_contacts();
+    if (cubic && scene.simulation.impacts == ImpactMode::exact) world.record_contacts();
     std::vector<BodyReport> reports;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) reports.push_back(world.report(i));
-    MotionRecorder motion(scene, std::move(reports));
+    MotionRecorder motion(scene, std::move(reports), keys);
     const std::int64_t moments = (scene.frame_count() - 1) * parts + 1;
     ExportObserver observer(motion, scene.camera, moments, quiet);
     SurveyObserver* const observers[] = {&observer};

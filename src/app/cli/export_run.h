@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/threads/interrupt.h"
+#include "gltf/key_track.h"
 #include "scene/description/description.h"
 
 #include <cstddef>
@@ -15,6 +16,6 @@ struct ExportedScene {
 };
 
 /// Simulates the scene. Throws RunError after an interrupt.
-ExportedScene export_scene(const SceneDescription& scene, int threads, bool quiet, Interrupt& interrupt);
+ExportedScene export_scene(const SceneDescription& scene, KeyKind keys, int threads, bool quiet, Interrupt& interrupt);
 
 }  // namespace tumble

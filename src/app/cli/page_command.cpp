@@ -61,7 +61,7 @@ PageFilm film_of(const PageCommand& command, const PageScenes& scenes) {
 /// A link that saves the clip as a file.
 std::string download_html(const PageCommand& command, const PageScenes& scenes) {
     Interrupt interrupt;
-    const ExportedScene exported = export_scene(scenes.scenes.front(), command.threads, command.quiet, interrupt);
+    const ExportedScene exported = export_scene(scenes.scenes.front(), KeyKind::cubic, command.threads, command.quiet, interrupt);
     return fmt::format(
         "<p class=\"download\"><a download=\"{}.glb\" href=\"{}\">Download the clip as glTF</a> for Blender and other "
         "3D "
