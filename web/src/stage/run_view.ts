@@ -16,7 +16,7 @@ import { Sky } from "./sky.ts";
 import type { Moment } from "./moment.ts";
 
 /** Of other runs in a comparison by ghosts. */
-const run_opacity = 0.5;
+const run_opacity = 0.6;
 const run_tint = 0.65;
 /** Width of the outline of the chosen body, units of the screen. */
 const outline_width = 2.2;
