@@ -1,19 +1,15 @@
-// A page with a stage alone, for its tests and to look at: the clip of the synthetic scene, or one that a test puts there.
+// A page with a stage alone, for its tests and to look at: open_stage() shows one of the clips below.
 import type { Clip } from "../src/data/clip.ts";
 import { Stage } from "../src/stage/stage.ts";
 import { make_synthetic_clip } from "./synthetic_clip.ts";
 import { make_many } from "./synthetic_many.ts";
 
-const clips: Record<string, () => Clip> = {
-  synthetic: make_synthetic_clip,
-  "100": () => make_many(100),
-  "1000": () => make_many(1000),
-};
+const clips = { synthetic: make_synthetic_clip, hundred: () => make_many(100), thousand: () => make_many(1000) };
 
 declare global {
   var stage: Stage;
   var clip: Clip;
-  var open_stage: (name: string, theme: "light" | "dark") => void;
+  var open_stage: (name: keyof typeof clips, theme: "light" | "dark") => void;
 }
 
 globalThis.open_stage = (name, theme) => {
@@ -22,3 +18,4 @@ globalThis.open_stage = (name, theme) => {
   globalThis.clip = clips[name]();
   globalThis.stage = new Stage(document.getElementById("host")!, globalThis.clip, theme);
 };
+document.documentElement.dataset.player = "ready";

@@ -4,8 +4,9 @@ import { add, clamp, cross, dot, length, normalized, scaled, subtract } from "./
 
 /** Between the view direction and the vertical: the view never turns over, rad. */
 const steepest = 0.02;
-/** Shape of pictures that scenes are composed for: in narrower ones the view widens, so that as much of the scene is seen. */
-const composed_aspect = 16 / 9;
+/** Width over height of a picture: in narrower ones the view widens, so that as much of the scene is seen. Scenes are composed for
+ * 16:9, with some room at the sides. */
+const composed_aspect = 1.5;
 
 export interface MovingScene {
   scene: Scene;

@@ -59,7 +59,10 @@ export class Labels {
     const { label_color, label_background } = theme_of(this.theme);
     const span = this.pool[this.used] ?? this.make();
     this.used += 1;
-    if (span.textContent !== text) span.textContent = text;
+    if (span.dataset.text !== text) {
+      span.dataset.text = text;
+      span.replaceChildren(...with_subscripts(text));
+    }
     Object.assign(span.style, {
       display: "block", transform, color: label_color, background: label_background,
       borderLeft: dot ? `0.3em solid ${dot}` : "none",
@@ -76,4 +79,13 @@ export class Labels {
     this.pool.push(span);
     return span;
   }
+}
+
+// "r_b" has a b below the line; names of bodies may have underscores too, and are longer.
+function with_subscripts(text: string): (string | HTMLElement)[] {
+  const parts = /^(.?[vrxωmIṗ])_(rel|a|b)(.*)$/u.exec(text);
+  if (!parts) return [text];
+  const below = document.createElement("sub");
+  below.textContent = parts[2];
+  return [parts[1], below, parts[3]];
 }

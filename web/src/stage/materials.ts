@@ -5,6 +5,7 @@ import {
   body_fragment_glsl, body_vertex_glsl, depth_fragment_glsl, depth_vertex_glsl, outline_fragment_glsl, outline_vertex_glsl,
 } from "./body_glsl.ts";
 import { plane_fragment_glsl, plane_vertex_glsl, sky_fragment_glsl, sky_vertex_glsl } from "./ground_glsl.ts";
+import { occlusion_fragment_glsl, occlusion_vertex_glsl } from "./occlusion_glsl.ts";
 import { theme_of, type Theme } from "./theme.ts";
 
 export type BodyKind = "box" | "ball" | "mesh";
@@ -41,6 +42,16 @@ export class Materials {
   plane(uniforms: Uniforms): THREE.ShaderMaterial {
     const material = this.make(plane_vertex_glsl, plane_fragment_glsl, {});
     Object.assign(material.uniforms, uniforms);
+    return material;
+  }
+
+  /** Multiplies the ground that it lies on. */
+  occlusion(): THREE.ShaderMaterial {
+    const material = this.make(occlusion_vertex_glsl, occlusion_fragment_glsl, {
+      depthWrite: false, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -4, blending: THREE.CustomBlending,
+      blendEquation: THREE.AddEquation, blendSrc: THREE.DstColorFactor, blendDst: THREE.ZeroFactor,
+    });
+    material.uniforms.u_normal = { value: new THREE.Vector3(0, 1, 0) };
     return material;
   }
 

@@ -9,6 +9,11 @@ import { add, cross, dot, normalized, rotate, scaled, subtract } from "./math.ts
 /** Half of the square, in distances at which fog is half of the light: fog is 0.9998 of it there. */
 const reach = 8;
 
+/** A plane at a moment: points with normal . x = offset. */
+export interface WorldPlane {
+  at(time: number): { normal: Vec3; offset: number };
+}
+
 interface Plane {
   body: number;
   normal: Vec3;
@@ -69,6 +74,18 @@ export class PlaneSet {
       set("u_normal", up);
       set("u_origin", add(pose.origin, scaled(up, offset)));
     }
+  }
+
+  /** In the order of the bodies. */
+  world_planes(motion: Motion): WorldPlane[] {
+    const pose: Pose = { position: [0, 0, 0], origin: [0, 0, 0], rotation: [1, 0, 0, 0] };
+    return this.planes.map(({ body, normal, offset }) => ({
+      at: (time) => {
+        motion.pose(body, time, pose);
+        const up = rotate(pose.rotation, normal);
+        return { normal: up, offset: offset + dot(up, pose.origin) };
+      },
+    }));
   }
 
   dispose(): void {

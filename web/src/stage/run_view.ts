@@ -8,6 +8,7 @@ import type { Materials } from "./materials.ts";
 import { distance } from "./math.ts";
 import { OverlayView } from "./overlay_view.ts";
 import { run_colors } from "./overlay_style.ts";
+import { OcclusionSet } from "./occlusion_set.ts";
 import { PlaneSet } from "./plane_set.ts";
 import { measure, type SceneSize } from "./scene_size.ts";
 import type { ScreenUniforms } from "./screen_shapes.ts";
@@ -16,7 +17,7 @@ import { Sky } from "./sky.ts";
 import type { Moment } from "./moment.ts";
 
 /** Of other runs in a comparison by ghosts. */
-const run_opacity = 0.5;
+const run_opacity = 0.6;
 const run_tint = 0.65;
 /** Width of the outline of the chosen body, units of the screen. */
 const outline_width = 2.2;
@@ -33,6 +34,7 @@ export class RunView {
   private readonly outline: BodySet;
   private readonly planes: PlaneSet;
   private readonly sky: Sky;
+  private readonly occlusion: OcclusionSet[];
   private readonly shadow: ShadowMap | null;
   /** Ghosts of other runs, by their index. */
   private readonly others = new Map<number, { run: Run; set: BodySet; geometries: Geometries }>();
@@ -50,10 +52,14 @@ export class RunView {
     this.outline = new BodySet(scene, this.geometries, materials.outline);
     this.planes = new PlaneSet(scene, materials, this.size.fog_distance, this.size.pattern_cell);
     this.sky = new Sky(materials);
+    this.occlusion = this.planes
+      .world_planes(run.motion)
+      .map((plane) => new OcclusionSet(run, plane, materials, this.size.radii));
     const { shadow_center, shadow_radius, to_light } = this.size;
     this.shadow = scene.light.shadows ? new ShadowMap(shadow_center, shadow_radius, to_light) : null;
     this.overlays = new OverlayView(run, this.size, this.geometries, materials, uniforms);
     this.scene.add(this.solids.group, this.outline.group, this.planes.group, this.sky.mesh, this.overlays.group);
+    for (const { mesh } of this.occlusion) this.scene.add(mesh);
   }
 
   /** `others`: runs whose bodies are shown as ghosts, by their index. */
@@ -69,6 +75,7 @@ export class RunView {
     });
     this.solids.end();
     this.outline.end();
+    for (const occlusion of this.occlusion) occlusion.update(time);
     this.update_others(time, others);
   }
 
@@ -118,7 +125,7 @@ export class RunView {
   }
 
   dispose(): void {
-    for (const part of [this.solids, this.outline, this.planes, this.sky, this.overlays, this.geometries]) part.dispose();
+    for (const part of [this.solids, this.outline, this.planes, this.sky, ...this.occlusion, this.overlays, this.geometries]) part.dispose();
     this.shadow?.dispose();
     for (const { set, geometries } of this.others.values()) {
       set.dispose();

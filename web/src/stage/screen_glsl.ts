@@ -45,13 +45,7 @@ float coverage(float distance) { return clamp(0.5 - distance, 0.0, 1.0); }
 // The shape over its dark outline, so that it is seen on bright and on dark ground.
 void paint(float distance, float halo) {
   float share = v_color.w * u_opacity;
-#ifdef HALO
-  float own = 0.0, dark = 0.55 * share * coverage(distance - halo);
-#elif defined(CORE)
-  float own = share * coverage(distance), dark = 0.0;
-#else
   float own = share * coverage(distance), dark = 0.55 * share * coverage(distance - halo);
-#endif
   dark *= 1.0 - own;
   if (own + dark <= 0.0) discard;
   pixel = vec4(v_color.rgb * own + vec3(0.063, 0.078, 0.11) * dark, own + dark);
@@ -124,7 +118,8 @@ void main() {
   float size = length(way), halo = halo_of(width), reach = 0.5 * width + halo + 1.0;
   vec2 axis = size < 1e-3 ? vec2(1.0, 0.0) : way / size, side = vec2(-axis.y, axis.x);
   v_line = vec3(size, 0.5 * width, halo);
-  v_at = vec2(mix(-reach, size + reach, position.x), position.y * reach);
+  // Round at the end alone: a piece leaves the end of the piece before it as it is, so that joints show no seam.
+  v_at = vec2(mix(0.0, size + reach, position.x), position.y * reach);
   put(foot + axis * v_at.x + side * v_at.y, mix(depth_of(from), depth_of(to), clamp(v_at.x / max(size, 1e-3), 0.0, 1.0)));
 }
 `;
@@ -134,8 +129,7 @@ ${screen_fragment_glsl}
 in vec2 v_at;
 flat in vec3 v_line;
 void main() {
-  float before = v_at.x - clamp(v_at.x, 0.0, v_line.x);
-  paint(length(vec2(before, v_at.y)) - v_line.y, v_line.z);
+  paint(length(vec2(max(v_at.x - v_line.x, 0.0), v_at.y)) - v_line.y, v_line.z);
 }
 `;
 

@@ -57,27 +57,23 @@ export class ScreenShapes {
     this.geometry.setAttribute("position", new THREE.BufferAttribute(corners, 3));
     this.geometry.setIndex([0, 1, 2, 0, 2, 3]);
     this.grow(16);
-    const lines = kind === "line" || kind === "trail";
-    // The outlines of all pieces of a line lie below all of its pieces: joints show no seam.
-    const layers = lines ? ["HALO", "CORE"] : [""];
-    for (const hidden of [true, false])
-      layers.forEach((layer, level) => {
-        const material = new THREE.ShaderMaterial({
-          glslVersion: THREE.GLSL3,
-          uniforms: { ...uniforms, u_opacity: { value: 1 } },
-          defines: { ...(layer ? { [layer]: "" } : {}), ...(kind === "trail" ? { TRAIL: "" } : {}) },
-          vertexShader: programs[kind][0],
-          fragmentShader: programs[kind][1],
-          depthFunc: hidden ? THREE.GreaterDepth : THREE.LessEqualDepth,
-          side: THREE.DoubleSide,
-          ...translucent,
-        });
-        this.materials.push({ material, share: hidden ? faint : 1 });
-        const mesh = new THREE.Mesh(this.geometry, material);
-        mesh.frustumCulled = false;
-        mesh.renderOrder = first_order + 4 * order + (hidden ? 0 : 2) + level;
-        this.group.add(mesh);
+    for (const hidden of [true, false]) {
+      const material = new THREE.ShaderMaterial({
+        glslVersion: THREE.GLSL3,
+        uniforms: { ...uniforms, u_opacity: { value: 1 } },
+        defines: kind === "trail" ? { TRAIL: "" } : {},
+        vertexShader: programs[kind][0],
+        fragmentShader: programs[kind][1],
+        depthFunc: hidden ? THREE.GreaterDepth : THREE.LessEqualDepth,
+        side: THREE.DoubleSide,
+        ...translucent,
       });
+      this.materials.push({ material, share: hidden ? faint : 1 });
+      const mesh = new THREE.Mesh(this.geometry, material);
+      mesh.frustumCulled = false;
+      mesh.renderOrder = first_order + 2 * order + (hidden ? 0 : 1);
+      this.group.add(mesh);
+    }
   }
 
   begin(): void {

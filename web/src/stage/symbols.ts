@@ -120,7 +120,7 @@ const whole = (b: boolean, text: string): ImpactSymbol => (drawing, impact) => {
   drawing.frame.labels.push({ at: pose.position, text: `${text}${sub(letter)}`, color: null });
 };
 
-const sub = (letter: string) => (letter === "a" ? "ₐ" : "_b");
+const sub = (letter: string) => `_${letter}`;
 
 const draw_normal: ImpactSymbol = (drawing, impact) =>
   drawing.arrow(place(impact), scaled(normal(impact), drawing.plain), normal_color, "n̂");

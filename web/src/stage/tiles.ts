@@ -11,7 +11,8 @@ export function tile(count: number, width: number, height: number): ViewRectangl
   for (let columns = 1; columns <= count; ++columns) {
     const rows = Math.ceil(count / columns);
     const size = Math.min(width / columns / composed, height / rows);
-    if (size > best.size) best = { columns, rows, size };
+    // Of equal ones that with more columns: heights are compared side by side.
+    if (size >= best.size) best = { columns, rows, size };
   }
   const { columns, rows } = best;
   const edge = (index: number, parts: number, whole: number) => Math.round((index * (whole + gap)) / parts);
