@@ -27,6 +27,8 @@ export class StageView implements PooledView {
     state.on(["overlays"], () => this.stage?.set_overlays(new Set(state.get("overlays"))));
     state.on(["body", "follow"], () => this.choose());
     on_theme(() => this.stage?.set_theme(theme()));
+    // The printed page has the last picture, and no animation frame comes before it.
+    addEventListener("beforeprint", () => this.stage?.draw());
     new ResizeObserver(() => this.stage?.resize()).observe(this.host);
   }
 
