@@ -31,7 +31,10 @@ export function equation_markup(tex) {
 
 async function font_rule(packages) {
   const file = join(packages, "@fontsource/noto-sans-math/files/noto-sans-math-latin-400-normal.woff2");
-  const font = await subset_font(await readFile(file), math_characters, { targetFormat: "woff2" });
+  const font = await subset_font(await readFile(file), math_characters, {
+    targetFormat: "woff2",
+    preserveNameIds: [0, 13, 14],   // copyright and license, which every copy must have
+  });
   return `@font-face { font-family: "Tumble Math"; src: url(data:font/woff2;base64,${font.toString("base64")}) format("woff2"); }`;
 }
 
