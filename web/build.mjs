@@ -7,6 +7,7 @@ import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { deflateRawSync } from "node:zlib";
+import { math_plugin } from "./build/math.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = resolve(process.argv[2] ?? join(here, "../build/web"));
@@ -25,6 +26,7 @@ async function bundled(options) {
     write: false,
     absWorkingDir: here,
     loader: { ".woff2": "dataurl" },
+    plugins: [math_plugin()],
     ...options,
   });
   return { text: result.outputFiles[0].text.trimEnd(), inputs: Object.keys(result.metafile.inputs) };
@@ -59,7 +61,8 @@ function fill(template, values) {
 }
 
 const { text: bundle, inputs } = await script("player.ts");
-const licenses = await licenses_of(inputs);
+// The style has rules of temml.
+const licenses = await licenses_of([...inputs, "node_modules/temml/package.json"]);
 const player = licenses ? `/*\n${licenses.replaceAll("*/", "* /")}\n*/\n${bundle}` : bundle;
 const { text: loader } = await script("loader.ts");
 const sheets = ["shell.css", "page.css"].filter((name) => existsSync(source(name)));

@@ -1,7 +1,7 @@
-// A plugin of esbuild for mathematics: `equations.json` (TeX) becomes MathML, and `tumble-math-font.css` a font for MathML that
-// has only the characters that equations use.
+// A plugin of esbuild for mathematics: `equations.json` (TeX) becomes MathML, and `tumble-math.css` temml's rules and a font
+// for MathML that has only the characters that equations use.
 import { readFile } from "node:fs/promises";
-import { fileURLToPath, pathToFileURL } from "node:url";
+import { join } from "node:path";
 import subset_font from "subset-font";
 import temml from "temml";
 
@@ -13,8 +13,7 @@ export const math_characters = [
   range(0x1d434, 0x1d467), "\u210e",       // italic Latin; the place of h is empty
   range(0x1d6e2, 0x1d71b),                  // italic Greek
   range(0x1d400, 0x1d433),                  // bold Latin
-  range(0x1d6a8, 0x1d6e1),                  // bold Greek
-  range(0x1d71c, 0x1d755),                  // bold italic Greek
+  range(0x1d736, 0x1d755),                  // bold italic Greek, small
   range(0x391, 0x3a1), range(0x3a3, 0x3a9), range(0x3b1, 0x3c9), "\u03d5\u03f5",
   "\u00a0\u00a8\u00ac\u00af\u00b0\u00b1\u00b2\u00b3\u00b4\u00b7\u00b9\u00d7\u00f7",
   "\u02c6\u02c7\u02d8\u02d9\u02dc\u0302\u0304\u0307\u0308\u20d7",
@@ -30,6 +29,21 @@ export function equation_markup(tex) {
   return temml.renderToString(tex, { displayMode: true, throwOnError: true });
 }
 
+async function font_rule(packages) {
+  const file = join(packages, "@fontsource/noto-sans-math/files/noto-sans-math-latin-400-normal.woff2");
+  const font = await subset_font(await readFile(file), math_characters, {
+    targetFormat: "woff2",
+    preserveNameIds: [0, 13, 14],   // copyright and license, which every copy must have
+  });
+  return `@font-face { font-family: "Tumble Math"; src: url(data:font/woff2;base64,${font.toString("base64")}) format("woff2"); }`;
+}
+
+/** Without temml's own font, which only script letters need. */
+async function temml_rules(packages) {
+  const text = await readFile(join(packages, "temml/dist/Temml-Local.css"), "utf8");
+  return text.replace(/@font-face\s*\{[^}]*\}/g, "").replace(/[^{}]*\{\s*font-family:\s*["']?Temml["']?;\s*\}/g, "");
+}
+
 export function math_plugin() {
   return {
     name: "math",
@@ -38,16 +52,11 @@ export function math_plugin() {
         const equations = Object.entries(JSON.parse(await readFile(path, "utf8")));
         return { contents: JSON.stringify(Object.fromEntries(equations.map(([name, tex]) => [name, equation_markup(tex)]))), loader: "json" };
       });
-      build.onResolve({ filter: /^tumble-math-font\.css$/ }, ({ path }) => ({ path, namespace: "math-font" }));
-      build.onLoad({ filter: /.*/, namespace: "math-font" }, async () => {
-        // Resolved from the working folder: a bundle of this module may lie elsewhere.
-        const file = new URL("node_modules/@fontsource/noto-sans-math/files/noto-sans-math-latin-400-normal.woff2",
-          pathToFileURL(`${build.initialOptions.absWorkingDir ?? process.cwd()}/`));
-        const font = await subset_font(await readFile(fileURLToPath(file)), math_characters, { targetFormat: "woff2" });
-        return {
-          contents: `@font-face { font-family: "Tumble Math"; src: url(data:font/woff2;base64,${font.toString("base64")}) format("woff2"); }`,
-          loader: "css",
-        };
+      build.onResolve({ filter: /^tumble-math\.css$/ }, ({ path }) => ({ path, namespace: "math" }));
+      build.onLoad({ filter: /.*/, namespace: "math" }, async () => {
+        // From the working folder: a bundle of this module may lie elsewhere.
+        const packages = join(build.initialOptions.absWorkingDir ?? process.cwd(), "node_modules");
+        return { contents: `${await font_rule(packages)}\n${await temml_rules(packages)}`, loader: "css" };
       });
     },
   };

@@ -95,6 +95,16 @@ test("impacts at one time are one moment, found in both directions", () => {
   assert.equal(next_moment(run, moments[moments.length - 1].time), null);
 });
 
+test("momenta of the scene are those of its bodies, about the world origin", () => {
+  const at = 1, { series } = plot_series([run], { kind: "scene", quantity: "momentum" });
+  const speed = ball_at(0.5, at).speed;
+  assert.ok(Math.abs(series[0].at(at, false) - Math.abs(speed)) < 1e-9, "the box rests, the ball has 1 kg");
+  const angular = plot_series([run], { kind: "scene", quantity: "angular-momentum" }).series[0].at(at, false);
+  const spin = 2 * (0.8 ** 2 + 0.6 ** 2) / 12 * 1.5;
+  // The ball flies beside the origin, at x = -0.6 m; the box spins.
+  assert.ok(Math.abs(angular - Math.hypot(0.6 * speed, spin)) < 1e-9);
+});
+
 test("names of plots are read as `tumble plot` has them", () => {
   const named: Run = { ...run, scene: { ...run.scene, bodies: run.scene.bodies.map((body, i) => ({ ...body, name: ["a", "ball.v2", "c"][i] })) } };
   assert.deepEqual(read_subjects("energy, body.ball.v2.spin,total,body.none.y,nonsense", named),

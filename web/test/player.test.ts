@@ -199,6 +199,30 @@ test("with reduced motion nothing plays by itself and nothing glides", () => wit
   assert.equal(await page.evaluate(() => tumble.player.state.get("playing")), false);
 }));
 
+test("equations have the page's own font", () => with_player({}, async (page) => {
+  await page.evaluate(() => tumble.player.actions.go_to_impact(4));
+  const client = await page.context().newCDPSession(page);
+  await client.send("DOM.enable");
+  await client.send("CSS.enable");
+  const { root } = await client.send("DOM.getDocument");
+  const { nodeIds } = await client.send("DOM.querySelectorAll", { nodeId: root.nodeId, selector: "math mi, math mo, math mn, math mtext" });
+  assert.ok(nodeIds.length > 50);
+  for (const nodeId of nodeIds) {
+    const { fonts } = await client.send("CSS.getPlatformFontsForNode", { nodeId });
+    const others = fonts.filter((font) => !font.isCustomFont);
+    assert.deepEqual(others.map((font) => font.familyName), [], (await client.send("DOM.getOuterHTML", { nodeId })).outerHTML);
+  }
+}));
+
+test("paper is light, and the page dark again after it", () => with_player({ dark: true }, async (page) => {
+  const dark = await picture_number(page);
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  assert.equal(await page.getAttribute("html", "data-theme"), "light");
+  assert.notEqual(await picture_number(page), dark);
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+  assert.equal(await picture_number(page), dark);
+}));
+
 test("of many players at most eight have a stage, and the ones in view do", async () => {
   const path = await make_player_page("many", Array.from({ length: 12 }, () => ({ layout: "lesson" })));
   await with_player({ width: 500, height: 400 }, async (page) => {

@@ -120,6 +120,7 @@ function make_motion(restitution: number, duration: number): Motion {
   return {
     state: (body, time) => state_at(restitution, duration, body, time, false),
     state_before: (body, time) => state_at(restitution, duration, body, time, true),
+    state_after: (body, time) => state_at(restitution, duration, body, time, false),
     pose(body: number, time: number, out: Pose): Pose {
       const { position, origin, rotation } = state_at(restitution, duration, body, time, false);
       return Object.assign(out, { position, origin, rotation });
@@ -246,7 +247,9 @@ export function make_synthetic_run(restitution: number): Run {
     motion,
     energy: make_energy(motion, contacts, impacts),
     impacts,
+    all_impacts: impacts.length,
     contacts,
+    all_contacts: contacts.a.length,
     loads: {
       force: (body) => [0, -mass_of(body) * gravity, 0],
       moment(body, frame) {

@@ -83,7 +83,6 @@ std::string body_html(const PageCommand& command, const PageScenes& scenes, cons
     figure.options.time = command.time;
     figure.options.follow = command.follow;
     figure.options.compare = command.compare;
-    if (run.scene.overlay.plot.empty() && !command.overrides.plot) figure.options.plot = "energy";
     figure.options.alt = summary_of(run);
     std::string html = masthead_html(clip.title, "", summary_of(run)) + figure_html(figure);
     if (command.embed_glb) html += download_html(command, scenes);

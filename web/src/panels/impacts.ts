@@ -1,7 +1,7 @@
 // The panel of impacts: the list and the chosen one.
 import type { Actions } from "../ui/actions.ts";
 import { h, set_text } from "../ui/dom.ts";
-import { count_text } from "../ui/format.ts";
+import { count_text, trimmed_text } from "../ui/format.ts";
 import type { PlayerState } from "../ui/player_state.ts";
 import { ImpactCard } from "./impact_card.ts";
 import { ImpactList } from "./impact_list.ts";
@@ -13,9 +13,11 @@ export function build_impacts(state: PlayerState, actions: Actions, heading: "h3
   const show = (): void => {
     const run = state.run;
     const total = run.impacts.reduce((sum, impact) => sum + impact.impulse, 0);
+    const kept = run.impacts.length < run.all_impacts ? `The ${run.impacts.length} strongest of ${run.all_impacts} impacts` :
+      count_text(run.impacts.length, "impact");
     set_text(summary, run.impacts.length === 0 ? "No impacts in this run." :
-      `${count_text(run.impacts.length, "impact")}, ${run.settings.impacts === "exact" ? "each at its own time" : "at the times of the steps"}; ` +
-      `impulses of ${total.toPrecision(4)} N s in all.`);
+      `${kept}, ${run.settings.impacts === "exact" ? "each at its own time" : "at the times of the steps"}; ` +
+      `impulses of ${trimmed_text(total, 4)} N s in all.`);
     list.element.hidden = card.element.hidden = run.impacts.length === 0;
   };
   state.on(["run"], show);

@@ -1,6 +1,6 @@
 // Quantities that plots show: those of `tumble plot --of`, and more of a body.
 import type { BodyState, EnergyTable, Run, Vec3 } from "../data/clip.ts";
-import { dot, norm, transform, turned } from "./linear.ts";
+import { add, cross, dot, norm, transform, turned } from "./linear.ts";
 
 export interface BodyQuantity {
   label: string;
@@ -12,7 +12,7 @@ export interface BodyQuantity {
 export interface SceneQuantity {
   label: string;
   unit: string;
-  column(energy: EnergyTable, frame: number): number;
+  value(run: Run, frame: number): number;
 }
 
 const axes = ["x", "y", "z"];
@@ -51,15 +51,30 @@ export const body_quantities = new Map<string, BodyQuantity>([
   ["potential", { label: "potential energy", symbol: "E", unit: "J", value: potential_energy }],
 ]);
 
+function column(label: string, unit: string, of: (energy: EnergyTable, frame: number) => number): SceneQuantity {
+  return { label, unit, value: (run, frame) => of(run.energy, frame) };
+}
+
+/** Over the dynamic bodies. */
+function sum(run: Run, frame: number, of: (state: BodyState) => Vec3): Vec3 {
+  let total: Vec3 = [0, 0, 0];
+  for (const [index, body] of run.scene.bodies.entries()) {
+    if (body.type === "dynamic") total = add(total, of(run.motion.state(index, frame / run.fps)));
+  }
+  return total;
+}
+
 export const scene_quantities = new Map<string, SceneQuantity>([
-  ["kinetic", { label: "kinetic energy", unit: "J", column: (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] }],
-  ["potential", { label: "potential energy", unit: "J", column: (e, i) => e.potential[i] }],
-  ["total", {
-    label: "total energy", unit: "J",
-    column: (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] + e.potential[i] + e.elastic[i],
+  ["kinetic", column("kinetic energy", "J", (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i])],
+  ["potential", column("potential energy", "J", (e, i) => e.potential[i])],
+  ["total", column("total energy", "J", (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] + e.potential[i] + e.elastic[i])],
+  ["momentum", { label: "total momentum |P|", unit: "N s", value: (run, frame) => norm(sum(run, frame, (state) => state.momentum)) }],
+  ["angular-momentum", {
+    label: "total angular momentum |L|", unit: "N m s",
+    value: (run, frame) => norm(sum(run, frame, (state) => add(cross(state.position, state.momentum), state.angular_momentum))),
   }],
-  ["contacts", { label: "contact points", unit: "", column: (e, i) => e.contacts[i] }],
-  ["penetration", { label: "deepest overlap", unit: "m", column: (e, i) => e.max_penetration[i] }],
+  ["contacts", column("contact points", "", (e, i) => e.contacts[i])],
+  ["penetration", column("deepest overlap", "m", (e, i) => e.max_penetration[i])],
 ]);
 
 /** A plot: the stacked energies, a quantity of the scene, or one of a body. */

@@ -78,7 +78,7 @@ function scene_series(runs: Run[], name: string): PlotData {
   const quantity = scene_quantities.get(name)!;
   const times = frame_times(runs);
   const series = runs.map((run): Series => {
-    const at = (time: number): number => between_frames(run, time, (frame) => quantity.column(run.energy, frame));
+    const at = (time: number): number => between_frames(run, time, (frame) => quantity.value(run, frame));
     return { label: run.label, values: Array.from(times, (time) => (time > run.duration + same_time ? null : at(time))), at };
   });
   return { times, unit: quantity.unit, series };

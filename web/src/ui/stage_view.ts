@@ -16,6 +16,8 @@ export class StageView implements PooledView {
   failed = false;
   private stage: Stage | null = null;
   private film: HTMLVideoElement | null;
+  /** The body chosen at first has no outline: the picture is the scene's own. */
+  private marked = false;
   private highlighted: SymbolHighlight | null = null;
 
   /** `clip`: the state's, or a copy with another camera. */
@@ -25,8 +27,13 @@ export class StageView implements PooledView {
     this.film = this.element.querySelector("video");
     state.on(["time", "run", "compare", "before"], () => this.show());
     state.on(["overlays"], () => this.stage?.set_overlays(new Set(state.get("overlays"))));
-    state.on(["body", "follow"], () => this.choose());
+    state.on(["body", "follow"], (changed) => {
+      this.marked ||= changed.has("body");
+      this.choose();
+    });
     on_theme(() => this.stage?.set_theme(theme()));
+    // The printed page has the last picture, and no animation frame comes before it.
+    addEventListener("beforeprint", () => this.stage?.draw());
     new ResizeObserver(() => this.stage?.resize()).observe(this.host);
   }
 
@@ -59,7 +66,13 @@ export class StageView implements PooledView {
     }
     const stage: Stage = this.stage;
     this.element.dataset.stage = "live";
-    stage.on_pick((body) => this.state.set({ body }));
+    // The tables keep their body when the ground behind it is clicked.
+    stage.on_pick((body) => {
+      if (body === null) return;
+      this.marked = true;
+      this.state.set({ body });
+      this.choose();
+    });
     stage.set_overlays(new Set(this.state.get("overlays")));
     this.choose();
     if (this.highlighted) stage.highlight(this.highlighted);
@@ -85,7 +98,7 @@ export class StageView implements PooledView {
   }
 
   private choose(): void {
-    this.stage?.select(this.state.get("body"));
+    this.stage?.select(this.marked ? this.state.get("body") : null);
     this.stage?.follow(this.state.get("follow") ? this.state.get("body") : null);
   }
 }

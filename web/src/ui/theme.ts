@@ -5,6 +5,8 @@ const storage_key = "tumble-theme";
 const query = matchMedia("(prefers-color-scheme: dark)");
 const listeners = new Set<(theme: Theme) => void>();
 let chosen: Theme | null = null;
+/** Paper is light. */
+let printing = false;
 
 /** Pages opened from disk may refuse storage. */
 function stored(): Theme | null {
@@ -17,12 +19,13 @@ function stored(): Theme | null {
 }
 
 function apply(): void {
-  if (chosen) document.documentElement.dataset.theme = chosen;
+  if (chosen || printing) document.documentElement.dataset.theme = theme();
   else delete document.documentElement.dataset.theme;
   for (const call of listeners) call(theme());
 }
 
 export function theme(): Theme {
+  if (printing) return "light";
   return chosen ?? (query.matches ? "dark" : "light");
 }
 
@@ -44,3 +47,5 @@ export function on_theme(call: (theme: Theme) => void): () => void {
 chosen = stored();
 if (chosen) document.documentElement.dataset.theme = chosen;
 query.addEventListener("change", () => { if (!chosen) apply(); });
+addEventListener("beforeprint", () => { printing = true; apply(); });
+addEventListener("afterprint", () => { printing = false; apply(); });

@@ -1,0 +1,12 @@
+import { math_characters } from "./build/math.mjs"; import subset from "subset-font"; import { readFile } from "fs/promises"; import { readFileSync } from "fs"; import zlib from "zlib";
+const f = await readFile("node_modules/@fontsource/noto-sans-math/files/noto-sans-math-latin-400-normal.woff2");
+const chars = [...math_characters]; console.log(chars.length, (await subset(f, math_characters, { targetFormat: "woff2" })).length);
+const drop = async (name, test) => { const t = chars.filter(c => !test(c.codePointAt(0))).join(""); console.log(name, (await subset(f, t, { targetFormat: "woff2" })).length); };
+await drop("bold greek upright", c => c >= 0x1d6a8 && c <= 0x1d6e1);
+await drop("bold italic greek", c => c >= 0x1d71c && c <= 0x1d755);
+await drop("both, upper", c => c >= 0x1d6a8 && c <= 0x1d6e1 || c >= 0x1d71c && c <= 0x1d735);
+await drop("pieces", c => c >= 0x239b && c <= 0x23df);
+await drop("arrows+ops", c => c >= 0x2190 && c <= 0x2bff);
+await drop("ascii", c => c < 0x7f);
+await drop("all but ascii", c => c >= 0x7f);
+const p = readFileSync("/work/wt/panels-try/build/web/player.js"); const d = zlib.deflateRawSync(p, { level: 9 }); console.log("player", p.length, d.length, d.length * 4 / 3);
