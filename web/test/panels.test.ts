@@ -6,7 +6,7 @@ import { impulse_terms, solve_impulse } from "../src/panels/impulse_equation.ts"
 import { add, cross, dot, inverse, multiply, scaled, transform } from "../src/panels/linear.ts";
 import { read_subjects } from "../src/panels/quantities.ts";
 import { energy_stack, plot_series } from "../src/panels/series.ts";
-import { number_text, trimmed_text } from "../src/ui/format.ts";
+import { number_text, tick_text, trimmed_text } from "../src/ui/format.ts";
 import { moment_at, moment_text, moments_of, next_moment, previous_moment } from "../src/ui/moments.ts";
 import { PlayerState } from "../src/ui/player_state.ts";
 import { ball_at, bounces, box_landing, make_synthetic_clip, make_synthetic_run } from "./synthetic_clip.ts";
@@ -128,7 +128,9 @@ test("numbers are short, aligned and complete as asked", () => {
   assert.equal(number_text(3.14e-7, 3), "3.14\u00b710\u207b\u2077");
   assert.equal(Number(number_text(0.1, 17)), 0.1);
   assert.equal(trimmed_text(0), "0");
+  assert.equal(number_text(-15361.7, 4), "\u221215360");
   assert.equal(trimmed_text(200), "200");
+  assert.equal(tick_text(-4e6), "\u22124\u00b710\u2076");
   assert.equal(trimmed_text(0.5), "0.5");
   assert.equal(trimmed_text(2e9), "2\u00b710\u2079");
 });

@@ -1,6 +1,6 @@
 // How the chosen run was computed, and how exactly the page shows it.
 import { h } from "../ui/dom.ts";
-import { count_text, number_text, short_text, trimmed_text } from "../ui/format.ts";
+import { count_text, number_text, trimmed_text } from "../ui/format.ts";
 import type { PlayerState } from "../ui/player_state.ts";
 
 export function build_about(state: PlayerState): HTMLElement {
@@ -14,7 +14,7 @@ export function build_about(state: PlayerState): HTMLElement {
       ["Program", state.clip.generator],
       ["Length", `${trimmed_text(run.duration)} s, ${count_text(run.frames, "frame")} at ${trimmed_text(run.fps)} per second`],
       ["Bodies", `${run.scene.bodies.length}, of which ${moving.length} move`],
-      ["Integrator", `${settings.integrator}, step ${short_text(settings.step)} s`],
+      ["Integrator", `${settings.integrator}, step ${trimmed_text(settings.step)} s`],
       ["Impacts", settings.impacts === "exact" ? "exact: each at its own time" : "stepped: resolved at the step"],
       ["Method", settings.method],
       ["Gravity", `(${settings.gravity.map((value) => trimmed_text(value)).join(", ")}) m/s\u00b2`],

@@ -2,8 +2,8 @@
 import uPlot from "uplot";
 import type { Actions } from "../ui/actions.ts";
 import { h, set_text } from "../ui/dom.ts";
-import { number_text, trimmed_text } from "../ui/format.ts";
-import { moments_of } from "../ui/moments.ts";
+import { number_text, tick_text } from "../ui/format.ts";
+import { impact_marks } from "../ui/impact_marks.ts";
 import type { PlayerState } from "../ui/player_state.ts";
 import { theme } from "../ui/theme.ts";
 import { energy_colors_dark, energy_colors_light, run_colors_dark, run_colors_light, run_dashes } from "./plot_style.ts";
@@ -54,7 +54,9 @@ function quantity_curves(state: PlayerState, subject: Exclude<PlotSubject, { kin
   return { times: data.times, unit: data.unit, drawn, note: "" };
 }
 
+/** CSS pixels. */
 const plot_height = 150;
+const marks_height = 9;
 
 export class Plot {
   readonly legend = h("ul", { class: "tp-values" });
@@ -159,7 +161,6 @@ export class Plot {
     const grid = style.getPropertyValue("--line-soft");
     const font = `11px ${style.getPropertyValue("--sans")}`;
     const axis = { stroke: ink, font, grid: { stroke: grid, width: 1 }, ticks: { show: false }, border: { show: false } };
-    const label = (value: number): string => trimmed_text(value);
     return {
       width, height: plot_height,
       legend: { show: false },
@@ -171,8 +172,8 @@ export class Plot {
         y: curves.drawn.some((curve) => curve.filled) ? { range: (_chart, _least, most) => [0, (most || 1) * 1.06] } : {},
       },
       axes: [
-        { ...axis, size: 26, gap: 4, values: (_chart, ticks) => ticks.map((tick, i) => (i === ticks.length - 1 ? `${label(tick)} s` : label(tick))) },
-        { ...axis, size: 46, gap: 4, space: 34, values: (_chart, ticks) => ticks.map(label) },
+        { ...axis, size: 26, gap: 4, values: (_chart, ticks) => ticks.map((tick, i) => (i === ticks.length - 1 ? `${tick_text(tick)} s` : tick_text(tick))) },
+        { ...axis, size: 46, gap: 4, space: 34, values: (_chart, ticks) => ticks.map(tick_text) },
       ],
       series: [{}, ...curves.drawn.map((curve): uPlot.Series => ({
         stroke: curve.color, width: curve.filled ? 0 : 1.75, dash: curve.dash, fill: curve.filled ? curve.color : undefined,
@@ -182,22 +183,16 @@ export class Plot {
     };
   }
 
-  /** Short marks at the lower edge. */
+  /** At the lower edge; many small ones do not cover the curve. */
   private draw_impacts(chart: uPlot, color: string): void {
     const { ctx, bbox } = chart;
-    const height = 6 * devicePixelRatio;
     const body = this.subject.kind === "body" ? this.subject.body : null;
     ctx.save();
     ctx.fillStyle = color;
-    let last = -1;
-    for (const moment of moments_of(this.state.run)) {
-      const impacts = this.state.run.impacts;
-      let concerns = body === null;
-      for (let i = moment.first; i <= moment.last && !concerns; i += 1) concerns = impacts[i].body_a === body || impacts[i].body_b === body;
-      const x = Math.round(chart.valToPos(moment.time, "x", true));
-      if (!concerns || x === last) continue;
-      last = x;
-      ctx.fillRect(x, bbox.top + bbox.height - height, Math.max(1, Math.round(devicePixelRatio)), height);
+    ctx.globalAlpha = 0.8;
+    for (const [column, share] of impact_marks(this.state.run, body, (time) => chart.valToPos(time, "x", true))) {
+      const height = share * marks_height * devicePixelRatio;
+      ctx.fillRect(column, bbox.top + bbox.height - height, Math.max(1, Math.round(devicePixelRatio)), height);
     }
     ctx.restore();
   }

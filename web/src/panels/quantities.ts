@@ -23,7 +23,7 @@ function components(prefix: string, label: string, symbol: string, unit: string,
   }]);
 }
 
-export function rotation_energy(run: Run, body: number, state: BodyState): number {
+function rotation_energy(run: Run, body: number, state: BodyState): number {
   const inertia = turned(run.scene.bodies[body].inertia, state.rotation);
   return dot(state.angular_velocity, transform(inertia, state.angular_velocity)) / 2;
 }

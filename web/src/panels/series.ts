@@ -62,7 +62,7 @@ function body_series(runs: Run[], subject: { quantity: string; body: number }): 
 }
 
 /** Of a column of frames: linear in between. */
-export function between_frames(run: Run, time: number, value: (frame: number) => number): number {
+function between_frames(run: Run, time: number, value: (frame: number) => number): number {
   const position = Math.min(Math.max(time * run.fps, 0), run.frames - 1);
   const frame = Math.min(Math.floor(position + 1e-9), run.frames - 1);
   const part = Math.max(0, position - frame);
@@ -90,7 +90,7 @@ interface EnergyLayer {
 }
 
 /** From the bottom. */
-export const energy_layers: EnergyLayer[] = [
+const energy_layers: EnergyLayer[] = [
   { key: "potential", label: "potential" },
   { key: "elastic", label: "elastic" },
   { key: "kinetic_linear", label: "kinetic, linear" },

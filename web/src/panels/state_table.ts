@@ -14,27 +14,36 @@ interface Row {
   unit: string;
   /** Numbers in a line of the table. */
   columns: 1 | 3 | 4;
+  /** Numbers nearer to 0 are 0, but for 17 digits: the page does not know them. Default: that of number_text(). */
+  zero?(run: Run, body: number): number;
   values(run: Run, body: number, state: BodyState): number[];
 }
 
-const vector = (name: string, symbol: string, unit: string, of: (state: BodyState) => Vec3): Row =>
-  ({ name, symbol: `<b>${symbol}</b>`, unit, columns: 3, values: (_run, _body, state) => of(state) });
+const vector = (name: string, symbol: string, unit: string, of: (state: BodyState) => Vec3, zero?: Row["zero"]): Row =>
+  ({ name, symbol: `<b>${symbol}</b>`, unit, columns: 3, zero, values: (_run, _body, state) => of(state) });
 const matrix = (name: string, symbol: string, unit: string, of: (run: Run, body: number, state: BodyState) => Mat3): Row =>
   ({ name, symbol: `<b>${symbol}</b>`, unit, columns: 3, values: of });
 const number = (name: string, symbol: string, unit: string, of: (run: Run, body: number, state: BodyState) => number): Row =>
   ({ name, symbol, unit, columns: 1, values: (run, body, state) => [of(run, body, state)] });
 
+/** Half of the sixth decimal: entries of rotations are at most 1. */
+const rounding = (): number => 5e-7;
+const heaviest = (inertia: Mat3): number => Math.max(...inertia.map(Math.abs));
 const position = vector("position", "x", "m", (state) => state.position);
-const quaternion: Row = { name: "rotation", symbol: "<i>q</i>", unit: "", columns: 4, values: (_run, _body, state) => state.rotation };
-const rotation = matrix("rotation", "R", "", (_run, _body, state) => rotation_matrix(state.rotation));
+const quaternion: Row = { name: "rotation", symbol: "<i>q</i>", unit: "", columns: 4, zero: rounding, values: (_run, _body, state) => state.rotation };
+const rotation: Row = { ...matrix("rotation", "R", "", (_run, _body, state) => rotation_matrix(state.rotation)), zero: rounding };
 const rest_of_state: Row[] = [
-  vector("momentum", "P", "N s", (state) => state.momentum),
-  vector("angular momentum", "L", "N m s", (state) => state.angular_momentum),
+  vector("momentum", "P", "N s", (state) => state.momentum, (run, body) => run.scene.bodies[body].mass * run.motion.error.velocity),
+  vector("angular momentum", "L", "N m s", (state) => state.angular_momentum,
+    (run, body) => heaviest(run.scene.bodies[body].inertia) * run.motion.error.angular_velocity),
 ];
 const derived: Row[] = [
-  vector("velocity", "v", "m/s", (state) => state.velocity),
-  vector("angular velocity", "\u03c9", "rad/s", (state) => state.angular_velocity),
-  matrix("inertia, world", "I", "kg m\u00b2", (run, body, state) => turned(run.scene.bodies[body].inertia, state.rotation)),
+  vector("velocity", "v", "m/s", (state) => state.velocity, (run) => run.motion.error.velocity),
+  vector("angular velocity", "\u03c9", "rad/s", (state) => state.angular_velocity, (run) => run.motion.error.angular_velocity),
+  {
+    ...matrix("inertia, world", "I", "kg m\u00b2", (run, body, state) => turned(run.scene.bodies[body].inertia, state.rotation)),
+    zero: (run, body) => rounding() * heaviest(run.scene.bodies[body].inertia),
+  },
   number("kinetic energy", "<i>E</i><sub>kin</sub>", "J", kinetic_energy),
   number("potential energy", "<i>E</i><sub>pot</sub>", "J", potential_energy),
 ];
@@ -112,8 +121,9 @@ export class StateTable {
     set_text(this.moment, `${time_text(this.state.get("time"))}${this.state.get("before") ? ", before the impact" : ""}`);
     for (const { row, cells } of this.rows) {
       const values = now ? row.values(this.state.run, now.body, now.state) : [];
+      const zero = now ? row.zero?.(this.state.run, now.body) : undefined;
       for (const [index, cell] of cells.entries()) {
-        set_text(cell, index < values.length ? number_text(values[index], this.digits) : "\u2013");
+        set_text(cell, index < values.length ? number_text(values[index], this.digits, zero) : "\u2013");
       }
     }
   }

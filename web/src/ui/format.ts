@@ -8,6 +8,10 @@ const superscripts: Record<string, string> = {
 
 export type Digits = 3 | 4 | 6 | 17;
 
+function power_text(exponent: number): string {
+  return `\u00b710${[...String(exponent)].map((character) => superscripts[character]).join("")}`;
+}
+
 /** With a typographic minus and powers of ten: −1.25, 3.1·10⁻⁷. Below 17 digits, numbers nearer to 0 than `zero` are "0". */
 export function number_text(value: number, digits: Digits = 6, zero = 1e-12): string {
   if (Number.isNaN(value)) return "\u2013";
@@ -17,21 +21,23 @@ export function number_text(value: number, digits: Digits = 6, zero = 1e-12): st
   const magnitude = Math.floor(Math.log10(Math.abs(value)));
   if (magnitude >= 7 || magnitude < -4) {
     const [mantissa, exponent] = value.toExponential(digits - 1).split("e");
-    const power = [...String(Number(exponent))].map((character) => superscripts[character]).join("");
-    return `${mantissa.replace("-", minus)}\u00b710${power}`;
+    return `${mantissa.replace("-", minus)}${power_text(Number(exponent))}`;
   }
-  return value.toPrecision(digits).replace("-", minus);
-}
-
-/** With the same number of decimals at any value: digits stand still while the time runs. */
-export function fixed_text(value: number, decimals: number): string {
-  const text = value.toFixed(decimals);
-  return (Number(text) === 0 ? text.replace("-", "") : text).replace("-", minus);
+  // Integers have all their digits: 15360, where toPrecision() writes 1.536e+4.
+  const text = magnitude >= digits ? String(Number(value.toPrecision(digits))) : value.toPrecision(digits);
+  return text.replace("-", minus);
 }
 
 /** Without zeros at the end of the decimals. */
 export function trimmed_text(value: number, digits: Digits = 6): string {
   return number_text(value, digits).replace(/(\.\d*?)0+(?=$|\u00b7)/, "$1").replace(/\.(?=$|\u00b7)/, "");
+}
+
+/** At most six characters or so, for ticks of axes. */
+export function tick_text(value: number): string {
+  if (Math.abs(value) < 1e5) return trimmed_text(value);
+  const exponent = Math.floor(Math.log10(Math.abs(value)));
+  return `${trimmed_text(Number((value / 10 ** exponent).toPrecision(3)))}${power_text(exponent)}`;
 }
 
 /** For files and the clipboard: the shortest text that gives the number back, with an ASCII minus. */

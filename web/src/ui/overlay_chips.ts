@@ -44,7 +44,7 @@ const kinds: OverlayKind[] = [
 /** At first only these and the ones that are on; the others behind "More". */
 const common: OverlayName[] = ["velocity", "momentum", "angular-momentum", "omega", "impulses", "forces", "contacts", "trails"];
 
-export function overlays_of(clip: Clip): OverlayName[] {
+function overlays_of(clip: Clip): OverlayName[] {
   return kinds.filter((kind) => clip.runs.some((run) => kind.makes_sense(run))).map((kind) => kind.name);
 }
 

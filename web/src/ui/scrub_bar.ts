@@ -1,7 +1,7 @@
 // The slider of the time, with a mark at each moment of impact.
 import type { Actions } from "./actions.ts";
 import { h } from "./dom.ts";
-import { moments_of } from "./moments.ts";
+import { impact_marks } from "./impact_marks.ts";
 import type { PlayerState } from "./player_state.ts";
 import { on_theme } from "./theme.ts";
 
@@ -47,7 +47,6 @@ export class ScrubBar {
     this.element.setAttribute("aria-valuetext", `${Number(time.toFixed(3))} s, frame ${this.state.frame}`);
   }
 
-  /** Taller marks for larger impulses; of impacts in one column of pixels the largest. */
   private draw_marks(): void {
     const width = this.track.clientWidth;
     const ratio = devicePixelRatio || 1;
@@ -55,18 +54,9 @@ export class ScrubBar {
     this.marks.height = marks_height * ratio;
     const context = this.marks.getContext("2d");
     if (!context || width === 0) return;
-    const run = this.state.run;
-    const largest = run.impacts.reduce((most, impact) => Math.max(most, impact.impulse), 0);
-    if (largest === 0) return;
     context.scale(ratio, ratio);
     context.fillStyle = getComputedStyle(this.element).getPropertyValue("--mark");
-    const heights = new Map<number, number>();
-    for (const moment of moments_of(run)) {
-      let impulse = 0;
-      for (let index = moment.first; index <= moment.last; index += 1) impulse = Math.max(impulse, run.impacts[index].impulse);
-      const column = Math.round((moment.time / this.state.duration) * width);
-      heights.set(column, Math.max(heights.get(column) ?? 0, 3 + (marks_height - 3) * Math.sqrt(impulse / largest)));
-    }
-    for (const [column, height] of heights) context.fillRect(column - 0.5, marks_height - height, 1, height);
+    const marks = impact_marks(this.state.run, null, (time) => (time / this.state.duration) * width);
+    for (const [column, height] of marks) context.fillRect(column - 0.5, marks_height * (1 - height), 1, marks_height * height);
   }
 }
