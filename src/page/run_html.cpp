@@ -56,6 +56,11 @@ constexpr const char* state_names[] = {"sticking", "sliding", "asleep", "touchin
 constexpr const char* feature_names[] = {"vertex on face", "face on vertex", "edge on edge",
                                          "face on face",   "sphere",         "mesh"};
 
+/// The caption of a table of counts, which are those of the kept records.
+std::string counts_caption(const char* what, std::int64_t kept, std::int64_t all) {
+    return kept == all ? what : fmt::format("{}, the {} strongest of {}", what, count_html(kept), count_html(all));
+}
+
 template <class Counts, class Names>
 std::string counts_table(std::string_view caption, std::string_view column, const Counts& counts, const Names& names) {
     std::int64_t sum = 0;
@@ -127,8 +132,8 @@ std::string key_figures_html(const PageRun& run, const ClipData& data) {
                         fmt::format("{}&#8239;% of the largest energy", number_html(share, 2)));
     html += figure_item("Deepest overlap", with_unit(1e3 * contacts.deepest, "mm", 2),
                         contacts.deepest > 0.0 ? "at " + with_unit(contacts.deepest_time, "s") : "");
-    html += figure_item("Error of this page", with_unit(1e3 * data.position_error, "mm", 2),
-                        with_unit(data.rotation_error, "rad", 2));
+    html += figure_item("Error of this page", with_unit(1e3 * data.errors.position, "mm", 2),
+                        with_unit(data.errors.rotation, "rad", 2));
     return html + "</dl>\n";
 }
 
@@ -170,9 +175,12 @@ std::string contacts_html(const PageRun& run) {
             count_html(contacts.most), with_unit(contacts.largest_force, "N"),
             with_unit(1e3 * contacts.deepest, "mm", 3), with_unit(contacts.deepest_time, "s"));
     html += "<div class=\"columns\">\n";
-    html += counts_table("Contact points by state", "points in all frames", contacts.by_state, state_names);
-    html += counts_table("Contact points by features", "points in all frames", contacts.by_features, feature_names);
-    html += counts_table("Impulses by features", "impulses", impacts.by_features, feature_names);
+    html += counts_table(counts_caption("Contact points by state", contacts.kept, contacts.count),
+                         "points in all frames", contacts.by_state, state_names);
+    html += counts_table(counts_caption("Contact points by features", contacts.kept, contacts.count),
+                         "points in all frames", contacts.by_features, feature_names);
+    html += counts_table(counts_caption("Impulses by features", impacts.kept, impacts.count), "impulses",
+                         impacts.by_features, feature_names);
     return html + "</div>\n";
 }
 

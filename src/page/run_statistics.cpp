@@ -36,8 +36,10 @@ EnergyBalance energy_balance(const PageRun& run) {
 
 ContactStatistics contact_statistics(const PageRun& run) {
     ContactStatistics statistics;
+    statistics.count = run.all_contacts;
     for (const auto& frame : run.contacts)
         for (const ContactRecord& contact : frame) {
+            ++statistics.kept;
             if (contact.a == ContactRecord::nobody) continue;  // a correction of the method
             ++statistics.by_state[std::size_t(contact.state)];
             ++statistics.by_features[std::size_t(contact.features)];
@@ -56,8 +58,10 @@ ContactStatistics contact_statistics(const PageRun& run) {
 
 ImpactStatistics impact_statistics(const PageRun& run) {
     ImpactStatistics statistics;
-    for (const ImpactRecord& impact : run.impacts) {
-        ++statistics.count;
+    statistics.count = run.all_impacts;
+    statistics.kept = std::int64_t(run.impacts.size());
+    for (const PageImpact& one : run.impacts) {
+        const ImpactRecord& impact = one.record;
         ++statistics.by_features[std::size_t(impact.features)];
         statistics.fastest = std::max(statistics.fastest, -impact.speed_before);
         if (impact.impulse > statistics.largest_impulse) {

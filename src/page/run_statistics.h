@@ -22,6 +22,8 @@ double balance_of(const EnergySample& energy);
 EnergyBalance energy_balance(const PageRun& run);
 
 struct ContactStatistics {
+    std::int64_t count = 0;                     // contact points of all frames
+    std::int64_t kept = 0;                      // of the record, which the next two count
     std::array<std::int64_t, 4> by_state{};     // rows of the contact table, by ContactRecord::State
     std::array<std::int64_t, 6> by_features{};  // the same, by ContactFeatures
     std::int64_t most = 0;                      // touching points of a frame
@@ -33,6 +35,7 @@ ContactStatistics contact_statistics(const PageRun& run);
 
 struct ImpactStatistics {
     std::int64_t count = 0;                     // impulses at contact points
+    std::int64_t kept = 0;                      // of the record, the strongest, which the next counts
     std::array<std::int64_t, 6> by_features{};  // by ContactFeatures
     double largest_impulse = 0.0;               // N s
     double largest_time = 0.0;                  // s, of that impact

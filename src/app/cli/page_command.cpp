@@ -128,7 +128,7 @@ void run_page(const PageCommand& command) {
             "{:.2g} "
             "rad)\n",
             safe_path(output), 1e-3 * double(page.size()), 1e-3 * double(base64_length(data.bytes.size())),
-            1e-3 * double(film.film.size() + film.poster.size()), data.position_error, data.rotation_error);
+            1e-3 * double(film.film.size() + film.poster.size()), data.errors.position, data.errors.rotation);
 }
 
 }  // namespace tumble
