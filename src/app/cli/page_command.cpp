@@ -61,11 +61,12 @@ PageFilm film_of(const PageCommand& command, const PageScenes& scenes) {
 /// A link that saves the clip as a file.
 std::string download_html(const PageCommand& command, const PageScenes& scenes) {
     Interrupt interrupt;
-    const ExportedScene exported = export_scene(scenes.scenes.front(), KeyKind::cubic, command.threads, command.quiet, interrupt);
+    const ExportedScene exported =
+        export_scene(scenes.scenes.front(), KeyKind::cubic, command.threads, command.quiet, interrupt);
     return fmt::format(
-        "<p class=\"download\"><a download=\"{}.glb\" href=\"{}\">Download the clip as glTF</a> for Blender and other "
+        "<a download=\"{}.glb\" href=\"{}\">Download the clip as glTF</a> for Blender and other "
         "3D "
-        "programs ({:.0f}&#8239;kB)</p>\n",
+        "programs ({:.0f}&#8239;kB)",
         html_text(command.scenes.front().stem().string()), data_address("model/gltf-binary", exported.bytes),
         1e-3 * double(exported.bytes.size()));
 }
@@ -84,8 +85,8 @@ std::string body_html(const PageCommand& command, const PageScenes& scenes, cons
     figure.options.follow = command.follow;
     figure.options.compare = command.compare;
     figure.options.alt = summary_of(run);
+    if (command.embed_glb) figure.caption_html = download_html(command, scenes);
     std::string html = masthead_html(clip.title, "", summary_of(run)) + figure_html(figure);
-    if (command.embed_glb) html += download_html(command, scenes);
     // The player shows the sources itself.
     html += "<section class=\"without-player\" aria-label=\"Scene\">\n<h2>Scene</h2>\n" + sources_html(clip.sources) +
             "</section>\n";
