@@ -15,8 +15,10 @@ namespace {
 
 using Json = ArrayStore::Json;
 
-constexpr std::size_t most_events =
-    1000;  // of all bodies, 140 bytes each: more are left out, with the numbers of impacts rounded
+// Bytes of impacts with all digits and of the bodies' events, compressed, and the most that a run has for them: less if many
+// bodies move, because their motion takes the rest of the page.
+constexpr std::size_t bytes_of_impact = 110, bytes_of_event = 140;
+constexpr std::size_t least_precise = 30'000, most_precise = 160'000, less_by_body = 1'300;
 
 Json settings_json(const PageRun& run) {
     const SimulationSettings& simulation = run.scene.simulation;
@@ -27,19 +29,20 @@ Json settings_json(const PageRun& run) {
             {"gravity", vector_json(simulation.gravity)}};
 }
 
-/// Whether the bodies' events are few enough to be part of the data.
-bool few_events(const PageRun& run) {
-    std::size_t events = 0;
+/// Whether impacts have all digits, and the bodies' events are part of the data.
+bool has_precise_impacts(const PageRun& run) {
+    std::size_t bytes = std::size_t(run.all_impacts) * bytes_of_impact, moving = 0;
     for (const BodyRecord& body : run.bodies) {
         if (!body.all_events) return false;
-        events += body.events.size();
+        bytes += body.events.size() * bytes_of_event;
+        moving += body.samples.size() > 1;
     }
-    return events <= most_events;
+    return bytes <= std::max(least_precise, most_precise - std::min(most_precise, less_by_body * moving));
 }
 
 Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, ArrayStore& arrays, MotionErrors& errors) {
-    const bool events = few_events(run);
-    MotionData motion = make_motion_data(run, clip.motion_budget, events, arrays);
+    const bool precise = has_precise_impacts(run);
+    MotionData motion = make_motion_data(run, clip.motion_budget, precise, arrays);
     errors.add(motion.errors);
     return {{"label", run.label},
             {"fps", run.scene.output.fps},
@@ -50,7 +53,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
             {"camera", make_camera(run, arrays)},
             {"motion", std::move(motion.json)},
             {"energy", make_energy_data(run, arrays)},
-            {"impacts", make_impact_data(run, events, arrays)},
+            {"impacts", make_impact_data(run, precise, arrays)},
             {"all_impacts", run.all_impacts},
             {"contacts", make_contact_data(run, arrays)},
             {"all_contacts", run.all_contacts},

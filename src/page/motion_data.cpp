@@ -13,10 +13,13 @@ namespace tumble {
 namespace {
 
 // At level 0 positions are right within 1e-6 m and rotations within 1e-5 rad; each level divides by 4. A stepped motion's
-// velocities need no more digits; in exact mode they lead to impacts between frames.
-constexpr Quanta coarsest{1e-6, 1e-5, 5e-4, 1e-3}, coarsest_exact{1e-6, 1e-5, 5e-5, 1e-4};
-constexpr int finest_level = 8;
-constexpr double bytes_of_key = 96.0;  // a frame, compressed
+// velocities need no more digits; in exact mode they lead to impacts between frames. Coarser levels are for pages that
+// would be too large to open otherwise, as of a thousand bodies.
+constexpr Quanta level_0{1e-6, 1e-5, 2e-3, 4e-3}, level_0_exact{1e-6, 1e-5, 5e-5, 1e-4};
+constexpr int finest_level = 8, coarsest_level = -5;
+constexpr double most_bytes = 600e3;     // of a motion, compressed: coarser than level 0 only above
+constexpr double bytes_of_key = 96.0;    // a frame, compressed
+constexpr double worth_of_keys = 400.0;  // bytes of a body that exact motion between frames may cost more
 constexpr std::size_t sample_numbers = 13, event_numbers = 19;
 
 using Json = ArrayStore::Json;
@@ -113,7 +116,7 @@ private:
     void plan(std::size_t body);
     void choose_level();
     bool exact() const { return run_.scene.simulation.impacts == ImpactMode::exact; }
-    Quanta quanta(int level) const { return at_level(exact() ? coarsest_exact : coarsest, level); }
+    Quanta quanta(int level) const { return at_level(exact() ? level_0_exact : level_0, level); }
     std::vector<std::size_t> bodies_of(Kind kind) const;
     Json still();
     Json keys();
@@ -144,15 +147,15 @@ void Writer::plan(std::size_t index) {
 
 /// The finest level whose data fit into the budget, each body in its smaller form.
 void Writer::choose_level() {
-    const auto bytes = [&](const Plan& plan) { return std::min(plan.key_bytes, plan.widths.bytes(level_)); };
-    for (level_ = finest_level; level_ > 0; --level_) {
+    const auto as_keys = [&](const Plan& plan) { return plan.key_bytes <= plan.widths.bytes(level_) + worth_of_keys; };
+    for (level_ = finest_level; level_ > coarsest_level; --level_) {
         double all = 0.0;
         for (const Plan& plan : plans_)
-            if (plan.kind != Kind::still) all += bytes(plan);
-        if (all <= budget_) break;
+            if (plan.kind != Kind::still) all += as_keys(plan) ? plan.key_bytes : plan.widths.bytes(level_);
+        if (all <= (level_ > 0 ? budget_ : most_bytes)) break;
     }
     for (Plan& plan : plans_)
-        if (plan.kind != Kind::still && plan.key_bytes <= plan.widths.bytes(level_)) plan.kind = Kind::keys;
+        if (plan.kind != Kind::still && as_keys(plan)) plan.kind = Kind::keys;
 }
 
 std::vector<std::size_t> Writer::bodies_of(Kind kind) const {

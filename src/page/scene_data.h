@@ -1,4 +1,4 @@
-// What a run shows apart from numbers over time: bodies, meshes, light, camera and overlays.
+// Parts of a run other than numbers over time: bodies, meshes, light, camera and overlays.
 #pragma once
 
 #include "page/array_store.h"

@@ -14,15 +14,18 @@ namespace {
 using Json = ArrayStore::Json;
 
 constexpr int energy_bits = 40;           // of the mantissa: 1e-12 of the value
-constexpr int impact_bits = 14;           // of many impacts: 3e-5
+constexpr int impact_bits = 10;           // of many impacts: 5e-4
 constexpr double load_rounding = 1e-9;    // of the weight
 constexpr double load_resolution = 1e-7;  // of the largest component
 
-/// Quanta of contacts: of few rows, which a reader may want as numbers, and of many.
+/// Quanta of contacts: of few rows, which a reader may want as numbers, and of many, which are looked at. Of these, forces
+/// are squares of whole numbers, as small ones would take most of the bytes otherwise: a median force is right to 2 %.
 struct ContactQuanta {
-    double place, direction, force;  // m; of a unit vector; of the median force
+    double place, direction;  // m; of a unit vector
+    double force;             // of the median force
+    bool squares;
 };
-constexpr ContactQuanta fine{1e-6, 1e-6, 1e-6}, coarse{2e-4, 2e-3, 4e-3};
+constexpr ContactQuanta fine{1e-6, 1e-6, 1e-6, false}, coarse{5e-4, 5e-3, 1.0 / 600.0, true};
 constexpr std::int64_t few_contacts = 3000;
 
 template <class Row, class Value>
@@ -53,17 +56,27 @@ double median_force(const PageRun& run) {
     return *middle;
 }
 
+/// The moment about the world origin, if friction acts at the contact point too.
+Vec3 moment_of(const ImpactRecord& r) {
+    const Vec3 moment = r.point.cross(Vec3(r.impulse * r.normal));
+    return r.friction.isZero(0.0) ? moment : Vec3(moment + r.point.cross(r.friction));
+}
+
 using ContactNumbers = std::array<std::int64_t, 12>;
 
 ContactNumbers numbers_of(const ContactRecord& c, const ContactQuanta& quanta) {
     const auto whole = [](double value, double quantum) { return std::llround(value / quantum); };
+    const auto force = [&](double value) {
+        const double parts = value / quanta.force;
+        return quanta.squares ? std::llround(std::copysign(std::sqrt(std::fabs(parts)), parts)) : std::llround(parts);
+    };
     ContactNumbers n{};
     for (int k = 0; k < 3; ++k) {
         n[std::size_t(k)] = whole(c.point[k], quanta.place);
         n[std::size_t(3 + k)] = whole(c.normal[k], quanta.direction);
-        n[std::size_t(7 + k)] = whole(c.tangential_force[k], quanta.force);
+        n[std::size_t(7 + k)] = force(c.tangential_force[k]);
     }
-    n[6] = whole(c.normal_force, quanta.force);
+    n[6] = force(c.normal_force);
     n[10] = std::int64_t(c.state);
     n[11] = std::int64_t(c.features);
     return n;
@@ -89,17 +102,17 @@ Json make_energy_data(const PageRun& run, ArrayStore& arrays) {
     return json;
 }
 
-Json make_impact_data(const PageRun& run, bool events, ArrayStore& arrays) {
+Json make_impact_data(const PageRun& run, bool precise, ArrayStore& arrays) {
     Json json{{"count", run.impacts.size()}};
     const auto whole = [&](const char* name, auto&& value) { json[name] = whole_column(run.impacts, value, arrays); };
     const auto real = [&](const char* name, auto&& value) {
-        json[name] = column(run.impacts, value, events ? 52 : impact_bits, arrays);
+        json[name] = column(run.impacts, value, precise ? 52 : impact_bits, arrays);
     };
     const auto vector = [&](const char* name, auto&& value) {
         Json parts = Json::array();
         for (int k = 0; k < 3; ++k)
             parts.push_back(column(
-                run.impacts, [&](const PageImpact& i) { return value(i)[k]; }, events ? 52 : impact_bits, arrays));
+                run.impacts, [&](const PageImpact& i) { return value(i)[k]; }, precise ? 52 : impact_bits, arrays));
         json[name] = std::move(parts);
     };
     json["time"] = column(
@@ -113,12 +126,16 @@ Json make_impact_data(const PageRun& run, bool events, ArrayStore& arrays) {
     vector("p", [](const PageImpact& i) { return i.record.point; });
     vector("n", [](const PageImpact& i) { return i.record.normal; });
     vector("f", [](const PageImpact& i) { return i.record.friction; });
-    vector("m", [](const PageImpact& i) { return i.record.moment; });
     real("v_before", [](const PageImpact& i) { return i.record.speed_before; });
     real("v_after", [](const PageImpact& i) { return i.record.speed_after; });
     real("restitution", [](const PageImpact& i) { return i.record.restitution; });
     real("impulse", [](const PageImpact& i) { return i.record.impulse; });
-    if (!events) return json;
+    if (!precise) return json;
+    // The others follow from the rest, to the last bit.
+    json["moments"] = Json::array();
+    for (std::size_t i = 0; i < run.impacts.size(); ++i)
+        if (const ImpactRecord& r = run.impacts[i].record; r.moment != moment_of(r))
+            json["moments"].push_back({i, r.moment.x(), r.moment.y(), r.moment.z()});
     whole("event_a", [](const PageImpact& i) { return i.event_a; });
     whole("event_b", [](const PageImpact& i) { return i.event_b; });
     return json;
@@ -158,6 +175,7 @@ Json make_contact_data(const PageRun& run, ArrayStore& arrays) {
     Json numbers = Json::array();
     for (const auto& column : columns) numbers.push_back(arrays.add(column));
     return {{"quanta", {quanta.place, quanta.direction, quanta.force}},
+            {"squares", quanta.squares},
             {"counts", arrays.add(counts)},
             {"a", arrays.add(a)},
             {"b", arrays.add(b)},

@@ -8,8 +8,8 @@ namespace tumble {
 
 ArrayStore::Json make_energy_data(const PageRun& run, ArrayStore& arrays);
 
-/// `events`: whether the bodies' events are part of the data. Then the impacts are few, and their numbers exact.
-ArrayStore::Json make_impact_data(const PageRun& run, bool events, ArrayStore& arrays);
+/// `precise`: with all digits, and with the bodies' events, which must be part of the data.
+ArrayStore::Json make_impact_data(const PageRun& run, bool precise, ArrayStore& arrays);
 
 /// Rows of the same two bodies are written as differences to those of the frame before.
 ArrayStore::Json make_contact_data(const PageRun& run, ArrayStore& arrays);

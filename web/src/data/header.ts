@@ -61,7 +61,6 @@ export interface ImpactsHeader {
   p: ArrayReference[];
   n: ArrayReference[];
   f: ArrayReference[];
-  m: ArrayReference[];
   v_before: ArrayReference;
   v_after: ArrayReference;
   restitution: ArrayReference;
@@ -69,11 +68,15 @@ export interface ImpactsHeader {
   /** Indices into the bodies' events; -1: none. */
   event_a?: ArrayReference;
   event_b?: ArrayReference;
+  /** Row, x, y, z: moments that do not follow from the rest. */
+  moments?: [number, number, number, number][];
 }
 
 export interface ContactsHeader {
   /** m, of a unit vector, N. */
   quanta: [number, number, number];
+  /** Forces are squares of the numbers, with their signs. */
+  squares: boolean;
   counts: ArrayReference;
   a: ArrayReference;
   b: ArrayReference;

@@ -83,8 +83,8 @@ export class DecodedMotion implements Motion {
       const own = this.#events[body];
       const more = kind === "frames" && events === null;
       const times_without = impact_times[body].map((time) => time - this.#delay);
-      const spin = kind === "keys" ? new FreeSpin(run.bodies[body].inertia) : null;
-      this.#tracks[body] = new Track(moments, more ? estimated_events(moments, times_without, run.settings.gravity) : own, exact, spin);
+      const all = more ? estimated_events(moments, times_without, run.settings.gravity) : own;
+      this.#tracks[body] = new Track(moments, all, exact, new FreeSpin(run.bodies[body].inertia), kind === "keys");
     };
     this.#read_still(run.motion, reader, add);
     this.#read_keys(run.motion, reader, add);

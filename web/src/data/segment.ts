@@ -16,6 +16,7 @@ export interface Moment {
   angular_velocity: Vec3;
 }
 
+const most_change = 1e-4; // of the angular momentum, of a torque-free body
 const least_contradiction = 1e-5, contradiction = 0.04; // m; of the speed
 
 /** Angular acceleration of a torque-free body. */
@@ -25,6 +26,14 @@ export class FreeSpin {
   constructor(inertia: Mat3) {
     this.#inertia = inertia;
     this.#inverse = inverse(inertia);
+  }
+  /** Whether no torque has acted, as far as rounded velocities can tell. */
+  is_free(start: Moment, end: Moment): boolean {
+    const from = this.#momentum(start), to = this.#momentum(end);
+    return norm(difference(to, from)) <= most_change * norm(from);
+  }
+  #momentum({ rotation, angular_velocity }: Moment): Vec3 {
+    return rotated(rotation, times(this.#inertia, rotated(conjugate(rotation), angular_velocity)));
   }
   acceleration(moment: Moment): Vec3 {
     if (this.#inverse === null) return [0, 0, 0];

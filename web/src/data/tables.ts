@@ -29,7 +29,8 @@ export function read_impacts(run: RunHeader, reader: Reader, events: BodyEvent[]
   const whole = (array: ArrayReference) => reader.integers(array), real = (array: ArrayReference) => reader.doubles(array);
   const time = real(header.time), exact = whole(header.exact), frame = whole(header.frame);
   const a = whole(header.a), b = whole(header.b), feature = whole(header.feature), pass = whole(header.pass);
-  const [p, n, f, m] = [header.p, header.n, header.f, header.m].map((parts) => parts.map(real));
+  const [p, n, f] = [header.p, header.n, header.f].map((parts) => parts.map(real));
+  const moments = new Map((header.moments ?? []).map(([row, x, y, z]): [number, Vec3] => [row, [x, y, z]]));
   const v_before = real(header.v_before), v_after = real(header.v_after);
   const restitution = real(header.restitution), impulse = real(header.impulse);
   const event_a = header.event_a && whole(header.event_a), event_b = header.event_b && whole(header.event_b);
@@ -38,7 +39,15 @@ export function read_impacts(run: RunHeader, reader: Reader, events: BodyEvent[]
     if (known === undefined) return motion.pose_at_impact(body, at);
     return { position: known.before.position, rotation: known.before.rotation };
   };
-  return Array.from({ length: header.count }, (_, i): Impact => ({
+  /** About the world origin, if the friction acts at the contact point too. */
+  const moment_of = (i: number): Vec3 => {
+    const at: Vec3 = [p[0][i], p[1][i], p[2][i]], normal: Vec3 = [n[0][i], n[1][i], n[2][i]];
+    const friction: Vec3 = [f[0][i], f[1][i], f[2][i]], moment = cross(at, scaled(impulse[i], normal));
+    return friction.every((x) => x === 0) ? moment : sum(moment, cross(at, friction));
+  };
+  return Array.from({ length: header.count }, (_, i): Impact => {
+    const [mx, my, mz] = moments.get(i) ?? moment_of(i);
+    return {
     time: time[i],
     exact: exact[i] === 1 ? 1 : 0,
     frame: frame[i],
@@ -55,10 +64,11 @@ export function read_impacts(run: RunHeader, reader: Reader, events: BodyEvent[]
     impulse: impulse[i],
     fx: f[0][i], fy: f[1][i], fz: f[2][i],
     pass: pass[i],
-    mx: m[0][i], my: m[1][i], mz: m[2][i],
+    mx, my, mz,
     pose_a: pose(a[i], event_a ? event_a[i] : -1, time[i]),
     pose_b: pose(b[i], event_b ? event_b[i] : -1, time[i]),
-  }));
+    };
+  });
 }
 
 const number_count = 12; // of a contact
@@ -102,13 +112,14 @@ export function read_contacts(run: RunHeader, reader: Reader): ContactTable {
     before = now;
   });
   const [place, direction, force] = header.quanta;
+  const force_of = (x: number) => force * (header.squares ? x * Math.abs(x) : x);
   for (let i = 0; i < rows; ++i) {
     for (let c = 0; c < 3; ++c) {
       table.point[3 * i + c] = place * numbers[c][i];
       table.normal[3 * i + c] = direction * numbers[3 + c][i];
-      table.tangential_force[3 * i + c] = force * numbers[7 + c][i];
+      table.tangential_force[3 * i + c] = force_of(numbers[7 + c][i]);
     }
-    table.normal_force[i] = force * numbers[6][i];
+    table.normal_force[i] = force_of(numbers[6][i]);
     table.state[i] = numbers[10][i];
     table.feature[i] = numbers[11][i];
   }

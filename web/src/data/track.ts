@@ -21,16 +21,19 @@ const same_time = 1e-9; // s
 
 export class Track {
   readonly #nodes: Node[];
-  readonly #spin: FreeSpin | null;
+  readonly #spin: FreeSpin;
+  readonly #free: boolean;
   #segment: MotionSegment | null = null;
 
   /**
+   * `free`: the body is torque-free between all moments; else each two are looked at.
    * `frames`: at frames, in order of time. `exact`: at the time of an impact the body has its velocities after it; else
    * those of the frame, because the step that resolves the impact is the next.
    */
-  constructor(frames: Moment[], events: BodyEvent[], exact: boolean, spin: FreeSpin | null) {
+  constructor(frames: Moment[], events: BodyEvent[], exact: boolean, spin: FreeSpin, free: boolean) {
     this.#nodes = make_nodes(frames, events, exact);
     this.#spin = spin;
+    this.#free = free;
   }
 
   moment(time: number): Moment {
@@ -56,7 +59,8 @@ export class Track {
       else high = middle;
     }
     if (low + 1 === nodes.length || nodes[low].at.time === time) return nodes[low].at;
-    this.#segment = new MotionSegment(nodes[low].out, nodes[low + 1].in, this.#spin);
+    const start = nodes[low].out, end = nodes[low + 1].in;
+    this.#segment = new MotionSegment(start, end, this.#free || this.#spin.is_free(start, end) ? this.#spin : null);
     return this.#segment;
   }
 }
