@@ -5,14 +5,15 @@ import { Problems, type Problem } from "./problems.ts";
 import { References } from "./references.ts";
 import { Source } from "./source.ts";
 
-/** What the program needs of a lesson. In `main` these comments stand for what it makes: stage:ID, convergence:N,
+/** What the program needs of a lesson. In `body` these comments stand for what it makes: stage:ID, convergence:N,
  * measured:N:ROW, deviation:N:ROW. */
 export interface LessonOutput {
   file: string;
   name: string;
   title: string;
   summary: string;
-  main: string;
+  /** Content of the page. */
+  body: string;
   stages: Lesson["stages"];
   quizzes: Lesson["quizzes"];
   measures: Lesson["measures"];
@@ -21,7 +22,7 @@ export interface LessonOutput {
 
 export interface CourseOutput {
   lessons: LessonOutput[];
-  /** Body of index.html. */
+  /** Content of index.html. */
   index: string;
   errors: Problem[];
 }
@@ -33,44 +34,35 @@ function contents(lesson: Lesson): string {
   return `<nav class="contents" aria-label="Contents"><h2>Contents</h2>\n<ol>\n${items}\n</ol></nav>\n`;
 }
 
-function neighbor(lesson: Lesson | undefined, relation: "prev" | "next"): string {
-  if (!lesson) return "";
-  const word = relation === "prev" ? "Previous" : "Next";
-  return `<a class="${relation}" rel="${relation}" href="${encodeURI(lesson.name)}.html"><span>${word}</span> ${escape_html(lesson.front.title)}</a>\n`;
-}
-
 function minutes(lesson: Lesson): string {
   return lesson.front.duration ? `${lesson.front.duration} min` : "";
 }
 
-function main_of(lessons: Lesson[], i: number): string {
+function body_of(lessons: Lesson[], i: number): string {
   const lesson = lessons[i];
-  const place = lessons.length > 1 ? `<p class="lesson-place"><a href="index.html">Lesson ${i + 1} of ${lessons.length}</a></p>\n` : "";
+  const place = lessons.length > 1 ? `<p class="lesson-place">Lesson ${i + 1} of ${lessons.length}</p>\n` : "";
   const duration = minutes(lesson) ? `<p class="lesson-duration">${minutes(lesson)}</p>\n` : "";
   const answers = lesson.answers.length > 0
     ? `<section class="print-answers" aria-hidden="true"><h2>Answers</h2><ol>${lesson.answers.join("\n")}</ol></section>\n` : "";
-  const links = neighbor(lessons[i - 1], "prev") + neighbor(lessons[i + 1], "next");
-  const navigation = links ? `<nav class="lesson-links" aria-label="Lessons">\n${links}</nav>\n` : "";
-  return `<main class="lesson">
-<header class="lesson-header">
+  return `<header class="lesson-header">
 ${place}<h1>${escape_html(lesson.front.title)}</h1>
 <p class="lesson-summary">${escape_html(lesson.front.summary)}</p>
 ${duration}</header>
 ${contents(lesson)}<article class="lesson-text">
 ${lesson.html}</article>
-${answers}${navigation}</main>
-`;
+${answers}`;
 }
 
 function index_of(lessons: Lesson[]): string {
-  const items = lessons.map((lesson) => `<li><a href="${encodeURI(lesson.name)}.html"><h2>${escape_html(lesson.front.title)}</h2></a>
-<p>${escape_html(lesson.front.summary)}</p>${minutes(lesson) ? `<p class="lesson-duration">${minutes(lesson)}</p>` : ""}</li>`);
-  return `<main class="lesson lesson-index">
-<header class="lesson-header"><h1>Lessons</h1></header>
-<ol>
+  const items = lessons.map((lesson) => {
+    const duration = minutes(lesson) ? `<p class="lesson-duration">${minutes(lesson)}</p>` : "";
+    return `<li><h2><a href="${encodeURI(lesson.name)}.html">${escape_html(lesson.front.title)}</a></h2>
+<p>${escape_html(lesson.front.summary)}</p>${duration}</li>`;
+  });
+  return `<header class="lesson-header"><h1>Lessons</h1></header>
+<ol class="lesson-list">
 ${items.join("\n")}
 </ol>
-</main>
 `;
 }
 
@@ -103,7 +95,7 @@ export function compile_course(files: string[], read: (file: string) => string):
       name: lesson.name,
       title: lesson.front.title,
       summary: lesson.front.summary,
-      main: fill_in(main_of(lessons, i)),
+      body: fill_in(body_of(lessons, i)),
       stages: lesson.stages.map((stage) => ({ ...stage, caption: fill_in(stage.caption) })),
       quizzes: lesson.quizzes,
       measures: lesson.measures,
