@@ -59,8 +59,9 @@ Course compile_lessons(const std::vector<std::filesystem::path>& files, const st
         throw RunError(fmt::format("{} is missing: run scripts/build-web again", safe_path(compiler)));
     const auto node = find_program("node");
     if (!node)
-        throw RunError("lessons need Node.js 18 or later, and there is no program 'node' on the PATH (Debian: apt-get "
-                       "install nodejs)");
+        throw RunError(
+            "lessons need Node.js 18 or later, and there is no program 'node' on the PATH (Debian: apt-get "
+            "install nodejs)");
     nlohmann::json list = nlohmann::json::array();
     for (const auto& file : files) list.push_back(file.string());
     const std::string input = list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
@@ -68,7 +69,8 @@ Course compile_lessons(const std::vector<std::filesystem::path>& files, const st
     Process process(*node, {compiler.string()}, output.descriptor());
     process.write(std::as_bytes(std::span(input)));
     const ProcessEnd end = process.finish();
-    if (!end.ok()) throw RunError(fmt::format("node {}: {}\n{}", safe_path(compiler), end.describe(), safe_lines(end.error_text)));
+    if (!end.ok())
+        throw RunError(fmt::format("node {}: {}\n{}", safe_path(compiler), end.describe(), safe_lines(end.error_text)));
     return read_course(output.text());
 }
 

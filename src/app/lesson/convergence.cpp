@@ -72,9 +72,10 @@ void check_slope(const LessonConvergence& block, const ConvergenceLine& line) {
     const std::string measured =
         line.slope ? fmt::format("{:.3f}", *line.slope) : std::string("none: the errors are rounding");
     if (!line.slope || std::abs(*line.slope - stated->second) > slope_tolerance)
-        throw InputError(block.places.of("slopes"),
-                         fmt::format("slopes: {} has slope {:g} in the lesson, and {} in the runs (allowed deviation {:g})",
-                                     line.integrator, stated->second, measured, slope_tolerance));
+        throw InputError(
+            block.places.of("slopes"),
+            fmt::format("slopes: {} has slope {:g} in the lesson, and {} in the runs (allowed deviation {:g})",
+                        line.integrator, stated->second, measured, slope_tolerance));
 }
 
 }  // namespace
@@ -83,14 +84,15 @@ ConvergenceRuns load_convergence(const LessonConvergence& block, FileList& read)
     const auto load = [&](const std::string& integrator, int steps) {
         SceneOverrides overrides;
         overrides.set = block.scene.set;
-        overrides.integrator = integrator;
+        overrides.integrator = integrator == "runge-kutta-4" ? "rk4" : integrator;
         overrides.steps_per_frame = steps;
         SceneDescription scene = load_lesson_scene(block.scene, overrides, block.places, read);
         const double frame = block.at * scene.output.fps;
         if (std::abs(frame - std::round(frame)) > 1e-6 || block.at > scene.simulation.duration + 1e-9)
-            throw InputError(block.places.of("at"),
-                             fmt::format("at: must be the time of a frame, at most {:g} s (given {:g}, {:g} frames a second)",
-                                         scene.simulation.duration, block.at, scene.output.fps));
+            throw InputError(
+                block.places.of("at"),
+                fmt::format("at: must be the time of a frame, at most {:g} s (given {:g}, {:g} frames a second)",
+                            scene.simulation.duration, block.at, scene.output.fps));
         const std::size_t components = quantities(block, scene).size();
         if (components != 1 && !block.of.ends_with(".position"))
             throw InputError(block.places.of("of"), fmt::format("of: must be one quantity (given {})", block.of));

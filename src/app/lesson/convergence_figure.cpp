@@ -1,7 +1,7 @@
 #include "app/lesson/convergence_figure.h"
 
-#include "app/lesson/number_text.h"
 #include "page/html_text.h"
+#include "page/run_html.h"
 #include "plot/axis.h"
 
 #include <fmt/format.h>
@@ -43,16 +43,20 @@ std::string grid(const Picture& picture) {
     std::string svg;
     for (const Axis::Tick& tick : picture.x.ticks()) {
         const double at = picture.across(tick.value);
-        svg += fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", at, top, bottom);
-        svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", at, bottom + 20, tick.label);
+        svg +=
+            fmt::format("<line class=\"grid\" x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2}\"/>", at, top, bottom);
+        svg +=
+            fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">{}</text>\n", at, bottom + 20, tick.label);
     }
     for (const Axis::Tick& tick : picture.y.ticks()) {
         const double at = picture.down(tick.value);
-        svg += fmt::format("<line class=\"grid\" x1=\"{}\" x2=\"{}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>", left, right, at);
+        svg +=
+            fmt::format("<line class=\"grid\" x1=\"{0}\" x2=\"{1}\" y1=\"{2:.1f}\" y2=\"{2:.1f}\"/>", left, right, at);
         svg += fmt::format("<text x=\"{}\" y=\"{:.1f}\" text-anchor=\"end\">{}</text>\n", left - 8, at + 4, tick.label);
     }
-    svg += fmt::format("<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">step <tspan font-style=\"italic\">h</tspan> (s)</text>\n",
-                       0.5 * (left + right), bottom + 42);
+    svg += fmt::format(
+        "<text x=\"{:.1f}\" y=\"{}\" text-anchor=\"middle\">step <tspan font-style=\"italic\">h</tspan> (s)</text>\n",
+        0.5 * (left + right), bottom + 42);
     svg += fmt::format("<text transform=\"translate(14 {:.1f}) rotate(-90)\" text-anchor=\"middle\">error</text>\n",
                        0.5 * (top + bottom));
     return svg;
@@ -86,9 +90,8 @@ std::string line_svg(const Picture& picture, const ConvergenceLine& line, std::s
         path += fmt::format("{}{:.1f} {:.1f}", i == 0 ? "M" : "L", x, y);
         dots += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\"/>", x, y);
     }
-    return fmt::format(
-        "<g class=\"series series-{}\"><path d=\"{}\"/>{}<text x=\"{}\" y=\"{:.1f}\">{}</text></g>\n", color % 6 + 1, path,
-        dots, right + 12, label + 4, html_text(line.integrator));
+    return fmt::format("<g class=\"series series-{}\"><path d=\"{}\"/>{}<text x=\"{}\" y=\"{:.1f}\">{}</text></g>\n",
+                       color % 6 + 1, path, dots, right + 12, label + 4, html_text(line.integrator));
 }
 
 std::string slope_rows(const LessonConvergence& block, std::span<const ConvergenceLine> lines) {
@@ -99,7 +102,7 @@ std::string slope_rows(const LessonConvergence& block, std::span<const Convergen
             "<tr><th scope=\"row\">{}</th><td class=\"number\">{}</td><td class=\"number\">{}</td><td "
             "class=\"number\">{}</td></tr>\n",
             html_text(line.integrator), stated == block.slopes.end() ? "" : fmt::format("{:g}", stated->second),
-            line.slope ? fmt::format("{:.2f}", *line.slope) : "none", power_html(line.errors.front()));
+            line.slope ? fmt::format("{:.2f}", *line.slope) : "none", number_html(line.errors.front(), 2));
     }
     return rows;
 }
@@ -112,8 +115,8 @@ std::string convergence_figure(const LessonConvergence& block, std::span<const C
     std::string svg = grid(picture);
     for (std::size_t i = 0; i < lines.size(); ++i) svg += line_svg(picture, lines[i], i, labels[i]);
     std::string html = fmt::format(
-        "<figure class=\"convergence\">\n<svg viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n", width,
-        height, html_text(block.alt), svg);
+        "<figure class=\"convergence\">\n<svg viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
+        width, height, html_text(block.alt), svg);
     html += fmt::format(
         "<div class=\"table\" role=\"region\" aria-label=\"Slopes\" tabindex=\"0\"><table>\n<thead><tr><th "
         "scope=\"col\">Integrator</th><th scope=\"col\">Order</th><th scope=\"col\">Fitted slope</th><th "

@@ -35,19 +35,19 @@ struct LessonStage {
     LessonScene scene;
     std::vector<std::string> vary;  // as --vary
     PlayerOptions options;
-    std::string caption_html, alt;
+    std::string caption_html;
     BlockPlaces places;
 };
 
 /// The number of a run that a quiz or a measure is compared with: an impact's column, the count of impacts, or a
 /// quantity over time.
 struct LessonCheck {
-    std::string of;                    // a quantity of `tumble plot --of`; empty: of impacts
-    std::string take;                  // max, min, first, last, mean, range, at
-    double at = 0.0;                   // s, for `take = "at"`
-    std::optional<double> from, to;    // s
-    std::optional<std::size_t> impact; // from 1; without it, the count
-    std::string column;                // of the impact
+    std::string of;                     // a quantity of `tumble plot --of`; empty: of impacts
+    std::string take;                   // max, min, first, last, mean, range, at
+    double at = 0.0;                    // s, for `take = "at"`
+    std::optional<double> from, to;     // s
+    std::optional<std::size_t> impact;  // from 1; without it, the count
+    std::string column;                 // of the impact
     std::size_t run = 0;
 };
 
@@ -75,8 +75,8 @@ struct LessonConvergence {
     double at = 0.0;  // s
     std::vector<std::string> integrators;
     std::vector<int> steps_per_frame;
-    std::optional<double> exact;     // value of the quantity
-    std::string reference;           // integrator whose run is exact, without `exact`
+    std::optional<double> exact;           // value of the quantity
+    std::string reference;                 // integrator whose run is exact, without `exact`
     std::map<std::string, double> slopes;  // by integrator
     std::string caption_html, alt;
     BlockPlaces places;

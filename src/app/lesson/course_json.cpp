@@ -38,7 +38,9 @@ LessonScene read_scene(const CourseJson& json, const std::string& lesson) {
     return scene;
 }
 
-Vec3 read_vector(const CourseJson& json) { return {json.at(0), json.at(1), json.at(2)}; }
+Vec3 read_vector(const CourseJson& json) {
+    return {json.at(0).get<double>(), json.at(1).get<double>(), json.at(2).get<double>()};
+}
 
 PlayerOptions read_options(const CourseJson& json) {
     PlayerOptions options;
@@ -63,7 +65,7 @@ LessonStage read_stage(const CourseJson& json, const std::string& file) {
     read(json, "vary", stage.vary);
     stage.options = read_options(json.at("options"));
     read(json, "caption", stage.caption_html);
-    read(json, "alt", stage.alt);
+    read(json, "alt", stage.options.alt);
     stage.places = read_places(json, file);
     return stage;
 }
@@ -143,8 +145,8 @@ Course read_course(std::string_view json) {
         read(root, "index", course.index_html);
         return course;
     } catch (const CourseJson::exception& error) {
-        throw RunError(fmt::format("the output of lesson.cjs is not as expected ({}); run scripts/build-web again",
-                                   error.what()));
+        throw RunError(
+            fmt::format("the output of lesson.cjs is not as expected ({}); run scripts/build-web again", error.what()));
     }
 }
 

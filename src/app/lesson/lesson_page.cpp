@@ -1,10 +1,10 @@
 #include "app/lesson/lesson_page.h"
 
-#include "app/lesson/number_text.h"
-#include "core/check.h"
+#include "page/run_html.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <string_view>
@@ -27,6 +27,12 @@ std::string fill_places(std::string_view html, const std::map<std::string, std::
     }
 }
 
+/// Enough to tell a number from others beyond the tolerance.
+int digits_of(double value, double tolerance) {
+    if (value == 0.0 || tolerance == 0.0) return 15;
+    return int(std::clamp(std::ceil(std::log10(std::abs(value) / tolerance)) + 2.0, 4.0, 15.0));
+}
+
 std::string clip_id(const LessonStage& stage) { return "clip-" + stage.id; }
 
 std::string stage_html(const LessonStage& stage, const StagePictures& pictures) {
@@ -38,7 +44,6 @@ std::string stage_html(const LessonStage& stage, const StagePictures& pictures) 
     figure.film = pictures.film;
     figure.width = pictures.width;
     figure.height = pictures.height;
-    figure.alt = stage.alt;
     figure.caption_html = stage.caption_html;
     return figure_html(figure);
 }
@@ -62,8 +67,8 @@ PageShell lesson_page(const Course& course, std::size_t index, const LessonResul
         for (std::size_t row = 0; row < lesson.measures[i].rows.size(); ++row) {
             const StatedNumber& stated = lesson.measures[i].rows[row];
             const double measured = result.measures[i][row];
-            texts[fmt::format("measured:{}:{}", i, row)] = measured_html(measured, stated.tolerance);
-            texts[fmt::format("deviation:{}:{}", i, row)] = power_html(std::abs(measured - stated.value));
+            texts[fmt::format("measured:{}:{}", i, row)] = number_html(measured, digits_of(measured, stated.tolerance));
+            texts[fmt::format("deviation:{}:{}", i, row)] = number_html(std::abs(measured - stated.value), 2);
         }
     shell.title = lesson.title;
     shell.description = lesson.summary;

@@ -103,8 +103,8 @@ void LessonRuns::run_stage(std::size_t lesson, std::size_t stage) {
     PageClip clip;
     clip.title = scenes.front().scene.title;
     clip.generator = generator_;
-    clip.sources.push_back({block.scene.text ? block.id + ".toml" : block.scene.file.filename().string(),
-                            scene_source(block.scene)});
+    clip.sources.push_back(
+        {block.scene.text ? block.id + ".toml" : block.scene.file.filename().string(), scene_source(block.scene)});
     Interrupt interrupt;
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         std::vector<StatedPlace> of_run;

@@ -28,8 +28,8 @@ void check_options(const LessonStage& stage, const std::vector<LoadedScene>& sce
     if (!options.plot.empty())
         with_place(stage.places.of("plot"), "plot", [&] { parse_quantities(options.plot, first); });
     if (std::size_t(options.run) >= scenes.size())
-        throw InputError(stage.places.of("run"),
-                         fmt::format("run: the stage has {} runs, numbered from 0 (given {})", scenes.size(), options.run));
+        throw InputError(stage.places.of("run"), fmt::format("run: the stage has {} runs, numbered from 0 (given {})",
+                                                             scenes.size(), options.run));
     if (options.time > first.simulation.duration)
         throw InputError(stage.places.of("time"), fmt::format("time: the run ends at {:g} s (given {:g})",
                                                               first.simulation.duration, options.time));
@@ -63,9 +63,8 @@ std::vector<LoadedScene> load_stage(const LessonStage& stage, FileList& read) {
     SceneOverrides overrides;
     overrides.set = stage.scene.set;
     std::vector<Variant> variants;
-    with_place(stage.places.of("vary"), "vary", [&] {
-        variants = make_variants(std::span(&stage.scene.file, 1), overrides, stage.vary);
-    });
+    with_place(stage.places.of("vary"), "vary",
+               [&] { variants = make_variants(std::span(&stage.scene.file, 1), overrides, stage.vary); });
     std::vector<LoadedScene> scenes;
     for (const Variant& variant : variants)
         scenes.push_back({load_lesson_scene(stage.scene, variant.overrides, stage.places, read), variant.overrides,

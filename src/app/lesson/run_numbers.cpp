@@ -88,8 +88,8 @@ double CheckedRun::of_time(const StatedNumber& number, std::size_t quantity) con
         if (check.at > times.back() + same_time)
             throw InputError(place_of(number),
                              fmt::format("check: the run ends at {:g} s (at = {:g})", times.back(), check.at));
-        const auto nearest = std::ranges::min_element(
-            times, {}, [&](double time) { return std::abs(time - check.at); });
+        const auto nearest =
+            std::ranges::min_element(times, {}, [&](double time) { return std::abs(time - check.at); });
         return values[std::size_t(nearest - times.begin())];
     }
     std::vector<double> taken;
@@ -97,15 +97,15 @@ double CheckedRun::of_time(const StatedNumber& number, std::size_t quantity) con
         if (times[i] >= check.from.value_or(0.0) - same_time && times[i] <= check.to.value_or(INFINITY) + same_time)
             taken.push_back(values[i]);
     if (taken.empty())
-        throw InputError(place_of(number), fmt::format("check: no frame of the run lies in this time (it ends at {:g} s)",
-                                                       times.back()));
+        throw InputError(place_of(number),
+                         fmt::format("check: no frame of the run lies in this time (it ends at {:g} s)", times.back()));
     const auto [least, most] = std::ranges::minmax(taken);
     if (check.take == "max") return most;
     if (check.take == "min") return least;
     if (check.take == "range") return most - least;
     if (check.take == "first") return taken.front();
     if (check.take == "last") return taken.back();
-    TUMBLE_CHECK(check.take == "mean");
+    TUMBLE_CHECK_EQ(check.take, "mean");
     return std::accumulate(taken.begin(), taken.end(), 0.0) / double(taken.size());
 }
 

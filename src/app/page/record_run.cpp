@@ -1,6 +1,5 @@
 #include "app/page/record_run.h"
 
-#include "app/survey/survey.h"
 #include "render/camera/camera_animation.h"
 #include "scene/keys/settings.h"
 #include "sim/world.h"
@@ -157,7 +156,8 @@ PageRun record_run(const SceneDescription& scene, const RecordSettings& settings
     world.record_contacts();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) run.reports.push_back(world.report(i));
     RunObserver observer(run, settings.progress);
-    SurveyObserver* const observers[] = {&observer};
+    std::vector<SurveyObserver*> observers{&observer};
+    observers.insert(observers.end(), settings.observers.begin(), settings.observers.end());
     survey(world, {run.frames, 1}, observers, interrupt);
     observer.finish();
     return run;

@@ -19,7 +19,8 @@ export interface ConvergenceBlock extends Pick<StageBlock, "scene" | "text" | "s
 }
 
 const keys = ["of", "at", "integrators", "steps_per_frame", "exact", "reference", "slopes"] as const;
-const integrators = ["explicit-euler", "symplectic-euler", "splitting", "runge-kutta-4", "exact"];
+/** "rk4" of scenes has its long name too, for readers of the plot. */
+const integrators = ["explicit-euler", "symplectic-euler", "splitting", "runge-kutta-4", "rk4", "exact"];
 
 export function read_convergence(block: BlockText, context: BlockContext): ConvergenceBlock | null {
   const table = block_table(block);
