@@ -23,7 +23,7 @@ struct LessonResult {
     std::vector<std::string> convergences;      // figures
 };
 
-/// What the runs of a lesson need, as loaded.
+/// The scenes of a lesson, as loaded.
 struct LessonScenes {
     std::vector<std::vector<LoadedScene>> stages;
     std::vector<ConvergenceRuns> convergences;
