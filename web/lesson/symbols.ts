@@ -64,6 +64,19 @@ export const symbols: Symbol[] = [
   symbol("hh", "h", "h", "step of the simulation"),
 ];
 
+const units: Record<string, string> = {
+  t: "s", h: "s", p: "m", ra: "m", rb: "m", xa: "m", xb: "m", vrel: "m/s", vrelp: "m/s", j: "N s", f: "N s",
+  ma: "kg", mb: "kg", Ia: "kg m\u00b2", Ib: "kg m\u00b2", va: "m/s", vb: "m/s", vap: "m/s", vbp: "m/s",
+  ua: "m/s", ub: "m/s", uap: "m/s", ubp: "m/s", wa: "rad/s", wb: "rad/s", wap: "rad/s", wbp: "rad/s",
+  x: "m", v: "m/s", w: "rad/s", P: "kg m/s", L: "kg m\u00b2/s", I: "kg m\u00b2", m: "kg", F: "N", tau: "N m", g: "m/s\u00b2",
+  Ekin: "J", Epot: "J",
+};
+
+/** SI unit of a symbol of expressions; empty of pure numbers. */
+export function unit_of(name: string): string {
+  return units[name] ?? "";
+}
+
 /** For temml. */
 export function symbol_macros(): Record<string, string> {
   return Object.fromEntries(symbols.map((s) => [`\\${s.macro}`, `\\data{symbol=${s.name}}{${s.tex}}`]));
