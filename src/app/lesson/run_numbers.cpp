@@ -55,16 +55,16 @@ constexpr std::array impact_columns{
     ImpactColumn{"pass", [](const ImpactRecord& i) { return double(i.pass); }},
 };
 
-double of_impact(const StatedNumber& number, const std::vector<ImpactRecord>& impacts) {
+double of_impact(const StatedNumber& number, const PageRun& run) {
     const LessonCheck& check = *number.check;
-    if (!check.impact) return double(impacts.size());
-    if (*check.impact > impacts.size())
+    if (!check.impact) return double(run.all_impacts);
+    if (*check.impact > run.impacts.size())
         throw InputError(place_of(number), fmt::format("check: the run has {} impacts (asked for impact {})",
-                                                       impacts.size(), *check.impact));
+                                                       run.impacts.size(), *check.impact));
     const auto column = std::ranges::find(impact_columns, check.column, &ImpactColumn::name);
     if (column == impact_columns.end())
         throw InputError(place_of(number), fmt::format("check: impacts have no column '{}'", check.column));
-    return column->value(impacts[*check.impact - 1]);
+    return column->value(run.impacts[*check.impact - 1].record);
 }
 
 }  // namespace
@@ -77,7 +77,7 @@ CheckedRun::CheckedRun(std::span<const StatedNumber* const> numbers, const Scene
 
 double CheckedRun::measured(std::size_t index, const PageRun& run) const {
     const StatedNumber& number = *numbers_[index];
-    return number.check->of.empty() ? of_impact(number, run.impacts) : of_time(number, quantity_of_[index]);
+    return number.check->of.empty() ? of_impact(number, run) : of_time(number, quantity_of_[index]);
 }
 
 double CheckedRun::of_time(const StatedNumber& number, std::size_t quantity) const {
