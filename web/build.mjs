@@ -1,4 +1,4 @@
-// Builds the player and the template of pages into ../build/web, or into the folder given.
+// Builds the player, the template of pages and the compiler of lessons into ../build/web, or into the folder given.
 //   node build.mjs [FOLDER]
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -41,7 +41,7 @@ async function licenses_of(inputs) {
   let text = "";
   for (const name of [...packages].sort()) {
     const folder = join(here, "node_modules", name);
-    const license = ["LICENSE", "LICENSE.md", "LICENSE.txt", "license"].map((file) => join(folder, file)).find(existsSync);
+    const license = ["LICENSE", "LICENSE.md", "LICENSE.txt", "license", "LICENSE-MIT.txt"].map((file) => join(folder, file)).find(existsSync);
     if (!license) throw new Error(`${name} has no license file`);
     text += `${name}:\n${(await readFile(license, "utf8")).trim()}\n\n`;
   }
@@ -60,10 +60,14 @@ function fill(template, values) {
   });
 }
 
+async function with_licenses({ text, inputs }) {
+  const licenses = await licenses_of(inputs);
+  return licenses ? `/*\n${licenses.replaceAll("*/", "* /")}\n*/\n${text}` : text;
+}
+
 const { text: bundle, inputs } = await script("player.ts");
 // The style has rules of temml.
-const licenses = await licenses_of([...inputs, "node_modules/temml/package.json"]);
-const player = licenses ? `/*\n${licenses.replaceAll("*/", "* /")}\n*/\n${bundle}` : bundle;
+const player = await with_licenses({ text: bundle, inputs: [...inputs, "node_modules/temml/package.json"] });
 const { text: loader } = await script("loader.ts");
 const sheets = ["shell.css", "page.css"].filter((name) => existsSync(source(name)));
 const { text: style } = await bundled({
@@ -78,6 +82,14 @@ const page = fill(await readFile(source("page.html"), "utf8"), {
   player: deflateRawSync(player, { level: 9 }).toString("base64"),
 });
 
+const compiler = await with_licenses(await bundled({
+  entryPoints: [join(here, "lesson/main.ts")],
+  platform: "node",
+  format: "cjs",
+  target: "node18",
+}));
+
 await mkdir(out, { recursive: true });
 await writeFile(join(out, "player.js"), player);
 await writeFile(join(out, "page.html"), page);
+await writeFile(join(out, "lesson.cjs"), compiler);

@@ -1,5 +1,6 @@
 // The entry of the player: finds the clips of the page and mounts a player on each.
+import { start_lesson } from "./lesson/lesson.ts";
 import { read_embedded_clip } from "./ui/embedded_clip.ts";
 import { mount_players } from "./ui/mount.ts";
 
-void mount_players(read_embedded_clip);
+void mount_players(read_embedded_clip).then(start_lesson);

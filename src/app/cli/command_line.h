@@ -25,6 +25,7 @@ struct CommandLine {
     PlotCommand plot;
     ExportCommand export_scene;
     PageCommand page;
+    LessonCommand lesson;
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
@@ -36,6 +37,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line);
 CLI::App* add_plot(CLI::App& app, CommandLine& line);
 CLI::App* add_export(CLI::App& app, CommandLine& line);
 CLI::App* add_page(CLI::App& app, CommandLine& line);
+CLI::App* add_lesson(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);

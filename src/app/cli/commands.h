@@ -17,6 +17,7 @@ namespace tumble {
 
 struct RenderCommand {
     std::vector<std::filesystem::path> scenes;    // a panel for each
+    std::optional<std::string> text;              // of the only scene, in place of its file's
     std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
     std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
     std::optional<std::filesystem::path> frames;  // folder
@@ -90,6 +91,19 @@ struct PageCommand {
     bool quiet = false;
 };
 void run_page(const PageCommand& command);
+
+struct LessonCommand {
+    std::vector<std::filesystem::path> lessons;  // Markdown
+    std::filesystem::path site;                  // folder of the pages
+    bool check = false;                          // runs and checks everything, and writes nothing
+    bool pictures = true;                        // of the stages, for print and for readers without WebGL
+    bool films = false;                          // of the stages, for readers without WebGL
+    int threads = 1;                             // runs at a time
+    int workers = 1;                             // render processes of the pictures
+    bool quiet = false;
+};
+/// Returns 0, or 2 if a lesson has mistakes, all of which are printed.
+int run_lesson(const LessonCommand& command);
 
 struct EncodeCommand {
     std::filesystem::path frames;  // folder

@@ -30,6 +30,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* plot = add_plot(app, line);
     const CLI::App* export_scene = add_export(app, line);
     const CLI::App* page = add_page(app, line);
+    const CLI::App* lesson = add_lesson(app, line);
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
@@ -53,6 +54,8 @@ int run_command_line(int argc, char** argv) {
         run_export(line.export_scene);
     else if (page->parsed())
         run_page(line.page);
+    else if (lesson->parsed())
+        return run_lesson(line.lesson);
     else if (encode->parsed())
         run_encode(line.encode);
     else if (compare->parsed())

@@ -68,7 +68,8 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
 
 void RenderScenes::load(const RenderCommand& command) {
     for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary)) {
-        SceneDescription loaded = load_scene(variant.scene, variant.overrides, &inputs);
+        SceneDescription loaded = command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
+                                               : load_scene(variant.scene, variant.overrides, &inputs);
         loaded.output.fps /= command.frame_step;
         loaded.simulation.steps_per_frame *= command.frame_step;
         auto scene = std::make_shared<const SceneDescription>(std::move(loaded));

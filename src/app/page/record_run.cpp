@@ -1,6 +1,5 @@
 #include "app/page/record_run.h"
 
-#include "app/survey/survey.h"
 #include "render/camera/camera_animation.h"
 #include "scene/keys/settings.h"
 #include "sim/world.h"
@@ -13,7 +12,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t none = SIZE_MAX;
+constexpr std::size_t no_event = SIZE_MAX;
 // Of more impacts, and of more contacts in a frame, a page has the strongest ones: they take most of its bytes, and a
 // reader follows a few.
 constexpr std::size_t most_impacts = 1500;
@@ -86,9 +85,9 @@ void RunObserver::add_bodies(const Snapshot& snapshot) {
 }
 
 void RunObserver::add_impacts(const ContactRecords& records) {
-    events_.assign(records.struck.size(), none);
+    events_.assign(records.struck.size(), no_event);
     for (const ImpactRecord& r : records.impacts) {
-        PageImpact impact{r, none, none};
+        PageImpact impact{r, no_event, no_event};
         impact.event_a = add_event(r.a, r, records.struck[r.struck_a], events_[r.struck_a]);
         impact.event_b = add_event(r.b, r, records.struck[r.struck_b], events_[r.struck_b]);
         run_.impacts.push_back(impact);
@@ -101,10 +100,10 @@ void RunObserver::add_impacts(const ContactRecords& records) {
 std::size_t RunObserver::add_event(std::size_t index, const ImpactRecord& impact, const StruckBody& struck,
                                    std::size_t& event) {
     BodyRecord& body = run_.bodies[index];
-    if (event != none || run_.scene.bodies[index].type == BodyType::fixed || !body.all_events) return event;
+    if (event != no_event || run_.scene.bodies[index].type == BodyType::fixed || !body.all_events) return event;
     if (body.events.size() == most_events) {
         body.all_events = false;
-        return none;
+        return no_event;
     }
     event = body.events.size();
     const double time = impact.when.exact ? impact.when.time : impact.when.time - run_.scene.step();
@@ -157,7 +156,8 @@ PageRun record_run(const SceneDescription& scene, const RecordSettings& settings
     world.record_contacts();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) run.reports.push_back(world.report(i));
     RunObserver observer(run, settings.progress);
-    SurveyObserver* const observers[] = {&observer};
+    std::vector<SurveyObserver*> observers{&observer};
+    observers.insert(observers.end(), settings.observers.begin(), settings.observers.end());
     survey(world, {run.frames, 1}, observers, interrupt);
     observer.finish();
     return run;

@@ -1,12 +1,14 @@
 // Simulates a scene and keeps what a page shows of it.
 #pragma once
 
+#include "app/survey/survey.h"
 #include "app/threads/interrupt.h"
 #include "page/page_run.h"
 
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -14,6 +16,7 @@ struct RecordSettings {
     int threads = 1;
     std::string label;                           // of the run, among several
     std::function<void(std::int64_t)> progress;  // called with the number of frames done; may be empty
+    std::vector<SurveyObserver*> observers;      // that see the frames too
 };
 
 /// Throws RunError after an interrupt, or if the simulation fails.

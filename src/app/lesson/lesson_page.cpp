@@ -1,0 +1,96 @@
+#include "app/lesson/lesson_page.h"
+
+#include "page/run_html.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string_view>
+
+namespace tumble {
+namespace {
+
+/// Replaces "<!--KEY-->" by the text of each key.
+std::string fill_places(std::string_view html, const std::map<std::string, std::string, std::less<>>& texts) {
+    constexpr std::string_view begin = "<!--", end = "-->";
+    std::string filled;
+    for (std::size_t at = 0;;) {
+        const std::size_t open = html.find(begin, at);
+        filled += html.substr(at, open - at);
+        if (open == std::string_view::npos) return filled;
+        const std::size_t close = html.find(end, open);
+        const auto text = texts.find(html.substr(open + begin.size(), close - open - begin.size()));
+        if (text != texts.end()) filled += text->second;
+        at = close + end.size();
+    }
+}
+
+/// Enough to tell a number from others beyond the tolerance.
+int digits_of(double value, double tolerance) {
+    if (value == 0.0 || tolerance == 0.0) return 15;
+    return int(std::clamp(std::ceil(std::log10(std::abs(value) / tolerance)) + 2.0, 4.0, 15.0));
+}
+
+std::string clip_id(const LessonStage& stage) { return "clip-" + stage.id; }
+
+std::string stage_html(const LessonStage& stage, const StagePictures& pictures) {
+    PlayerFigure figure;
+    figure.clip = clip_id(stage);
+    figure.id = stage.id;
+    figure.options = stage.options;
+    figure.poster = pictures.poster;
+    figure.film = pictures.film;
+    figure.width = pictures.width;
+    figure.height = pictures.height;
+    figure.caption_html = stage.caption_html;
+    return figure_html(figure);
+}
+
+std::string address_of(const Lesson& lesson) { return lesson.name + ".html"; }
+
+}  // namespace
+
+PageShell lesson_page(const Course& course, std::size_t index, const LessonResult& result,
+                      const std::vector<StagePictures>& pictures, const std::string& generator) {
+    const Lesson& lesson = course.lessons[index];
+    std::map<std::string, std::string, std::less<>> texts;
+    PageShell shell;
+    for (std::size_t i = 0; i < lesson.stages.size(); ++i) {
+        texts["stage:" + lesson.stages[i].id] = stage_html(lesson.stages[i], pictures[i]);
+        shell.clips.push_back({clip_id(lesson.stages[i]), result.stages[i].clip});
+    }
+    for (std::size_t i = 0; i < lesson.convergences.size(); ++i)
+        texts[fmt::format("convergence:{}", i)] = result.convergences[i];
+    for (std::size_t i = 0; i < lesson.measures.size(); ++i)
+        for (std::size_t row = 0; row < lesson.measures[i].rows.size(); ++row) {
+            const StatedNumber& stated = lesson.measures[i].rows[row];
+            const double measured = result.measures[i][row];
+            texts[fmt::format("measured:{}:{}", i, row)] = number_html(measured, digits_of(measured, stated.tolerance));
+            texts[fmt::format("deviation:{}:{}", i, row)] = number_html(std::abs(measured - stated.value), 2);
+        }
+    shell.title = lesson.title;
+    shell.description = lesson.summary;
+    shell.kind = "lesson";
+    shell.generator = generator;
+    shell.body_html = fill_places(lesson.body_html, texts);
+    if (course.lessons.size() > 1) shell.up = {"index.html", "Contents"};
+    if (index > 0) shell.previous = {address_of(course.lessons[index - 1]), course.lessons[index - 1].title};
+    if (index + 1 < course.lessons.size())
+        shell.next = {address_of(course.lessons[index + 1]), course.lessons[index + 1].title};
+    return shell;
+}
+
+PageShell index_page(const Course& course, const std::string& generator) {
+    PageShell shell;
+    shell.title = "Lessons";
+    shell.description = course.lessons.size() == 1 ? course.lessons.front().summary : "Contents of the lessons";
+    shell.kind = "index";
+    shell.generator = generator;
+    shell.body_html = course.index_html;
+    shell.with_player = false;
+    return shell;
+}
+
+}  // namespace tumble

@@ -1,0 +1,25 @@
+// Pages of lessons: results put into the places that the compiler left.
+#pragma once
+
+#include "app/lesson/lesson_runs.h"
+#include "page/page_shell.h"
+
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// Pictures of a stage for readers without WebGL, and for print. Data addresses; empty: there is none.
+struct StagePictures {
+    std::string poster, film;
+    int width = 0, height = 0;  // pixels
+};
+
+/// The page of a lesson of the course. `pictures`: by stage.
+PageShell lesson_page(const Course& course, std::size_t index, const LessonResult& result,
+                      const std::vector<StagePictures>& pictures, const std::string& generator);
+
+/// The page of contents.
+PageShell index_page(const Course& course, const std::string& generator);
+
+}  // namespace tumble

@@ -1,0 +1,186 @@
+#include "app/lesson/lesson_runs.h"
+
+#include "app/lesson/convergence_figure.h"
+#include "app/lesson/run_numbers.h"
+#include "app/page/record_run.h"
+#include "app/threads/task_group.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <mutex>
+#include <span>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+/// A stated number of a stage, and where its measured value is kept.
+struct StatedPlace {
+    const StatedNumber* number;
+    double* measured;  // null: of a quiz
+};
+
+std::string amount(double value, const std::string& unit) {
+    return unit.empty() ? fmt::format("{:.10g}", value) : fmt::format("{:.10g} {}", value, unit);
+}
+
+void compare_with_run(const StatedNumber& number, double measured, bool of_quiz) {
+    if (std::abs(measured - number.value) <= number.tolerance) return;
+    const std::string name = of_quiz ? std::string("answer") : fmt::format("expected, of '{}'", number.label);
+    throw InputError(number.places.of(of_quiz ? "answer" : "expected"),
+                     fmt::format("{}: the lesson has {}, the run {} (deviation {:.2g}, allowed {:g})", name,
+                                 amount(number.value, number.unit), amount(measured, number.unit),
+                                 std::abs(measured - number.value), number.tolerance));
+}
+
+bool comes_before(const InputError& a, const InputError& b) {
+    return std::pair(a.where().line, a.where().column) < std::pair(b.where().line, b.where().column);
+}
+
+std::vector<StatedPlace> numbers_of_stage(const Lesson& lesson, const std::string& stage, LessonResult& result) {
+    std::vector<StatedPlace> numbers;
+    for (const LessonQuiz& quiz : lesson.quizzes)
+        if (quiz.stage == stage && quiz.answer.check) numbers.push_back({&quiz.answer, nullptr});
+    for (std::size_t m = 0; m < lesson.measures.size(); ++m)
+        for (std::size_t row = 0; lesson.measures[m].stage == stage && row < lesson.measures[m].rows.size(); ++row)
+            numbers.push_back({&lesson.measures[m].rows[row], &result.measures[m][row]});
+    return numbers;
+}
+
+}  // namespace
+
+struct LessonRuns::Job {
+    std::size_t lesson;
+    std::function<void()> work;
+};
+
+LessonRuns::LessonRuns(const Course& course, std::string generator)
+    : course_(course), generator_(std::move(generator)), errors_(course.lessons.size()) {
+    for (const Lesson& lesson : course_.lessons) load(lesson);
+}
+
+void LessonRuns::load(const Lesson& lesson) {
+    LessonScenes& scenes = scenes_.emplace_back();
+    LessonResult& result = results_.emplace_back();
+    std::vector<InputError>& errors = errors_[scenes_.size() - 1];
+    scenes.stages.resize(lesson.stages.size());
+    scenes.convergences.resize(lesson.convergences.size());
+    result.stages.resize(lesson.stages.size());
+    result.convergences.resize(lesson.convergences.size());
+    for (const LessonMeasure& measure : lesson.measures) result.measures.emplace_back(measure.rows.size());
+    const auto collect = [&](const std::function<void()>& action) {
+        try {
+            action();
+        } catch (const InputError& error) {
+            errors.push_back(error);
+        }
+    };
+    for (std::size_t i = 0; i < lesson.stages.size(); ++i)
+        collect([&] { scenes.stages[i] = load_stage(lesson.stages[i], inputs_); });
+    for (std::size_t i = 0; i < lesson.convergences.size(); ++i)
+        collect([&] { scenes.convergences[i] = load_convergence(lesson.convergences[i], inputs_); });
+}
+
+std::size_t LessonRuns::blocks() const {
+    std::size_t count = 0;
+    for (const Lesson& lesson : course_.lessons) count += lesson.stages.size() + lesson.convergences.size();
+    return count;
+}
+
+// A stage's runs are recorded one after the other: a job is long enough as it is.
+void LessonRuns::run_stage(std::size_t lesson, std::size_t stage) {
+    const LessonStage& block = course_.lessons[lesson].stages[stage];
+    const std::vector<LoadedScene>& scenes = scenes_[lesson].stages[stage];
+    const std::vector<StatedPlace> stated = numbers_of_stage(course_.lessons[lesson], block.id, results_[lesson]);
+    for (const StatedPlace& place : stated)
+        if (place.number->check->run >= scenes.size())
+            throw InputError(place.number->places.of("check"),
+                             fmt::format("check: the stage has {} runs, numbered from 0 (run = {})", scenes.size(),
+                                         place.number->check->run));
+    PageClip clip;
+    clip.title = scenes.front().scene.title;
+    clip.generator = generator_;
+    clip.sources.push_back(
+        {block.scene.text ? block.id + ".toml" : block.scene.file.filename().string(), scene_source(block.scene)});
+    Interrupt interrupt;
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        std::vector<StatedPlace> of_run;
+        std::ranges::copy_if(stated, std::back_inserter(of_run),
+                             [&](const StatedPlace& place) { return place.number->check->run == i; });
+        std::vector<const StatedNumber*> numbers;
+        for (const StatedPlace& place : of_run) numbers.push_back(place.number);
+        CheckedRun checked(numbers, scenes[i].scene);
+        RecordSettings settings;
+        settings.label = scenes[i].label;
+        settings.observers = {&checked.observer()};
+        clip.runs.push_back(record_run(scenes[i].scene, settings, interrupt));
+        for (std::size_t k = 0; k < of_run.size(); ++k) {
+            const double measured = checked.measured(k, clip.runs.back());
+            compare_with_run(*numbers[k], measured, of_run[k].measured == nullptr);
+            if (of_run[k].measured != nullptr) *of_run[k].measured = measured;
+        }
+    }
+    results_[lesson].stages[stage].clip = make_clip_data(clip).bytes;
+}
+
+void LessonRuns::run_convergence_block(std::size_t lesson, std::size_t block) {
+    Interrupt interrupt;
+    const LessonConvergence& convergence = course_.lessons[lesson].convergences[block];
+    const auto lines = run_convergence(convergence, scenes_[lesson].convergences[block], interrupt);
+    results_[lesson].convergences[block] = convergence_figure(convergence, lines);
+}
+
+std::vector<LessonRuns::Job> LessonRuns::jobs() {
+    std::vector<Job> list;
+    for (std::size_t lesson = 0; lesson < course_.lessons.size(); ++lesson) {
+        // The longest come first: a convergence block has dozens of runs.
+        for (std::size_t i = 0; i < course_.lessons[lesson].convergences.size(); ++i)
+            list.push_back({lesson, [=, this] { run_convergence_block(lesson, i); }});
+    }
+    for (std::size_t lesson = 0; lesson < course_.lessons.size(); ++lesson)
+        for (std::size_t i = 0; i < course_.lessons[lesson].stages.size(); ++i)
+            list.push_back({lesson, [=, this] { run_stage(lesson, i); }});
+    return list;
+}
+
+void LessonRuns::run(int threads, const std::function<void(std::size_t)>& progress) {
+    const std::vector<Job> list = jobs();
+    std::atomic<std::size_t> next = 0, done = 0;
+    std::atomic<bool> stopped = false;
+    std::mutex mutex;
+    const auto work = [&] {
+        for (std::size_t i; !stopped && (i = next++) < list.size();) {
+            try {
+                list[i].work();
+            } catch (const InputError& error) {
+                const std::lock_guard lock(mutex);
+                errors_[list[i].lesson].push_back(error);
+            }
+            ++done;
+        }
+    };
+    Interrupt interrupt;  // blocks the signals in the threads too
+    TaskGroup group;
+    group.on_stop([&] { stopped = true; });
+    for (int i = 0; i < std::min<int>(threads, int(list.size())); ++i) group.start(work);
+    while (!group.wait(std::chrono::milliseconds(50))) {
+        progress(done);
+        if (interrupt.pending()) group.stop(std::make_exception_ptr(RunError("interrupted")));
+    }
+    group.finish();
+    progress(done);
+}
+
+std::vector<InputError> LessonRuns::errors() const {
+    std::vector<InputError> all;
+    for (std::vector<InputError> of_lesson : errors_) {
+        std::ranges::stable_sort(of_lesson, comes_before);
+        all.insert(all.end(), of_lesson.begin(), of_lesson.end());
+    }
+    return all;
+}
+
+}  // namespace tumble

@@ -1,0 +1,134 @@
+// Expressions of "Put in the numbers": parsed and checked for their types when the lesson is built, so that the page needs
+// no parser.
+import jsep from "jsep";
+import { suggestion, type Place } from "./problems.ts";
+import { symbol_types, type Moment, type ValueType } from "./symbols.ts";
+
+/** What the page evaluates. */
+export type Tree = number | string | { op: "+" | "-" | "*" | "/" | "neg" | "dot" | "cross" | "norm" | "transpose"; of: Tree[] };
+
+export class ExpressionError extends Error {
+  constructor(
+    message: string,
+    /** In the text, from 0. */
+    readonly offset: number,
+  ) {
+    super(message);
+  }
+}
+
+/** Types of the arguments, and of the value. */
+const functions: Record<string, [ValueType[], ValueType]> = {
+  dot: [["vector", "vector"], "number"],
+  cross: [["vector", "vector"], "vector"],
+  norm: [["vector"], "number"],
+  transpose: [["matrix"], "matrix"],
+};
+
+interface Typed {
+  tree: Tree;
+  type: ValueType;
+}
+
+class Reader {
+  private from = 0;
+
+  constructor(private readonly text: string, private readonly moment: Moment) {}
+
+  /** jsep gives no places: names are found in the text in the order of reading. */
+  private place_of(name: string): number {
+    const found = new RegExp(`(?<![A-Za-z0-9_])${name}(?![A-Za-z0-9_])`).exec(this.text.slice(this.from));
+    const offset = found ? this.from + found.index : this.from;
+    if (found) this.from = offset + name.length;
+    return offset;
+  }
+
+  read(node: jsep.Expression): Typed {
+    switch (node.type) {
+      case "Literal":
+        if (typeof node.value === "number") return { tree: node.value, type: "number" };
+        break;
+      case "Identifier":
+        return this.symbol(node.name as string);
+      case "UnaryExpression": {
+        const inner = this.read(node.argument as jsep.Expression);
+        if (node.operator === "-") return { tree: { op: "neg", of: [inner.tree] }, type: inner.type };
+        if (node.operator === "+") return inner;
+        break;
+      }
+      case "BinaryExpression":
+        return this.binary(node as jsep.BinaryExpression);
+      case "CallExpression":
+        return this.call(node as jsep.CallExpression);
+    }
+    throw new ExpressionError("only numbers, symbols, + - * / and functions are allowed", this.from);
+  }
+
+  private symbol(name: string): Typed {
+    const offset = this.place_of(name);
+    const types = symbol_types[this.moment];
+    const type = types.get(name);
+    if (type) return { tree: name, type };
+    const other: Moment = this.moment === "impact" ? "now" : "impact";
+    const hint = symbol_types[other].has(name)
+      ? ` (it is a symbol of moment = "${other}")` : suggestion(name, [...types.keys(), ...Object.keys(functions)]);
+    throw new ExpressionError(`unknown symbol '${name}'${hint}`, offset);
+  }
+
+  private binary(node: jsep.BinaryExpression): Typed {
+    const left = this.read(node.left);
+    const right = this.read(node.right);
+    const op = node.operator;
+    if (op === "+" || op === "-") {
+      if (left.type === right.type) return { tree: { op, of: [left.tree, right.tree] }, type: left.type };
+    } else if (op === "*") {
+      const type = product(left.type, right.type);
+      if (type) return { tree: { op, of: [left.tree, right.tree] }, type };
+    } else if (op === "/") {
+      if (right.type === "number") return { tree: { op, of: [left.tree, right.tree] }, type: left.type };
+    } else {
+      throw new ExpressionError(`unknown operator '${op}' (known: + - * /)`, Math.max(0, this.text.indexOf(op)));
+    }
+    const hint = op === "*" && left.type === "vector" && right.type === "vector" ? ": use dot() or cross()" : "";
+    throw new ExpressionError(`'${op}' cannot join a ${left.type} and a ${right.type}${hint}`, this.from);
+  }
+
+  private call(node: jsep.CallExpression): Typed {
+    const name = (node.callee as jsep.Identifier).name ?? "";
+    const offset = this.place_of(name);
+    const types = functions[name];
+    if (!types) throw new ExpressionError(`unknown function '${name}'${suggestion(name, Object.keys(functions))}`, offset);
+    const values = node.arguments.map((argument) => this.read(argument));
+    const [wanted, type] = types;
+    if (values.length !== wanted.length || values.some((value, i) => value.type !== wanted[i]))
+      throw new ExpressionError(`${name}() takes ${wanted.map((w) => `a ${w}`).join(" and ")} (given ${
+        values.map((value) => `a ${value.type}`).join(", ") || "nothing"})`, offset);
+    return { tree: { op: name as "dot", of: values.map((value) => value.tree) }, type };
+  }
+}
+
+function product(left: ValueType, right: ValueType): ValueType | null {
+  if (left === "number") return right;
+  if (right === "number") return left;
+  if (left === "matrix") return right;
+  return null;
+}
+
+/** Throws ExpressionError. */
+export function parse_expression(text: string, moment: Moment): Typed {
+  let node: jsep.Expression;
+  try {
+    node = jsep(text);
+  } catch (error) {
+    const { message, index, description } = error as Error & { index?: number; description?: string };
+    throw new ExpressionError(description ?? message, index ?? 0);
+  }
+  if (node.type === "Compound") throw new ExpressionError("an operator is missing, or the text is empty", 0);
+  return new Reader(text, moment).read(node);
+}
+
+/** Place of an error in a value of one line: `place` is that of its key. */
+export function place_in_value(line: string, place: Place, text: string, offset: number): Place {
+  const start = line.indexOf(text, place.column - 1);
+  return start < 0 ? place : { line: place.line, column: start + offset + 1 };
+}

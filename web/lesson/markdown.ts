@@ -1,0 +1,175 @@
+// Markdown to HTML: markdown-it with our rules, and a pass over its tokens that knows where they stand in the file.
+import MarkdownIt from "markdown-it";
+import type { Token } from "markdown-it";
+import { readFileSync } from "node:fs";
+import { dirname, extname, join } from "node:path";
+import { aside_html, add_asides, type AsideMeta } from "./markdown_aside.ts";
+import { add_math, type MathMeta } from "./markdown_math.ts";
+import { escape_html } from "./html.ts";
+import { math_to_html, MathError } from "./math.ts";
+import type { Place } from "./problems.ts";
+import type { References } from "./references.ts";
+import type { Source } from "./source.ts";
+
+/** What the pass does with parts that belong to a lesson as a whole. */
+export interface Handlers {
+  heading(token: Token, inline: Token, place: Place): void;
+  /** HTML of a fenced block, or null for code that is only shown. */
+  fence(token: Token, place: Place): string | null;
+  equation(meta: MathMeta, html: string, place: Place): string;
+}
+
+/** Our rules put it there. */
+function meta_of<Meta extends MathMeta | AsideMeta>(token: Token): Meta {
+  return token.meta as unknown as Meta;
+}
+
+const markdown = new MarkdownIt({ html: false, typographer: true });
+add_math(markdown);
+add_asides(markdown);
+markdown.renderer.rules.math_inline = (tokens, i) => meta_of<MathMeta>(tokens[i]).html ?? "";
+markdown.renderer.rules.math_block = (tokens, i) => meta_of<MathMeta>(tokens[i]).html ?? "";
+markdown.renderer.rules.aside_open = (tokens, i) => meta_of<AsideMeta>(tokens[i]).html ?? "";
+markdown.renderer.rules.aside_close = (tokens, i) => aside_html(meta_of<AsideMeta>(tokens[i]), false, String);
+markdown.renderer.rules.table_open = () => '<div class="table" role="region" aria-label="Table" tabindex="0"><table>\n';
+markdown.renderer.rules.table_close = () => "</table></div>\n";
+markdown.renderer.rules.lesson_html = (tokens, i) => tokens[i].content;
+
+const image_types: Record<string, string> = {
+  ".png": "image/png", ".jpg": "image/jpeg", ".jpeg": "image/jpeg", ".svg": "image/svg+xml", ".webp": "image/webp", ".gif": "image/gif",
+};
+
+export class MarkdownPass {
+  constructor(
+    private readonly source: Source,
+    private readonly references: References,
+    private readonly handlers: Handlers,
+  ) {}
+
+  /** `first`: line of the text's first line in the file. */
+  render(text: string, first: number): string {
+    const tokens = markdown.parse(text, {});
+    this.walk(tokens, first);
+    return markdown.renderer.render(tokens, markdown.options, {});
+  }
+
+  render_inline(text: string, first: number): string {
+    const tokens = markdown.parseInline(text, {});
+    for (const token of tokens) this.inline(token, first);
+    return markdown.renderer.render(tokens, markdown.options, {});
+  }
+
+  private walk(tokens: Token[], first: number): void {
+    let line = first;
+    tokens.forEach((token, i) => {
+      if (token.map) line = first + token.map[0];
+      const place = { line, column: 1 };
+      if (token.type === "inline") this.inline(token, line);
+      else if (token.type === "heading_open") this.handlers.heading(token, tokens[i + 1], place);
+      else if (token.type === "math_block") this.block_math(token, first);
+      else if (token.type === "aside_open") this.aside(token, place);
+      else if (token.type === "fence") {
+        const html = this.handlers.fence(token, { line, column: this.column_of(line, token.markup) });
+        if (html !== null) {
+          token.type = "lesson_html";
+          token.content = html;
+        }
+      }
+    });
+  }
+
+  private column_of(line: number, text: string): number {
+    return Math.max(0, (this.source.lines[line - 1] ?? "").indexOf(text)) + 1;
+  }
+
+  private inline(token: Token, first: number): void {
+    let search = 0;
+    const children = token.children ?? [];
+    for (let i = 0; i < children.length; ++i) {
+      const child = children[i];
+      const place_of = (text: string) => {
+        const offset = Math.max(0, token.content.indexOf(text, search));
+        search = offset;
+        return this.source.place_in(token.content, offset, first);
+      };
+      if (child.type === "math_inline") {
+        const meta = meta_of<MathMeta>(child);
+        const place = (offset: number) => this.source.place_in(token.content, meta.offset + offset, first);
+        if (meta.mistake) this.source.problem(place(-1), meta.mistake);
+        else meta.html = this.math(meta.tex, false, place);
+      } else if (child.type === "link_open") {
+        const address = String(child.attrGet("href") ?? "");
+        const empty = children[i + 1]?.type === "link_close";
+        const marks = this.references.refer(this.source, place_of(`](${decodeURI(address)}`), address, !empty);
+        if (marks) {
+          child.attrSet("href", marks.href);
+          if (empty) children[i + 1].meta = { text: marks.text };
+        }
+      } else if (child.type === "image") {
+        this.image(child, place_of("!["));
+      }
+    }
+    for (let i = children.length - 1; i > 0; --i) {
+      const text = children[i].type === "link_close" ? (children[i].meta?.text as string | undefined) : undefined;
+      if (text === undefined) continue;
+      const inserted = Object.assign(Object.create(Object.getPrototypeOf(children[i])), children[i], { type: "lesson_html", content: text, meta: null });
+      children.splice(i, 0, inserted);
+    }
+  }
+
+  private math(tex: string, display: boolean, place: (offset: number) => Place): string {
+    try {
+      return math_to_html(tex, display);
+    } catch (error) {
+      if (!(error instanceof MathError)) throw error;
+      this.source.problem(place(error.offset), error.message);
+      return "";
+    }
+  }
+
+  private block_math(token: Token, first: number): void {
+    const meta = meta_of<MathMeta>(token);
+    const line = first + (meta.line ?? 0);
+    const start = { line, column: this.column_of(line, "$$") };
+    if (meta.mistake) {
+      this.source.problem(start, meta.mistake);
+      return;
+    }
+    const html = this.math(meta.tex, true, (offset) => {
+      const before = meta.tex.slice(0, offset).split("\n");
+      const text = meta.tex.split("\n")[before.length - 1];
+      const at = (this.source.lines[line - 1 + before.length - 1] ?? "").indexOf(text);
+      return { line: line + before.length - 1, column: Math.max(0, at) + before[before.length - 1].length + 1 };
+    });
+    meta.html = this.handlers.equation(meta, html, start);
+  }
+
+  private aside(token: Token, place: Place): void {
+    const meta = meta_of<AsideMeta>(token);
+    if (meta.mistake) this.source.problem({ line: place.line, column: this.column_of(place.line, ":::") }, meta.mistake);
+    meta.html = aside_html(meta, true, (title) => this.render_inline(title, place.line));
+  }
+
+  /** Pages are one file: pictures go into it. */
+  private image(token: Token, place: Place): void {
+    const address = decodeURI(String(token.attrGet("src") ?? ""));
+    if (!token.content) this.source.problem(place, "the picture needs a text for readers who do not see it: ![text](file)");
+    const type = image_types[extname(address).toLowerCase()];
+    if (/^[a-z]+:/.test(address) || !type) {
+      this.source.problem(place, `a picture must be a file of ${Object.keys(image_types).join(", ")} (given '${address}')`);
+      return;
+    }
+    try {
+      const bytes = readFileSync(join(dirname(this.source.file), address));
+      token.attrSet("src", `data:${type};base64,${bytes.toString("base64")}`);
+    } catch {
+      this.source.problem(place, `cannot read the picture '${address}'`);
+    }
+  }
+}
+
+/** Code that is only shown. */
+export function code_html(text: string, language: string): string {
+  const name = language ? ` class="language-${escape_html(language)}"` : "";
+  return `<pre tabindex="0"><code${name}>${escape_html(text)}</code></pre>\n`;
+}
