@@ -65,14 +65,14 @@ async function with_licenses({ text, inputs }) {
   return licenses ? `/*\n${licenses.replaceAll("*/", "* /")}\n*/\n${text}` : text;
 }
 
-const { text: bundle, inputs } = await script("player.ts");
-// The style has rules of temml.
-const player = await with_licenses({ text: bundle, inputs: [...inputs, "node_modules/temml/package.json"] });
-const { text: loader } = await script("loader.ts");
-const sheets = ["shell.css", "page.css"].filter((name) => existsSync(source(name)));
-const { text: style } = await bundled({
-  stdin: { contents: sheets.map((name) => `@import "./${name}";`).join("\n"), resolveDir: join(here, "src"), loader: "css" },
+const { text: style, inputs: style_inputs } = await bundled({
+  stdin: { contents: '@import "./shell.css"; @import "./page.css";', resolveDir: join(here, "src"), loader: "css" },
 });
+const { text: bundle, inputs } = await script("player.ts");
+// The font of equations is made by a plugin, so it is not among the inputs.
+const font = "node_modules/@fontsource/noto-sans-math/package.json";
+const player = await with_licenses({ text: bundle, inputs: [...inputs, ...style_inputs, font] });
+const { text: loader } = await script("loader.ts");
 const icon = `data:image/svg+xml;base64,${(await readFile(source("icon.svg"))).toString("base64")}`;
 const page = fill(await readFile(source("page.html"), "utf8"), {
   hashes: `${hash_of(loader)} ${hash_of(player)}`,

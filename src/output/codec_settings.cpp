@@ -38,8 +38,10 @@ Arguments h264(const ClipOptions& options) {
         case VideoQuality::best:
             return x264("medium", {"-crf", "8"}, two_way,
                         "keyint=120:rc-lookahead=40:ipratio=2:no-dct-decimate=1:chroma-qp-offset=-3");
+        // At most 300 kbit/s, even if the camera moves: a page must stay small.
         case VideoQuality::small:
-            return x264("slow", {"-crf", "27"}, two_way, "keyint=240:rc-lookahead=40:ipratio=2");
+            return x264("slow", {"-crf", "27"}, two_way,
+                        "keyint=240:rc-lookahead=40:ipratio=2:vbv-maxrate=300:vbv-bufsize=600");
     }
     return {};
 }

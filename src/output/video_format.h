@@ -51,7 +51,7 @@ enum class VideoQuality {
     draft,   // fast to encode; leaves specks behind moving bodies
     normal,  // for viewing: a still background is correct a second after it came to rest
     best,    // the clip looks like its frames, also when enlarged
-    small,   // for a film within a page: a fifth of the bytes of normal
+    small,   // for a film within a page: a fifth of the bytes of normal, at most 300 kbit/s
 };
 
 struct ClipOptions {
