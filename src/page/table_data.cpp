@@ -187,6 +187,8 @@ Json make_load_data(const PageRun& run, ArrayStore& arrays) {
     std::map<std::size_t, std::array<std::vector<double>, 6>> loads;  // by body: force and moment by frame
     const Vec3& gravity = run.scene.simulation.gravity;
     std::vector<char> more(run.bodies.size(), 0);
+    // Forces that cancel still have a moment.
+    for (const ForceDescription& force : run.scene.forces) more[force.body] = 1;
     for (std::size_t n = 1; n < run.loads.size(); ++n)
         for (const ExternalLoad& load : run.loads[n]) {
             const Vec3 weight = run.reports[load.body].mass * gravity;

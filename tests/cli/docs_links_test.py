@@ -20,7 +20,7 @@ NAMED_FILE = re.compile(r"^(?:src|tests|scripts|bench|shaders|assets|docs|exampl
 
 
 def documents():
-    pages = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "bench").rglob("*.md")]
+    pages = [*ROOT.glob("*.md"), *(ROOT / "docs").rglob("*.md"), *(ROOT / "bench").rglob("*.md"), ROOT / "course" / "README.md"]
     return {page.relative_to(ROOT).as_posix(): page.read_text(encoding="utf-8") for page in sorted(pages)}
 
 

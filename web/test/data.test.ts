@@ -281,6 +281,22 @@ test("contacts and loads are the rows of the tables", { skip }, async () => {
   }
 });
 
+test("forces that cancel have a moment", { skip }, async () => {
+  const force = (point: number, z: number) => `[[force]]\nbody = "bar"\npoint = [${point}, 0.0, 0.0]\nforce = [0.0, 0.0, ${z}]\nframe = "body"\n`;
+  const { run } = await make(scene_file("couple.toml", `format = 1
+[simulation]
+duration = 0.5
+gravity = [0.0, 0.0, 0.0]
+[[body]]
+name = "bar"
+shape = { type = "box", size = [1.4, 0.2, 0.2] }
+${force(0.6, -0.6)}${force(-0.6, 0.6)}`));
+  for (let frame = 1; frame < run.frames; ++frame) {
+    at_most(norm(run.loads.force(0, frame)), 1e-9, "force");
+    at_most(apart(run.loads.moment(0, frame), [0, 0.72, 0]), 1e-6, "moment");
+  }
+});
+
 test("a hundred bodies for five seconds take at most 500 kB", { skip }, async () => {
   const { base64, run } = await make(join(scenes_folder, "falling_boxes.toml"));
   assert.equal(run.scene.bodies.filter((body) => body.type === "dynamic").length, 100);

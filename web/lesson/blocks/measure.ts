@@ -20,6 +20,13 @@ export interface MeasureBlock {
   rows: MeasureRow[];
 }
 
+/** As the program shows the measured number: enough digits to tell it from others beyond the tolerance. */
+function shown(value: number, tolerance: number): string {
+  if (value === 0 || tolerance === 0) return number_html(value);
+  const digits = Math.ceil(Math.log10(Math.abs(value) / tolerance)) + 2;
+  return number_html(Number(value.toPrecision(Math.min(Math.max(digits, 4), 15))));
+}
+
 /** `index`: from 0 in the lesson. The program puts measured values in place of the comments. */
 export function read_measure(block: BlockText, context: BlockContext, index: number): { measure: MeasureBlock; html: string } | null {
   const table = block_table(block);
@@ -52,7 +59,7 @@ export function read_measure(block: BlockText, context: BlockContext, index: num
     row.finish();
     const unit = result.unit ? `&nbsp;${escape_html(result.unit)}` : "";
     body += `<tr><th scope="row">${label}</th>${with_formula ? `<td>${formula}</td>` : ""}` +
-      `<td class="number">${number_html(result.expected)}${unit}</td>` +
+      `<td class="number">${shown(result.expected, result.tolerance)}${unit}</td>` +
       `<td class="number"><!--measured:${index}:${i}-->${unit}</td><td class="number"><!--deviation:${index}:${i}--></td></tr>\n`;
     return result;
   });
