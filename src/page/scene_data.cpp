@@ -128,6 +128,17 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
     return bodies;
 }
 
+Json make_cords(const PageRun& run) {
+    Json cords = Json::array();
+    for (const CordDescription& cord : run.scene.cords)
+        cords.push_back({{"body", cord.body},
+                         {"point", vector_json(cord.point)},
+                         {"anchor", vector_json(cord.anchor)},
+                         {"radius", cord.radius},
+                         {"color", to_string(cord.color)}});
+    return cords;
+}
+
 Json make_camera(const PageRun& run, ArrayStore& arrays) {
     const bool moves = run.cameras.size() > 1;
     const CameraDescription& first = run.cameras.front();

@@ -1,4 +1,4 @@
-// Parts of a run other than numbers over time: bodies, meshes, light, camera and overlays.
+// Parts of a run other than numbers over time: bodies, cords, meshes, light, camera and overlays.
 #pragma once
 
 #include "page/array_store.h"
@@ -21,6 +21,7 @@ private:
 };
 
 ArrayStore::Json make_bodies(const PageRun& run, MeshTable& meshes);
+ArrayStore::Json make_cords(const PageRun& run);
 ArrayStore::Json make_camera(const PageRun& run, ArrayStore& arrays);
 ArrayStore::Json make_overlays(const PageRun& run);
 

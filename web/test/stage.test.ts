@@ -216,6 +216,26 @@ test("the followed body stays in the middle", async () => {
   await opened.close();
 });
 
+test("a cord spans from the body to its anchor", async () => {
+  const opened = await open();
+  const greens = await opened.page.evaluate(() => {
+    const { scene, motion } = clip.runs[0];
+    const [x, y, z] = motion.state(1, 0).position;
+    scene.cords.push({ body: 1, point: [0, 0.2, 0], anchor: [x + 1, y + 1.2, z], radius: 0.02, color: "#00a000" });
+    const seen = [0, 0.5, 0.95, 1.05].map((share) => {
+      const at: [number, number, number] = [x + share, y + 0.2 + share, z];
+      scene.camera = () => ({ eye: [at[0], at[1], at[2] + 3], target: at, up: [0, 1, 0], vertical_fov: 40 });
+      stage.show([0], 0, "single");
+      const { data, width, height } = stage.pixels();
+      const middle = 4 * (width * (height >> 1) + (width >> 1));
+      return data[middle + 1] > 1.5 * data[middle];
+    });
+    return seen;
+  });
+  assert.deepEqual(greens, [false, true, true, false]);   // the first lies in the ball
+  await opened.close();
+});
+
 test("the picture of a hidden stage", async () => {
   const opened = await open();
   await opened.page.evaluate(() => {

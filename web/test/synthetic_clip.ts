@@ -239,6 +239,7 @@ export function make_synthetic_run(restitution: number): Run {
     settings: { impacts: "exact", method: "tumble", integrator: "exact", step: 1 / 240, gravity: [0, -gravity, 0] },
     scene: {
       bodies: make_bodies(restitution),
+      cords: [],
       meshes: [],
       light: { direction: [-0.4, -0.8, -0.45], shadows: true },
       camera_moves: false,

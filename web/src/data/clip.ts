@@ -56,6 +56,7 @@ export interface RunSettings {
 export interface Scene {
   /** In scene order, fixed ones included. */
   bodies: Body[];
+  cords: Cord[];
   /** Triangle meshes that shapes name by index. */
   meshes: Mesh[];
   light: { direction: Vec3; shadows: boolean };
@@ -106,6 +107,19 @@ export interface Body {
   center_of_mass: Vec3;
   restitution: number;
   friction: number;
+}
+
+/** A straight line from a body to a fixed point, to look at: it has no effect on the motion. */
+export interface Cord {
+  /** Index of the body. */
+  body: number;
+  /** Body frame, from the body's origin, m. */
+  point: Vec3;
+  /** World frame, m. */
+  anchor: Vec3;
+  /** m. */
+  radius: number;
+  color: ColorText;
 }
 
 /** A body at a moment. */

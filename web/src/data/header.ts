@@ -1,6 +1,6 @@
 // The JSON header of the clip data, as src/page writes it.
 import type { ArrayReference, PredictedReference } from "./container.ts";
-import type { Body, Camera, EnergyTable, OverlaySettings, RunSettings, Vec3 } from "./clip.ts";
+import type { Body, Cord, Camera, EnergyTable, OverlaySettings, RunSettings, Vec3 } from "./clip.ts";
 
 export interface ClipHeader {
   format: number;
@@ -17,6 +17,7 @@ export interface RunHeader {
   frames: number;
   settings: RunSettings;
   bodies: Body[];
+  cords: Cord[];
   light: { direction: Vec3; shadows: boolean };
   camera: Camera & { quantum?: number; frames?: PredictedReference[] };
   motion: MotionHeader;

@@ -1,4 +1,4 @@
-// Bodies, meshes, light and camera of a run (src/page/scene_data.h).
+// Bodies, cords, meshes, light and camera of a run (src/page/scene_data.h).
 import type { Camera, Mesh, Scene, Vec3 } from "./clip.ts";
 import type { Container } from "./container.ts";
 import type { MeshHeader, RunHeader } from "./header.ts";
@@ -52,6 +52,7 @@ function read_camera(run: RunHeader, reader: Reader): (time: number) => Camera {
 export function read_scene(run: RunHeader, reader: Reader, meshes: Mesh[]): Scene {
   return {
     bodies: run.bodies,
+    cords: run.cords,
     meshes,
     light: run.light,
     camera_moves: run.camera.frames !== undefined,

@@ -34,17 +34,19 @@ export class BodySet {
   }
 
   add(body: number, origin: Vec3, rotation: Quat, tint: Tint = no_tint, opacity = 1): void {
-    for (const part of this.parts[body]) {
-      const instance: Instance = {
-        ...part,
-        origin: add(origin, rotate(rotation, part.position)),
-        rotation: multiply(rotation, part.rotation),
-        opacity,
-        tint: tint.color,
-        tint_share: tint.share,
-      };
-      this.batch(part.geometry).add(instance);
-    }
+    for (const part of this.parts[body]) this.add_part(part, origin, rotation, tint, opacity);
+  }
+
+  add_part(part: Part, origin: Vec3, rotation: Quat, tint: Tint = no_tint, opacity = 1): void {
+    const instance: Instance = {
+      ...part,
+      origin: add(origin, rotate(rotation, part.position)),
+      rotation: multiply(rotation, part.rotation),
+      opacity,
+      tint: tint.color,
+      tint_share: tint.share,
+    };
+    this.batch(part.geometry).add(instance);
   }
 
   end(): void {

@@ -23,21 +23,15 @@ interface FreeView {
 
 export class CameraRig {
   private free: FreeView | null = null;
-  private home: { eye: Vec3; target: Vec3 } | null = null;
   private followed: number | null = null;
 
   /** What the reader sees of a run. The followed body is that of the run. */
   view(run: MovingScene, time: number): Camera {
-    const camera = this.home_view(run.scene, time);
+    const camera = run.scene.camera(time);
     if (!this.free && this.followed === null) return camera;
     const free = this.free ?? free_of(camera);
     const target = this.followed === null ? free.target : add(free.target, run.motion.state(this.followed, time).position);
     return { eye: add(target, free.offset), target, up: free.up, vertical_fov: free.vertical_fov };
-  }
-
-  /** The view that reset() returns to; null: the scene's camera. */
-  set_home(home: { eye: Vec3; target: Vec3 } | null): void {
-    this.home = home;
   }
 
   reset(): void {
@@ -90,13 +84,8 @@ export class CameraRig {
 
   private take(run: MovingScene, time: number): FreeView {
     if (this.free) return this.free;
-    this.free = free_of(this.home_view(run.scene, time));
+    this.free = free_of(run.scene.camera(time));
     return this.free;
-  }
-
-  private home_view(scene: Scene, time: number): Camera {
-    const camera = scene.camera(time);
-    return this.home ? { ...camera, ...this.home } : camera;
   }
 }
 

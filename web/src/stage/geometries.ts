@@ -23,8 +23,8 @@ function own_mesh(mesh: Mesh): THREE.BufferGeometry {
   return geometry;
 }
 
-/** Key of a geometry: "box", "ball", or "mesh" with its index. */
-export type GeometryKey = "box" | "ball" | `mesh${number}`;
+/** Key of a geometry: "box", "ball", "rod" along y, or "mesh" with its index. */
+export type GeometryKey = "box" | "ball" | "rod" | `mesh${number}`;
 
 export class Geometries {
   private readonly made = new Map<GeometryKey, THREE.BufferGeometry>();
@@ -38,6 +38,7 @@ export class Geometries {
     if (!geometry) {
       if (key === "box") geometry = new THREE.BoxGeometry(2, 2, 2);
       else if (key === "ball") geometry = ball(this.balls);
+      else if (key === "rod") geometry = new THREE.CylinderGeometry(1, 1, 2, 8, 1);
       else geometry = own_mesh(this.meshes[Number(key.slice(4))]);
       this.made.set(key, geometry);
     }

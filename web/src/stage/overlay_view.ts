@@ -11,7 +11,7 @@ import type { SceneSize } from "./scene_size.ts";
 import { marker_forms } from "./screen_glsl.ts";
 import { ScreenShapes, type ScreenUniforms } from "./screen_shapes.ts";
 import { draw_symbol, type SymbolRequest } from "./symbols.ts";
-import { add_trails } from "./trails.ts";
+import { add_trails, started } from "./trails.ts";
 
 /** Opacity of all other overlays while a symbol is lit. */
 const dimmed = 0.3;
@@ -28,7 +28,7 @@ export class OverlayView {
   private readonly lit_arrows: ScreenShapes;
   private readonly lit_markers: ScreenShapes;
   private readonly ghosts: BodySet;
-  private has_trails = false;
+  private trail_times: Float64Array | null = null;
 
   constructor(
     private readonly run: Run,
@@ -52,10 +52,10 @@ export class OverlayView {
   update(time: number, before: boolean, overlays: Set<OverlayName>, symbol: SymbolRequest | null): void {
     this.frame = this.builder.build(time, before, overlays);
     this.lit = symbol && draw_symbol(this.run, this.size, time, symbol);
-    if (overlays.has("trails") && !this.has_trails) {
-      add_trails(this.run, this.size.viewing_distance, this.trails);
-      this.has_trails = true;
-    }
+    if (overlays.has("trails")) {
+      this.trail_times ??= add_trails(this.run, this.size.viewing_distance, this.trails);
+      this.trails.limit(started(this.trail_times, time));
+    } else this.trails.limit(0);
     for (const shapes of [this.lines, this.arrows, this.markers, this.lit_arrows, this.lit_markers]) shapes.begin();
     for (const line of this.frame.lines)
       for (let i = 0; i + 1 < line.points.length; ++i)
@@ -68,7 +68,6 @@ export class OverlayView {
     for (const arrow of this.lit?.arrows ?? []) add_arrow(arrow, this.lit_arrows);
     for (const marker of this.lit?.markers ?? []) add_marker(marker, this.lit_markers);
     for (const shapes of [this.lines, this.arrows, this.markers, this.lit_arrows, this.lit_markers]) shapes.end();
-    this.trails.group.visible = overlays.has("trails");
     for (const shapes of [this.trails, this.lines, this.arrows, this.markers]) shapes.set_opacity(this.lit ? dimmed : 1);
     this.ghosts.begin();
     for (const ghost of this.frame.ghosts) this.ghosts.add(ghost.body, ghost.origin, ghost.rotation, undefined, ghost_opacity);

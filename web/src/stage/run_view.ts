@@ -3,6 +3,7 @@ import * as THREE from "three";
 import type { Camera, Pose, Run, Vec3 } from "../data/clip.ts";
 import { BodySet, type Tint } from "./body_set.ts";
 import { fitted_fov } from "./camera_rig.ts";
+import { add_cords } from "./cords.ts";
 import { Geometries } from "./geometries.ts";
 import type { Materials } from "./materials.ts";
 import { distance } from "./math.ts";
@@ -73,6 +74,7 @@ export class RunView {
       this.solids.add(body, origin, rotation, tints.get(body));
       if (body === selected) this.outline.add(body, origin, rotation);
     });
+    add_cords(this.run.scene.cords, this.run.motion, time, this.size.viewing_distance, this.solids);
     this.solids.end();
     this.outline.end();
     for (const occlusion of this.occlusion) occlusion.update(time);

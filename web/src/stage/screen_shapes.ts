@@ -104,6 +104,12 @@ export class ScreenShapes {
     this.buffer.needsUpdate = true;
   }
 
+  /** Draws only the first ones. */
+  limit(count: number): void {
+    this.geometry.instanceCount = Math.min(count, this.count);
+    this.group.visible = this.geometry.instanceCount > 0;
+  }
+
   /** Factor on the opacity of all. */
   set_opacity(opacity: number): void {
     for (const { material, share } of this.materials) material.uniforms.u_opacity.value = share * opacity;

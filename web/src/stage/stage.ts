@@ -2,18 +2,18 @@
 import * as THREE from "three";
 import type { Clip, OverlayName, Vec3 } from "../data/clip.ts";
 import { CameraRig } from "./camera_rig.ts";
-import { Labels, type ViewRectangle } from "./labels.ts";
+import { Labels } from "./labels.ts";
 import { Materials } from "./materials.ts";
 import type { Moment } from "./moment.ts";
 import { pick } from "./pick.ts";
 import { listen } from "./pointer.ts";
-import { RunView, run_color } from "./run_view.ts";
+import { RunView } from "./run_view.ts";
 import { ScreenUniforms } from "./screen_shapes.ts";
 import type { SymbolRequest } from "./symbols.ts";
-import { theme_of, type Theme } from "./theme.ts";
+import { add_run_titles, type RunRectangle, type StageMode } from "./run_titles.ts";
+import type { Theme } from "./theme.ts";
+import { draws_in_software } from "./software.ts";
 import { tile } from "./tiles.ts";
-
-export type StageMode = "single" | "ghost" | "side-by-side";
 
 /** Pixels of the picture for a pixel of the page, at most: more is not seen, and costs. */
 const most_pixel_ratio = 2;
@@ -22,10 +22,6 @@ const hidden_size = { width: 640, height: 360 };
 /** Units of the screen are those of a picture of this height, but never below this share. */
 const unit_height = 720;
 const least_unit = 0.75;
-
-interface View extends ViewRectangle {
-  run: number;
-}
 
 export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
@@ -39,12 +35,13 @@ export class Stage {
   private runs: number[] = [0];
   private mode: StageMode = "single";
   private readonly moment: Moment = { time: 0, before: false, shown: new Set(), symbol: null, selected: null };
-  private views: View[] = [];
+  private views: RunRectangle[] = [];
   private width = 0;
   private height = 0;
   private pending = 0;
   private changed = true;
   private lost = false;
+  private readonly most_ratio: number;
   private theme: Theme;
   private picked: (body: number | null) => void = () => {};
 
@@ -56,7 +53,7 @@ export class Stage {
   ) {
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: false, powerPreference: "low-power" });
     this.renderer.autoClear = false;
-    this.renderer.sortObjects = true;
+    this.most_ratio = draws_in_software(this.renderer.getContext()) ? 1 : most_pixel_ratio;
     const canvas = this.canvas;
     Object.assign(canvas.style, { display: "block", width: "100%", height: "100%" });
     canvas.setAttribute("aria-hidden", "true");
@@ -112,7 +109,7 @@ export class Stage {
     renderer.setScissorTest(this.views.length > 1);
     this.labels.begin();
     this.views.forEach((view, i) => this.draw_view(view, seen[i]));
-    this.label_runs();
+    add_run_titles(this.labels, this.clip, this.runs, this.views, this.mode, this.theme);
     this.labels.end();
   }
 
@@ -147,12 +144,6 @@ export class Stage {
     this.request();
   }
 
-  /** The view to start from and to return to; null: the scene's camera. */
-  set_view(view: { eye: Vec3; target: Vec3 } | null): void {
-    this.rig.set_home(view);
-    this.request();
-  }
-
   /** Radians about the target. */
   orbit(dx: number, dy: number): void {
     this.rig.orbit(dx, dy, this.first_run, this.moment.time);
@@ -180,7 +171,7 @@ export class Stage {
 
   resize(): void {
     const { clientWidth, clientHeight } = this.host;
-    const ratio = Math.min(globalThis.devicePixelRatio || 1, most_pixel_ratio);
+    const { ratio } = this;
     if (clientWidth === 0 || clientHeight === 0) return;
     if (clientWidth === this.width && clientHeight === this.height && ratio === this.renderer.getPixelRatio()) return;
     this.set_size(clientWidth, clientHeight);
@@ -227,6 +218,10 @@ export class Stage {
     this.canvas.remove();
   }
 
+  private get ratio(): number {
+    return Math.min(globalThis.devicePixelRatio || 1, this.most_ratio);
+  }
+
   private get first_run() {
     return this.clip.runs[this.runs[0]];
   }
@@ -244,7 +239,7 @@ export class Stage {
   private set_size(width: number, height: number): void {
     this.width = width;
     this.height = height;
-    this.renderer.setPixelRatio(Math.min(globalThis.devicePixelRatio || 1, most_pixel_ratio));
+    this.renderer.setPixelRatio(this.ratio);
     this.renderer.setSize(width, height, false);
   }
 
@@ -262,7 +257,7 @@ export class Stage {
     this.views = tile(runs.length, this.width, this.height).map((rectangle, i) => ({ ...rectangle, run: runs[i] }));
   }
 
-  private draw_view(view: View, run_view: RunView): void {
+  private draw_view(view: RunRectangle, run_view: RunView): void {
     const { renderer, moment } = this;
     const { left, top, width, height } = view;
     const ratio = renderer.getPixelRatio();
@@ -274,17 +269,6 @@ export class Stage {
     run_view.draw(renderer, moment.time, { width: width * ratio, height: height * ratio, unit });
     for (const label of run_view.overlays.frame.labels) this.labels.add(label, run_view.camera, view);
     for (const label of run_view.overlays.lit?.labels ?? []) this.labels.add(label, run_view.camera, view);
-  }
-
-  private label_runs(): void {
-    const css = ([r, g, b]: Vec3) => `rgb(${Math.round(255 * r)} ${Math.round(255 * g)} ${Math.round(255 * b)})`;
-    if (this.mode === "side-by-side")
-      for (const view of this.views) this.labels.add_title(this.clip.runs[view.run].label, view, null);
-    if (this.mode !== "ghost" || this.runs.length < 2) return;
-    this.runs.forEach((run, i) => {
-      const row = { ...this.views[0], top: this.views[0].top + 26 * i };
-      this.labels.add_title(this.clip.runs[run].label, row, i === 0 ? theme_of(this.theme).label_color : css(run_color(run)));
-    });
   }
 
   private body_at(x: number, y: number): number | null {

@@ -4,24 +4,24 @@ import type { Run, Vec3 } from "../data/clip.ts";
 import { from_text, mixed } from "./color.ts";
 import { add, distance, rotate } from "./math.ts";
 import { trail_width } from "./overlay_style.ts";
-import type { ScreenShapes } from "./screen_shapes.ts";
+import type { ScreenShape, ScreenShapes } from "./screen_shapes.ts";
 
 /** Of the viewing distance: a path may be left by so much to have fewer pieces. */
-const tolerance = 5e-4;
+const tolerance = 1e-3;
 
 interface Sample {
   time: number;
   at: Vec3;
 }
 
-/** Fills the pieces of all trails of a run. */
-export function add_trails(run: Run, viewing_distance: number, to: ScreenShapes): void {
+/** Fills the pieces of all trails of a run, in the order in which they are passed. Returns the times at which they start, s. */
+export function add_trails(run: Run, viewing_distance: number, to: ScreenShapes): Float64Array {
   const pale = (color: Vec3) => mixed(color, [1, 1, 1], 0.45);
   const body_color = (body: number) => pale(from_text(run.scene.bodies[body].color));
   const points: { body: number; point: Vec3 | null; color: Vec3 }[] = run.overlays.trail_points.length
     ? run.overlays.trail_points.map(({ body, point, color }) => ({ body, point, color: color ? from_text(color) : body_color(body) }))
     : run.overlays.bodies.map((body) => ({ body, point: null, color: body_color(body) }));
-  to.begin();
+  const pieces: ScreenShape[] = [];
   for (const { body, point, color } of points) {
     if (run.motion.kind(body) === "still") continue;
     const samples = times_of(run, body).map((time): Sample => {
@@ -30,12 +30,27 @@ export function add_trails(run: Run, viewing_distance: number, to: ScreenShapes)
     });
     const kept = simplified(samples, tolerance * viewing_distance);
     for (let i = 0; i + 1 < kept.length; ++i)
-      to.add({
+      pieces.push({
         from: kept[i].at, from_w: kept[i].time, to: kept[i + 1].at, to_w: kept[i + 1].time, color, opacity: 0.95, allowance: 0,
         always: false, form: trail_width,
       });
   }
+  pieces.sort((a, b) => a.from_w - b.from_w);
+  to.begin();
+  for (const piece of pieces) to.add(piece);
   to.end();
+  return Float64Array.from(pieces, (piece) => piece.from_w);
+}
+
+/** How many of the ascending times are not after a moment. */
+export function started(times: Float64Array, time: number): number {
+  let [low, high] = [0, times.length];
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (times[middle] <= time) low = middle + 1;
+    else high = middle;
+  }
+  return low;
 }
 
 // Of all frames, and of the body's impacts, where its path has a corner.
