@@ -75,7 +75,7 @@ PageShell lesson_page(const Course& course, std::size_t index, const LessonResul
     shell.kind = "lesson";
     shell.generator = generator;
     shell.body_html = fill_places(lesson.body_html, texts);
-    if (course.lessons.size() > 1) shell.up = {"index.html", "Contents"};
+    if (course.lessons.size() > 1) shell.up = {"index.html", ""};
     if (index > 0) shell.previous = {address_of(course.lessons[index - 1]), course.lessons[index - 1].title};
     if (index + 1 < course.lessons.size())
         shell.next = {address_of(course.lessons[index + 1]), course.lessons[index + 1].title};
