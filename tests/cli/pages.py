@@ -51,7 +51,7 @@ class PageTestCase(program.ProgramTest):
 class Page(html.parser.HTMLParser):
     """The elements of a page: (tag, attributes, text directly in it), in order."""
 
-    EMPTY = {"meta", "link", "img", "br", "source", "hr"}
+    EMPTY = {"meta", "link", "img", "br", "source", "hr", "input"}
 
     def __init__(self, path):
         super().__init__()

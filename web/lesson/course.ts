@@ -22,7 +22,7 @@ export interface LessonOutput {
 
 export interface CourseOutput {
   lessons: LessonOutput[];
-  /** Content of index.html. */
+  /** Content of index.html below its title. */
   index: string;
   errors: Problem[];
 }
@@ -59,8 +59,7 @@ function index_of(lessons: Lesson[]): string {
     return `<li><h2><a href="${encodeURI(lesson.name)}.html">${escape_html(lesson.front.title)}</a></h2>
 <p>${escape_html(lesson.front.summary)}</p>${duration}</li>`;
   });
-  return `<header class="lesson-header"><h1>Lessons</h1></header>
-<ol class="lesson-list">
+  return `<ol class="lesson-list">
 ${items.join("\n")}
 </ol>
 `;

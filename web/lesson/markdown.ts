@@ -31,7 +31,7 @@ markdown.renderer.rules.math_inline = (tokens, i) => meta_of<MathMeta>(tokens[i]
 markdown.renderer.rules.math_block = (tokens, i) => meta_of<MathMeta>(tokens[i]).html ?? "";
 markdown.renderer.rules.aside_open = (tokens, i) => meta_of<AsideMeta>(tokens[i]).html ?? "";
 markdown.renderer.rules.aside_close = (tokens, i) => aside_html(meta_of<AsideMeta>(tokens[i]), false, String);
-markdown.renderer.rules.table_open = () => '<div class="table" role="region" aria-label="Table" tabindex="0"><table>\n';
+markdown.renderer.rules.table_open = () => '<div class="table" role="group" aria-label="Table" tabindex="0"><table>\n';
 markdown.renderer.rules.table_close = () => "</table></div>\n";
 markdown.renderer.rules.lesson_html = (tokens, i) => tokens[i].content;
 
@@ -66,6 +66,7 @@ export class MarkdownPass {
       const place = { line, column: 1 };
       if (token.type === "inline") this.inline(token, line);
       else if (token.type === "heading_open") this.handlers.heading(token, tokens[i + 1], place);
+      else if (token.type === "th_open" && tokens[i + 1].content === "") token.tag = tokens[i + 2].tag = "td";
       else if (token.type === "math_block") this.block_math(token, first);
       else if (token.type === "aside_open") this.aside(token, place);
       else if (token.type === "fence") {
@@ -100,7 +101,8 @@ export class MarkdownPass {
       } else if (child.type === "link_open") {
         const address = String(child.attrGet("href") ?? "");
         const empty = children[i + 1]?.type === "link_close";
-        const marks = this.references.refer(this.source, place_of(`](${decodeURI(address)}`), address, !empty);
+        const { line, column } = place_of(`](${decodeURI(address)}`);
+        const marks = this.references.refer(this.source, { line, column: column + "](".length }, address, !empty);
         if (marks) {
           child.attrSet("href", marks.href);
           if (empty) children[i + 1].meta = { text: marks.text };

@@ -1,5 +1,6 @@
 // TeX to MathML, when the lesson is built: the page carries no TeX and no font of many weights.
 import temml from "temml";
+import { math_characters } from "../build/math_characters.mjs";
 import { suggestion } from "./problems.ts";
 import { symbol_macros, symbols } from "./symbols.ts";
 
@@ -13,8 +14,25 @@ export class MathError extends Error {
   }
 }
 
+const in_font = new Set(math_characters);
+
+/** A character that the pages' font lacks would be drawn in any other font, or as an empty box. */
+function check_characters(markup: string): void {
+  const text = markup.replace(/<mtext[^>]*>.*?<\/mtext>/gs, "").replace(/<[^>]*>/g, "").replace(/&(?:lt|gt|amp);/g, "");
+  const missing = [...text].find((character) => !in_font.has(character));
+  if (!missing) return;
+  const code = missing.codePointAt(0)!.toString(16).toUpperCase().padStart(4, "0");
+  throw new MathError(`TeX: the font of pages has no '${missing}' (U+${code}); web/build/math_characters.mjs lists its characters`, 0);
+}
+
 /** Throws MathError. */
 export function math_to_html(tex: string, display: boolean): string {
+  const markup = markup_of(tex, display);
+  check_characters(markup);
+  return markup;
+}
+
+function markup_of(tex: string, display: boolean): string {
   try {
     return temml.renderToString(tex, {
       displayMode: display,

@@ -1,5 +1,7 @@
 // References between equations, sections, stages and lessons: [](#eq-impulse), [text](friction.md#coulomb). They are
 // filled in when all lessons are read, because a target may come later.
+import { existsSync } from "node:fs";
+import { dirname, join } from "node:path";
 import { escape_html } from "./html.ts";
 import { suggestion, type Place } from "./problems.ts";
 import type { Source } from "./source.ts";
@@ -59,8 +61,12 @@ export class References {
     const lesson = reference.lesson || own;
     const none = { href: "#", text: "" };
     const anchors = this.anchors.get(lesson);
+    if (!anchors && existsSync(join(dirname(source.file), `${lesson}.md`))) {
+      // A lesson of the same course, which is not made this time.
+      return { href: `${lesson}.html${anchor ? `#${anchor}` : ""}`, text: escape_html(lesson) };
+    }
     if (!anchors) {
-      source.problem(place, `no lesson '${lesson}.md' among the lessons given${suggestion(lesson, [...this.anchors.keys()])}`);
+      source.problem(place, `no lesson '${lesson}.md' among the lessons given or in their folder${suggestion(lesson, [...this.anchors.keys()])}`);
       return none;
     }
     const file = reference.lesson && reference.lesson !== own ? `${lesson}.html` : "";

@@ -21,8 +21,8 @@ function before_and_after(stem: string, name: string, tex: string, meaning: stri
     const whose = `${meaning} of ${body.toUpperCase()}`;
     return [
       symbol(stem + body, name + body, of_body, whose),
-      symbol(`${stem}${body}m`, name + body, `{${of_body}}^{-}`, `${whose} before the impact`),
-      symbol(`${stem}${body}p`, `${name}${body}p`, `{${of_body}}^{+}`, `${whose} after the impact`),
+      symbol(`${stem}${body}m`, name + body, `${of_body}^{-}`, `${whose} before the impact`),
+      symbol(`${stem}${body}p`, `${name}${body}p`, `${of_body}^{+}`, `${whose} after the impact`),
     ];
   });
 }

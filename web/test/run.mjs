@@ -24,7 +24,7 @@ function skip(name, reason) {
 function missing_part(inputs) {
   const imports = (module) => inputs.includes(`test/${module}`);
   if (imports("program.ts") && !existsSync(tumble_path())) return `there is no ${tumble_path()} (cmake --build --preset release)`;
-  if (imports("made_page.ts") && !existsSync(join(player_folder, "player.js"))) {
+  if ((imports("made_page.ts") || imports("made_lesson.ts")) && !existsSync(join(player_folder, "player.js"))) {
     return "there is no build/web/player.js (scripts/build-web)";
   }
   if (imports("browser.ts") && !chromium_path()) return "there is no chromium (scripts/install-dependencies --test)";

@@ -95,6 +95,7 @@ void run_page(const PageCommand& command);
 struct LessonCommand {
     std::vector<std::filesystem::path> lessons;  // Markdown
     std::filesystem::path site;                  // folder of the pages
+    std::string title = "Lessons";               // of the contents
     bool check = false;                          // runs and checks everything, and writes nothing
     bool pictures = true;                        // of the stages, for print and for readers without WebGL
     bool films = false;                          // of the stages, for readers without WebGL

@@ -80,7 +80,8 @@ std::vector<SitePage> make_pages(const LessonCommand& command, const Course& cou
         pages.push_back({command.site / (lesson.name + ".html"), page_template.fill(shell)});
     }
     if (!command.check)
-        pages.push_back({command.site / "index.html", page_template.fill(index_page(course, generator))});
+        pages.push_back(
+            {command.site / "index.html", page_template.fill(index_page(course, command.title, generator))});
     return pages;
 }
 

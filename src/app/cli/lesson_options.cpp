@@ -18,6 +18,7 @@ CLI::App* add_lesson(CLI::App& app, CommandLine& line) {
                                          "index.html")
                             ->check(some_name())
                             ->type_name("SITE");
+    command->add_option("--title", c.title, "Title of index.html")->option_text("TEXT [Lessons]");
     command->add_flag("--check", c.check, "Run and check everything, and write nothing")->excludes(site);
     CLI::Option* film =
         command->add_flag("--film", c.films, "A film of each stage for readers without WebGL: larger pages");

@@ -118,7 +118,7 @@ std::string convergence_figure(const LessonConvergence& block, std::span<const C
         "<figure class=\"convergence\">\n<svg viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
         width, height, html_text(block.alt), svg);
     html += fmt::format(
-        "<div class=\"table\" role=\"region\" aria-label=\"Slopes\" tabindex=\"0\"><table>\n<thead><tr><th "
+        "<div class=\"table\" role=\"group\" aria-label=\"Slopes\" tabindex=\"0\"><table>\n<thead><tr><th "
         "scope=\"col\">Integrator</th><th scope=\"col\">Order</th><th scope=\"col\">Fitted slope</th><th "
         "scope=\"col\">Error at the smallest step</th></tr></thead>\n<tbody>\n{}</tbody></table></div>\n",
         slope_rows(block, lines));

@@ -94,8 +94,8 @@ struct Lesson {
 };
 
 struct Course {
-    std::vector<Lesson> lessons;  // in their order
-    std::string index_html;
+    std::vector<Lesson> lessons;     // in their order
+    std::string index_html;          // below its title
     std::vector<InputError> errors;  // mistakes in the lessons
 };
 

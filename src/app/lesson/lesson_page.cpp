@@ -1,5 +1,6 @@
 #include "app/lesson/lesson_page.h"
 
+#include "page/html_text.h"
 #include "page/run_html.h"
 
 #include <fmt/format.h>
@@ -75,20 +76,21 @@ PageShell lesson_page(const Course& course, std::size_t index, const LessonResul
     shell.kind = "lesson";
     shell.generator = generator;
     shell.body_html = fill_places(lesson.body_html, texts);
-    if (course.lessons.size() > 1) shell.up = {"index.html", "Contents"};
+    if (course.lessons.size() > 1) shell.up = {"index.html", ""};
     if (index > 0) shell.previous = {address_of(course.lessons[index - 1]), course.lessons[index - 1].title};
     if (index + 1 < course.lessons.size())
         shell.next = {address_of(course.lessons[index + 1]), course.lessons[index + 1].title};
     return shell;
 }
 
-PageShell index_page(const Course& course, const std::string& generator) {
+PageShell index_page(const Course& course, const std::string& title, const std::string& generator) {
     PageShell shell;
-    shell.title = "Lessons";
+    shell.title = title;
     shell.description = course.lessons.size() == 1 ? course.lessons.front().summary : "Contents of the lessons";
     shell.kind = "index";
     shell.generator = generator;
-    shell.body_html = course.index_html;
+    shell.body_html =
+        fmt::format("<header class=\"lesson-header\"><h1>{}</h1></header>\n", html_text(title)) + course.index_html;
     shell.with_player = false;
     return shell;
 }

@@ -20,6 +20,6 @@ PageShell lesson_page(const Course& course, std::size_t index, const LessonResul
                       const std::vector<StagePictures>& pictures, const std::string& generator);
 
 /// The page of contents.
-PageShell index_page(const Course& course, const std::string& generator);
+PageShell index_page(const Course& course, const std::string& title, const std::string& generator);
 
 }  // namespace tumble

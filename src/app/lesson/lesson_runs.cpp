@@ -65,23 +65,25 @@ LessonRuns::LessonRuns(const Course& course, std::string generator)
 void LessonRuns::load(const Lesson& lesson) {
     LessonScenes& scenes = scenes_.emplace_back();
     LessonResult& result = results_.emplace_back();
-    std::vector<InputError>& errors = errors_[scenes_.size() - 1];
+    const std::size_t index = scenes_.size() - 1;
     scenes.stages.resize(lesson.stages.size());
     scenes.convergences.resize(lesson.convergences.size());
     result.stages.resize(lesson.stages.size());
     result.convergences.resize(lesson.convergences.size());
     for (const LessonMeasure& measure : lesson.measures) result.measures.emplace_back(measure.rows.size());
-    const auto collect = [&](const std::function<void()>& action) {
-        try {
-            action();
-        } catch (const InputError& error) {
-            errors.push_back(error);
-        }
-    };
     for (std::size_t i = 0; i < lesson.stages.size(); ++i)
-        collect([&] { scenes.stages[i] = load_stage(lesson.stages[i], inputs_); });
+        collect(index, [&] { scenes.stages[i] = load_stage(lesson.stages[i], inputs_); });
     for (std::size_t i = 0; i < lesson.convergences.size(); ++i)
-        collect([&] { scenes.convergences[i] = load_convergence(lesson.convergences[i], inputs_); });
+        collect(index, [&] { scenes.convergences[i] = load_convergence(lesson.convergences[i], inputs_); });
+}
+
+void LessonRuns::collect(std::size_t lesson, const std::function<void()>& action) {
+    try {
+        action();
+    } catch (const InputError& error) {
+        const std::lock_guard lock(errors_mutex_);
+        errors_[lesson].push_back(error);
+    }
 }
 
 std::size_t LessonRuns::blocks() const {
@@ -117,11 +119,12 @@ void LessonRuns::run_stage(std::size_t lesson, std::size_t stage) {
         settings.label = scenes[i].label;
         settings.observers = {&checked.observer()};
         clip.runs.push_back(record_run(scenes[i].scene, settings, interrupt));
-        for (std::size_t k = 0; k < of_run.size(); ++k) {
-            const double measured = checked.measured(k, clip.runs.back());
-            compare_with_run(*numbers[k], measured, of_run[k].measured == nullptr);
-            if (of_run[k].measured != nullptr) *of_run[k].measured = measured;
-        }
+        for (std::size_t k = 0; k < of_run.size(); ++k)
+            collect(lesson, [&] {
+                const double measured = checked.measured(k, clip.runs.back());
+                compare_with_run(*numbers[k], measured, of_run[k].measured == nullptr);
+                if (of_run[k].measured != nullptr) *of_run[k].measured = measured;
+            });
     }
     results_[lesson].stages[stage].clip = make_clip_data(clip).bytes;
 }
@@ -150,15 +153,9 @@ void LessonRuns::run(int threads, const std::function<void(std::size_t)>& progre
     const std::vector<Job> list = jobs();
     std::atomic<std::size_t> next = 0, done = 0;
     std::atomic<bool> stopped = false;
-    std::mutex mutex;
     const auto work = [&] {
         for (std::size_t i; !stopped && (i = next++) < list.size();) {
-            try {
-                list[i].work();
-            } catch (const InputError& error) {
-                const std::lock_guard lock(mutex);
-                errors_[list[i].lesson].push_back(error);
-            }
+            collect(list[i].lesson, list[i].work);
             ++done;
         }
     };

@@ -7,6 +7,7 @@
 #include "page/clip_data.h"
 
 #include <functional>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -49,6 +50,8 @@ public:
 private:
     struct Job;
     void load(const Lesson& lesson);
+    /// Calls it; its mistake is kept.
+    void collect(std::size_t lesson, const std::function<void()>& action);
     void run_stage(std::size_t lesson, std::size_t stage);
     void run_convergence_block(std::size_t lesson, std::size_t block);
     std::vector<Job> jobs();
@@ -58,6 +61,7 @@ private:
     std::vector<LessonScenes> scenes_;
     std::vector<LessonResult> results_;
     std::vector<std::vector<InputError>> errors_;  // by lesson
+    std::mutex errors_mutex_;
     FileList inputs_;
 };
 

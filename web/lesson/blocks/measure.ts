@@ -63,7 +63,7 @@ export function read_measure(block: BlockText, context: BlockContext, index: num
       `<td class="number"><!--measured:${index}:${i}-->${unit}</td><td class="number"><!--deviation:${index}:${i}--></td></tr>\n`;
     return result;
   });
-  const html = `<div class="measure" tabindex="0" role="region" aria-label="Expected and measured numbers"><table>${caption}
+  const html = `<div class="measure" tabindex="0" role="group" aria-label="Expected and measured numbers"><table>${caption}
 <thead><tr><th scope="col">Quantity</th>${with_formula ? '<th scope="col">Formula</th>' : ""}<th scope="col">Expected</th><th scope="col">Measured</th><th scope="col">Deviation</th></tr></thead>
 <tbody>
 ${body}</tbody></table></div>

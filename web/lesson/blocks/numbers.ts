@@ -48,8 +48,8 @@ export function read_numbers(block: BlockText, context: BlockContext): string {
   table.finish();
   if (!value || !expression) return "";
   const data: NumbersData = { stage, moment, impact, value: value.tree, expression: expression.tree };
-  return `<section class="numbers" data-numbers="${json_attribute(data)}" aria-label="An equation with numbers">
+  return `<div class="numbers" role="group" data-numbers="${json_attribute(data)}" aria-label="An equation with numbers">
 <div class="numbers-equation">${equation}</div>${caption}
-</section>
+</div>
 `;
 }

@@ -45,7 +45,7 @@ export function read_quiz(block: BlockText, context: BlockContext, number: numbe
   const id = `quiz-${number}`;
   const answer = `${number_html(quiz.answer)}${unit ? `&nbsp;${unit}` : ""}`;
   const html = `<section class="quiz" id="${id}" aria-labelledby="${id}-title" data-quiz="${json_attribute({ answer: quiz.answer, tolerance: quiz.tolerance })}">
-<h4 class="quiz-title" id="${id}-title">Question ${number}</h4>
+<h3 class="quiz-title" id="${id}-title">Question ${number}</h3>
 <div class="quiz-question" id="${id}-question">${question}</div>
 <form class="quiz-form" novalidate>
 <label class="quiz-label" for="${id}-input">Your answer</label>

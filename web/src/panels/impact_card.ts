@@ -59,7 +59,7 @@ export class ImpactCard {
     }
     const impact = run.impacts[index];
     const { math, recorded, residual, friction } = with_numbers(this.state, index);
-    const equation = h("div", { class: "tp-equation", tabindex: 0, role: "region", "aria-label": "Equation of the impulse" });
+    const equation = h("div", { class: "tp-equation", tabindex: 0, role: "group", "aria-label": "Equation of the impulse" });
     equation.innerHTML = equations.impulse;
     equation.append(math);
     const together = coupled_impulses(run, index);

@@ -33,7 +33,7 @@ export class ImpactList {
   private readonly table = h("table", { class: "tp-impacts-table" },
     h("thead", {}, h("tr", {}, ...columns.map((column) => h("th", { scope: "col", title: column.hint, class: column.class }, column.title)))),
     this.body);
-  readonly element = h("div", { class: "tp-scroll tp-impacts-scroll", role: "region", "aria-label": "Impacts", tabindex: -1 }, this.table);
+  readonly element = h("div", { class: "tp-scroll tp-impacts-scroll", role: "group", "aria-label": "Impacts", tabindex: -1 }, this.table);
   private first = -1;
   private last = -1;
   /** The row that the tab key reaches. */

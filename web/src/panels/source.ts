@@ -23,5 +23,5 @@ export function build_source(clip: Clip): HTMLElement {
   return h("div", { class: "tp-source" }, ...clip.sources.map((source) => h("figure", {},
     h("figcaption", {}, source.name, " ",
       h("a", { class: "tp-link", download: source.name.replace(/^.*\//, ""), href: `data:text/plain;charset=utf-8,${encodeURIComponent(source.text)}` }, "Save")),
-    h("pre", { tabindex: 0, role: "region", "aria-label": `Source ${source.name}` }, h("code", {}, ...colored(source.text))))));
+    h("pre", { tabindex: 0, role: "group", "aria-label": `Source ${source.name}` }, h("code", {}, ...colored(source.text))))));
 }

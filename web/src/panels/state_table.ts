@@ -85,7 +85,7 @@ export class StateTable {
     this.table.setAttribute("aria-labelledby", caption);
     this.element.append(
       h("div", { class: "tp-row" }, build_body_select(state), h("span", { id: caption, class: "tp-caption" }, "at ", this.moment)),
-      h("div", { class: "tp-scroll", tabindex: 0, role: "region", "aria-label": "State of the body" }, this.table),
+      h("div", { class: "tp-scroll", tabindex: 0, role: "group", "aria-label": "State of the body" }, this.table),
       h("div", { class: "tp-row" },
         toggle("Rotation as matrix", (on) => { this.as_matrix = on; }),
         toggle("17 digits", (on) => { this.digits = on ? 17 : 6; }),
