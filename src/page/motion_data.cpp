@@ -14,7 +14,7 @@ namespace {
 
 // At level 0 positions are right within 1e-6 m and rotations within 1e-5 rad; each level divides by 4. A stepped motion's
 // velocities need no more digits; in exact mode they lead to impacts between frames. Coarser levels are for pages that
-// would be too large to open otherwise, as of a thousand bodies.
+// would be too large to open otherwise, as of a thousand bodies: their errors are stated, as all are.
 constexpr Quanta level_0{1e-6, 1e-5, 2e-3, 4e-3}, level_0_exact{1e-6, 1e-5, 5e-5, 1e-4};
 constexpr int finest_level = 8, coarsest_level = -5;
 constexpr double most_bytes = 600e3;     // of a motion, compressed: coarser than level 0 only above
@@ -26,7 +26,10 @@ using Json = ArrayStore::Json;
 
 Quanta at_level(const Quanta& quanta, int level) {
     const double finer = std::ldexp(1.0, -2 * level);
-    return {finer * quanta.position, finer * quanta.rotation, finer * quanta.velocity, finer * quanta.angular_velocity};
+    // Coarse velocities show as arrows that tremble, earlier than coarse places do.
+    const double velocities = std::ldexp(1.0, level < 0 ? -level : -2 * level);
+    return {finer * quanta.position, finer * quanta.rotation, velocities * quanta.velocity,
+            velocities * quanta.angular_velocity};
 }
 
 /// How many bits the channels of a body need, at the finest level and roughly at others.
@@ -38,14 +41,16 @@ public:
     double bytes(int level) const {
         double bits = 0.0;
         for (int width = 0; width <= 64; ++width) {
-            const int left = std::max(0, width - 2 * (finest_level - level));
-            bits += double(counts_[std::size_t(width)]) * (left > 0 ? left + bits_of_lengths : bits_of_zero);
+            // Differences of rounded numbers are one bit or so, even where those of exact ones are nearly zero.
+            const int left = std::max(1, width - 2 * (finest_level - level));
+            bits += double(counts_[std::size_t(width)]) * (width > 0 ? left + bits_of_lengths : bits_of_zero);
         }
-        return bits / 8.0;
+        return bytes_per_bit * bits;
     }
 
 private:
-    static constexpr double bits_of_lengths = 0.7, bits_of_zero = 0.3;
+    static constexpr double bits_of_lengths = 0.7, bits_of_zero = 0.1;
+    static constexpr double bytes_per_bit = 1.3 / 8.0;  // measured: deflate works with whole bytes
     std::array<std::int64_t, 65> counts_{};
 };
 
@@ -115,8 +120,12 @@ private:
 
     void plan(std::size_t body);
     void choose_level();
-    bool exact() const { return run_.scene.simulation.impacts == ImpactMode::exact; }
-    Quanta quanta(int level) const { return at_level(exact() ? level_0_exact : level_0, level); }
+    /// Exact mode, with all impacts: otherwise the states at impacts are guesses anyway.
+    bool fine_velocities() const {
+        return run_.scene.simulation.impacts == ImpactMode::exact &&
+               run_.all_impacts == std::int64_t(run_.impacts.size());
+    }
+    Quanta quanta(int level) const { return at_level(fine_velocities() ? level_0_exact : level_0, level); }
     std::vector<std::size_t> bodies_of(Kind kind) const;
     Json still();
     Json keys();

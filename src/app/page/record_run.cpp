@@ -16,7 +16,7 @@ constexpr std::size_t no_event = SIZE_MAX;
 // Of more impacts, and of more contacts in a frame, a page has the strongest ones: they take most of its bytes, and a
 // reader follows a few.
 constexpr std::size_t most_impacts = 1500;
-constexpr std::int64_t most_contacts = 25000, least_contacts = 40;  // of all frames; of a frame
+constexpr std::int64_t most_contacts = 22000, least_contacts = 40;  // of all frames; of a frame
 constexpr std::size_t most_events = 300;                            // of a body
 
 BodySample sample_of(const BodyState& state) {
