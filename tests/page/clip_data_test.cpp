@@ -19,15 +19,21 @@ namespace {
 PageClip clip_of(const SceneDescription& scene, int threads = 1) {
     Interrupt interrupt;
     PageClip clip{"A title with \"quotes\" </script>", "test", {{"scene.toml", "format = 1"}}, {}};
-    clip.runs.push_back(record_run(scene, {.threads = threads, .label = "only", .progress = {}}, interrupt));
+    RecordSettings settings;
+    settings.threads = threads;
+    settings.label = "only";
+    clip.runs.push_back(record_run(scene, settings, interrupt));
     return clip;
 }
 
 SceneDescription few_boxes() {
     SceneDescription scene = testing::ground_scene(0.3, 0.4);
     for (int i = 0; i < 6; ++i)
-        testing::add_box(scene, {0.4, 0.3, 0.5}, {0.1 * i, 1.0 + 0.7 * i, 0.05 * i}).angular_velocity = {1.0, i * 2.0, 3.0};
+        testing::add_box(scene, {0.4, 0.3, 0.5}, {0.1 * i, 1.0 + 0.7 * i, 0.05 * i}).angular_velocity = {1.0, i * 2.0,
+                                                                                                         3.0};
     scene.simulation.duration = 1.5;
+    scene.camera.eye = {0.0, 2.0, 8.0};
+    scene.camera.target = Vec3::Zero();
     return scene;
 }
 

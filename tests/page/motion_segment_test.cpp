@@ -100,7 +100,8 @@ TEST(MotionSegment, VelocitiesThatContradictTheWayAreNotFollowed) {
 
 TEST(MotionSegment, ARotationVectorTurnsBack) {
     for (const double angle : {1e-12, 1e-3, 1.0, 3.1})
-        EXPECT_LT((turn_of(turn_by(angle * Vec3(0.6, 0.0, 0.8))) - angle * Vec3(0.6, 0.0, 0.8)).norm(), 4e-16 + 1e-15 * angle);
+        EXPECT_LT((turn_of(turn_by(angle * Vec3(0.6, 0.0, 0.8))) - angle * Vec3(0.6, 0.0, 0.8)).norm(),
+                  4e-16 + 1e-15 * angle);
 }
 
 }  // namespace

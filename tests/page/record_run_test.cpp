@@ -18,9 +18,11 @@ SceneDescription dropped_ball(ImpactMode mode) {
     return scene;
 }
 
-PageRun recorded(const SceneDescription& scene, int threads = 1) {
+PageRun recorded(SceneDescription scene) {
+    scene.camera.eye = {0.0, 2.0, 8.0};  // a scene file has one, or the default
+    scene.camera.target = Vec3::Zero();
     Interrupt interrupt;
-    return record_run(scene, {.threads = threads, .label = "", .progress = {}}, interrupt);
+    return record_run(scene, {}, interrupt);
 }
 
 TEST(RecordRun, AnExactImpactHasTheStateOfTheClosedForm) {
