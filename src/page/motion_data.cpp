@@ -218,19 +218,24 @@ Json Writer::frames() {
 
 Json Writer::events() {
     if (!events_) return nullptr;
-    std::vector<std::int64_t> counts;
+    std::vector<std::int64_t> counts, exact;
     std::vector<double> times;
     Columns columns(event_numbers);
     for (const BodyRecord& body : run_.bodies) {
         counts.push_back(std::int64_t(body.events.size()));
-        for (const auto& [time, b] : body.events) {
-            times.push_back(time);
+        for (const BodyEvent& event : body.events) {
+            const StruckBody& b = event.body;
+            times.push_back(event.time);
+            exact.push_back(event.exact);
             columns.add({b.rotation.w(), b.rotation.x(), b.rotation.y(), b.rotation.z()},
                         {&b.position, &b.velocity_before, &b.angular_velocity_before, &b.velocity_after,
                          &b.angular_velocity_after});
         }
     }
-    return {{"counts", arrays_.add(counts)}, {"times", arrays_.add(times)}, {"values", arrays_.add(columns.all())}};
+    return {{"counts", arrays_.add(counts)},
+            {"times", arrays_.add(times)},
+            {"exact", arrays_.add(exact)},
+            {"values", arrays_.add(columns.all())}};
 }
 
 /// Of each body that sleeps: the frames where it falls asleep and wakes up, in turn.

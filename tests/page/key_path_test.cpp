@@ -24,7 +24,7 @@ BodyRecord bouncing_ball() {
             const double impact = start + (speed + std::sqrt(speed * speed + 2.0 * g * height)) / g;
             if (impact > t) break;
             const double down = speed - g * (impact - start);
-            BodyEvent event{impact, {}};
+            BodyEvent event{impact, {}, true};
             event.body.velocity_before.y() = down;
             event.body.velocity_after.y() = -0.8 * down;
             ball.events.push_back(event);

@@ -107,7 +107,7 @@ std::size_t RunObserver::add_event(std::size_t index, const ImpactRecord& impact
     }
     event = body.events.size();
     const double time = impact.when.exact ? impact.when.time : impact.when.time - run_.scene.step();
-    body.events.push_back({time, struck});
+    body.events.push_back({time, struck, impact.when.exact});
     return event;
 }
 
