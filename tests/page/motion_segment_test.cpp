@@ -91,7 +91,7 @@ TEST(MotionSegment, TheAngularVelocityIsTheDerivativeOfTheRotation) {
 
 TEST(MotionSegment, VelocitiesThatContradictTheWayAreNotFollowed) {
     Moment falling, resting;
-    falling.position.y() = 0.05;
+    falling.position.y() = 0.02;
     falling.velocity.y() = -5.0;
     resting.time = 1.0 / 60.0;
     const MotionSegment landing(falling, resting, no_inertia);
