@@ -17,9 +17,10 @@ namespace {
 // would be too large to open otherwise, as of a thousand bodies: their errors are stated, as all are.
 constexpr Quanta level_0{1e-6, 1e-5, 2e-3, 4e-3}, level_0_exact{1e-6, 1e-5, 5e-5, 1e-4};
 constexpr int finest_level = 8, coarsest_level = -5;
-constexpr double most_bytes = 600e3;     // of a motion, compressed: coarser than level 0 only above
-constexpr double bytes_of_key = 96.0;    // a frame, compressed
-constexpr double worth_of_keys = 400.0;  // bytes of a body that exact motion between frames may cost more
+constexpr double most_bytes = 600e3;             // of a motion, compressed: coarser than level 0 only above
+constexpr double bytes_of_key = 96.0;            // a frame, compressed
+constexpr double worth_of_keys = 400.0;          // bytes of a body that exact motion between frames may cost more
+constexpr std::size_t most_struck_times = 6000;  // of all bodies, 8 bytes each
 constexpr std::size_t sample_numbers = 13, event_numbers = 19;
 
 using Json = ArrayStore::Json;
@@ -100,6 +101,7 @@ public:
         data.json["keys"] = keys();
         data.json["frames"] = frames();
         data.json["events"] = events();
+        data.json["struck"] = struck_times();
         data.json["asleep"] = asleep();
         data.errors = errors_;
         data.json["error"] = {{"position", errors_.position},
@@ -120,17 +122,16 @@ private:
 
     void plan(std::size_t body);
     void choose_level();
-    /// Exact mode, with all impacts: otherwise the states at impacts are guesses anyway.
-    bool fine_velocities() const {
-        return run_.scene.simulation.impacts == ImpactMode::exact &&
-               run_.all_impacts == std::int64_t(run_.impacts.size());
-    }
+    /// Whether states at impacts follow from the frames around: exact mode, with the times of all impacts.
+    bool fine_velocities() const { return run_.scene.simulation.impacts == ImpactMode::exact && knows_times(); }
+    bool knows_times() const;
     Quanta quanta(int level) const { return at_level(fine_velocities() ? level_0_exact : level_0, level); }
     std::vector<std::size_t> bodies_of(Kind kind) const;
     Json still();
     Json keys();
     Json frames();
     Json events();
+    Json struck_times();
     Json asleep() const;
 
     const PageRun& run_;
@@ -236,6 +237,27 @@ Json Writer::events() {
             {"times", arrays_.add(times)},
             {"exact", arrays_.add(exact)},
             {"values", arrays_.add(columns.all())}};
+}
+
+bool Writer::knows_times() const {
+    std::size_t events = 0;
+    for (const BodyRecord& body : run_.bodies) {
+        if (!body.all_events) return false;
+        events += body.events.size();
+    }
+    return events <= most_struck_times;
+}
+
+/// Without events: the times when each body is struck.
+Json Writer::struck_times() {
+    if (events_ || !fine_velocities()) return nullptr;
+    std::vector<std::int64_t> counts;
+    std::vector<double> times;
+    for (const BodyRecord& body : run_.bodies) {
+        counts.push_back(std::int64_t(body.events.size()));
+        for (const BodyEvent& event : body.events) times.push_back(event.time);
+    }
+    return {{"counts", arrays_.add(counts)}, {"times", arrays_.add(times)}};
 }
 
 /// Of each body that sleeps: the frames where it falls asleep and wakes up, in turn.

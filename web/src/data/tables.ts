@@ -19,8 +19,14 @@ function acting_times(run: RunHeader, reader: Reader): Float64Array {
   return reader.doubles(run.impacts.time).map((time, i) => (exact[i] === 1 ? time : time - run.settings.step));
 }
 
-/** The times when each body is struck. */
+/** The times when each body is struck; of the impacts of the table only, if there were too many. */
 export function read_struck_times(run: RunHeader, reader: Reader): number[][] {
+  const { struck } = run.motion;
+  if (struck !== null) {
+    const times = reader.doubles(struck.times);
+    let next = 0;
+    return Array.from(reader.integers(struck.counts), (count) => [...times.subarray(next, (next += count))]);
+  }
   const all: number[][] = run.bodies.map(() => []);
   const time = acting_times(run, reader);
   for (const bodies of [reader.integers(run.impacts.a), reader.integers(run.impacts.b)])
