@@ -118,8 +118,8 @@ std::size_t Search::add_segment(std::size_t from) {
     while (limit + 1 < nodes_.size() && !nodes_[limit].impact) ++limit;
     const std::size_t end = longest(from, limit);
     path_.errors.add(errors(from, end, {infinity, infinity, infinity, infinity}));
-    if (nodes_[end].frame != no_frame && (!nodes_[end].impact || end + 1 == nodes_.size()))
-        path_.frames.push_back(nodes_[end].frame);
+    // A frame at the time of an impact has the state before it or after it: it is kept.
+    if (nodes_[end].frame != no_frame) path_.frames.push_back(nodes_[end].frame);
     return end;
 }
 

@@ -14,19 +14,23 @@ namespace {
 
 // At level 0 positions are right within 1e-6 m and rotations within 1e-5 rad; each level divides by 4. A stepped motion's
 // velocities need no more digits; in exact mode they lead to impacts between frames. Coarser levels are for pages that
-// would be too large to open otherwise, as of a thousand bodies.
+// would be too large to open otherwise, as of a thousand bodies: their errors are stated, as all are.
 constexpr Quanta level_0{1e-6, 1e-5, 2e-3, 4e-3}, level_0_exact{1e-6, 1e-5, 5e-5, 1e-4};
 constexpr int finest_level = 8, coarsest_level = -5;
-constexpr double most_bytes = 600e3;     // of a motion, compressed: coarser than level 0 only above
-constexpr double bytes_of_key = 96.0;    // a frame, compressed
-constexpr double worth_of_keys = 400.0;  // bytes of a body that exact motion between frames may cost more
+constexpr double most_bytes = 600e3;             // of a motion, compressed: coarser than level 0 only above
+constexpr double bytes_of_key = 96.0;            // a frame, compressed
+constexpr double worth_of_keys = 400.0;          // bytes of a body that exact motion between frames may cost more
+constexpr std::size_t most_struck_times = 6000;  // of all bodies, 8 bytes each
 constexpr std::size_t sample_numbers = 13, event_numbers = 19;
 
 using Json = ArrayStore::Json;
 
 Quanta at_level(const Quanta& quanta, int level) {
     const double finer = std::ldexp(1.0, -2 * level);
-    return {finer * quanta.position, finer * quanta.rotation, finer * quanta.velocity, finer * quanta.angular_velocity};
+    // Coarse velocities show as arrows that tremble, earlier than coarse places do.
+    const double velocities = std::ldexp(1.0, level < 0 ? -level : -2 * level);
+    return {finer * quanta.position, finer * quanta.rotation, velocities * quanta.velocity,
+            velocities * quanta.angular_velocity};
 }
 
 /// How many bits the channels of a body need, at the finest level and roughly at others.
@@ -38,14 +42,16 @@ public:
     double bytes(int level) const {
         double bits = 0.0;
         for (int width = 0; width <= 64; ++width) {
-            const int left = std::max(0, width - 2 * (finest_level - level));
-            bits += double(counts_[std::size_t(width)]) * (left > 0 ? left + bits_of_lengths : bits_of_zero);
+            // Differences of rounded numbers are one bit or so, even where those of exact ones are nearly zero.
+            const int left = std::max(1, width - 2 * (finest_level - level));
+            bits += double(counts_[std::size_t(width)]) * (width > 0 ? left + bits_of_lengths : bits_of_zero);
         }
-        return bits / 8.0;
+        return bytes_per_bit * bits;
     }
 
 private:
-    static constexpr double bits_of_lengths = 0.7, bits_of_zero = 0.3;
+    static constexpr double bits_of_lengths = 0.7, bits_of_zero = 0.1;
+    static constexpr double bytes_per_bit = 1.3 / 8.0;  // measured: deflate works with whole bytes
     std::array<std::int64_t, 65> counts_{};
 };
 
@@ -95,6 +101,7 @@ public:
         data.json["keys"] = keys();
         data.json["frames"] = frames();
         data.json["events"] = events();
+        data.json["struck"] = struck_times();
         data.json["asleep"] = asleep();
         data.errors = errors_;
         data.json["error"] = {{"position", errors_.position},
@@ -115,13 +122,16 @@ private:
 
     void plan(std::size_t body);
     void choose_level();
-    bool exact() const { return run_.scene.simulation.impacts == ImpactMode::exact; }
-    Quanta quanta(int level) const { return at_level(exact() ? level_0_exact : level_0, level); }
+    /// Whether states at impacts follow from the frames around: exact mode, with the times of all impacts.
+    bool fine_velocities() const { return run_.scene.simulation.impacts == ImpactMode::exact && knows_times(); }
+    bool knows_times() const;
+    Quanta quanta(int level) const { return at_level(fine_velocities() ? level_0_exact : level_0, level); }
     std::vector<std::size_t> bodies_of(Kind kind) const;
     Json still();
     Json keys();
     Json frames();
     Json events();
+    Json struck_times();
     Json asleep() const;
 
     const PageRun& run_;
@@ -209,19 +219,45 @@ Json Writer::frames() {
 
 Json Writer::events() {
     if (!events_) return nullptr;
-    std::vector<std::int64_t> counts;
+    std::vector<std::int64_t> counts, exact;
     std::vector<double> times;
     Columns columns(event_numbers);
     for (const BodyRecord& body : run_.bodies) {
         counts.push_back(std::int64_t(body.events.size()));
-        for (const auto& [time, b] : body.events) {
-            times.push_back(time);
+        for (const BodyEvent& event : body.events) {
+            const StruckBody& b = event.body;
+            times.push_back(event.time);
+            exact.push_back(event.exact);
             columns.add({b.rotation.w(), b.rotation.x(), b.rotation.y(), b.rotation.z()},
                         {&b.position, &b.velocity_before, &b.angular_velocity_before, &b.velocity_after,
                          &b.angular_velocity_after});
         }
     }
-    return {{"counts", arrays_.add(counts)}, {"times", arrays_.add(times)}, {"values", arrays_.add(columns.all())}};
+    return {{"counts", arrays_.add(counts)},
+            {"times", arrays_.add(times)},
+            {"exact", arrays_.add(exact)},
+            {"values", arrays_.add(columns.all())}};
+}
+
+bool Writer::knows_times() const {
+    std::size_t events = 0;
+    for (const BodyRecord& body : run_.bodies) {
+        if (!body.all_events) return false;
+        events += body.events.size();
+    }
+    return events <= most_struck_times;
+}
+
+/// Without events: the times when each body is struck.
+Json Writer::struck_times() {
+    if (events_ || !fine_velocities()) return nullptr;
+    std::vector<std::int64_t> counts;
+    std::vector<double> times;
+    for (const BodyRecord& body : run_.bodies) {
+        counts.push_back(std::int64_t(body.events.size()));
+        for (const BodyEvent& event : body.events) times.push_back(event.time);
+    }
+    return {{"counts", arrays_.add(counts)}, {"times", arrays_.add(times)}};
 }
 
 /// Of each body that sleeps: the frames where it falls asleep and wakes up, in turn.

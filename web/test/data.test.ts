@@ -108,6 +108,20 @@ test("a bouncing ball is where the closed form has it, at any time", { skip }, a
   }
 });
 
+test("many balls are right between frames too", { skip }, async () => {
+  const grid = "grid = { count = [12, 1, 12], spacing = [1.5, 1.0, 1.5], jitter = 0.1 }\n";
+  const text = ball('impacts = "exact"').replace("velocity = [1.0, 0.0, 0.0]\n", grid);
+  const { run } = await make(scene_file("balls.toml", text));
+  assert.equal(run.motion.kind(1), "frames");
+  const random = random_numbers(2);
+  for (let i = 0; i < 1000; ++i) {
+    const time = 2.5 * random(), body = 1 + Math.floor(144 * random());
+    const start = run.motion.state(body, 0).position[1];
+    const { position } = run.motion.state(body, time);
+    at_most(Math.abs(position[1] - bouncing_height(start, 0.5, 0.8, time)), 1e-6, `height of ball ${body} at ${time} s`);
+  }
+});
+
 test("positions and rotations of demo scenes are those of the trajectory at each frame", { skip }, async () => {
   for (const [scene, ...set] of [
     ["bouncing_balls", "simulation.duration=2"],

@@ -16,7 +16,7 @@ constexpr std::size_t no_event = SIZE_MAX;
 // Of more impacts, and of more contacts in a frame, a page has the strongest ones: they take most of its bytes, and a
 // reader follows a few.
 constexpr std::size_t most_impacts = 1500;
-constexpr std::int64_t most_contacts = 25000, least_contacts = 40;  // of all frames; of a frame
+constexpr std::int64_t most_contacts = 22000, least_contacts = 40;  // of all frames; of a frame
 constexpr std::size_t most_events = 300;                            // of a body
 
 BodySample sample_of(const BodyState& state) {
@@ -107,7 +107,7 @@ std::size_t RunObserver::add_event(std::size_t index, const ImpactRecord& impact
     }
     event = body.events.size();
     const double time = impact.when.exact ? impact.when.time : impact.when.time - run_.scene.step();
-    body.events.push_back({time, struck});
+    body.events.push_back({time, struck, impact.when.exact});
     return event;
 }
 

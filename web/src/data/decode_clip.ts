@@ -5,13 +5,13 @@ import type { ClipHeader, RunHeader } from "./header.ts";
 import { inflate } from "./inflate.ts";
 import { DecodedMotion, read_events } from "./motion.ts";
 import { read_mesh, read_scene } from "./scene.ts";
-import { read_contacts, read_energy, read_impacts, read_impact_times, read_loads } from "./tables.ts";
+import { read_contacts, read_energy, read_impacts, read_struck_times, read_loads } from "./tables.ts";
 
 const known_format = 1;
 
 function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[]): Run {
-  const events = read_events(run.motion, reader);
-  const motion = new DecodedMotion(run, reader, events, read_impact_times(run, reader));
+  const events = read_events(run.motion, run.settings.step, reader);
+  const motion = new DecodedMotion(run, reader, events, read_struck_times(run, reader));
   return {
     label: run.label,
     duration: (run.frames - 1) / run.fps,

@@ -22,7 +22,8 @@ function one_event(before: Moment, after: Moment, share: number): BodyEvent {
   const position = sum(scaled(1 - share, before.position), scaled(share, after.position));
   const turn = turn_of(product(after.rotation, conjugate(before.rotation)));
   const rotation = normalized(product(turn_by(scaled(share, turn)), before.rotation));
-  return { time: before.time, before: { ...before, position, rotation }, after: { ...after, position, rotation } };
+  const { time } = before;
+  return { time, impact_time: time, before: { ...before, position, rotation }, after: { ...after, position, rotation } };
 }
 
 function two_events(first: Moment, last: Moment): BodyEvent[] {
@@ -31,12 +32,12 @@ function two_events(first: Moment, last: Moment): BodyEvent[] {
   const angular_velocity = scaled(rate, turn_of(product(last.rotation, conjugate(first.rotation))));
   const between = { velocity, angular_velocity };
   return [
-    { time: first.time, before: first, after: { ...first, ...between } },
-    { time: last.time, before: { ...last, ...between }, after: last },
+    { time: first.time, impact_time: first.time, before: first, after: { ...first, ...between } },
+    { time: last.time, impact_time: last.time, before: { ...last, ...between }, after: last },
   ];
 }
 
-/** `times`: of the body's impacts, in order, s. */
+/** `times`: when the body is struck, in order, s. */
 export function estimated_events(frames: Moment[], times: number[], gravity: Vec3): BodyEvent[] {
   const events: BodyEvent[] = [];
   let next = 0;

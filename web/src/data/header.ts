@@ -45,7 +45,9 @@ export interface MotionHeader {
   keys: { bodies: number[]; counts: ArrayReference; frames: ArrayReference; values: ArrayReference };
   frames: { bodies: number[]; quanta: [number, number, number, number]; orders: ArrayReference; values: ArrayReference };
   /** Columns: rotation, position, velocity and angular velocity before, the same after. */
-  events: { counts: ArrayReference; times: ArrayReference; values: ArrayReference } | null;
+  events: { counts: ArrayReference; times: ArrayReference; exact: ArrayReference; values: ArrayReference } | null;
+  /** Without events: when the bodies are struck, if that is known of all impacts. */
+  struck: { counts: ArrayReference; times: ArrayReference } | null;
   asleep: [number, number[]][];
   error: { position: number; rotation: number; velocity: number; angular_velocity: number };
 }

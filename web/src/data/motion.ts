@@ -42,16 +42,18 @@ class Rows {
 }
 
 /** By body. */
-export function read_events(header: MotionHeader, reader: Reader): BodyEvent[][] | null {
+export function read_events(header: MotionHeader, step: number, reader: Reader): BodyEvent[][] | null {
   if (header.events === null) return null;
   const counts = reader.integers(header.events.counts), at = reader.doubles(header.events.times);
+  const exact = reader.integers(header.events.exact);
   const rows = new Rows(reader, header.events.values, 19);
   let row = 0;
   return Array.from(counts, (count) =>
     Array.from({ length: count }, () => {
       const before = rows.moment(row, at[row]);
       const after = { ...before, velocity: rows.vector(row, 13), angular_velocity: rows.vector(row, 16) };
-      return { time: at[row++], before, after };
+      const time = at[row], impact_time = exact[row++] === 1 ? time : time + step;
+      return { time, impact_time, before, after };
     }),
   );
 }
@@ -65,26 +67,21 @@ export class DecodedMotion implements Motion {
   readonly #asleep = new Map<number, number[]>();
   readonly #fps: number;
   readonly #duration: number;
-  /** s, from the time of a body's event to that of its impact. */
-  readonly #delay: number;
 
-  /** `events`: by body. `impact_times`: by body, of impacts without events. */
-  constructor(run: RunHeader, reader: Reader, events: BodyEvent[][] | null, impact_times: number[][]) {
+  /** `events`: by body. `struck_at`: by body, the times when it is struck, for impacts without events. */
+  constructor(run: RunHeader, reader: Reader, events: BodyEvent[][] | null, struck_at: number[][]) {
     this.error = run.motion.error;
     this.#bodies = run.bodies;
     this.#fps = run.fps;
     this.#duration = (run.frames - 1) / run.fps;
-    const exact = run.settings.impacts === "exact";
-    this.#delay = exact ? 0 : run.settings.step;
     this.#events = events ?? run.bodies.map(() => []);
     for (const [body, frames] of run.motion.asleep) this.#asleep.set(body, frames);
     const add = (body: number, kind: Kind, moments: Moment[]) => {
       this.#kinds[body] = kind;
       const own = this.#events[body];
       const more = kind === "frames" && events === null;
-      const times_without = impact_times[body].map((time) => time - this.#delay);
-      const all = more ? estimated_events(moments, times_without, run.settings.gravity) : own;
-      this.#tracks[body] = new Track(moments, all, exact, new FreeSpin(run.bodies[body].inertia), kind === "keys");
+      const all = more ? estimated_events(moments, struck_at[body], run.settings.gravity) : own;
+      this.#tracks[body] = new Track(moments, all, new FreeSpin(run.bodies[body].inertia), kind === "keys");
     };
     this.#read_still(run.motion, reader, add);
     this.#read_keys(run.motion, reader, add);
@@ -129,12 +126,12 @@ export class DecodedMotion implements Motion {
   }
 
   state_before(body: number, time: number): BodyState {
-    const event = this.#events[body].find((e) => Math.abs(e.time + this.#delay - time) <= same_time);
+    const event = this.#events[body].find((e) => Math.abs(e.impact_time - time) <= same_time);
     return event ? this.#state_of(body, event.before) : this.state(body, time);
   }
 
   state_after(body: number, time: number): BodyState {
-    const event = this.#events[body].findLast((e) => Math.abs(e.time + this.#delay - time) <= same_time);
+    const event = this.#events[body].findLast((e) => Math.abs(e.impact_time - time) <= same_time);
     return event ? this.#state_of(body, event.after) : this.state(body, time);
   }
 
@@ -146,9 +143,8 @@ export class DecodedMotion implements Motion {
     return out;
   }
 
-  /** Center of mass and rotation when an impulse acts at that time. */
-  pose_at_impact(body: number, time: number): { position: Vec3; rotation: Quat } {
-    const { position, rotation } = this.#tracks[body].place(this.#clamped(time - this.#delay));
+  place(body: number, time: number): { position: Vec3; rotation: Quat } {
+    const { position, rotation } = this.#tracks[body].place(this.#clamped(time));
     return { position, rotation };
   }
 

@@ -13,13 +13,24 @@ export function read_energy(run: RunHeader, reader: Reader): EnergyTable {
   return Object.fromEntries(columns);
 }
 
-/** Times of the impacts, by body. */
-export function read_impact_times(run: RunHeader, reader: Reader): number[][] {
+/** When the impulse of an impact acts: at its time, or at the start of the step that resolves it. */
+function acting_times(run: RunHeader, reader: Reader): Float64Array {
+  const exact = reader.integers(run.impacts.exact);
+  return reader.doubles(run.impacts.time).map((time, i) => (exact[i] === 1 ? time : time - run.settings.step));
+}
+
+/** The times when each body is struck; of the impacts of the table only, if there were too many. */
+export function read_struck_times(run: RunHeader, reader: Reader): number[][] {
+  const { struck } = run.motion;
+  if (struck !== null) {
+    const times = reader.doubles(struck.times);
+    let next = 0;
+    return Array.from(reader.integers(struck.counts), (count) => [...times.subarray(next, (next += count))]);
+  }
   const all: number[][] = run.bodies.map(() => []);
-  const time = reader.doubles(run.impacts.time);
+  const time = acting_times(run, reader);
   for (const bodies of [reader.integers(run.impacts.a), reader.integers(run.impacts.b)])
     bodies.forEach((body, i) => all[body].push(time[i]));
-  // Both bodies of an impulse are in lists in order of time; one list has them all after sorting.
   for (const times of all) times.sort((x, y) => x - y);
   return all;
 }
@@ -27,7 +38,7 @@ export function read_impact_times(run: RunHeader, reader: Reader): number[][] {
 export function read_impacts(run: RunHeader, reader: Reader, events: BodyEvent[][] | null, motion: DecodedMotion): Impact[] {
   const header = run.impacts;
   const whole = (array: ArrayReference) => reader.integers(array), real = (array: ArrayReference) => reader.doubles(array);
-  const time = real(header.time), exact = whole(header.exact), frame = whole(header.frame);
+  const time = real(header.time), acts = acting_times(run, reader), exact = whole(header.exact), frame = whole(header.frame);
   const a = whole(header.a), b = whole(header.b), feature = whole(header.feature), pass = whole(header.pass);
   const [p, n, f] = [header.p, header.n, header.f].map((parts) => parts.map(real));
   const moments = new Map((header.moments ?? []).map(([row, x, y, z]): [number, Vec3] => [row, [x, y, z]]));
@@ -36,7 +47,7 @@ export function read_impacts(run: RunHeader, reader: Reader, events: BodyEvent[]
   const event_a = header.event_a && whole(header.event_a), event_b = header.event_b && whole(header.event_b);
   const pose = (body: number, event: number, at: number) => {
     const known = event >= 0 ? events?.[body][event] : undefined;
-    if (known === undefined) return motion.pose_at_impact(body, at);
+    if (known === undefined) return motion.place(body, at);
     return { position: known.before.position, rotation: known.before.rotation };
   };
   /** About the world origin, if the friction acts at the contact point too. */
@@ -65,8 +76,8 @@ export function read_impacts(run: RunHeader, reader: Reader, events: BodyEvent[]
     fx: f[0][i], fy: f[1][i], fz: f[2][i],
     pass: pass[i],
     mx, my, mz,
-    pose_a: pose(a[i], event_a ? event_a[i] : -1, time[i]),
-    pose_b: pose(b[i], event_b ? event_b[i] : -1, time[i]),
+    pose_a: pose(a[i], event_a ? event_a[i] : -1, acts[i]),
+    pose_b: pose(b[i], event_b ? event_b[i] : -1, acts[i]),
     };
   });
 }

@@ -6,6 +6,8 @@ import { MotionSegment, type FreeSpin, type Moment } from "./segment.ts";
 export interface BodyEvent {
   /** s, when the body is there: the start of the step, where a step resolves the impact. */
   time: number;
+  /** s, of the impact: the end of that step. */
+  impact_time: number;
   before: Moment;
   after: Moment;
 }
@@ -27,11 +29,10 @@ export class Track {
 
   /**
    * `free`: the body is torque-free between all moments; else each two are looked at.
-   * `frames`: at frames, in order of time. `exact`: at the time of an impact the body has its velocities after it; else
-   * those of the frame, because the step that resolves the impact is the next.
+   * `frames`: at frames, in order of time.
    */
-  constructor(frames: Moment[], events: BodyEvent[], exact: boolean, spin: FreeSpin, free: boolean) {
-    this.#nodes = make_nodes(frames, events, exact);
+  constructor(frames: Moment[], events: BodyEvent[], spin: FreeSpin, free: boolean) {
+    this.#nodes = make_nodes(frames, events);
     this.#spin = spin;
     this.#free = free;
   }
@@ -72,10 +73,11 @@ const with_velocities = (moment: Moment, velocity: Vec3, angular_velocity: Vec3)
 });
 
 /** Impacts at the time of the moment before add their velocities to that. */
-function make_nodes(frames: Moment[], events: BodyEvent[], exact: boolean): Node[] {
+function make_nodes(frames: Moment[], events: BodyEvent[]): Node[] {
   const nodes: Node[] = [];
   let last_is_frame = false, last_is_impact = false, next = 0;
-  const add_impact = ({ before, after }: BodyEvent) => {
+  const add_impact = ({ time, impact_time, before, after }: BodyEvent) => {
+    const exact = time === impact_time; // else the body is in its state before the impact until the step
     const last = nodes.at(-1);
     const near = last !== undefined && before.time - last.at.time <= (last_is_frame ? same_time : 0);
     if (!near) {
