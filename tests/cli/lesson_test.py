@@ -169,7 +169,7 @@ class LessonTest(pages.PageTestCase):
     def test_mistakes_of_the_text_have_their_column(self):
         self.mistake("Text $\\foo$.", r"^a\.md:9:7: error: TeX: unknown command '\\foo'")
 
-    def test_checks_of_what_is_not_there(self):
+    def test_checks_of_missing_quantities(self):
         numbers = NUMBERS.format(speed=SPEED, answer=-SPEED / 2)
         self.mistake(STAGE + numbers.replace("impact = 1", "impact = 90", 1), r"check: the run has \d+ impacts \(asked for impact 90\)")
         self.mistake(STAGE + numbers.replace("ball.y", "ball.q"), r"a body has no quantity")
