@@ -1,6 +1,7 @@
 // Runs the tests of this folder: bundles each NAME.test.ts into ../../build/web-test and hands it to `node --test`.
 //   node web/test/run.mjs [NAME]...            all, or those named: page, gltf ...
 //   node web/test/run.mjs NAME --pattern TEXT  only the tests of NAME whose name matches TEXT
+//   node web/test/run.mjs --bench NAME         the benchmark NAME.bench.ts instead: pages
 // Environment: TUMBLE, the program (default: build/release/tumble); CHROMIUM, the browser (default: from PATH);
 // TUMBLE_PICTURES, a folder for the pictures that tests look at.
 // Exit code: 0 passed, 1 failed, 77 a test was skipped, as something that it needs is missing; a line says what.
@@ -32,9 +33,9 @@ function missing_part(inputs) {
 }
 
 async function run_test(esbuild, name, node_options) {
-  const outfile = join(out, `${name}.test.mjs`);
+  const outfile = join(out, `${name}.${kind}.mjs`);
   const built = await esbuild.build({
-    entryPoints: [join(here, `${name}.test.ts`)],
+    entryPoints: [join(here, `${name}.${kind}.ts`)],
     outfile,
     bundle: true,
     platform: "node",
@@ -53,10 +54,12 @@ async function run_test(esbuild, name, node_options) {
   return run.status === 0 ? 0 : 1;
 }
 
+let kind = "test";
 const names = [], node_options = [];
 for (let i = 2; i < process.argv.length; ++i) {
   const argument = process.argv[i];
   if (argument === "--pattern" && i + 1 < process.argv.length) node_options.push(`--test-name-pattern=${process.argv[++i]}`);
+  else if (argument === "--bench") kind = "bench";
   else if (argument.startsWith("-")) {
     console.error(`run.mjs: unknown option '${argument}'`);
     process.exit(2);
@@ -65,10 +68,10 @@ for (let i = 2; i < process.argv.length; ++i) {
 if (!existsSync(join(web, "node_modules/esbuild"))) process.exit(skip("web tests", "there is no web/node_modules (scripts/build-web)"));
 const esbuild = await import("esbuild");
 
-const all = (await readdir(here)).filter((file) => file.endsWith(".test.ts")).map((file) => file.slice(0, -".test.ts".length)).sort();
+const all = (await readdir(here)).filter((file) => file.endsWith(`.${kind}.ts`)).map((file) => file.slice(0, -`.${kind}.ts`.length)).sort();
 for (const name of names) {
   if (!all.includes(name)) {
-    console.error(`run.mjs: there is no test '${name}'; there are: ${all.join(", ")}`);
+    console.error(`run.mjs: there is no ${kind} '${name}'; there are: ${all.join(", ")}`);
     process.exit(2);
   }
 }
