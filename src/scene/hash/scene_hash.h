@@ -12,7 +12,7 @@ namespace tumble {
 /// it: as the title overlay of a scene without a title.
 std::string scene_hash(const SceneDescription& scene);
 
-/// SHA-256 of what decides the motion: simulation, frame rate, bodies without their appearance, forces and wind. Equal
+/// SHA-256 of the part that the motion depends on: simulation, frame rate, bodies without their appearance, forces and wind. Equal
 /// for scenes that differ only in camera, light, colors, overlays, size or samples.
 std::string motion_hash(const SceneDescription& scene);
 
