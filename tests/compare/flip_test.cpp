@@ -69,7 +69,7 @@ TEST(Flip, OfPlainPicturesIsTheDifferenceOfTheirColors) {
 }
 
 struct Published {
-    ImagePair pair;
+    MetricPair pair;
     double pixels_per_degree, mean;
 };
 

@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-using ImagePair = std::pair<Image, Image>;
+using MetricPair = std::pair<Image, Image>;
 
 /// Colors that change from pixel to pixel like noise.
 inline int noise_level(int x, int y, int channel) {
@@ -29,7 +29,7 @@ inline int ramp_level(int x, int y, int channel) {
 }
 
 /// A red box on colored ramps, 64 x 48.
-inline ImagePair box_pair() {
+inline MetricPair box_pair() {
     const Image a = painted(64, 48, ramp_level);
     Image b = a;
     fill(b, 20, 10, 20, 20, {200, 60, 20});
@@ -37,7 +37,7 @@ inline ImagePair box_pair() {
 }
 
 /// A box that moves by one pixel, 64 x 48.
-inline ImagePair moved_pair() {
+inline MetricPair moved_pair() {
     Image a = plain(64, 48, {40, 40, 40}), b = a;
     fill(a, 16, 12, 12, 12, {220, 180, 60});
     fill(b, 17, 12, 12, 12, {220, 180, 60});
@@ -45,14 +45,14 @@ inline ImagePair moved_pair() {
 }
 
 /// Noise, and the same with an eighth of its neighbor, 160 x 90.
-inline ImagePair noise_pair() {
+inline MetricPair noise_pair() {
     return {painted(160, 90, noise_level), painted(160, 90, [](int x, int y, int c) {
                 return (noise_level(x, y, c) * 7 + noise_level(x + 1, y, c) + 4) / 8;
             })};
 }
 
 /// A checkerboard and the same with less contrast, 160 x 90.
-inline ImagePair checker_pair() {
+inline MetricPair checker_pair() {
     return {painted(160, 90, [](int x, int y, int) { return (x / 8 + y / 8) % 2 * 255; }),
             painted(160, 90, [](int x, int y, int) { return (x / 8 + y / 8) % 2 * 255 * 15 / 16 + 8; })};
 }
