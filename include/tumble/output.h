@@ -29,7 +29,7 @@ struct CompareOptions {
     std::optional<int> cluster;  // pixels, 0 to 64, of any 8 x 8 that may differ by more; 4 + 64 fraction if not given
     std::optional<double> window;  // levels, 0 to 255: mean difference of any 8 x 8; tolerance / 2 + 255 fraction
     std::optional<int> shade;  // pixels, 0 to 64, of any 8 x 8 that may be off by more than half the tolerance in one
-                               // direction; 4 + 64 fraction
+                               // direction; as cluster
 };
 
 struct Comparison {

@@ -64,7 +64,7 @@ std::array<CompareRule, 4> rules(const Comparison& c, std::size_t pixels, const 
     const double mean = options.window ? *options.window : 0.5 * options.tolerance + 255.0 * options.fraction;
     // Rounded up, so that one pixel of a small image may be noise.
     const double count = std::ceil(options.fraction * double(pixels));
-    const double shade = options.shade ? *options.shade : cluster_limit + window * window * options.fraction;
+    const double shade = options.shade ? *options.shade : cluster;
     return {{{"pixels", double(c.failing_pixels), count, c.max_x, c.max_y},
              {"cluster", double(c.worst_cluster), std::floor(cluster), c.worst_cluster_x, c.worst_cluster_y},
              {"window", c.worst_window, mean, c.worst_window_x, c.worst_window_y},

@@ -37,7 +37,7 @@ struct CompareOptions {
     std::optional<int> cluster = std::nullopt;
     /// Mean difference of a window, levels. Default: tolerance / 2 + 255 fraction.
     std::optional<double> window = std::nullopt;
-    /// Pixels of a window that may be off by more than half the tolerance in one direction. Default: 4 + 64 fraction.
+    /// Pixels of a window that may be off by more than half the tolerance in one direction. Default: as many as cluster.
     std::optional<int> shade = std::nullopt;
 };
 

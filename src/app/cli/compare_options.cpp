@@ -77,7 +77,7 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
             "Rule shade: pixels of any 8 x 8 that may be brighter, or darker, by more than half\nthe tolerance "
             "in a channel")
         ->check(CLI::Range(0, 64))
-        ->option_text("N [4 + 64 F]");
+        ->option_text("N [as cluster]");
     add_sets(*command, c);
     command->footer(
         "Pictures are alike if all four rules hold. A rule that fails is named with its value, its limit and its\n"

@@ -39,7 +39,7 @@ public:
     explicit SetComparisonRun(const CompareCommand& command) : command_(command) {
         reference_ = command.a;
         image_ = command.b;
-        // A scene has the part of what is tested.
+        // A scene is always the side under test.
         if (compare_input(reference_) == CompareInput::scene) std::swap(reference_, image_);
         of_reference_ = compare_input(reference_);
         of_image_ = compare_input(image_);

@@ -4,10 +4,10 @@
 #include "app/cli/say.h"
 #include "app/files/frame_folder.h"
 #include "core/error.h"
+#include "core/html_text.h"
 #include "core/safe_text.h"
 #include "output/process.h"
 #include "output/temporary_folder.h"
-#include "page/html_text.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-// What the operands of `tumble compare` are.
+// The kinds of operands of `tumble compare`.
 #pragma once
 
 #include <filesystem>
