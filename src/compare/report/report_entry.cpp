@@ -45,7 +45,7 @@ std::string number_text(double value) {
 }
 
 /// "12 times the limit".
-std::string excess_text(const Figure& figure) {
+std::string excess_text(const RuleFigure& figure) {
     const double times = excess(figure);
     if (figure.holds) return "within its limit";
     if (times >= 1e6) return "none is allowed";
@@ -71,7 +71,7 @@ std::string image_summary(const ImageResult& result) {
             break;
     }
     if (!result.causes.empty()) return result.causes.front();
-    const Figure* const worst = worst_figure(result);
+    const RuleFigure* const worst = worst_figure(result);
     if (!worst) return "";
     if (worst->holds) return differing_text(result) + ", within the tolerances";
     return fmt::format("{}: {}", worst->metric, excess_text(*worst));
@@ -138,7 +138,7 @@ std::string reasons_html(const ImageResult& result) {
 }
 
 /// The measured value as a bar, with the limit at its middle.
-std::string bar_html(const Figure& figure) {
+std::string bar_html(const RuleFigure& figure) {
     const double width = std::min(100.0, 50.0 * excess(figure));
     return fmt::format(
         "<svg class=\"bar\" viewBox=\"0 0 100 8\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
@@ -148,7 +148,7 @@ std::string bar_html(const Figure& figure) {
         width);
 }
 
-std::string figure_row_html(const Figure& figure) {
+std::string figure_row_html(const RuleFigure& figure) {
     const MetricText text = text_of(figure.metric);
     const std::string unit = text.unit.empty() ? "" : fmt::format(" <span class=\"unit\">{}</span>", text.unit);
     return fmt::format(
@@ -180,7 +180,7 @@ std::string figures_html(const ReportEntry& entry) {
             "\" tabindex=\"0\"><table>\n<thead><tr><th scope=\"col\">Rule</th><th scope=\"col\">Measured</th><th "
             "scope=\"col\">Limit</th><th scope=\"col\">Verdict</th><th scope=\"col\">Worst place</th></tr></thead>\n"
             "<tbody>\n";
-        for (const Figure& figure : result.figures) html += figure_row_html(figure);
+        for (const RuleFigure& figure : result.figures) html += figure_row_html(figure);
         html += "</tbody></table></div>\n";
     }
     return html + perception_html(*entry.pictures);

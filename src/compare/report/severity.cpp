@@ -26,7 +26,7 @@ int verdict_rank(Verdict verdict) {
 
 }  // namespace
 
-double excess(const Figure& figure) {
+double excess(const RuleFigure& figure) {
     constexpr double most = 1e6;
     // Similarity counts from 1 downwards. A limit of 0 allows nothing: any value exceeds it.
     const bool similarity = figure.metric == "ssim";
@@ -36,7 +36,7 @@ double excess(const Figure& figure) {
     return limit > 0.0 ? std::min(value / limit, most) : most;
 }
 
-const Figure* worst_figure(const ImageResult& result) {
+const RuleFigure* worst_figure(const ImageResult& result) {
     const auto worst = std::max_element(result.figures.begin(), result.figures.end(), [](const auto& a, const auto& b) {
         return std::pair(!a.holds, excess(a)) < std::pair(!b.holds, excess(b));
     });
@@ -48,7 +48,7 @@ std::vector<const ImageResult*> by_severity(const SetResult& set) {
     for (const ImageResult& image : set.images)
         if (image.verdict != Verdict::same) images.push_back(&image);
     const auto key = [](const ImageResult* image) {
-        const Figure* const worst = worst_figure(*image);
+        const RuleFigure* const worst = worst_figure(*image);
         return std::tuple(verdict_rank(image->verdict), worst ? -excess(*worst) : 0.0, -image->differing_pixels);
     };
     std::stable_sort(images.begin(), images.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
