@@ -11,6 +11,7 @@
 #include "compare/comparison_text.h"
 #include "compare/image_folder.h"
 #include "compare/platform.h"
+#include "compare/report/comparison_report.h"
 #include "compare/set_compare.h"
 #include "core/error.h"
 #include "core/safe_text.h"
@@ -64,6 +65,16 @@ public:
         else
             result.images = compare_pictures();
         return result;
+    }
+
+    /// Precondition: it is the result of compare(), whose frames are still there.
+    void write_report(const SetResult& result) const {
+        ReportOptions options;
+        options.generator = "Tumble " TUMBLE_VERSION;
+        options.platform = this_platform();
+        if (command_.tolerances) options.tolerances = command_.tolerances->string();
+        options.workers = command_.workers;
+        write_comparison_report(result, options, *command_.report);
     }
 
     const Tolerances& tolerances() const { return tolerances_; }
@@ -183,6 +194,7 @@ int compare_sets(const CompareCommand& command) {
     const SetResult result = run.compare();
     if (command.json) write_text(*command.json, to_json(result));
     if (command.junit) write_text(*command.junit, to_junit(result));
+    if (command.report) run.write_report(result);
     std::vector<std::string> names;
     for (const ImageResult& image : result.images) names.push_back(image.name);
     for (const std::string& rule : run.tolerances().unused(names))
