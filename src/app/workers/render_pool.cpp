@@ -6,6 +6,7 @@
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
 #include "render/render_switches.h"
+#include "sim/checkpoint/archive.h"
 
 #include <sys/mman.h>
 
@@ -197,6 +198,11 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
         frame.png = slots.memory().png(*slot).first(drawn.png_bytes);
         order.add(std::move(frame), worker, drawn.unchanged);
     }
+}
+
+void RenderPool::restore(std::size_t panel, std::span<const std::byte> poses) {
+    CheckpointReader reader(poses);
+    reader.keep(pose_filters_.at(panel).poses);
 }
 
 void RenderPool::abandon() {
