@@ -1,5 +1,6 @@
-# CPack's settings for the Debian package. scripts/package calls cpack with: TUMBLE_STAGE (the installed tree), TUMBLE_VERSION,
-# TUMBLE_REVISION, TUMBLE_MAINTAINER, TUMBLE_OUTPUT (folder).
+# CPack's settings for the Debian package. scripts/package calls cpack with environment variables: TUMBLE_STAGE (the
+# installed tree), TUMBLE_VERSION, TUMBLE_REVISION, TUMBLE_MAINTAINER, TUMBLE_LIBRARIES (the
+# dependencies of dpkg-shlibdeps), TUMBLE_CONTROL (a folder with more control files).
 #
 # One package holds the program, the library and its headers. The library's interface changes with each version before 1.0 and
 # has to fit the headers, nothing in Debian depends on it, and a farm's node is set up with one file. The development files are
@@ -7,11 +8,11 @@
 
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME tumble)
-set(CPACK_PACKAGE_VERSION ${TUMBLE_VERSION})
-set(CPACK_DEBIAN_PACKAGE_RELEASE ${TUMBLE_REVISION})
+set(CPACK_PACKAGE_FILE_NAME tumble)   # of working folders
+set(CPACK_PACKAGE_VERSION $ENV{TUMBLE_VERSION})
+set(CPACK_DEBIAN_PACKAGE_RELEASE $ENV{TUMBLE_REVISION})
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_PACKAGE_DIRECTORY ${TUMBLE_OUTPUT})
-set(CPACK_INSTALLED_DIRECTORIES "${TUMBLE_STAGE};/")
+set(CPACK_INSTALLED_DIRECTORIES "$ENV{TUMBLE_STAGE};/")
 set(CPACK_PACKAGING_INSTALL_PREFIX /)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_STRIP_FILES OFF)   # done
@@ -19,7 +20,7 @@ set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 
 set(CPACK_DEBIAN_PACKAGE_SECTION graphics)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
-set(CPACK_DEBIAN_PACKAGE_MAINTAINER ${TUMBLE_MAINTAINER})
+set(CPACK_DEBIAN_PACKAGE_MAINTAINER $ENV{TUMBLE_MAINTAINER})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "headless renderer of rigid-body animation clips")
 set(CPACK_PACKAGE_DESCRIPTION
 "Tumble simulates rigid bodies that fall, bounce and come to rest, from scene
@@ -32,10 +33,12 @@ processes.
 The package holds the program, demo scenes, and a C++ library with its
 headers.")
 
-# Linked libraries are found by dpkg-shlibdeps; those below are opened by name.
-set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+# CPack's own search for linked libraries would add scripts that call ldconfig (Debian has a trigger for it), and asks "file"
+# about each of the files.
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA $ENV{TUMBLE_CONTROL}/shlibs $ENV{TUMBLE_CONTROL}/triggers)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
+  "$ENV{TUMBLE_LIBRARIES}"   # linked ones; those below are opened by name
   "libosmesa6 (>= 20)"    # draws on the CPU
   "fonts-inter")          # texts in frames: another font would give other pixels on each machine
 list(JOIN CPACK_DEBIAN_PACKAGE_DEPENDS ", " CPACK_DEBIAN_PACKAGE_DEPENDS)

@@ -5,6 +5,28 @@
 namespace tumble::manual {
 namespace {
 
+// Above the table. PROGRAM is replaced, and PATHS by the commands.
+constexpr const char* functions = R"fish(# Completion of PROGRAM for fish. Written by "PROGRAM completion fish".
+
+function __PROGRAM_at -a wanted -d 'Whether the command of the line is this one'
+    set -l words (commandline -opc)
+    set -l path
+    for word in $words[2..]
+        set -l longer (string join -- ' ' $path $word)
+        contains -- $longer PATHS; and set path $longer
+    end
+    test "$path" = "$wanted"
+end
+
+function __PROGRAM_files -d 'Files with these endings, and folders'
+    set -l word (string replace -r -- '^--[a-z-]+=' '' (commandline -ct))
+    set -l endings (string join -- '|' $argv)
+    string match -r -- "^.*(?:\\.(?:$endings)|/)\$" (complete -C "__fish_command_without_completions $word")
+end
+
+complete -c PROGRAM -f
+)fish";
+
 std::string fish_quoted(const std::string& text) {
     return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
 }
@@ -16,15 +38,13 @@ std::string offers(const ValueHint& hint) {
         sources.push_back("(__fish_append , " + joined(hint.words, " ") + ")");
     else if (!hint.words.empty())
         sources.push_back(joined(hint.words, " "));
-    std::string endings;
-    for (const std::string& ending : hint.endings) endings += " ." + ending;
-    if (!endings.empty())
-        sources.push_back("(__fish_complete_suffix" + endings + ")");
+    if (!hint.endings.empty())
+        sources.push_back("(__PROGRAM_files " + joined(hint.endings, " ") + ")");
     else if (hint.files)
         sources.emplace_back("(__fish_complete_path)");
     else if (hint.folders)
         sources.emplace_back("(__fish_complete_directories)");
-    return sources.empty() ? "-x" : "-k -x -a " + fish_quoted(joined(sources, " "));
+    return sources.empty() ? "-x" : "-x -a " + fish_quoted(joined(sources, " "));
 }
 
 /// The lines of a command, and of its commands. `condition` is true where it is the command of the line.
@@ -55,19 +75,7 @@ std::string fish_completion(const CommandText& program) {
     std::string lines;
     std::vector<std::string> paths;
     add_fish_command(program, program.name, "", lines, paths);
-    return fmt::format(
-        "# Completion of {0} for fish. Written by \"{0} completion fish\".\n\n"
-        "function __{0}_at -a wanted -d 'Whether the command of the line is this one'\n"
-        "    set -l words (commandline -opc)\n"
-        "    set -l path\n"
-        "    for word in $words[2..]\n"
-        "        set -l longer (string join -- ' ' $path $word)\n"
-        "        contains -- $longer {1}; and set path $longer\n"
-        "    end\n"
-        "    test \"$path\" = \"$wanted\"\n"
-        "end\n\n"
-        "complete -c {0} -f\n{2}",
-        program.name, joined(paths, " "), lines);
+    return replaced(replaced(functions, "PATHS", joined(paths, " ")) + lines, "PROGRAM", program.name);
 }
 
 }  // namespace tumble::manual

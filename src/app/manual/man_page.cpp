@@ -182,7 +182,7 @@ ManPage program_page(const CommandText& program, const std::string& version) {
     const std::string what = program.description.substr(program.description.find(": ") + 2);  // after "Tumble: "
     text += fmt::format("{} \\- {}\n", roff(program.name), roff(what));
     text += page_body(program, program, program.name, commands);
-    return {fmt::format("{}.{}", name, section), text + heading("SEE ALSO") + others + '\n'};
+    return {fmt::format("{}.{}", program.name, section), text + heading("SEE ALSO") + others + '\n'};
 }
 
 }  // namespace

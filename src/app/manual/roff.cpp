@@ -10,6 +10,19 @@ std::string guarded(const std::string& line) {
     return !line.empty() && (line[0] == '.' || line[0] == '\'') ? "\\&" + line : line;
 }
 
+/// Lines of one list without spaces, "a,b," and "c,d", become one: a filled paragraph would put a space between them.
+std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines) {
+    std::vector<std::string> whole;
+    for (const std::string& line : lines) {
+        const std::size_t comma = line.substr(0, line.find(' ')).find(',');
+        if (!whole.empty() && whole.back().ends_with(',') && comma != std::string::npos && comma + 1 < line.size())
+            whole.back() += line;
+        else
+            whole.push_back(line);
+    }
+    return whole;
+}
+
 }  // namespace
 
 std::string roff(const std::string& text) {
@@ -45,23 +58,6 @@ std::string roff_lines(const std::vector<std::string>& lines) {
     for (const std::string& line : lines) out += roff(line) + '\n';
     return out + ".fi\n";
 }
-
-namespace {
-
-/// Lines of one list without spaces, "a,b," and "c,d", become one: a filled paragraph would put a space between them.
-std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines) {
-    std::vector<std::string> whole;
-    for (const std::string& line : lines) {
-        const std::size_t comma = line.substr(0, line.find(' ')).find(',');
-        if (!whole.empty() && whole.back().ends_with(',') && comma != std::string::npos && comma + 1 < line.size())
-            whole.back() += line;
-        else
-            whole.push_back(line);
-    }
-    return whole;
-}
-
-}  // namespace
 
 std::string roff_paragraphs(const std::vector<std::string>& lines) {
     std::string out;
