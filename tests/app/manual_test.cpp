@@ -30,6 +30,8 @@ TEST(ValueHint, FilesHaveTheEndingsOfTheNameAndOfTheHelp) {
               (Words{"mp4", "mov", "mkv", "webm", "gif"}));
     EXPECT_EQ(ValueHint::of("R.html", "See docs/how-to/reports.md").endings, (Words{"html"}));
     EXPECT_EQ(ValueHint::of("SCENE", "The scene file (TOML)").endings, (Words{"toml"}));
+    EXPECT_EQ(ValueHint::of("SUITE", "The suite (TOML; docs/reference/suite.md)").endings, (Words{"toml"}));
+    EXPECT_TRUE(ValueHint::of("B", "A picture, or a scene (TOML)").empty());
     const ValueHint any = ValueHint::of("FILE", "A file");
     EXPECT_TRUE(any.files && any.endings.empty());
 }
@@ -92,8 +94,9 @@ TEST(ManPage, ACommandInACommandIsAPartOfItsPage) {
     const std::vector<ManPage> pages = man_pages(strange_program(), "1.2");
     ASSERT_EQ(pages.size(), 2U);
     EXPECT_EQ(pages[1].file, "tool-outer.1");
-    for (const char* part : {".SS tool outer inner", "[\\fIOPTIONS\\fR] \\fB\\-x\\fR \\fIa|b\\fR", "\\e$(id)",
-                             "\\fB3\\fR\ngone.", "Required.\n"})
+    for (const char* part :
+         {".SS tool outer inner", "\\fB1\\fR\nfailed.\n.PP\nOf \\fBtool outer inner\\fR:\n.TP\n\\fB0\\fR\ngood.\n",
+          "[\\fIOPTIONS\\fR] \\fB\\-x\\fR \\fIa|b\\fR", "\\e$(id)", "\\fB3\\fR\ngone.", "Required.\n"})
         EXPECT_NE(pages[1].text.find(part), std::string::npos) << part << '\n' << pages[1].text;
     EXPECT_NE(pages[0].text.find("\\fB1\\fR\nfailed.\n"), std::string::npos);
 }

@@ -88,7 +88,7 @@ class Completion(program.ProgramTest):
         self.assertEqual(self.offers("tumble render "), {"scene.toml", "out"})
         self.assertEqual(self.offers("tumble render scene.toml "), {"scene.toml", "out"})   # several may be given
         self.assertEqual(self.offers("tumble render -o "), {"clip.mp4", "other.webm", "out"})
-        self.assertEqual(self.offers("tumble compare frame.png "), {"frame.png", "out"})
+        self.assertEqual(self.offers("tumble compare a.png b.png --diff "), {"frame.png", "out"})
         self.assertEqual(self.offers("tumble encode "), {"out"})
         self.assertEqual(self.offers("tumble simulate --trajectory ta"), {"table.csv"})
 

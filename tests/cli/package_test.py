@@ -124,6 +124,31 @@ class Package(unittest.TestCase):
         license_text = " ".join((ROOT / "LICENSE").read_text().split("\n\n", 2)[2].split())
         self.assertIn(license_text, " ".join(re.sub(r"^ \.?", "", text, flags=re.M).split()))
 
+    def test_licenses_of_the_player(self):
+        """From the comments at the head of its files."""
+        web = self.folder / "web"
+        web.mkdir()
+        script = ROOT / "packaging/deb/web-copyright"
+        self.assertIn("no licenses", run(script, web, code=1).stderr)
+        (web / "player.js").write_text("/*\n@a/font:\nCopyright 2022 A.\nconditions:\n\n1. one\n\nb:\nMIT\n\nCopyright (c) 2001 B\n*/\nlet x;\n")
+        (web / "lesson.cjs").write_text("/*\nb:\nMIT\n\nCopyright (c) 2001 B\n*/\n/*\nc:\nno\n*/\n")
+        self.assertEqual(run(script, web).stdout, """
+Files: web/node_modules/@a/font/*
+Copyright: 2022 A.
+License: @a/font
+ Copyright 2022 A.
+ conditions:
+ .
+ 1. one
+
+Files: web/node_modules/b/*
+Copyright: 2001 B
+License: b
+ MIT
+ .
+ Copyright (c) 2001 B
+""")
+
     def test_changelog(self):
         text = gzip.decompress((self.tree / "usr/share/doc/tumble/changelog.Debian.gz").read_bytes()).decode()
         self.assertTrue(text.startswith(f"tumble ({self.field('Version')}) unstable; urgency=medium\n"))

@@ -62,7 +62,9 @@ manual::CommandText read_command(CLI::App& command) {
         if (option->get_group().empty()) continue;
         (option->nonpositional() ? text.options : text.arguments).push_back(read_option(*option));
     }
-    for (OptionText& argument : text.arguments) argument.hint.files = argument.hint.files || argument.hint.empty();
+    // Arguments are files, unless they are names.
+    for (OptionText& argument : text.arguments)
+        argument.hint.files = argument.hint.files || (argument.hint.empty() && !argument.help.starts_with("Name"));
     for (CLI::App* part : command.get_subcommands(std::function<bool(CLI::App*)>()))
         if (!part->get_group().empty()) text.commands.push_back(read_command(*part));
     return text;

@@ -30,6 +30,14 @@ const Rows& environment() {
     return rows;
 }
 
+// Variables of some commands, whose help names them.
+const Rows& named_environment() {
+    static const Rows rows = {
+        {"XDG_CACHE_HOME", "Folder of caches, in place of ~/.cache."},
+    };
+    return rows;
+}
+
 const Rows& files() {
     static const Rows rows = {
         {"PREFIX/share/tumble/shaders",
@@ -42,6 +50,9 @@ const Rows& files() {
     };
     return rows;
 }
+
+/// A description may have several lines in the help.
+std::string one_line(const CommandText& command) { return roff(replaced(command.description, "\n", " ")); }
 
 std::string heading(const std::string& title) { return ".SH " + title + '\n'; }
 
@@ -100,19 +111,47 @@ std::string rows_text(const Rows& rows, const char* font) {
 
 std::string text_of(const CommandText& command) { return command.description + ".\n" + command.footer; }
 
-/// The codes of the command or of its own commands, else those of the program.
-std::vector<ExitCode> exit_codes(const CommandText& program, const CommandText& command) {
-    std::vector<ExitCode> codes = exit_codes_in(text_of(command));
-    for (const CommandText& part : command.commands)
-        if (codes.empty()) codes = exit_codes_in(text_of(part));
-    return codes.empty() ? exit_codes_in(text_of(program)) : codes;
+/// All help texts of a command and its commands.
+std::string all_text_of(const CommandText& command) {
+    std::string text = text_of(command);
+    for (const OptionText& option : command.options) text += option.help + '\n';
+    for (const CommandText& part : command.commands) text += all_text_of(part);
+    return text;
 }
 
-std::string exit_status(const CommandText& program, const CommandText& command) {
-    std::string text = heading("EXIT STATUS");
-    for (const auto& [code, meaning] : exit_codes(program, command))
-        text += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", code, roff(meaning));
+std::string code_entries(const std::vector<ExitCode>& codes) {
+    std::string text;
+    for (const auto& [code, meaning] : codes) text += fmt::format(".TP\n\\fB{}\\fR\n{}.\n", code, roff(meaning));
     return text;
+}
+
+/// Codes of commands in the command at `path` that have codes of their own.
+std::string nested_exit_codes(const std::string& path, const CommandText& command) {
+    std::string text;
+    for (const CommandText& part : command.commands) {
+        const std::string part_path = path + ' ' + part.name;
+        if (const std::vector<ExitCode> codes = exit_codes_in(text_of(part)); !codes.empty())
+            text += fmt::format(".PP\nOf {}:\n{}", roff_code(part_path), code_entries(codes));
+        text += nested_exit_codes(part_path, part);
+    }
+    return text;
+}
+
+/// The codes of the command, else those of the program; then those of its own commands.
+std::string exit_status(const CommandText& program, const CommandText& command, const std::string& path) {
+    const std::vector<ExitCode> own = exit_codes_in(text_of(command));
+    std::string text = heading("EXIT STATUS") + code_entries(own.empty() ? exit_codes_in(text_of(program)) : own);
+    return &command == &program ? text : text + nested_exit_codes(path, command);
+}
+
+/// The variables that all commands read, and those that the help of the command names.
+std::string environment_of(const CommandText& command) {
+    Rows rows = environment();
+    const std::string text = all_text_of(command);
+    for (const auto& row : named_environment())
+        if (text.find(row.first) != std::string::npos) rows.push_back(row);
+    std::sort(rows.begin(), rows.end());
+    return heading("ENVIRONMENT") + rows_text(rows, "\\fB");
 }
 
 std::string examples(const std::vector<std::string>& lines) {
@@ -129,7 +168,7 @@ std::string title(const std::string& name, const std::string& version) {
 
 std::string reference(const std::string& name) { return "\\fB" + roff(name) + "\\fR(1)"; }
 
-std::string sentence(const CommandText& command) { return roff(command.description) + ".\n"; }
+std::string sentence(const CommandText& command) { return one_line(command) + ".\n"; }
 
 /// A command of a command, as in "golden check": a part of its page.
 std::string nested_command(const std::string& path, const CommandText& command) {
@@ -151,8 +190,7 @@ std::string page_body(const CommandText& program, const CommandText& command, co
     if (!footer.notes.empty()) text += ".PP\n" + roff_paragraphs(footer.notes);
     if (!command.arguments.empty()) text += heading("ARGUMENTS") + argument_entries(command.arguments);
     if (!command.options.empty()) text += heading("OPTIONS") + option_entries(command.options);
-    text += commands + exit_status(program, command);
-    text += heading("ENVIRONMENT") + rows_text(environment(), "\\fB");
+    text += commands + exit_status(program, command, path) + environment_of(command);
     text += heading("FILES") + rows_text(files(), "\\fI");
     return text + examples(footer.examples);
 }
@@ -163,7 +201,7 @@ ManPage command_page(const CommandText& program, const CommandText& command, con
     if (!command.commands.empty()) commands = heading("COMMANDS");
     for (const CommandText& part : command.commands) commands += nested_command(path + ' ' + part.name, part);
     std::string text = title(name, version) + heading("NAME");
-    text += fmt::format("{} \\- {}\n", roff(name), roff(command.description));
+    text += fmt::format("{} \\- {}\n", roff(name), one_line(command));
     text += page_body(program, command, path, commands);
     text += heading("SEE ALSO") + reference(program.name);
     for (const CommandText& other : program.commands)

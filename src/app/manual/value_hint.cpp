@@ -55,6 +55,13 @@ std::vector<std::string> list_in(const std::string& help) {
     return words;
 }
 
+/// Scenes, suites, plans: the help says so in brackets, "(TOML)" or "(TOML; docs/...)". Single letters stand for files of
+/// several kinds.
+bool is_toml(const std::string& help) {
+    const std::size_t at = help.find("(TOML");
+    return at != std::string::npos && at + 5 < help.size() && (help[at + 5] == ')' || help[at + 5] == ';');
+}
+
 void add_alternative(ValueHint& hint, const std::string& name, const std::string& help) {
     const std::size_t dot = name.rfind('.');
     if (dot != std::string::npos) {
@@ -66,7 +73,7 @@ void add_alternative(ValueHint& hint, const std::string& name, const std::string
     } else if (is_one_of(name, file_names)) {
         hint.files = true;
         for (std::string& ending : endings_in(help)) add_once(hint.endings, std::move(ending));
-    } else if (name == "SCENE") {
+    } else if (name.size() > 1 && is_toml(help)) {
         hint.files = true;
         add_once(hint.endings, "toml");
     } else if (name == "LIST") {

@@ -22,7 +22,7 @@ struct ValueHint {
     ///   LIST, "a list out of a,b"    words of a list
     ///   DIR, SITE                    folders
     ///   T.csv                        files with the ending, and with the endings of the help (".svg .png or .pdf")
-    ///   SCENE                        scene files
+    ///   SCENE, PLAN, "(TOML)"         TOML files
     ///   CLIP, FILE                   files with the endings of the help
     ///   all others                   numbers and texts: nothing to offer
     static ValueHint of(const std::string& value, const std::string& help);
