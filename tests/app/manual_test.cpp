@@ -26,7 +26,7 @@ TEST(ValueHint, ChoicesAreTheNamesInLowerCase) {
 TEST(ValueHint, FilesHaveTheEndingsOfTheNameAndOfTheHelp) {
     EXPECT_EQ(ValueHint::of("D.png", "Write a picture of 0.5 levels.").endings, (Words{"png"}));
     EXPECT_EQ(ValueHint::of("C.csv", "CSV or .npz: one row per frame").endings, (Words{"csv", "npz"}));
-    EXPECT_EQ(ValueHint::of("CLIP", "The clip: .mp4 .mov\n.mkv (H.264),\n.webm or .gif.").endings,
+    EXPECT_EQ(ValueHint::of("CLIP", "The clip: .mp4 .mov\n.mkv (H.264),\n.webm or .gif. Without this none.").endings,
               (Words{"mp4", "mov", "mkv", "webm", "gif"}));
     EXPECT_EQ(ValueHint::of("R.html", "See docs/how-to/reports.md").endings, (Words{"html"}));
     EXPECT_EQ(ValueHint::of("SCENE", "The scene file (TOML)").endings, (Words{"toml"}));

@@ -103,7 +103,8 @@ class BareRoot(unittest.TestCase):
         self.within("apt-get", "-qq", "purge", "--yes", "tumble")
         removed = self.listing()
         self.assertEqual([name for name in removed if "tumble" in name], [])
-        self.assertEqual([str(p) for p in (self.system / "var").rglob("*tumble*")], [])
+        kept = [str(p.relative_to(self.system)) for p in (self.system / "var").rglob("*tumble*")]
+        self.assertEqual([name for name in kept if not name.startswith("var/cache/man/")], [])   # man keeps pages that were shown
         self.within("apt-get", "-qq", "install", "--no-install-recommends", "--yes", self.deb)
         self.within("apt-get", "-qq", "purge", "--yes", "tumble")
         self.assertEqual(self.listing(), removed)

@@ -61,10 +61,16 @@ def divided(line):
     return words
 
 
+def listed_commands(text):
+    """The names in the list of subcommands of a help text."""
+    listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", text + "\n", re.M)
+    return re.findall(r"^  ([a-z-]+) ", listed[1], re.M) if listed else []
+
+
 class Completion(program.ProgramTest):
     def setUp(self):
         super().setUp()
-        for name in ("clip.mp4", "other.webm", "frame.png", "note.txt", "table.csv"):
+        for name in ("clip.mp4", "other.gif", "frame.png", "note.txt", "table.csv"):
             self.write(name, "")
         (self.folder / "out").mkdir()
 
@@ -84,10 +90,20 @@ class Completion(program.ProgramTest):
         self.assertEqual(self.offers("tumble render --transp"), {"--transparent"})
         self.assertEqual(self.offers("tumble render --fps "), set())
 
+    def check_nested_commands(self):
+        """Each command with commands of its own offers these, and their options."""
+        for name in listed_commands(self.check(0, "--help").stdout):
+            text = self.check(0, name, "--help").stdout
+            if parts := listed_commands(text):
+                self.assertEqual(self.offers(f"tumble {name} "), set(parts))
+                for part in parts:
+                    options = re.findall(r"^  (?:-\w,)?(--[a-z-]+)", self.check(0, name, part, "--help").stdout, re.M)
+                    self.assertLessEqual(set(options), self.offers(f"tumble {name} {part} --"))
+
     def check_files(self):
         self.assertEqual(self.offers("tumble render "), {"scene.toml", "out"})
         self.assertEqual(self.offers("tumble render scene.toml "), {"scene.toml", "out"})   # several may be given
-        self.assertEqual(self.offers("tumble render -o "), {"clip.mp4", "other.webm", "out"})
+        self.assertEqual(self.offers("tumble render -o "), {"clip.mp4", "other.gif", "out"})
         self.assertEqual(self.offers("tumble compare a.png b.png --diff "), {"frame.png", "out"})
         self.assertEqual(self.offers("tumble encode "), {"out"})
         self.assertEqual(self.offers("tumble simulate --trajectory ta"), {"table.csv"})
@@ -111,6 +127,9 @@ class Bash(Completion):
 
     def test_offers(self):
         self.check_offers()
+
+    def test_nested_commands(self):
+        self.check_nested_commands()
 
     def test_files(self):
         self.check_files()
@@ -206,6 +225,9 @@ class Fish(Completion):
     def test_offers(self):
         self.check_offers()
 
+    def test_nested_commands(self):
+        self.check_nested_commands()
+
     def test_files(self):
         self.check_files()
         self.assertEqual(self.offers("tumble render --output=cl"), {"--output=clip.mp4"})
@@ -229,12 +251,18 @@ class Zsh(Completion):
         self.assertEqual((run.returncode, run.stderr), (0, ""), line)
         return set(re.findall(r"offer=([^\r\n]*)", run.stdout))
 
+    def test_values_after_an_equals_sign(self):
+        self.assertEqual(self.offers("tumble render --gl=e"), {"--gl=egl"})
+
     def test_syntax(self):
         run = subprocess.run(["zsh", "-f", "-n", "tumble.zsh"], cwd=self.folder, capture_output=True, text=True, timeout=60)
         self.assertEqual((run.returncode, run.stderr), (0, ""))
 
     def test_offers(self):
         self.check_offers()
+
+    def test_nested_commands(self):
+        self.check_nested_commands()
 
     def test_files(self):
         self.check_files()

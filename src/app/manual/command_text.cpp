@@ -29,8 +29,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 std::string short_help(const std::string& help) {
     constexpr std::size_t most = 90;  // characters, so that a name and its text fit into a line
     std::string text = replaced(help, "\n", " ");
-    for (const char* end : {". ", "; ", " ("})
-        if (const std::size_t at = text.find(end); at != std::string::npos && at > 0) text.resize(at);
+    text.resize(std::min(text.find(". "), text.size()));
     if (text.size() <= most) return text;
     const std::size_t space = text.rfind(' ', most - 3);
     return text.substr(0, space == std::string::npos ? most - 3 : space) + "...";

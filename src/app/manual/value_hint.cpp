@@ -28,8 +28,9 @@ std::vector<std::string> endings_in(const std::string& help) {
     for (std::size_t dot = help.find('.'); dot != std::string::npos; dot = help.find('.', dot + 1)) {
         const bool begins = dot == 0 || std::string_view(" \n(").find(help[dot - 1]) != std::string_view::npos;
         const std::size_t end = std::min(help.find_first_not_of(word_characters, dot + 1), help.size());
-        const bool ends = end == help.size() || std::string_view("/.").find(help[end]) == std::string_view::npos ||
-                          (help[end] == '.' && end + 1 == help.size());
+        const bool sentence_ends =
+            help[end] == '.' && (end + 1 == help.size() || help.find_first_of(" \n", end) == end + 1);
+        const bool ends = end == help.size() || sentence_ends || (help[end] != '.' && help[end] != '/');
         if (begins && ends && end - dot > 2) add_once(endings, help.substr(dot + 1, end - dot - 1));
     }
     return endings;
