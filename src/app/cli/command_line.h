@@ -30,6 +30,8 @@ struct CommandLine {
     CompareCommand compare;
     InfoCommand info;
     DoctorCommand doctor;
+    CompletionCommand completion;
+    ManPagesCommand man_pages;
 };
 
 CLI::App* add_render(CLI::App& app, CommandLine& line);
@@ -42,6 +44,8 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
+CLI::App* add_completion(CLI::App& app, CommandLine& line);
+CLI::App* add_man_pages(CLI::App& app, CommandLine& line);
 
 /// A number in a range; CLI::Range lets NaN through.
 CLI::Validator number_within(double least, double most);

@@ -149,4 +149,18 @@ struct DoctorCommand {
 /// Returns 0 if clips can be rendered, else 1.
 int run_doctor(const DoctorCommand& command);
 
+namespace manual {
+struct CommandText;  // app/manual/command_text.h: all commands and options
+}
+
+struct CompletionCommand {
+    std::string shell;  // bash, zsh, fish
+};
+void run_completion(const CompletionCommand& command, const manual::CommandText& program);
+
+struct ManPagesCommand {
+    std::filesystem::path folder;
+};
+void run_man_pages(const ManPagesCommand& command, const manual::CommandText& program);
+
 }  // namespace tumble
