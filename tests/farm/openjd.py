@@ -168,8 +168,8 @@ def expression(values):
         end = i + 1
         while end < len(values) and values[end] - values[end - 1] == step:
             end += 1
-        if end - i == 2 and step > 1:
-            end = i + 1
+        if end - i == 2:
+            end = i + 1   # two values are no run
         parts.append(str(values[i]) if end == i + 1 else f"{values[i]}-{values[end - 1]}" + (f":{step}" if step > 1 else ""))
         i = end
     return ",".join(parts)

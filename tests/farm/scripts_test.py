@@ -156,6 +156,7 @@ class WrongUse(FarmTest):
         self.refused("unknown kind of clip", self.scene, "--parts", "4", "-o", "a.txt")
         self.refused("--size", *usual, "--size", "64")
         self.refused("--overlay", *usual, "--overlay", "nothing-known")
+        self.refused("--overlay: damage", *usual, "--overlay", "damage")
         self.refused("--set", *usual, "--set", "simulation.nothing=1")
         self.refused("--plot", *usual, "--plot", "body.nobody.y")
         self.refused("control character", *usual, "--folder", "a\nb")

@@ -162,9 +162,10 @@ class Cluster:
 
     def kill_node(self, node):
         """As if its machine had lost its power: the daemon, its steps and their tasks end at once."""
-        daemon = self.pid_of(f"slurmd-{node}")
-        doomed = [daemon, *self.processes_of(node)]
-        for pid in doomed:
+        tasks = self.processes_of(node)
+        steps = {parent_of(pid) for pid in tasks}   # slurmstepd, which would report the end of the tasks
+        steps = [pid for pid in steps if name_of(pid) == "slurmstepd"]
+        for pid in [self.pid_of(f"slurmd-{node}"), *steps, *tasks]:
             try:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
@@ -246,6 +247,21 @@ def processes_with(configuration, variable=None):
                 (variable is None or variable.encode() in words):
             found.append(int(folder.name))
     return found
+
+
+def parent_of(pid):
+    """0 if it has ended."""
+    try:
+        return int(pathlib.Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[1])
+    except OSError:
+        return 0
+
+
+def name_of(pid):
+    try:
+        return pathlib.Path(f"/proc/{pid}/comm").read_text().strip()
+    except OSError:
+        return ""
 
 
 def listening_addresses():

@@ -49,12 +49,13 @@ class NodeLoss(unittest.TestCase):
         local = local_clips(root, "scene.toml", encode=())
         cluster.wait_for_end_of_jobs(guard=180)
         logs = "".join(f"--- {log.name}\n{log.read_text()}" for log in sorted((folder / "log").iterdir()))
-        self.assertTrue((root / "clip.mp4").exists(), logs + cluster.queue())
+        self.assertTrue((root / "clip.mp4").exists(), logs + cluster.queue() + cluster.logs() + (root / "slurm/log/jobcomp.txt").read_text())
         self.assertEqual((root / "clip.mp4").read_bytes(), local.rendered)
         self.assertEqual((root / "clip.mp4").read_bytes(), local.encoded)
-        attempts = [line for line in (root / "slurm/log/jobcomp.txt").read_text().splitlines() if "NODE_FAIL" in line]
-        self.assertEqual(len(attempts), 1, attempts)
-        self.assertIn(f"NodeList={node} ", attempts[0])
+        records = (root / "slurm/log/jobcomp.txt").read_text()
+        lost = [line for line in records.splitlines() if "NODE_FAIL" in line and "ArrayTaskId=2 " in line]
+        self.assertEqual(len(lost), 1, records)
+        self.assertIn(f"NodeList={node} ", lost[0])
         self.assertNotEqual(cluster.job(f"{frames}_2")["BatchHost"], node)
 
 

@@ -31,6 +31,11 @@ fs::path whole_path(const fs::path& path) { return fs::absolute(path).lexically_
 FarmJob job_of(const FarmCommand& command) {
     const RenderCommand& render = command.render;
     const RenderScenes scenes(render, Shutter::of(render.shutter, render.blur_samples));
+    if (scenes.shows_damage())
+        throw InputError(
+            "--overlay: damage shows where a frame differs from the one before, which the first frame of a part does "
+            "not know; "
+            "leave it out on a farm");
     FarmJob job;
     for (const fs::path& scene : render.scenes) job.scenes.push_back(whole_path(scene));
     for (const fs::path& input : scenes.inputs)
