@@ -76,6 +76,12 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides);
 void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string& help);
 /// --vary; `what` is made for each value: "A panel", "A run".
 void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what);
+/// --vary and --layout; `what` as in add_vary().
+void add_panels(CLI::App& command, RenderCommand& clip, const std::string& what);
+/// --overlay, --plot and --plot-place.
+void add_text(CLI::App& command, SceneOverrides& overrides);
+/// --speed, --shutter and --blur-samples.
+void add_clip_times(CLI::App& command, RenderCommand& clip);
 void add_quality(CLI::App& command, VideoQuality& quality);
 
 /// An option with one of a list of names as its value.

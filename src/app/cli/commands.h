@@ -29,8 +29,9 @@ struct RenderCommand {
     PanelArrangement arrangement = PanelArrangement::automatic;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    double start = 0.0;          // s, scene time; earlier frames are not drawn
-    double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
+    double start = 0.0;                                     // s, scene time; earlier frames are not drawn
+    std::optional<std::filesystem::path> from_checkpoints;  // folder; else the frames before the first are simulated
+    double speed = 1.0;                                     // of the motion in the clip: 0.25 is slow motion
     int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;        // images per frame while the shutter is open
@@ -41,9 +42,12 @@ struct RenderCommand {
 void run_render(const RenderCommand& command);
 
 struct SimulateCommand {
-    std::filesystem::path scene;
+    std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
     std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
     SceneOverrides overrides;
+    std::optional<std::filesystem::path> checkpoints;  // folder
+    double every = 1.0;                                // s of the clip between two checkpoints
+    RenderCommand clip;                                // that is drawn from the checkpoints: only its panels and times
     int threads = 1;
     bool quiet = false;
 };

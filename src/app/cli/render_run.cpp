@@ -1,5 +1,6 @@
 #include "app/cli/render_run.h"
 
+#include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
@@ -44,6 +45,17 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
     if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
 }
 
+/// The state to go on from, if there is one at or before the first frame. Takes the survey of the clip from the folder.
+std::optional<ClipState> read_checkpoints(const fs::path& folder, RenderScenes& scenes) {
+    if (scenes.shows_damage())
+        throw InputError(
+            "--from-checkpoints: the overlay 'damage' shows changes since the frame before, which a part of a clip has "
+            "not drawn; leave one of them out");
+    const CheckpointReading checkpoints(folder, TUMBLE_VERSION, scenes.identity());
+    scenes.take_survey(checkpoints.survey());
+    return checkpoints.before(scenes.frames.first);
+}
+
 StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outputs) {
     StageSeconds cpu;
     cpu.simulation = times.simulation.cpu.load();
@@ -82,6 +94,8 @@ RenderFigures render_to_files(const RenderCommand& command) {
         find_ffmpeg();
     }
     check_outputs(command, scenes.inputs, frames, clip, aovs_to);
+    std::optional<ClipState> state;
+    if (command.from_checkpoints) state = read_checkpoints(*command.from_checkpoints, scenes);
     const int requested_workers =
         scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, frames.count()));
     const int workers = workers_that_fit(composition, work, requested_workers);
@@ -90,7 +104,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
             requested_workers);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
     Interrupt interrupt;  // before any thread or process is made
-    if (outputs.image()) scenes.survey_clip(threads, interrupt);
+    if (outputs.image() && !command.from_checkpoints) scenes.survey_clip(threads, interrupt);
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     std::vector<World> worlds;
@@ -117,6 +131,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
 
     const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
     Pipeline pipeline(panels, frames, render_pool, destinations, shutter);
+    if (state) pipeline.go_on_from(*state);
     {
         Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });

@@ -1,6 +1,9 @@
 #include "app/cli/command_line.h"
 #include "app/plots/quantities.h"
 #include "core/error.h"
+#include "scene/toml/limits.h"
+
+#include <algorithm>
 
 namespace tumble {
 namespace {
@@ -19,12 +22,38 @@ void read_impacts(const std::string& text, SimulateCommand& c) {
             "--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}')", safe_text(text)));
 }
 
+/// The folder of checkpoints, and the settings of the clip that is drawn from it.
+void add_checkpoints(CLI::App& command, SimulateCommand& c) {
+    CLI::Option* const folder =
+        command
+            .add_option("--checkpoints", c.checkpoints,
+                        "Write the state of the simulation to DIR, from which parts of a clip are drawn:\n"
+                        "tumble render --from-checkpoints DIR (docs/how-to/long-renders.md). The following\n"
+                        "settings of the clip, if it has any, are given here as well")
+            ->check(some_name())
+            ->type_name("DIR");
+    const std::vector<CLI::Option*> before = command.get_options();
+    command.add_option("--every", c.every, "Seconds of the clip between two checkpoints")
+        ->check(number_within(1e-6, limits::duration.max))
+        ->option_text("S [1]");
+    add_size(command, c.overrides.width, c.overrides.height, "Picture size, in place of the scene's");
+    add_clip_times(command, c.clip);
+    add_panels(command, c.clip, "A panel");
+    add_text(command, c.overrides);
+    for (CLI::Option* const option : command.get_options())
+        if (std::find(before.begin(), before.end(), option) == before.end()) option->needs(folder);
+}
+
 }  // namespace
 
 CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     SimulateCommand& c = line.simulate;
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
-    add_scene(*command, c.scene);
+    command
+        ->add_option("scene", c.scenes, "The scene file (TOML); several with --checkpoints of a clip that shows them")
+        ->check(some_name())
+        ->required()
+        ->type_name("SCENE");
     command
         ->add_option("--trajectory", c.trajectory,
                      "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
@@ -77,10 +106,12 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
                      "propagating or simultaneous: the rule for several contacts at once")
         ->type_name("NAME");
     add_frames_of_time(*command, c.overrides);
+    add_checkpoints(*command, c);
     c.threads = machine_threads();
     add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
     command->footer(
         "Examples:\n"
+        "  tumble simulate scene.toml --checkpoints states --every 10\n"
         "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
         "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row");
     return command;

@@ -2,8 +2,10 @@
 
 #include "app/threads/interrupt.h"
 #include "app/threads/task_group.h"
+#include "core/check.h"
 #include "core/error.h"
 #include "output/temporary_file.h"
+#include "sim/checkpoint/archive.h"
 
 #include <algorithm>
 #include <memory>
@@ -52,8 +54,15 @@ Pipeline::Pipeline(std::span<const PanelSource> panels, const FrameRange& frames
       for_png_(queued_frames),
       for_aovs_(queued_frames),
       for_video_(queued_frames) {
-    for (const PanelSource& panel : panels)
-        panels_.push_back({{panel.world, shutter}, panel.end, panel.overlay, {}, {}});
+    for (const PanelSource& panel : panels) panels_.emplace_back(panel, shutter);
+}
+
+void Pipeline::go_on_from(const ClipState& state) {
+    TUMBLE_CHECK_LE(state.frame, frames_.first);
+    if (state.panels.size() != panels_.size()) CheckpointReader::fail("has another number of panels");
+    for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i].restore(state.panels[i], state.frame);
+    render_pool_.restore(state.poses);
+    begin_ = state.frame;
 }
 
 void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
@@ -96,7 +105,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 void Pipeline::simulate() {
     const bool ahead = outputs_.aovs != nullptr && outputs_.aovs->aovs().has(Aov::motion);
     std::optional<MotionBlurFrame> waiting;  // with motion AOVs, a frame waits for the poses of the next one
-    for (std::int64_t n = 0; n < frames_.end; ++n) {
+    for (std::int64_t n = begin_; n < frames_.end; ++n) {
         MotionBlurFrame frame_poses = simulate_frame(n);
         if (waiting) waiting->aovs->next = frame_poses.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
@@ -107,7 +116,7 @@ void Pipeline::simulate() {
             return;
     }
     if (waiting) {
-        waiting->aovs->next = timed(times_.simulation, [&] { return panels_.front().sequence.next_start(); });
+        waiting->aovs->next = timed(times_.simulation, [&] { return panels_.front().next_start(); });
         if (!poses_.push(std::move(*waiting))) return;
     }
     poses_.close();
@@ -117,14 +126,10 @@ MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
     const StageTimer timer(times_.simulation);
     MotionBlurFrame frame_poses;
     frame_poses.frame = frame;
-    for (Panel& panel : panels_) {
-        frame_poses.panels.push_back(frame < panel.end ? panel.sequence.next() : panel.last);
-        const PanelPoses& poses = frame_poses.panels.back();
-        if (frame + 1 == panel.end && panel.end < frames_.end) panel.last.assign(1, poses.front());
-        if (frame < panel.end) frame_poses.time = poses.front().time;
-        if (panel.overlay != nullptr && frame < panel.end)
-            write_bytes(panel.overlay->next(poses.front(), panel.sequence.records()), panel.shapes);
-        frame_poses.overlays.push_back(panel.shapes);
+    for (PanelRun& panel : panels_) {
+        frame_poses.panels.push_back(panel.next(frame));
+        if (panel.runs(frame)) frame_poses.time = frame_poses.panels.back().front().time;
+        frame_poses.overlays.push_back(panel.shapes());
     }
     if (outputs_.aovs != nullptr) frame_poses.aovs = AovPoses{frame_poses.panels.front().front(), std::nullopt};
     return frame_poses;

@@ -9,10 +9,12 @@
 // of the clip. The first error of any stage stops all of them.
 #pragma once
 
+#include "app/checkpoints/clip_state.h"
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
 #include "app/files/publish_queue.h"
 #include "app/pipeline/frame_range.h"
+#include "app/pipeline/panel_run.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/render_pool.h"
 #include "output/video_writer.h"
@@ -45,19 +47,16 @@ struct PipelineOutputs {
     AovFolder* aovs = nullptr;
 };
 
-/// The simulation of a panel.
-struct PanelSource {
-    World& world;                       // its frames are the intervals of the shutter
-    std::int64_t end = 0;               // one after its last frame; later frames of the clip repeat that
-    OverlayBuilder* overlay = nullptr;  // of the shapes over it, or null
-};
-
 class Pipeline {
 public:
     /// Simulates the frames up to the end of the range and draws those in it. All arguments must outlive run(); the
     /// render pool must have the same panels and make the outputs that are requested.
     Pipeline(std::span<const PanelSource> panels, const FrameRange& frames, RenderPool& render_pool,
              const PipelineOutputs& outputs, Shutter shutter = {});
+
+    /// Simulates from this state on, in place of from the start. Preconditions: its frame is not after the first one of
+    /// the range; run() has not been called. Throws InputError where it is not a state of these panels.
+    void go_on_from(const ClipState& state);
 
     /// Runs to the end, calling `report` about twenty times per second with the number of finished frames. Throws the
     /// first error of any stage, or RunError after an interrupt. Frames that are published by then are complete and
@@ -75,14 +74,8 @@ private:
     bool deliver(const Frame& frame);
     std::int64_t finished() const;
 
-    struct Panel {
-        FrameSequence sequence;
-        std::int64_t end;
-        OverlayBuilder* overlay;
-        PanelPoses last;                // a single sample, once the frames have ended
-        std::vector<std::byte> shapes;  // of the last frame: OverlayFrame as bytes
-    };
-    std::vector<Panel> panels_;
+    std::vector<PanelRun> panels_;
+    std::int64_t begin_ = 0;  // first simulated frame
     FrameRange frames_;
     RenderPool& render_pool_;
     PipelineOutputs outputs_;

@@ -6,6 +6,7 @@
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
 #include "render/render_switches.h"
+#include "sim/checkpoint/archive.h"
 
 #include <sys/mman.h>
 
@@ -196,6 +197,14 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
         frame.video = {slot, slots.memory().video(*slot).data()};
         frame.png = slots.memory().png(*slot).first(drawn.png_bytes);
         order.add(std::move(frame), worker, drawn.unchanged);
+    }
+}
+
+void RenderPool::restore(std::span<const std::vector<std::byte>> poses) {
+    if (poses.size() != pose_filters_.size()) CheckpointReader::fail("has another number of panels");
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        CheckpointReader reader(poses[i]);
+        reader.keep(pose_filters_[i].poses);
     }
 }
 
