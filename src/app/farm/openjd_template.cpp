@@ -26,10 +26,11 @@ std::string literal(const std::string& word) {
     const bool control =
         std::any_of(word.begin(), word.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
     if (word.find("{{") != std::string::npos || word.find("}}") != std::string::npos || control)
-        throw InputError(fmt::format(
-            "an OpenJD template cannot hold double braces or control characters in an option (was '{}'); put the value "
-            "into the scene file",
-            safe_text(word)));
+        throw InputError(
+            fmt::format("an OpenJD template cannot hold double braces or control characters in an option (was '{}'); "
+                        "write braces with a "
+                        "space between, or put the value into the scene file",
+                        safe_text(word)));
     return word;
 }
 
