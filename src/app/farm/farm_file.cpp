@@ -20,11 +20,11 @@ constexpr int farm_format = 1;
 
 fs::path farm_file(const fs::path& job_folder) { return job_folder / "farm.json"; }
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& fault) {
+[[noreturn]] void refuse_farm_file(const fs::path& file, const std::string& fault) {
     throw InputError({file.string(), 0, 0}, fault + " (tumble farm slurm writes this file)");
 }
 
-FarmJob job_of(const FarmJson& json, const fs::path& job_folder) {
+FarmJob farm_job_of(const FarmJson& json, const fs::path& job_folder) {
     FarmJob job;
     job.folder = job_folder;
     job.clip = json.at("clip").get<std::string>();
@@ -60,17 +60,17 @@ void write_farm_file(const FarmJob& job) {
 FarmJob read_farm_file(const fs::path& job_folder) {
     const fs::path file = farm_file(job_folder);
     std::ifstream stream(file);
-    if (!stream) refuse(file, "cannot be read: the folder holds no farm job");
+    if (!stream) refuse_farm_file(file, "cannot be read: the folder holds no farm job");
     const std::string text(std::istreambuf_iterator<char>(stream), {});
     FarmJob job;
     try {
         const FarmJson json = FarmJson::parse(text);
-        if (json.at("format") != farm_format) refuse(file, "is of another version of the program");
-        job = job_of(json, job_folder);
+        if (json.at("format") != farm_format) refuse_farm_file(file, "is of another version of the program");
+        job = farm_job_of(json, job_folder);
     } catch (const FarmJson::exception& error) {
-        refuse(file, fmt::format("is broken: {}", safe_text(error.what())));
+        refuse_farm_file(file, fmt::format("is broken: {}", safe_text(error.what())));
     }
-    if (!parts_are_whole(job)) refuse(file, "is broken: its parts are not the frames");
+    if (!parts_are_whole(job)) refuse_farm_file(file, "is broken: its parts are not the frames");
     return job;
 }
 

@@ -29,7 +29,7 @@ bool looks_whole(const fs::path& frame) {
 }
 
 /// "48-51,60", shortened where it is long.
-std::string frame_list(const std::vector<std::int64_t>& numbers) {
+std::string list_of_frames(const std::vector<std::int64_t>& numbers) {
     constexpr std::size_t longest = 60;
     std::string list;
     for (std::size_t i = 0; i < numbers.size();) {
@@ -72,7 +72,7 @@ std::string status_text(const FarmJob& job, const FarmStatus& status) {
         const FarmPart& part = job.parts[std::size_t(number) - 1];
         const std::vector<std::int64_t>& missing = status.missing[std::size_t(number) - 1];
         text += fmt::format("part {} (frames {}): {} of {} frames are missing: {}\n", number, part.range(),
-                            missing.size(), part.count(), frame_list(missing));
+                            missing.size(), part.count(), list_of_frames(missing));
     }
     const auto script = [&](const char* name) {
         return safe_text(shell_word((job.folder / name).string()), path_text_bytes);

@@ -34,11 +34,11 @@ try() {
 }
 )bash";
 
-struct Script {
+struct SlurmScript {
     const char *about, *code;
 };
 
-constexpr Script simulate_script = {
+constexpr SlurmScript simulate_script = {
     R"bash(# The first job: simulates the scene, and writes a checkpoint where each part of the frames begins.
 #   bash simulate.sh                  by hand
 )bash",
@@ -46,7 +46,7 @@ constexpr Script simulate_script = {
     --checkpoints "$folder/checkpoints" --every "$every"
 )bash"};
 
-constexpr Script frames_script = {
+constexpr SlurmScript frames_script = {
     R"bash(# The second job, an array with a task for each part: draws the frames of a part. Finished frames of the same scene, version
 # and settings are kept.
 #   bash frames.sh PART               by hand, with the number of the part, from 1
@@ -63,7 +63,7 @@ try "part $part (frames ${parts[part - 1]})" "$program" render "${scenes[@]}" "$
     --frames "$folder/frames" --frames-range "${parts[part - 1]}" --from-checkpoints "$folder/checkpoints" --resume
 )bash"};
 
-constexpr Script stitch_script = {
+constexpr SlurmScript stitch_script = {
     R"bash(# The last job, after the end of all tasks of the array, failed ones too: checks that all frames are there, and makes the
 # clip. If frames are missing, it submits their parts and itself again, at most "retries" times.
 #   bash stitch.sh                    by hand
@@ -85,11 +85,11 @@ fi
 exec "$program" encode "$folder/frames" -o "$clip" "${encode_options[@]}" --quiet
 )bash"};
 
-constexpr Script submit_script_text = {R"bash(# Submits the jobs to Slurm.
+constexpr SlurmScript submit_script_text = {R"bash(# Submits the jobs to Slurm.
 #   bash submit.sh                    everything: the simulation, all parts, and the job that makes the clip
 #   bash submit.sh PARTS              these parts again, as in 3,7-9, and the job that makes the clip
 )bash",
-                                       R"bash(wanted=${1-} round=${2:-0}
+                                            R"bash(wanted=${1-} round=${2:-0}
 submitted=() after=()
 stop() {
     ((${#submitted[@]} == 0)) || scancel "${submitted[@]}"
@@ -150,7 +150,7 @@ std::string sbatch_lines(const FarmJob& job, const SlurmSettings& settings, cons
     return text;
 }
 
-std::string settings_text(const FarmJob& job) {
+std::string slurm_settings_text(const FarmJob& job) {
     std::vector<std::string> scenes, ranges;
     for (const fs::path& scene : job.scenes) scenes.push_back(scene.string());
     for (const FarmPart& part : job.parts) ranges.push_back(part.range());
@@ -171,7 +171,7 @@ std::string settings_text(const FarmJob& job) {
     return text + shared_functions;
 }
 
-void write_text(const fs::path& path, const std::string& text) {
+void write_script(const fs::path& path, const std::string& text) {
     write_file(path, std::as_bytes(std::span(text)));
     std::error_code ignored;  // bash reads a script that cannot be executed as well
     if (path.filename() != "settings.sh")
@@ -179,7 +179,7 @@ void write_text(const fs::path& path, const std::string& text) {
                         fs::perm_options::add, ignored);
 }
 
-void make_folder(const fs::path& folder) {
+void make_job_folder(const fs::path& folder) {
     std::error_code error;
     fs::create_directories(folder, error);
     if (error) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder), error.message()));
@@ -210,15 +210,15 @@ void check_slurm(const FarmJob& job, const SlurmSettings& settings) {
 }
 
 void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings) {
-    make_folder(job.folder / "log");
+    make_job_folder(job.folder / "log");
     const std::string read_settings =
         fmt::format("set -u\nsource {} || exit\n", shell_word((job.folder / "settings.sh").string()));
-    const auto write = [&](const char* name, const Script& script, const std::string& options) {
-        write_text(job.folder / name,
-                   fmt::format("#!/bin/bash\n{}{}{}{}", script.about, options, read_settings, script.code));
+    const auto write = [&](const char* name, const SlurmScript& script, const std::string& options) {
+        write_script(job.folder / name,
+                     fmt::format("#!/bin/bash\n{}{}{}{}", script.about, options, read_settings, script.code));
     };
     write_farm_file(job);
-    write_text(job.folder / "settings.sh", settings_text(job));
+    write_script(job.folder / "settings.sh", slurm_settings_text(job));
     write("simulate.sh", simulate_script, sbatch_lines(job, settings, "simulation", "simulate.log"));
     write("frames.sh", frames_script, sbatch_lines(job, settings, "frames", "frames-%a.log"));
     write("stitch.sh", stitch_script, sbatch_lines(job, settings, "clip", "stitch.log"));
