@@ -17,21 +17,23 @@ import tempfile
 SCHEMA = pathlib.Path(__file__).resolve().parent / "openjd-2023-09.schema.json"
 EXPRESSION = re.compile(r"\{\{\s*([A-Za-z_]\w*(?:\.[A-Za-z_]\w*)*)\s*\}\}")
 SCHEMA_CHECK = """import json, sys, jsonschema
-schema, template = json.load(sys.stdin)
-for error in jsonschema.Draft202012Validator(schema).iter_errors(template):
-    print("/".join(map(str, error.absolute_path)) + ": " + error.message[:300])
+schema, templates = json.load(sys.stdin)
+validator = jsonschema.Draft202012Validator(schema)
+json.dump([["/".join(map(str, error.absolute_path)) + ": " + error.message[:300] for error in validator.iter_errors(template)]
+           for template in templates], sys.stdout)
 """
 
 
 # --- the check
 
-def schema_faults(template):
-    """The violations of the schema; None if no Python here has the package jsonschema (Debian: python3-jsonschema)."""
-    text = json.dumps([json.loads(SCHEMA.read_text()), template])
+def schema_faults(templates):
+    """The violations of the schema, a list for each template; None if no Python here has the package jsonschema (Debian:
+    python3-jsonschema)."""
+    text = json.dumps([json.loads(SCHEMA.read_text()), templates])
     for python in (sys.executable, "/usr/bin/python3"):
         run = subprocess.run([python, "-c", SCHEMA_CHECK], input=text, capture_output=True, text=True, timeout=120)
         if run.returncode == 0:
-            return run.stdout.splitlines()
+            return json.loads(run.stdout)
         if "No module named 'jsonschema'" not in run.stderr:
             raise RuntimeError(run.stderr)
     return None

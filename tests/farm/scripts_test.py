@@ -168,6 +168,17 @@ class WrongUse(FarmTest):
         self.refused("--frames", *usual, "--frames", "out")
         self.refused("--workers", *usual, "--workers", "2")
 
+    def test_folders(self):
+        self.refused("there is no folder", self.scene, "--write-only", "--parts", "4", "-o", "missing/a.mp4")
+        (self.folder / "mine").mkdir()
+        (self.folder / "mine/settings.sh").write_text("mine")
+        run = self.farm("slurm", self.scene, "--write-only", "--parts", "4", "-o", "a.mp4", "--folder", "mine", code=2)
+        self.assertIn("holds other files than those of a farm job", run.stderr)
+        self.assertEqual((self.folder / "mine/settings.sh").read_text(), "mine")
+        (self.folder / "mine/settings.sh").unlink()
+        self.farm("slurm", self.scene, "--write-only", "--parts", "4", "-o", "a.mp4", "--folder", "mine")
+        self.farm("slurm", self.scene, "--write-only", "--parts", "2", "-o", "a.mp4", "--folder", "mine")   # its own
+
     def test_status_of_another_folder(self):
         self.assertIn("holds no farm job", self.farm("status", ".", code=2).stderr)
         for text in ("", "[]", "{}", '{"format": 2}', '{"format": 1, "scene": "a", "clip": "b", "frames": 4, "parts": [[0, 1], [3, 3]]}'):

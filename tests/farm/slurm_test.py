@@ -20,7 +20,7 @@ if not slurm_cluster.available():
 # A program that is tumble, except that it does harm to a part of the frames, as often as asked. Each harm leaves a file.
 HARMFUL = """\
 #!/bin/bash
-if [[ " $* " == *" --frames-range {range} "* ]] && (($(ls '{marks}' | wc -l) < {times})); then
+if [[ " $* " == *"{words}"* ]] && (($(ls '{marks}' | wc -l) < {times})); then
     mktemp '{marks}/XXXXXX' >/dev/null
     {harm}
 fi
@@ -38,23 +38,23 @@ FAIL = "exit 1"
 class Farm:
     """A job that was submitted: its folder, clip, and the numbers of its three jobs."""
 
-    def __init__(self, root, cluster, name, harm=None, times=0, options=()):
+    def __init__(self, root, cluster, name, harm=None, times=0, options=(), words=" --frames-range 6-8 "):
         self.root, self.cluster = root, cluster
         self.clip = root / f"{name}.mp4"
         self.folder = root / f"{name}'s \"farm\" $HOME # 1"
         program = TUMBLE
         if harm:
-            program = self.harmful_program(harm, times)
+            program = self.harmful_program(harm, times, words)
         self.submitted = run_tumble(root, "farm", "slurm", "the scene's.toml", "--parts", 4, "-o", self.clip, "--folder", self.folder,
                                     "--program", program, "--overlay", "trails,clock", "--size", "64x48", "--quality", "best",
                                     *options, env=cluster.environment)
         self.jobs = [int(number) for number in re.findall(r"^job (\d+): ", self.submitted.stdout, re.M)]
 
-    def harmful_program(self, harm, times):
+    def harmful_program(self, harm, times, words):
         marks = self.root / (self.clip.stem + "-harm")
         marks.mkdir()
         program = self.root / (self.clip.stem + "-tumble")
-        values = {"tumble": TUMBLE, "marks": marks, "times": times, "range": "6-8",
+        values = {"tumble": TUMBLE, "marks": marks, "times": times, "words": words,
                   "first_frame": self.folder / "frames/frame_000006.png"}
         for key in ("first_frame",):
             values[key] = str(values[key]).replace("'", "'\\''")
@@ -88,6 +88,7 @@ class SlurmFarm(unittest.TestCase):
         cls.killed = Farm(cls.root, cls.cluster, "killed", KILL_THE_PROGRAM, 1)
         cls.lost_job = Farm(cls.root, cls.cluster, "lost", KILL_THE_JOB, 1, ["--retries", "1"])
         cls.failing = Farm(cls.root, cls.cluster, "failing", FAIL, 1000, ["--retries", "0"])
+        cls.no_simulation = Farm(cls.root, cls.cluster, "unsimulated", FAIL, 1000, ["--retries", "1"], " simulate ")
         cls.cluster.drain("n1")   # tasks that run there end; the others run on the other node
         cls.local = local_clips(cls.root, "the scene's.toml", "--overlay", "trails,clock", "--size", "64x48", "--quality", "best")
         cls.cluster.wait_for_end_of_jobs()
@@ -139,6 +140,17 @@ class SlurmFarm(unittest.TestCase):
         self.cluster.run("bash", "-c", command)
         self.cluster.wait_for_end_of_jobs()
         self.check_clip(farm)
+
+    def test_without_the_simulation_no_part_is_drawn(self):
+        farm = self.no_simulation
+        states = self.cluster.jobs()
+        self.assertEqual(states[str(farm.jobs[0])], "FAILED")
+        for part in (1, 2, 3, 4):
+            self.assertRegex(states[f"{farm.jobs[1]}_{part}"], "^CANCEL")
+        self.assertEqual(states[str(farm.jobs[2])], "FAILED")
+        self.assertIn("the simulation: trying again (1 of 1)", farm.log("simulate.log"))
+        self.assertIn("the simulation has not finished", farm.log("stitch.log"))
+        self.assertFalse(farm.clip.exists())
 
     def test_a_drained_node_is_left(self):
         self.assertEqual(self.cluster.state_of("n1"), "drained")   # its last task has ended

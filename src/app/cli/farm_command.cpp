@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <span>
+#include <system_error>
 
 namespace tumble {
 namespace {
@@ -73,6 +74,18 @@ void check_clip(const FarmJob& job, const RenderCommand& render) {
     plan.add("--output", job.clip);
 }
 
+/// Throws InputError for a folder that holds other files than a job's, which scripts would replace, and for a clip whose
+/// folder is missing, which would show at the end of the job.
+void check_folders(const FarmJob& job) {
+    std::error_code error;
+    if (fs::exists(job.folder, error) && !fs::exists(farm_file(job.folder), error) &&
+        !(fs::is_directory(job.folder, error) && fs::is_empty(job.folder, error)))
+        throw InputError(fmt::format("--folder: '{}' holds other files than those of a farm job; name another folder",
+                                     safe_path(job.folder)));
+    if (!fs::is_directory(job.clip.parent_path(), error))
+        throw InputError(fmt::format("--output: there is no folder '{}'", safe_path(job.clip.parent_path())));
+}
+
 /// Runs the script that submits the job; its messages name the jobs.
 void submit(const FarmJob& job) {
     if (!find_program("sbatch"))
@@ -94,6 +107,7 @@ int run_slurm(const FarmCommand& command) {
     job.folder = command.folder ? whole_path(*command.folder) : fs::path(job.clip.string() + ".farm");
     check_clip(job, command.render);
     check_slurm(job, command.slurm);
+    check_folders(job);
     write_slurm_scripts(job, command.slurm);
     if (!command.render.quiet)
         say("wrote the scripts of {} parts of {} frames to {}\n", job.parts.size(), job.parts.front().count(),

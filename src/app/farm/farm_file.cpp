@@ -18,8 +18,6 @@ using FarmJson = nlohmann::ordered_json;
 
 constexpr int farm_format = 1;
 
-fs::path farm_file(const fs::path& job_folder) { return job_folder / "farm.json"; }
-
 [[noreturn]] void refuse_farm_file(const fs::path& file, const std::string& fault) {
     throw InputError({file.string(), 0, 0}, fault + " (tumble farm slurm writes this file)");
 }
@@ -45,6 +43,8 @@ bool parts_are_whole(const FarmJob& job) {
 }
 
 }  // namespace
+
+fs::path farm_file(const fs::path& job_folder) { return job_folder / "farm.json"; }
 
 void write_farm_file(const FarmJob& job) {
     FarmJson json;

@@ -43,6 +43,7 @@ std::filesystem::path frames_folder(const std::filesystem::path& job_folder);
 std::filesystem::path checkpoints_folder(const std::filesystem::path& job_folder);
 
 /// The file in the job's folder that `tumble farm status` reads.
+std::filesystem::path farm_file(const std::filesystem::path& job_folder);
 void write_farm_file(const FarmJob& job);
 /// Throws InputError where it is missing or broken.
 FarmJob read_farm_file(const std::filesystem::path& job_folder);
