@@ -20,7 +20,7 @@ TEST(Farm, PartsAreOfOneLengthAndCoverTheFrames) {
             for (const FarmPart& part : divide_frames(frames, length)) {
                 EXPECT_EQ(part.first, next);
                 next = part.last + 1;
-                if (next < frames) EXPECT_EQ(part.count(), length);
+                EXPECT_TRUE(next == frames || part.count() == length);
             }
             EXPECT_EQ(next, frames);
         }

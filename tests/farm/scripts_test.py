@@ -90,6 +90,7 @@ class ByHand(FarmTest):
         (self.folder / self.scene).write_text("format = 2\n")
         log = self.bash(folder / "simulate.sh", code=2).stderr
         self.assertRegex(log, r"the simulation failed on \S+ with exit code 2\n$")
+        self.assertNotIn("again", log)
 
     def test_bash_finds_no_mistake_in_the_scripts(self):
         folder = self.write()
