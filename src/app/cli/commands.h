@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/composition/frame_layout.h"
+#include "app/farm/slurm_scripts.h"
 #include "gltf/key_track.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
@@ -135,6 +136,27 @@ struct CompareCommand {
 };
 /// Returns 0 if the images are alike, 1 if they differ, 2 if they cannot be compared, 3 if one is missing.
 int run_compare(const CompareCommand& command);
+
+/// The commands below `farm`.
+enum class FarmAction { slurm, openjd, status };
+
+struct FarmCommand {
+    FarmAction action = FarmAction::slurm;
+    RenderCommand render;  // scene, clip, and the options that decide the frames
+    std::vector<std::string> simulate_options, render_options, encode_options;  // the given ones, as words
+    std::optional<std::filesystem::path> folder;  // of the job; without this, the clip's name with .farm
+    int parts = 0;
+    int retries = 2;
+    SlurmSettings slurm;
+    bool write_only = false;          // does not submit the job
+    std::filesystem::path job;        // of OpenJD (JSON)
+    int chunk = 0;                    // frames; 0: those of about 20 parts
+    std::string program = "tumble";   // on the machines of the farm
+    std::filesystem::path status_of;  // folder of a job
+    bool missing = false;             // only the numbers of the missing parts
+};
+/// Returns 0, or 3 if parts of the job are missing (`status`).
+int run_farm(const FarmCommand& command);
 
 struct InfoCommand {
     std::filesystem::path scene;

@@ -62,10 +62,8 @@ void add_clip_times(CLI::App& command, RenderCommand& clip) {
         ->option_text(fmt::format("N [{}]", clip.blur_samples));
 }
 
-CLI::App* add_render(CLI::App& app, CommandLine& line) {
-    RenderCommand& c = line.render;
-    CLI::App* command =
-        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+void add_render_options(CLI::App& to, RenderCommand& c) {
+    CLI::App* command = &to;
     command->add_option("scene", c.scenes, "The scene files (TOML); several are shown side by side")
         ->check(some_name())
         ->required()
@@ -134,6 +132,12 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     add_panels(*command, c, "A panel");
     add_text(*command, c.overrides);
     add_run(*command, c.threads, "by the bodies", c.quiet);
+}
+
+CLI::App* add_render(CLI::App& app, CommandLine& line) {
+    CLI::App* command =
+        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+    add_render_options(*command, line.render);
     command->footer(
         "Examples:\n"
         "  tumble render scene.toml                          writes scene.mp4\n"
