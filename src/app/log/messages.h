@@ -33,7 +33,7 @@ public:
         say_text(fmt::format(format, std::forward<Values>(values)...));
     }
 
-    /// The last message of a run that fails. As text: what the exception says.
+    /// The last message of a run that fails; as text, the words of the exception.
     void fail(const std::exception& error);
 
     /// Only as JSON: `members` follow the name of the event and its time.
