@@ -17,12 +17,13 @@
 namespace tumble {
 
 struct RenderCommand {
-    std::vector<std::filesystem::path> scenes;    // a panel for each
-    std::optional<std::string> text;              // of the only scene, in place of its file's
-    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
-    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
-    std::optional<std::filesystem::path> frames;  // folder
-    std::optional<std::filesystem::path> report;  // .html
+    std::vector<std::filesystem::path> scenes;     // a panel for each
+    std::optional<std::string> text;               // of the only scene, in place of its file's
+    std::vector<std::string> vary;                 // "PATH=VALUE,VALUE": a panel for each
+    std::optional<std::filesystem::path> clip;     // without this, frames and AOVs: the first scene's name
+    std::optional<std::filesystem::path> frames;   // folder
+    std::optional<std::filesystem::path> report;   // .html
+    std::optional<std::filesystem::path> profile;  // .json
     AovSet aovs;
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     SceneOverrides overrides;

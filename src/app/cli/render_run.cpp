@@ -8,6 +8,7 @@
 #include "app/pipeline/pipeline.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
+#include "app/threads/trace.h"
 #include "app/workers/frame_memory.h"
 #include "core/error.h"
 
@@ -41,6 +42,7 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
     if (clip) plan.add("--output", *clip);
     if (aovs_to && command.aovs.has(Aov::segmentation)) plan.add("--aov", segmentation_table_path(*aovs_to));
     if (command.report) plan.add("--report", *command.report);
+    if (command.profile) plan.add("--profile", *command.profile);
     if (command.frames) plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
     if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
 }
@@ -141,6 +143,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
     std::optional<AovFolder> aovs;
     if (aovs_to) aovs.emplace(*aovs_to, scenes.first(), command.aovs);
     std::optional<VideoWriter> video;
+    const double video_start = wall_seconds();
     if (clip) {
         ClipOptions clip_options = command.clip_options;
         clip_options.transparent = command.drawing.transparent;
@@ -150,9 +153,19 @@ RenderFigures render_to_files(const RenderCommand& command) {
     const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
     Pipeline pipeline(motion.panels, frames, render_pool, destinations, shutter);
     if (motion.state) pipeline.go_on_from(*motion.state);
+    std::optional<Trace> trace;
+    if (command.profile) {
+        trace.emplace();
+        pipeline.record(*trace);
+        trace->add({"set-up", start, wall_seconds()});
+    }
     {
         Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
+    }
+    if (trace) {
+        if (video) trace->add({"ffmpeg", video_start, wall_seconds()}, "ffmpeg");
+        trace->write(*command.profile);
     }
     const ProcessEnd workers_end = render_pool.finish();
     RenderFigures figures;
