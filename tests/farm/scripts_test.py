@@ -57,6 +57,22 @@ class ByHand(FarmTest):
         self.assertEqual((self.folder / (AWKWARD + ".mp4")).read_bytes(), local.encoded)
         self.assertIn("4 of 4 parts are complete, 12 of 12 frames", self.farm("status", folder).stdout)
 
+    def test_other_clips(self):
+        """Panels, motion blur, slow motion, plots, alpha, frames per second: each option reaches the commands that need it."""
+        (self.folder / "other.toml").write_text(SCENE.replace("restitution", "friction").replace("0.6, 0.0]", "0.9, 0.0]"))
+        for clip, scenes, options in (("a.mp4", (self.scene, "other.toml"), ("--plot", "energy", "--layout", "row")),
+                                      ("b.webm", (self.scene,), ("--transparent", "--shutter", "180", "--blur-samples", "3")),
+                                      ("c.gif", (self.scene,), ("--vary", "body.first.restitution=0,0.9", "--speed", "0.5", "--fps", "5", "--samples", "4"))):
+            self.farm("slurm", *scenes, "--parts", 3, "-o", clip, "--program", TUMBLE, "--write-only", *options)
+            folder = self.folder / (clip + ".farm")
+            self.bash(folder / "simulate.sh")
+            for part in (3, 1, 2):
+                self.bash(folder / "frames.sh", part)
+            self.bash(folder / "stitch.sh")
+            local = run_tumble(self.folder, "render", *scenes, *options, "-o", "local-" + clip, "--quiet")
+            self.assertEqual(local.returncode, 0, local.stderr)
+            self.assertEqual((self.folder / clip).read_bytes(), (self.folder / ("local-" + clip)).read_bytes(), clip)
+
     def test_a_damaged_frame_is_missing(self):
         folder = self.write()
         self.bash(folder / "simulate.sh")
