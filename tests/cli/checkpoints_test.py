@@ -1,6 +1,7 @@
 """Checkpoints from outside: parts of a clip have the bytes of the whole one, and nothing else is drawn from them."""
 
 import re
+import shutil
 
 import program
 
@@ -61,27 +62,28 @@ class Checkpoints(program.ProgramTest):
     def simulate(self, *options, scenes=("scene.toml",), every=0.25):
         return self.check(0, "simulate", *scenes, "--checkpoints", "states", "--every", every, *options)
 
-    def part(self, start, *options, scenes=("scene.toml",)):
-        self.check(0, "render", *scenes, "--frames", f"from-{start}", "--start", start, "--from-checkpoints", "states",
-                   "--quiet", *options)
-        return self.frames(f"from-{start}")
-
-    # The settings of the clip are given to both commands.
+    # The settings of the clip are given to both commands. The motion of the frames is in the folder, or simulated again.
     def goes_on(self, *options, scenes=("scene.toml",), starts=(0.0, 0.25, 0.6, 1.15), speed=1.0):
-        self.simulate(*options, scenes=scenes)
         self.check(0, "render", *scenes, "--frames", "whole", "--quiet", *options)
         whole = self.frames("whole")
-        for start in starts:
-            part = self.part(start, *options, scenes=scenes)
-            self.assertEqual(sorted(part), [n for n in whole if n >= round(start / speed * 20)])
-            for number, picture in part.items():
-                self.assertEqual(picture, whole[number], f"frame {number} of a part from {start} s; {options}")
+        for motion in ((), ("--no-motion",)):
+            self.simulate(*options, *motion, scenes=scenes)
+            for start in starts:
+                self.check(0, "render", *scenes, "--frames", "part", "--start", start, "--from-checkpoints", "states", "--quiet",
+                           *options)
+                part = self.frames("part")
+                self.assertEqual(sorted(part), [n for n in whole if n >= round(start / speed * 20)])
+                for number, picture in part.items():
+                    self.assertEqual(picture, whole[number], f"frame {number} of a part from {start} s; {options} {motion}")
+                shutil.rmtree(self.folder / "part")
 
     def test_parts_have_the_bytes_of_the_whole_clip(self):
         self.goes_on()
-        self.assertEqual(sorted(p.name for p in (self.folder / "states").iterdir()),
-                         ["checkpoint_000005.tumble", "checkpoint_000010.tumble", "checkpoint_000015.tumble",
-                          "checkpoint_000020.tumble", "clip.tumble"])
+        states = [f"checkpoint_{n:06}.tumble" for n in (5, 10, 15, 20)]
+        self.assertEqual(sorted(p.name for p in (self.folder / "states").iterdir()), [*states, "clip.tumble"])
+        self.simulate()
+        motion = [f"motion_{n:06}.tumble" for n in (0, 5, 10, 15, 20)]
+        self.assertEqual(sorted(p.name for p in (self.folder / "states").iterdir()), [*states, "clip.tumble", *motion])
 
     def test_parts_with_all_overlays(self):
         self.goes_on("--overlay", EVERYTHING)
@@ -107,14 +109,15 @@ class Checkpoints(program.ProgramTest):
         self.goes_on("--vary", "simulation.integrator=explicit-euler,exact", "--size", "256x160", starts=(0.6,))
 
     def test_aovs_of_a_part(self):
-        self.simulate()
-        self.check(0, "render", "scene.toml", "--aov", "depth,motion", "--aov-folder", "whole", "--quiet")
-        self.check(0, "render", "scene.toml", "--aov", "depth,motion", "--aov-folder", "part", "--quiet", "--start", 0.8,
-                   "--from-checkpoints", "states")
-        part = sorted(path.name for path in (self.folder / "part").iterdir())
-        self.assertEqual(part[0], "aov_000016.npz")
-        for name in part:
-            self.assertEqual((self.folder / "part" / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
+        aovs = ("--aov", "depth,motion", "--quiet")
+        self.check(0, "render", "scene.toml", "--aov-folder", "whole", *aovs)
+        for motion in ((), ("--no-motion",)):
+            self.simulate(*motion)
+            self.check(0, "render", "scene.toml", "--aov-folder", "part", *aovs, "--start", 0.8, "--from-checkpoints", "states")
+            part = sorted(path.name for path in (self.folder / "part").iterdir())
+            self.assertEqual((part[0], len(part)), ("aov_000016.npz", 9))
+            for name in part:
+                self.assertEqual((self.folder / "part" / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
 
     def test_tables_are_those_of_a_run_without_checkpoints(self):
         tables = ("--trajectory", "t.csv", "--energy", "e.csv", "--impacts", "i.csv", "--contacts", "c.csv", "--loads", "l.csv")
@@ -156,16 +159,19 @@ class Checkpoints(program.ProgramTest):
     def test_damaged_and_missing_checkpoints_are_refused(self):
         self.refused("has no checkpoints of a whole clip")
         self.simulate()
-        file = self.folder / "states/checkpoint_000010.tumble"
-        good = file.read_bytes()
-        for place in (0, 9, 40, len(good) // 2, len(good) - 1):
-            file.write_bytes(good[:place] + bytes([good[place] ^ 1]) + good[place + 1:])
-            self.refused(r"checkpoint_000010.tumble: error: (the checkpoint is damaged|is no checkpoint)")
-        file.write_bytes(good[:-1])
-        self.refused("damaged")
-        file.unlink()
-        self.refused("cannot read the checkpoint")
-        self.assertNotEqual(sorted(self.folder.glob("states/*")), [])
+        for name in ("checkpoint_000010.tumble", "motion_000010.tumble", "clip.tumble"):
+            file = self.folder / "states" / name
+            good = file.read_bytes()
+            for place in (0, 9, 40, len(good) // 2, len(good) - 1):
+                file.write_bytes(good[:place] + bytes([good[place] ^ 1]) + good[place + 1:])
+                self.refused(name + r": error: (the checkpoint is damaged|is no checkpoint)")
+            file.write_bytes(good[:-1])
+            self.refused("damaged")
+            file.unlink()
+            self.refused("has no checkpoints of a whole clip" if name == "clip.tumble" else "cannot read the checkpoint")
+            file.write_bytes(good)
+        shutil.copy(self.folder / "states/checkpoint_000005.tumble", self.folder / "states/checkpoint_000010.tumble")
+        self.refused("holds the state of frame 5, not the state of frame 10: was the file renamed?")
 
     def test_misuse_of_simulate(self):
         for reason, options in {

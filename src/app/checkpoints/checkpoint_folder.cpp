@@ -20,6 +20,24 @@ namespace {
 
 fs::path clip_path(const fs::path& folder) { return folder / "clip.tumble"; }
 
+fs::path motion_path(const fs::path& folder, std::int64_t frame, std::size_t panel) {
+    const std::string of_panel = panel == 0 ? "" : fmt::format("_panel_{}", panel + 1);
+    return folder / fmt::format("motion_{:06}{}.tumble", frame, of_panel);
+}
+
+std::string motion_kind(std::size_t panel) { return fmt::format("motion of panel {}", panel + 1); }
+
+/// The files of an earlier run.
+std::vector<fs::path> files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool ours = name.starts_with("checkpoint_") || name.starts_with("motion_") || name == "clip.tumble";
+        if (ours && name.ends_with(".tumble")) files.push_back(entry.path());
+    }
+    return files;
+}
+
 CheckpointHeader header_of(const std::string& program, const std::string& kind, std::int64_t frame,
                            const ClipIdentity& identity) {
     CheckpointHeader header;
@@ -39,9 +57,8 @@ fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
 CheckpointWriting::CheckpointWriting(const fs::path& folder, std::string program, ClipIdentity identity)
     : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
     std::error_code missing;
-    fs::remove(clip_path(folder), missing);
-    for (const std::int64_t frame : numbers_in(folder, "checkpoint_", ".tumble"))
-        fs::remove(checkpoint_path(folder, frame), missing);
+    fs::remove(clip_path(folder), missing);  // first: the others are of no use without
+    for (const fs::path& file : files_in(folder)) fs::remove(file, missing);
 }
 
 void CheckpointWriting::write(const fs::path& path, const std::string& kind, std::int64_t frame,
@@ -58,9 +75,14 @@ void CheckpointWriting::add(const ClipState& state) {
     frames_.push_back(state.frame);
 }
 
+void CheckpointWriting::add_motion(std::int64_t frame, std::size_t panel, std::span<const std::byte> motion) {
+    write(motion_path(folder_.path(), frame, panel), motion_kind(panel), frame, motion);
+    motion_ = true;
+}
+
 void CheckpointWriting::finish(std::span<const std::byte> survey) {
     CheckpointWriter writer;
-    writer.keep(frames_, std::vector<std::byte>(survey.begin(), survey.end()));
+    writer.keep(frames_, motion_, std::vector<std::byte>(survey.begin(), survey.end()));
     write(clip_path(folder_.path()), "clip", 0, writer.bytes());
 }
 
@@ -75,7 +97,7 @@ CheckpointReading::CheckpointReading(const fs::path& folder, std::string program
                         safe_path(folder)));
     const std::vector<std::byte> content = read_checkpoint(path, header_of(program_, "clip", 0, identity_));
     CheckpointReader reader(content);
-    reader.keep(frames_, survey_);
+    reader.keep(frames_, motion_, survey_);
 }
 
 std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
@@ -88,6 +110,21 @@ std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
     ClipState state;
     reader.keep(state);
     return state;
+}
+
+std::int64_t CheckpointReading::interval_of(std::int64_t frame) const {
+    const auto after = std::upper_bound(frames_.begin(), frames_.end(), frame);
+    return after == frames_.begin() ? 0 : *std::prev(after);
+}
+
+std::optional<std::int64_t> CheckpointReading::interval_after(std::int64_t interval) const {
+    const auto after = std::upper_bound(frames_.begin(), frames_.end(), interval);
+    return after == frames_.end() ? std::nullopt : std::optional(*after);
+}
+
+std::vector<std::byte> CheckpointReading::motion(std::int64_t interval, std::size_t panel) const {
+    return read_checkpoint(motion_path(folder_, interval, panel),
+                           header_of(program_, motion_kind(panel), interval, identity_));
 }
 
 }  // namespace tumble

@@ -7,15 +7,27 @@
 
 namespace tumble {
 
-struct ClipState {
-    std::int64_t frame = 0;                      // the next one
-    std::vector<std::vector<std::byte>> panels;  // PanelRun, at that frame or at the panel's last one
-    std::vector<std::vector<std::byte>> poses;   // by panel: PoseFilter
+/// Of a panel whose frames have ended: before its last one, but for the poses.
+struct PanelState {
+    std::vector<std::byte> simulation;  // World, FrameSequence
+    std::vector<std::byte> overlay;     // OverlayBuilder; none without an overlay
+    std::vector<std::byte> poses;       // PoseFilter
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [frame, panels, poses] = self;
-        archive.keep(frame, panels, poses);
+        auto& [simulation, overlay, poses] = self;
+        archive.keep(simulation, overlay, poses);
+    }
+};
+
+struct ClipState {
+    std::int64_t frame = 0;  // the next one
+    std::vector<PanelState> panels;
+
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [frame, panels] = self;
+        archive.keep(frame, panels);
     }
 };
 

@@ -47,6 +47,7 @@ struct SimulateCommand {
     SceneOverrides overrides;
     std::optional<std::filesystem::path> checkpoints;  // folder
     double every = 1.0;                                // s of the clip between two checkpoints
+    bool motion = true;                                // is in the folder too
     RenderCommand clip;                                // that is drawn from the checkpoints: only its panels and times
     int threads = 1;
     bool quiet = false;

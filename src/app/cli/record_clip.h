@@ -15,6 +15,7 @@ struct ClipRecording {
     std::int64_t every = 1;  // frames between two checkpoints
     int threads = 1;
     bool records = false;  // of contacts, whether or not the clip shows them
+    bool motion = true;    // is written too: parts need no simulation
     /// Called with each frame of the first panel and its world at the frame's first moment.
     std::function<void(std::int64_t frame, const World& world)> each;
 };

@@ -45,16 +45,38 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
     if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
 }
 
-/// The state to go on from, if there is one at or before the first frame. Takes the survey of the clip from the folder.
-std::optional<ClipState> read_checkpoints(const fs::path& folder, RenderScenes& scenes) {
+/// Takes the survey of the clip from the folder.
+CheckpointReading open_checkpoints(const fs::path& folder, RenderScenes& scenes) {
     if (scenes.shows_damage())
         throw InputError(
             "--from-checkpoints: the overlay 'damage' shows changes since the frame before, which a part of a clip has "
             "not drawn; leave one of them out");
-    const CheckpointReading checkpoints(folder, TUMBLE_VERSION, scenes.identity());
+    CheckpointReading checkpoints(folder, TUMBLE_VERSION, scenes.identity());
     scenes.take_survey(checkpoints.survey());
-    return checkpoints.before(scenes.frames.first);
+    return checkpoints;
 }
+
+/// The motion of the panels, simulated or recorded, from the start of the clip or from a checkpoint.
+struct ClipMotion {
+    std::optional<CheckpointReading> checkpoints;
+    std::optional<ClipState> state;  // to go on from
+    std::vector<std::unique_ptr<World>> worlds;
+    std::vector<std::unique_ptr<OverlayBuilder>> overlays;
+    std::vector<std::unique_ptr<RecordedFrames>> recorded;
+    std::vector<PanelSource> panels;
+
+    void make_panels(const RenderScenes& scenes, bool image, int threads) {
+        const bool known = checkpoints && checkpoints->has_motion();
+        for (std::size_t i = 0; i < scenes.scenes.size(); ++i) {
+            const std::int64_t first = PanelRun::first_recorded(state ? state->frame : 0, scenes.ends[i]);
+            worlds.push_back(known ? nullptr : std::make_unique<World>(scenes.world(i, threads)));
+            recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, first) : nullptr);
+            overlays.push_back(image ? scenes.overlay(i) : nullptr);
+            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(),
+                              scenes.scenes[i].scene->bodies.size()});
+        }
+    }
+};
 
 StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outputs) {
     StageSeconds cpu;
@@ -94,8 +116,11 @@ RenderFigures render_to_files(const RenderCommand& command) {
         find_ffmpeg();
     }
     check_outputs(command, scenes.inputs, frames, clip, aovs_to);
-    std::optional<ClipState> state;
-    if (command.from_checkpoints) state = read_checkpoints(*command.from_checkpoints, scenes);
+    ClipMotion motion;
+    if (command.from_checkpoints) {
+        motion.checkpoints.emplace(open_checkpoints(*command.from_checkpoints, scenes));
+        motion.state = motion.checkpoints->before(frames.first);
+    }
     const int requested_workers =
         scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, frames.count()));
     const int workers = workers_that_fit(composition, work, requested_workers);
@@ -107,14 +132,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
     if (outputs.image() && !command.from_checkpoints) scenes.survey_clip(threads, interrupt);
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
-    std::vector<World> worlds;
-    for (std::size_t i = 0; i < scenes.scenes.size(); ++i) worlds.push_back(scenes.world(i, threads));
-    std::vector<PanelSource> panels;
-    std::vector<std::unique_ptr<OverlayBuilder>> overlays;
-    for (std::size_t i = 0; i < worlds.size(); ++i) {
-        overlays.push_back(outputs.image() ? scenes.overlay(i) : nullptr);
-        panels.push_back({worlds[i], scenes.ends[i], overlays.back().get()});
-    }
+    motion.make_panels(scenes, outputs.image(), threads);
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
     std::optional<FrameFolder> own_aov_folder;
@@ -130,8 +148,8 @@ RenderFigures render_to_files(const RenderCommand& command) {
     }
 
     const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
-    Pipeline pipeline(panels, frames, render_pool, destinations, shutter);
-    if (state) pipeline.go_on_from(*state);
+    Pipeline pipeline(motion.panels, frames, render_pool, destinations, shutter);
+    if (motion.state) pipeline.go_on_from(*motion.state);
     {
         Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });

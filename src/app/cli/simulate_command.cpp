@@ -108,6 +108,7 @@ void simulate_clip(const SimulateCommand& command) {
         recording.every = std::max<std::int64_t>(1, std::llround(command.every * first.output.fps));
         recording.threads = command.threads;
         recording.records = tables.needs_records();
+        recording.motion = command.motion;
         recording.each = [&](std::int64_t n, const World& world) {
             tables.add(n, world);
             monitor.update(n + 1);

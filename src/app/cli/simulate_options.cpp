@@ -36,6 +36,9 @@ void add_checkpoints(CLI::App& command, SimulateCommand& c) {
     command.add_option("--every", c.every, "Seconds of the clip between two checkpoints")
         ->check(number_within(1e-6, limits::duration.max))
         ->option_text("S [1]");
+    command.add_flag_callback(
+        "--no-motion", [&c] { c.motion = false; },
+        "Leave the motion of the frames out: DIR is smaller, but each part simulates its\nframes once more");
     add_size(command, c.overrides.width, c.overrides.height, "Picture size, in place of the scene's");
     add_clip_times(command, c.clip);
     add_panels(command, c.clip, "A panel");

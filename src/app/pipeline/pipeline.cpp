@@ -24,7 +24,7 @@ constexpr auto supervision_period = std::chrono::milliseconds(50);
 
 std::size_t poses_that_may_wait(std::span<const PanelSource> panels, const Shutter& shutter) {
     std::size_t bodies = 0;
-    for (const PanelSource& panel : panels) bodies += panel.world.snapshot().bodies.size();
+    for (const PanelSource& panel : panels) bodies += panel.bodies;
     const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.blur_samples);
     return std::clamp<std::size_t>(waiting_pose_bytes / bytes, 1, waiting_poses);
 }
@@ -60,8 +60,10 @@ Pipeline::Pipeline(std::span<const PanelSource> panels, const FrameRange& frames
 void Pipeline::go_on_from(const ClipState& state) {
     TUMBLE_CHECK_LE(state.frame, frames_.first);
     if (state.panels.size() != panels_.size()) CheckpointReader::fail("has another number of panels");
-    for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i].restore(state.panels[i], state.frame);
-    render_pool_.restore(state.poses);
+    for (std::size_t i = 0; i < panels_.size(); ++i) {
+        panels_[i].restore(state.panels[i], state.frame);
+        render_pool_.restore(i, state.panels[i].poses);
+    }
     begin_ = state.frame;
 }
 

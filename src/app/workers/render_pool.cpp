@@ -200,12 +200,9 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
     }
 }
 
-void RenderPool::restore(std::span<const std::vector<std::byte>> poses) {
-    if (poses.size() != pose_filters_.size()) CheckpointReader::fail("has another number of panels");
-    for (std::size_t i = 0; i < poses.size(); ++i) {
-        CheckpointReader reader(poses[i]);
-        reader.keep(pose_filters_[i].poses);
-    }
+void RenderPool::restore(std::size_t panel, std::span<const std::byte> poses) {
+    CheckpointReader reader(poses);
+    reader.keep(pose_filters_.at(panel).poses);
 }
 
 void RenderPool::abandon() {

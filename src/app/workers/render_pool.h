@@ -56,8 +56,8 @@ public:
     void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
              DrawingTimes& times, std::int64_t first = 0);
 
-    /// Goes on with the filtered poses of another run (PoseFilter), by panel. Precondition: run() has not been called.
-    void restore(std::span<const std::vector<std::byte>> poses);
+    /// Goes on with the poses of a panel that another run has filtered (PoseFilter). Precondition: run() has not been called.
+    void restore(std::size_t panel, std::span<const std::byte> poses);
 
     /// Ends the processes at once, from any thread; run() then returns.
     void abandon();
