@@ -83,9 +83,18 @@ class ByHand(FarmTest):
         for damaged in (b"", whole[:-1], whole[:40], b"x" + whole[1:]):
             frame.write_bytes(damaged)
             self.assertEqual(self.farm("status", folder, "--missing", code=3).stdout, "2\n")
+        run_tumble(self.folder, "render", self.scene, "--set", "light.direction=[0.4,-1,0.3]", "--frames", "other", "--quiet")
+        self.assertNotEqual((self.folder / "other/frame_000004.png").read_bytes(), whole)
+        frame.write_bytes((self.folder / "other/frame_000004.png").read_bytes())   # of another clip
+        self.assertEqual(self.farm("status", folder, "--missing", code=3).stdout, "2\n")
         frame.unlink()
         self.bash(folder / "frames.sh", 2)
         self.assertEqual(frame.read_bytes(), whole)
+        # The same clip in other parts keeps the frames; another clip is refused before anything is submitted.
+        self.write(parts=3)
+        self.assertIn("3 of 3 parts are complete", self.farm("status", folder).stdout)
+        refused = self.farm("slurm", self.scene, "--parts", 3, "-o", AWKWARD + ".mp4", "--write-only", "--size", "64x64", code=2)
+        self.assertIn("frames of another clip, which differs in size", refused.stderr)
 
     def test_parts(self):
         """As many as asked, but of one length; each frame in one of them."""
