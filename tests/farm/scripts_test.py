@@ -57,6 +57,22 @@ class ByHand(FarmTest):
         self.assertEqual((self.folder / (AWKWARD + ".mp4")).read_bytes(), local.encoded)
         self.assertIn("4 of 4 parts are complete, 12 of 12 frames", self.farm("status", folder).stdout)
 
+    def test_other_clips(self):
+        """Panels, motion blur, slow motion, plots, alpha, frames per second: each option reaches the commands that need it."""
+        (self.folder / "other.toml").write_text(SCENE.replace("restitution", "friction").replace("0.6, 0.0]", "0.9, 0.0]"))
+        for clip, scenes, options in (("a.mp4", (self.scene, "other.toml"), ("--plot", "energy", "--layout", "row")),
+                                      ("b.webm", (self.scene,), ("--transparent", "--shutter", "180", "--blur-samples", "3")),
+                                      ("c.gif", (self.scene,), ("--vary", "body.first.restitution=0,0.9", "--speed", "0.5", "--fps", "5", "--samples", "4"))):
+            self.farm("slurm", *scenes, "--parts", 3, "-o", clip, "--program", TUMBLE, "--write-only", *options)
+            folder = self.folder / (clip + ".farm")
+            self.bash(folder / "simulate.sh")
+            for part in (3, 1, 2):
+                self.bash(folder / "frames.sh", part)
+            self.bash(folder / "stitch.sh")
+            local = run_tumble(self.folder, "render", *scenes, *options, "-o", "local-" + clip, "--quiet")
+            self.assertEqual(local.returncode, 0, local.stderr)
+            self.assertEqual((self.folder / clip).read_bytes(), (self.folder / ("local-" + clip)).read_bytes(), clip)
+
     def test_a_damaged_frame_is_missing(self):
         folder = self.write()
         self.bash(folder / "simulate.sh")
@@ -67,9 +83,18 @@ class ByHand(FarmTest):
         for damaged in (b"", whole[:-1], whole[:40], b"x" + whole[1:]):
             frame.write_bytes(damaged)
             self.assertEqual(self.farm("status", folder, "--missing", code=3).stdout, "2\n")
+        run_tumble(self.folder, "render", self.scene, "--set", "light.direction=[0.4,-1,0.3]", "--frames", "other", "--quiet")
+        self.assertNotEqual((self.folder / "other/frame_000004.png").read_bytes(), whole)
+        frame.write_bytes((self.folder / "other/frame_000004.png").read_bytes())   # of another clip
+        self.assertEqual(self.farm("status", folder, "--missing", code=3).stdout, "2\n")
         frame.unlink()
         self.bash(folder / "frames.sh", 2)
         self.assertEqual(frame.read_bytes(), whole)
+        # The same clip in other parts keeps the frames; another clip is refused before anything is submitted.
+        self.write(parts=3)
+        self.assertIn("3 of 3 parts are complete", self.farm("status", folder).stdout)
+        refused = self.farm("slurm", self.scene, "--parts", 3, "-o", AWKWARD + ".mp4", "--write-only", "--size", "64x64", code=2)
+        self.assertIn("frames of another clip, which differs in size", refused.stderr)
 
     def test_parts(self):
         """As many as asked, but of one length; each frame in one of them."""

@@ -2,7 +2,7 @@
 // (docs/reference/checkpoints.md).
 #pragma once
 
-#include "app/checkpoints/clip_identity.h"
+#include "app/checkpoints/checkpoint_identity.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,7 +21,7 @@ struct CheckpointHeader {
     std::string program;  // its version
     std::string kind;     // "state" or "clip"
     std::int64_t frame = 0;
-    ClipIdentity identity;
+    CheckpointIdentity identity;
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {

@@ -39,7 +39,7 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 }
 
 CheckpointHeader header_of(const std::string& program, const std::string& kind, std::int64_t frame,
-                           const ClipIdentity& identity) {
+                           const CheckpointIdentity& identity) {
     CheckpointHeader header;
     header.program = program;
     header.kind = kind;
@@ -54,7 +54,7 @@ fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
     return folder / fmt::format("checkpoint_{:06}.tumble", frame);
 }
 
-CheckpointWriting::CheckpointWriting(const fs::path& folder, std::string program, ClipIdentity identity)
+CheckpointWriting::CheckpointWriting(const fs::path& folder, std::string program, CheckpointIdentity identity)
     : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
     std::error_code missing;
     fs::remove(clip_path(folder), missing);  // first: the others are of no use without
@@ -86,7 +86,7 @@ void CheckpointWriting::finish(std::span<const std::byte> survey) {
     write(clip_path(folder_.path()), "clip", 0, writer.bytes());
 }
 
-CheckpointReading::CheckpointReading(const fs::path& folder, std::string program, ClipIdentity identity)
+CheckpointReading::CheckpointReading(const fs::path& folder, std::string program, CheckpointIdentity identity)
     : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
     const fs::path path = clip_path(folder);
     std::error_code error;

@@ -3,7 +3,7 @@
 // needs.
 #pragma once
 
-#include "app/checkpoints/clip_identity.h"
+#include "app/checkpoints/checkpoint_identity.h"
 #include "app/checkpoints/clip_state.h"
 #include "app/files/frame_folder.h"
 
@@ -23,7 +23,7 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& folder, std::
 class CheckpointWriting {
 public:
     /// `program`: its version. The checkpoints of an earlier run are removed.
-    CheckpointWriting(const std::filesystem::path& folder, std::string program, ClipIdentity identity);
+    CheckpointWriting(const std::filesystem::path& folder, std::string program, CheckpointIdentity identity);
 
     void add(const ClipState& state);
     /// The motion of a panel (FrameRecorder) from a frame, the first one or that of a checkpoint, to the next
@@ -41,7 +41,7 @@ private:
 
     FrameFolder folder_;
     std::string program_;
-    ClipIdentity identity_;
+    CheckpointIdentity identity_;
     std::vector<std::int64_t> frames_;
     bool motion_ = false;
     std::uintmax_t bytes_ = 0;
@@ -50,7 +50,7 @@ private:
 class CheckpointReading {
 public:
     /// Throws InputError if the folder has no complete checkpoints of this clip.
-    CheckpointReading(const std::filesystem::path& folder, std::string program, ClipIdentity identity);
+    CheckpointReading(const std::filesystem::path& folder, std::string program, CheckpointIdentity identity);
 
     std::span<const std::byte> survey() const { return survey_; }
     /// The last state at or before a frame; none: there the clip starts anew. Throws InputError for a damaged file.
@@ -66,7 +66,7 @@ public:
 private:
     std::filesystem::path folder_;
     std::string program_;
-    ClipIdentity identity_;
+    CheckpointIdentity identity_;
     std::vector<std::int64_t> frames_;  // of the states, ascending
     bool motion_ = false;
     std::vector<std::byte> survey_;

@@ -30,6 +30,9 @@ struct RenderCommand {
     PanelArrangement arrangement = PanelArrangement::automatic;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
+    std::optional<std::string> frames_range;                // "1-10,30-40:2": frames that are drawn; else all
+    bool resume = false;                                    // keeps finished frames of the same clip
+    std::string call;                                       // the command as it was typed, for messages
     double start = 0.0;                                     // s, scene time; earlier frames are not drawn
     std::optional<std::filesystem::path> from_checkpoints;  // folder; else the frames before the first are simulated
     double speed = 1.0;                                     // of the motion in the clip: 0.25 is slow motion
@@ -116,8 +119,9 @@ int run_lesson(const LessonCommand& command);
 struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;
-    double fps = 60.0;
-    bool transparent = false;  // the clip keeps the alpha of the frames
+    std::optional<double> fps;   // without this, that of the run that drew the frames, or 60
+    bool allow_missing = false;  // frames may be missing: the others follow each other
+    bool transparent = false;    // the clip keeps the alpha of the frames
     VideoQuality quality = VideoQuality::normal;
     bool quiet = false;
 };

@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/render_plan.h"
 #include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
 #include "app/farm/farm_status.h"
@@ -29,9 +30,8 @@ constexpr int parts_missing = 3;  // exit code
 fs::path whole_path(const fs::path& path) { return fs::absolute(path).lexically_normal(); }
 
 /// The scenes and the options of the drawing, checked as a render checks them.
-FarmJob job_of(const FarmCommand& command) {
+FarmJob job_of(const FarmCommand& command, const RenderScenes& scenes) {
     const RenderCommand& render = command.render;
-    const RenderScenes scenes(render, Shutter::of(render.shutter, render.blur_samples));
     if (scenes.shows_damage())
         throw InputError(
             "--overlay: damage shows where a frame differs from the one before, which the first frame of a part does "
@@ -43,7 +43,7 @@ FarmJob job_of(const FarmCommand& command) {
         if (std::ranges::find(render.scenes, input) == render.scenes.end()) job.meshes.push_back(whole_path(input));
     job.program =
         command.program.find('/') == std::string::npos ? command.program : whole_path(command.program).string();
-    job.frames = scenes.frames.count();
+    job.frames = scenes.clip_frames;
     job.fps = scenes.first().output.fps;
     job.simulate_options = command.simulate_options;
     job.render_options = command.render_options;
@@ -51,6 +51,18 @@ FarmJob job_of(const FarmCommand& command) {
     job.encode_options.insert(job.encode_options.begin(), {"--fps", fmt::format("{}", job.fps)});
     job.retries = command.retries;
     return job;
+}
+
+RenderScenes scenes_of(const RenderCommand& render) {
+    return {render, Shutter::of(render.shutter, render.blur_samples)};
+}
+
+/// Throws InputError if the folder has frames of another clip.
+void check_old_frames(const FarmJob& job, const RenderScenes& scenes, RenderCommand render) {
+    render.clip.reset();
+    render.frames = frames_folder(job.folder);
+    render.frames_range = FarmPart{0, job.frames - 1}.range();
+    plan_render(render, scenes);
 }
 
 /// The length of at most so many equal parts.
@@ -101,13 +113,15 @@ void submit(const FarmJob& job) {
 }
 
 int run_slurm(const FarmCommand& command) {
-    FarmJob job = job_of(command);
+    const RenderScenes scenes = scenes_of(command.render);
+    FarmJob job = job_of(command, scenes);
     divide(job, part_length(job, command.parts));
     job.clip = whole_path(*command.render.clip);
     job.folder = command.folder ? whole_path(*command.folder) : fs::path(job.clip.string() + ".farm");
     check_clip(job, command.render);
     check_slurm(job, command.slurm);
     check_folders(job);
+    check_old_frames(job, scenes, command.render);
     write_slurm_scripts(job, command.slurm);
     if (!command.render.quiet)
         say("wrote the scripts of {} parts of {} frames to {}\n", job.parts.size(), job.parts.front().count(),
@@ -117,7 +131,7 @@ int run_slurm(const FarmCommand& command) {
 }
 
 int run_openjd(const FarmCommand& command) {
-    FarmJob job = job_of(command);
+    FarmJob job = job_of(command, scenes_of(command.render));
     divide(job, command.chunk > 0 ? command.chunk : part_length(job, usual_parts));
     const char* ending = command.render.drawing.transparent ? ".webm" : ".mp4";
     job.clip = command.render.clip ? *command.render.clip : fs::path(job.scenes.front().stem().string() + ending);

@@ -54,6 +54,9 @@ std::vector<std::string> given_options(const CLI::App& command, const List& list
 void take_given_options(const CLI::App& command, FarmCommand& c) {
     c.render_options = given_options(command, frame_options);
     c.simulate_options = given_options(command, frame_options, only_drawing);
+    // The values of the scene must be those of the frames; `simulate` has no option for the samples of a pixel.
+    for (const std::string& samples : command.get_option("--samples")->results())
+        c.simulate_options.push_back("--set=output.samples=" + samples);
     c.encode_options = given_options(command, clip_options);
 }
 

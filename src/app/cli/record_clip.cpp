@@ -73,7 +73,7 @@ void record_clip(RenderScenes& scenes, const ClipRecording& recording, Checkpoin
     RecordedPanels panels;
     for (std::size_t i = 0; i < scenes.scenes.size(); ++i)
         panels.push_back(std::make_unique<RecordedPanel>(scenes, i, recording));
-    const std::int64_t end = scenes.frames.end;
+    const std::int64_t end = scenes.clip_frames;
     std::int64_t first = 0;  // of the motion that is not written yet
     for (std::int64_t n = 0; n < end; ++n) {
         for (const auto& panel : panels)

@@ -59,10 +59,14 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
     }
     const SceneDescription& last = *scenes[longest].scene;
     const FrameTiming timing = timing_at_speed(last, command.speed);
-    frames = frames_from(timing, last.simulation.duration, command.start);
+    clip_frames = timing.frame_count(last.simulation.duration);
+    if (command.frames_range && command.start > 0.0)
+        throw InputError("--frames-range: not together with --start; frames are numbered from the start of the clip");
+    frames = command.frames_range ? read_frame_set(*command.frames_range, clip_frames)
+                                  : frames_from(timing, last.simulation.duration, command.start);
     CompositionOptions options;
     options.arrangement = command.arrangement;
-    options.last_time = double(frames.end - 1) / timing.fps;
+    options.last_time = double(clip_frames - 1) / timing.fps;
     read_plot(command, options);
     composition = make_composition(scenes, options);
     add_overlays();
@@ -199,8 +203,8 @@ World RenderScenes::world(std::size_t index, int threads) const {
     return world;
 }
 
-ClipIdentity RenderScenes::identity() const {
-    ClipIdentity identity;
+CheckpointIdentity RenderScenes::identity() const {
+    CheckpointIdentity identity;
     std::string of_panel;
     const auto add = [&](const char* name, std::string value) {
         identity.push_back({name + of_panel, std::move(value)});
@@ -210,7 +214,7 @@ ClipIdentity RenderScenes::identity() const {
     add("the frames per second", fmt::format("{:.17g}", first().output.fps));
     add("--speed", fmt::format("{:.17g}", speed_));
     add("--shutter and --blur-samples", fmt::format("{} of {} parts", shutter_.blur_samples, shutter_.intervals));
-    add("the number of frames", fmt::format("{}", frames.end));
+    add("the number of frames", fmt::format("{}", clip_frames));
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const ClipScene& one = scenes[i];
         const SceneDescription& drawn = *composition.panels[i].scene;

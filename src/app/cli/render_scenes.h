@@ -1,10 +1,10 @@
 // The scenes of `tumble render`, their place in the frame, and the frames of the clip.
 #pragma once
 
-#include "app/checkpoints/clip_identity.h"
+#include "app/checkpoints/checkpoint_identity.h"
 #include "app/cli/commands.h"
 #include "app/composition/make_composition.h"
-#include "app/pipeline/frame_range.h"
+#include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
 #include "app/survey/scale_observer.h"
 #include "app/threads/interrupt.h"
@@ -38,7 +38,7 @@ public:
     /// Throws InputError where the bytes are not of such a survey.
     void take_survey(std::span<const std::byte> bytes);
     /// The settings that the state of the clip depends on.
-    ClipIdentity identity() const;
+    CheckpointIdentity identity() const;
 
     const SceneDescription& first() const { return *scenes.front().scene; }
     std::size_t bodies() const;
@@ -51,7 +51,8 @@ public:
     std::vector<ClipScene> scenes;   // the timing is that of the simulation, with the intervals of the shutter
     std::vector<std::int64_t> ends;  // one after the last frame of each scene
     FileList inputs;
-    FrameRange frames;  // of the longest scene
+    FrameSet frames;               // that the command asks for
+    std::int64_t clip_frames = 0;  // of the longest scene
     Composition composition;
 
 private:

@@ -32,7 +32,7 @@ public:
         if (now - last_ < interrupt_period) return;
         last_ = now;
         progress_.update(done);
-        if (interrupt_.pending()) throw RunError("interrupted");
+        if (interrupt_.pending()) throw Interrupted();
     }
 
 private:
@@ -96,7 +96,7 @@ void simulate_clip(const SimulateCommand& command) {
     RunTables::plan(command, plan);
     const SceneDescription& first = scenes.first();
     const v0::Scene scene = v0::make_scene(first, scenes.inputs);
-    const std::int64_t frames = scenes.frames.end;
+    const std::int64_t frames = scenes.clip_frames;
     std::size_t count = 0;
     std::uintmax_t bytes = 0;
     {

@@ -2,13 +2,15 @@
 
 #include "app/farm/shell_text.h"
 #include "app/files/frame_folder.h"
+#include "app/resume/clip_identity.h"
+#include "app/resume/kept_frames.h"
 #include "core/safe_text.h"
+#include "output/png_check.h"
 
 #include <fmt/format.h>
 
-#include <array>
-#include <cstring>
-#include <fstream>
+#include <optional>
+#include <string>
 #include <system_error>
 
 namespace tumble {
@@ -16,31 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The first and the last bytes: a file that the loss of a machine has cut short or left empty is found, at the cost of two
-/// reads. The job that makes the clip decodes every frame.
-bool looks_whole(const fs::path& frame) {
-    constexpr std::array<char, 8> signature{'\x89', 'P', 'N', 'G', '\r', '\n', '\x1a', '\n'};
-    constexpr std::array<char, 8> end{'I', 'E', 'N', 'D', '\xae', 'B', '`', '\x82'};
-    std::ifstream file(frame, std::ios::binary);
-    std::array<char, 8> found{};
-    if (!file.read(found.data(), found.size()) || found != signature) return false;
-    return file.seekg(-std::streamoff(end.size()), std::ios::end) && file.read(found.data(), found.size()) &&
-           found == end;
-}
-
-/// "48-51,60", shortened where it is long.
-std::string list_of_frames(const std::vector<std::int64_t>& numbers) {
-    constexpr std::size_t longest = 60;
-    std::string list;
-    for (std::size_t i = 0; i < numbers.size();) {
-        std::size_t end = i + 1;
-        while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
-        if (list.size() > longest) return list + ",...";
-        list += fmt::format("{}{}", list.empty() ? "" : ",", numbers[i]);
-        if (end - i > 1) list += fmt::format("-{}", numbers[end - 1]);
-        i = end;
-    }
-    return list;
+/// Whole, and of the clip that the folder's manifest names.
+bool is_drawn(const fs::path& frame, const std::optional<std::string>& mark) {
+    const PngState state = state_of_png(frame);
+    return state.whole && (!mark || state.mark == mark);
 }
 
 }  // namespace
@@ -54,12 +35,13 @@ std::vector<int> FarmStatus::incomplete() const {
 
 FarmStatus look_at_farm(const FarmJob& job) {
     const fs::path folder = frames_folder(job.folder);
+    const std::optional<ClipIdentity> manifest = read_manifest(manifest_path(folder, FrameFiles::pictures));
+    const std::optional<std::string> mark = manifest ? std::optional(manifest->mark()) : std::nullopt;
     FarmStatus status;
     for (const FarmPart& part : job.parts) {
-        std::vector<std::int64_t>& missing = status.missing.emplace_back();
-        for (std::int64_t frame = part.first; frame <= part.last; ++frame)
-            if (!looks_whole(frame_path(folder, frame))) missing.push_back(frame);
-        status.drawn += part.count() - std::int64_t(missing.size());
+        const FrameSet frames(part.first, part.last + 1);
+        status.missing.push_back(frames.where([&](std::int64_t n) { return !is_drawn(frame_path(folder, n), mark); }));
+        status.drawn += part.count() - status.missing.back().count();
     }
     return status;
 }
@@ -70,9 +52,9 @@ std::string status_text(const FarmJob& job, const FarmStatus& status) {
                                    job.parts.size() - incomplete.size(), job.parts.size(), status.drawn, job.frames);
     for (const int number : incomplete) {
         const FarmPart& part = job.parts[std::size_t(number) - 1];
-        const std::vector<std::int64_t>& missing = status.missing[std::size_t(number) - 1];
+        const FrameSet& missing = status.missing[std::size_t(number) - 1];
         text += fmt::format("part {} (frames {}): {} of {} frames are missing: {}\n", number, part.range(),
-                            missing.size(), part.count(), list_of_frames(missing));
+                            missing.count(), part.count(), missing.text());
     }
     const auto script = [&](const char* name) {
         return safe_text(shell_word((job.folder / name).string()), path_text_bytes);

@@ -2,20 +2,22 @@
 #pragma once
 
 #include "app/farm/farm_job.h"
+#include "app/files/frame_set.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace tumble {
 
-/// The missing and damaged frames of each part.
+/// The frames of each part that are missing, damaged, or of another clip.
 struct FarmStatus {
-    std::vector<std::vector<std::int64_t>> missing;  // by part
-    std::int64_t drawn = 0;                          // frames
-    std::vector<int> incomplete() const;             // numbers of parts, from 1
+    std::vector<FrameSet> missing;        // by part
+    std::int64_t drawn = 0;               // frames
+    std::vector<int> incomplete() const;  // numbers of parts, from 1
 };
 
-/// Looks at each frame's file. Throws RunError if the folder cannot be read.
+/// Reads each frame's file, and does not unpack it: the job that makes the clip does.
 FarmStatus look_at_farm(const FarmJob& job);
 
 /// The state as text of several lines, with the commands that draw the missing parts.

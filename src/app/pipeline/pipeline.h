@@ -11,13 +11,13 @@
 
 #include "app/checkpoints/clip_state.h"
 #include "app/files/aov_folder.h"
+#include "app/files/clip_sink.h"
 #include "app/files/frame_folder.h"
+#include "app/files/frame_set.h"
 #include "app/files/publish_queue.h"
-#include "app/pipeline/frame_range.h"
 #include "app/pipeline/panel_run.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/render_pool.h"
-#include "output/video_writer.h"
 #include "overlay/overlay_builder.h"
 #include "scene/description/description.h"
 #include "sim/frames/frame_sequence.h"
@@ -45,16 +45,24 @@ struct PipelineTimes {
 
 /// Destinations of the frames; null: not requested.
 struct PipelineOutputs {
-    const FrameFolder* folder = nullptr;
-    VideoWriter* video = nullptr;
+    FrameFolder* folder = nullptr;
+    ClipSink* video = nullptr;
     AovFolder* aovs = nullptr;
+};
+
+/// Frames that are drawn, and those among them that each output takes.
+struct PipelineFrames {
+    FrameSet drawn, folder, aovs, video;
+
+    /// The same for all outputs.
+    static PipelineFrames all(const FrameSet& frames) { return {frames, frames, frames, frames}; }
 };
 
 class Pipeline {
 public:
-    /// Simulates the frames up to the end of the range and draws those in it. All arguments must outlive run(); the
+    /// Simulates the frames up to the last one that is drawn, and draws those in the set. All arguments must outlive run(); the
     /// render pool must have the same panels and make the outputs that are requested.
-    Pipeline(std::span<const PanelSource> panels, const FrameRange& frames, RenderPool& render_pool,
+    Pipeline(std::span<const PanelSource> panels, const PipelineFrames& frames, RenderPool& render_pool,
              const PipelineOutputs& outputs, Shutter shutter = {});
 
     /// Simulates from this state on, in place of from the start. Preconditions: its frame is not after the first one of
@@ -77,11 +85,12 @@ private:
     void write_aovs();
     void write_video();
     bool deliver(const Frame& frame);
+    std::int64_t end() const { return frames_.drawn.end(); }
     std::int64_t finished() const;
 
     std::vector<PanelRun> panels_;
     std::int64_t begin_ = 0;  // first simulated frame
-    FrameRange frames_;
+    PipelineFrames frames_;
     RenderPool& render_pool_;
     PipelineOutputs outputs_;
     BoundedQueue<MotionBlurFrame> poses_;

@@ -20,9 +20,9 @@ struct ClipSetting {
 };
 
 /// The most telling ones first; the last one is a sum over all of the scene.
-using ClipIdentity = std::vector<ClipSetting>;
+using CheckpointIdentity = std::vector<ClipSetting>;
 
 /// "the size: 640x360 there, 1280x720 here" of the first setting that differs; empty if all are equal.
-std::string difference(const ClipIdentity& there, const ClipIdentity& here);
+std::string difference(const CheckpointIdentity& there, const CheckpointIdentity& here);
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "app/checkpoints/clip_identity.h"
+#include "app/checkpoints/checkpoint_identity.h"
 
 #include "core/safe_text.h"
 
@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-std::string difference(const ClipIdentity& there, const ClipIdentity& here) {
+std::string difference(const CheckpointIdentity& there, const CheckpointIdentity& here) {
     for (const ClipSetting& own : here) {
         const auto other =
             std::find_if(there.begin(), there.end(), [&](const ClipSetting& s) { return s.name == own.name; });
