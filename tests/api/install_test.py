@@ -199,6 +199,19 @@ class InstallTest(unittest.TestCase):
                             f"{page.relative_to(documents)}: {link}")
         self.assertTrue(any(link.endswith("include/tumble/world.h") for _, link in links))
 
+    def test_manual_pages_completions_and_scenes_are_installed(self):
+        share = self.prefix / "share"
+        for shell, place in (("bash", "bash-completion/completions/tumble"), ("zsh", "zsh/site-functions/_tumble"),
+                             ("fish", "fish/vendor_completions.d/tumble.fish")):
+            self.assertEqual((share / place).read_bytes(), run(TUMBLE, "completion", shell).stdout)
+        run(TUMBLE, "man-pages", self.folder / "man1")
+        pages = {page.name: page.read_bytes() for page in (self.folder / "man1").iterdir()}
+        self.assertEqual({page.name: page.read_bytes() for page in (share / "man/man1").iterdir()}, pages)
+        self.assertIn("tumble-render.1", pages)
+        run(self.prefix / "bin/tumble", "info", share / "tumble/assets/scenes/furniture.toml")
+        listed = (pathlib.Path(os.environ["TUMBLE_BUILD"]) / "install_manifest.txt").read_text()
+        self.assertIn("/share/man/man1/tumble-render.1\n", listed)
+
     def test_license_and_documents_are_installed(self):
         documents = self.prefix / "share/doc/tumble"
         for name in ["LICENSE", "README.md", "CHANGELOG.md", "docs/reference/cpp-api.md", "examples/CMakeLists.txt"]:
