@@ -90,7 +90,7 @@ class Folders(Sets):
         self.pair("x.png", 41)
         self.write("t.toml", "[[rule]]\nfiles = \"x.png\"\nmasks = [{ pixels = [40, 20, 13, 12] }]\n")
         run = self.check(0, "compare", "a/x.png", "b/x.png", "--tolerances", "t.toml")
-        self.assertEqual(run.stdout, "1 pictures: 1 same\n")
+        self.assertEqual(run.stdout, "1 picture: 1 same\n")
 
     def test_names_that_are_no_text(self):
         hostile = self.folder / "a" / os.fsdecode(b"x\xff\x1b[2J.png")
