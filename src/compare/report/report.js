@@ -79,7 +79,7 @@
       const zoom = element("div", { className: "zoom", role: "group", "aria-label": "Zoom" },
         button("−", "Zoom out", () => this.zoom_by(0.5)), this.zoom_text, button("+", "Zoom in", () => this.zoom_by(2)),
         button("Fit", "Fit the picture", () => this.fit()));
-      if (this.changed) zoom.append(button("Change", "Zoom to the changed region", () => this.zoom_to_change()));
+      if (this.changed) zoom.append(button("Change", "Change: zoom to the changed region", () => this.zoom_to_change()));
       this.options = element("div", { className: "options" });
       this.stage_row = element("div", { className: "stages" });
       this.readout = element("p", { className: "readout" });

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// What a metric measures.
+/// The meaning of a metric.
 struct MetricText {
     std::string_view name, meaning, unit;
 };
