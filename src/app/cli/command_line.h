@@ -31,6 +31,8 @@ struct CommandLine {
     InfoCommand info;
     FarmCommand farm;
     DoctorCommand doctor;
+    CompletionCommand completion;
+    ManPagesCommand man_pages;
 };
 
 CLI::App* add_render(CLI::App& app, CommandLine& line);
@@ -44,6 +46,8 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
 CLI::App* add_farm(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
+CLI::App* add_completion(CLI::App& app, CommandLine& line);
+CLI::App* add_man_pages(CLI::App& app, CommandLine& line);
 
 /// A number in a range; CLI::Range lets NaN through.
 CLI::Validator number_within(double least, double most);

@@ -92,6 +92,12 @@ void add_render_options(CLI::App& to, RenderCommand& c) {
             "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
             "DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
+    command
+        ->add_option("--profile", c.profile,
+                     "Write a trace of the run: which stage worked on which frame when (Chrome trace format,\n"
+                     "for ui.perfetto.dev; docs/reference/log.md)")
+        ->check(some_name())
+        ->type_name("TRACE.json");
     command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
         ->check(some_name())
         ->type_name("DIR");
