@@ -262,6 +262,10 @@ class Scenes(Sets):
         self.check(0, "render", "scene.toml", "--frames", "g", "--size", "40x30", "--quiet")
         self.assertEqual(self.check(0, "compare", "g", "scene.toml", "--quiet").stdout, "")
 
+    # A day of frames would take days.
+    def test_frames_after_the_last_reference_are_not_drawn(self):
+        self.check(0, "compare", "g", "scene.toml", "--set", "simulation.duration=86400", "--quiet", timeout=60)
+
     def test_a_changed_scene(self):
         run = self.check(1, "compare", "g", "scene.toml", "--set", "body.crate.position=[0.2, 3, 0]", "--quiet")
         self.assertIn("different: frame_000001.png\n", run.stdout)
