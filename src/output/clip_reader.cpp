@@ -132,7 +132,10 @@ std::optional<Image> ClipReader::read_frame() {
     if (width < 1 || height < 1 || std::int64_t(width) * height > max_image_pixels)
         fail(fmt::format("has frames of {} x {} pixels", width, height));
     Image image(width, height);
-    if (!read(image.pixels)) return std::nullopt;
+    if (!read(image.pixels)) {
+        inside_frame_ = true;
+        return std::nullopt;
+    }
     return image;
 }
 
@@ -144,6 +147,7 @@ std::optional<Image> ClipReader::next() {
     }
     const ProcessEnd end = process_->finish();
     stop();
+    if (end.ok() && inside_frame_) fail("ffmpeg ended within a frame");
     if (end.ok()) return std::nullopt;
     if (std::exchange(may_restart_, false)) {  // not VP9
         start(false);

@@ -38,7 +38,7 @@ private:
     std::optional<double> fps_;
     std::unique_ptr<Process> process_;
     int pipe_ = -1;  // its output
-    bool may_restart_ = false;
+    bool may_restart_ = false, inside_frame_ = false;
     std::vector<std::uint8_t> buffer_;  // read from the pipe
     std::size_t used_ = 0;              // bytes of the buffer that were taken
 };

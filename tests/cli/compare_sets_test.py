@@ -90,7 +90,7 @@ class Folders(Sets):
         self.pair("x.png", 41)
         self.write("t.toml", "[[rule]]\nfiles = \"x.png\"\nmasks = [{ pixels = [40, 20, 13, 12] }]\n")
         run = self.check(0, "compare", "a/x.png", "b/x.png", "--tolerances", "t.toml")
-        self.assertEqual(run.stdout, "1 pictures: 1 same\n")
+        self.assertEqual(run.stdout, "1 picture: 1 same\n")
 
     def test_names_that_are_no_text(self):
         hostile = self.folder / "a" / os.fsdecode(b"x\xff\x1b[2J.png")
@@ -272,8 +272,12 @@ class Scenes(Sets):
 
     def test_references_that_are_no_frames_or_of_two_sizes(self):
         self.picture("g/frame_000002.png", 40, 32)
-        self.assertIn("g/frame_000002.png: error: the reference is 40 x 32",
-                      self.check(2, "compare", "g", "scene.toml").stderr)
+        (self.folder / "g/frame_000000.png").write_text("no picture")
+        run = self.check(2, "compare", "g", "scene.toml", "--quiet")
+        self.assertIn("broken: frame_000000.png\n  g/frame_000000.png: ", run.stdout)
+        self.assertIn("broken: frame_000002.png\n  the picture has 48 x 32 pixels, and the reference 40 x 32\n", run.stdout)
+        self.assertNotIn("frame_000001.png", run.stdout)
+        os.remove(self.folder / "g/frame_000000.png")
         self.picture("other/x.png", 48, 32)
         self.assertIn("holds no frames of a scene", self.check(2, "compare", "other", "scene.toml").stderr)
         os.rename(self.folder / "other/x.png", self.folder / "g/x.png")
@@ -282,6 +286,7 @@ class Scenes(Sets):
         self.assertIn("note: 1 files of the folder are no frames of a scene", run.stderr)
 
     def test_drawn_frames_are_removed(self):
+        self.assertEqual(len(os.listdir(self.folder / "g")), 2)
         temporary = self.folder / "tmp"
         temporary.mkdir()
         environment = dict(os.environ, TMPDIR=str(temporary))

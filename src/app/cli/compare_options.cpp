@@ -34,7 +34,7 @@ void add_sets(CLI::App& command, CompareCommand& c) {
         ->check(number_within(limits::fps.min, limits::fps.max))
         ->type_name("N");
     add_values(command, c.overrides);
-    c.workers = machine_threads();
+    c.workers = std::min(machine_threads(), enough_workers);
     command.add_option("--workers", c.workers, "Pairs compared at a time, and render processes of a scene")
         ->check(CLI::Range(1, most_threads))
         ->option_text(fmt::format("N [{}]", c.workers));
