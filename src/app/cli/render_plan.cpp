@@ -35,6 +35,7 @@ void check_outputs(const RenderCommand& command, const RenderPlan& plan, const R
     if (plan.aov_folder && command.aovs.has(Aov::segmentation))
         files.add("--aov", segmentation_table_path(*plan.aov_folder));
     if (command.report) files.add("--report", *command.report);
+    if (command.profile) files.add("--profile", *command.profile);
     const auto add_series = [&](const char* option, const fs::path& folder, FrameFiles kind) {
         const bool pictures = kind == FrameFiles::pictures;
         files.add(option, manifest_path(folder, kind));

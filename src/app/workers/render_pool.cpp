@@ -6,6 +6,7 @@
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
 #include "render/render_switches.h"
+#include "sim/checkpoint/archive.h"
 
 #include <sys/mman.h>
 
@@ -178,10 +179,10 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
         const std::optional<MotionBlurFrame> pose = next_pose();
         if (!pose) return;
         const DrawnFrame drawn = workers_[worker]->draw(*pose, *slot);
-        times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);
-        times.conversion.add(drawn.conversion.wall, drawn.conversion.cpu);
-        times.png.add(drawn.png.wall, drawn.png.cpu);
-        times.aovs.add(drawn.aovs.wall, drawn.aovs.cpu);
+        times.drawing.add(drawn.drawing, pose->frame);
+        times.conversion.add(drawn.conversion, pose->frame);
+        times.png.add(drawn.png, pose->frame);
+        times.aovs.add(drawn.aovs, pose->frame);
         Frame frame;
         frame.number = pose->frame;
         if (pose->aovs) {
@@ -197,6 +198,11 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
         frame.png = slots.memory().png(*slot).first(drawn.png_bytes);
         order.add(std::move(frame), worker, drawn.unchanged);
     }
+}
+
+void RenderPool::restore(std::size_t panel, std::span<const std::byte> poses) {
+    CheckpointReader reader(poses);
+    reader.keep(pose_filters_.at(panel).poses);
 }
 
 void RenderPool::abandon() {
