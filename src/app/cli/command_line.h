@@ -29,7 +29,10 @@ struct CommandLine {
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
+    FarmCommand farm;
     DoctorCommand doctor;
+    CompletionCommand completion;
+    ManPagesCommand man_pages;
 };
 
 CLI::App* add_render(CLI::App& app, CommandLine& line);
@@ -41,7 +44,10 @@ CLI::App* add_lesson(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
+CLI::App* add_farm(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
+CLI::App* add_completion(CLI::App& app, CommandLine& line);
+CLI::App* add_man_pages(CLI::App& app, CommandLine& line);
 
 /// A number in a range; CLI::Range lets NaN through.
 CLI::Validator number_within(double least, double most);
@@ -52,6 +58,8 @@ CLI::Validator csv_name();
 /// Takes "-" as the file of standard output.
 CLI::Validator or_standard_output();
 
+/// All options of `render`.
+void add_render_options(CLI::App& command, RenderCommand& c);
 void add_scene(CLI::App& command, std::filesystem::path& scene);
 /// "1280x720" to a width and a height. Their range is checked elsewhere. Throws InputError.
 std::pair<int, int> read_size(const std::string& text, const char* option = "--size");

@@ -62,10 +62,8 @@ void add_clip_times(CLI::App& command, RenderCommand& clip) {
         ->option_text(fmt::format("N [{}]", clip.blur_samples));
 }
 
-CLI::App* add_render(CLI::App& app, CommandLine& line) {
-    RenderCommand& c = line.render;
-    CLI::App* command =
-        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+void add_render_options(CLI::App& to, RenderCommand& c) {
+    CLI::App* command = &to;
     command->add_option("scene", c.scenes, "The scene files (TOML); several are shown side by side")
         ->check(some_name())
         ->required()
@@ -94,6 +92,12 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
             "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
             "DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
+    command
+        ->add_option("--profile", c.profile,
+                     "Write a trace of the run: which stage worked on which frame when (Chrome trace format,\n"
+                     "for ui.perfetto.dev; docs/reference/log.md)")
+        ->check(some_name())
+        ->type_name("TRACE.json");
     command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
         ->check(some_name())
         ->type_name("DIR");
@@ -147,6 +151,12 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     add_panels(*command, c, "A panel");
     add_text(*command, c.overrides);
     add_run(*command, c.threads, "by the bodies", c.quiet);
+}
+
+CLI::App* add_render(CLI::App& app, CommandLine& line) {
+    CLI::App* command =
+        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+    add_render_options(*command, line.render);
     command->footer(
         "Examples:\n"
         "  tumble render scene.toml                          writes scene.mp4\n"

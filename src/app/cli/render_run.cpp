@@ -9,6 +9,7 @@
 #include "app/resume/kept_frames.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
+#include "app/threads/trace.h"
 #include "app/workers/frame_memory.h"
 
 #include <sys/resource.h>
@@ -71,7 +72,8 @@ RenderFigures figures_of(const RenderPlan& plan, const RenderScenes& scenes) {
     figures.height = scenes.composition.height;
     figures.fps = scenes.first().output.fps;
     figures.frames = scenes.frames;
-    figures.rendered = plan.to_draw();
+    figures.clip_frames = scenes.clip_frames;
+    figures.rendered = plan.needed();
     figures.clip = plan.clip;
     figures.folder = plan.folder;
     figures.aov_folder = plan.aov_folder;
@@ -160,6 +162,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
     RenderWork work{plan.outputs(command), std::nullopt, plan.to_draw(), shutter.blur_samples};
     const FrameOutputs& outputs = work.outputs;
     if (plan.format) work.clip = plan.format->kind;
+    if (plan.segments) work.encoders = 2;
     const int requested_workers =
         scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, plan.to_draw()));
     const int workers = workers_that_fit(composition, work, requested_workers);
@@ -171,14 +174,25 @@ RenderFigures render_to_files(const RenderCommand& command) {
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);
+    const double outputs_open = wall_seconds();
     Destinations destinations(command, plan, scenes);
     Pipeline pipeline(motion.panels, plan.frames, render_pool, destinations.outputs(), shutter);
     if (motion.state) pipeline.go_on_from(*motion.state);
+    std::optional<Trace> trace;
+    if (command.profile) {
+        trace.emplace();
+        pipeline.record(*trace);
+        trace->add({"set-up", start, wall_seconds()});
+    }
     {
         Progress progress(plan.to_draw(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     destinations.complete();
+    if (trace) {
+        if (plan.clip) trace->add({"ffmpeg", outputs_open, wall_seconds()}, "ffmpeg");
+        trace->write(*command.profile);
+    }
     const ProcessEnd workers_end = render_pool.finish();
     figures.drawn = render_pool.drawn();
     destinations.describe(figures);

@@ -6,7 +6,7 @@
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
 #include "app/threads/interrupt.h"
-#include "app/threads/stage_timer.h"
+#include "app/threads/wall_clock.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "sim/checkpoint/archive.h"

@@ -98,8 +98,8 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->type_name("N");
     command
         ->add_option("--integrator", c.overrides.integrator,
-                     "symplectic-euler, explicit-euler, splitting, rk4 or exact")
-        ->type_name("NAME");
+                     "Method that advances the bodies from step to step, in place of the scene's")
+        ->option_text("symplectic-euler|explicit-euler|splitting|rk4|exact");
     command
         ->add_option_function<std::string>(
             "--impacts", [&c](const std::string& text) { read_impacts(text, c); },
@@ -109,7 +109,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->take_all()
         ->allow_extra_args(false)
         ->trigger_on_parse()
-        ->type_name("MODE|I.csv");
+        ->option_text("stepped|exact|I.csv");
     command
         ->add_option("--contacts", c.contacts,
                      "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
@@ -123,10 +123,8 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->check(some_name())
         ->transform(or_standard_output())
         ->type_name("L.csv");
-    command
-        ->add_option("--impact-law", c.overrides.impact_law,
-                     "propagating or simultaneous: the rule for several contacts at once")
-        ->type_name("NAME");
+    command->add_option("--impact-law", c.overrides.impact_law, "Rule for several contacts at once")
+        ->option_text("propagating|simultaneous");
     add_frames_of_time(*command, c.overrides);
     add_checkpoints(*command, c);
     c.threads = machine_threads();

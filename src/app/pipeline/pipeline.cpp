@@ -30,12 +30,18 @@ std::size_t poses_that_may_wait(std::span<const PanelSource> panels, const Shutt
 }
 
 template <class Work>
-auto timed(StageTime& time, const Work& work) {
-    const StageTimer timer(time);
+auto timed(StageTime& time, std::int64_t frame, const Work& work) {
+    const StageTimer timer(time, frame);
     return work();
 }
 
 }  // namespace
+
+void PipelineTimes::record(Trace& trace) {
+    for (StageTime* stage :
+         {&simulation, &drawing.drawing, &drawing.conversion, &drawing.png, &drawing.aovs, &files, &aov_files, &video})
+        stage->trace = &trace;
+}
 
 void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void()>& report) {
     while (!stages.wait(supervision_period)) {
@@ -118,14 +124,14 @@ void Pipeline::simulate() {
             return;
     }
     if (waiting) {
-        waiting->aovs->next = timed(times_.simulation, [&] { return panels_.front().next_start(); });
+        waiting->aovs->next = timed(times_.simulation, end(), [&] { return panels_.front().next_start(); });
         if (!poses_.push(std::move(*waiting))) return;
     }
     poses_.close();
 }
 
 MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
-    const StageTimer timer(times_.simulation);
+    const StageTimer timer(times_.simulation, frame);
     MotionBlurFrame frame_poses;
     frame_poses.frame = frame;
     for (PanelRun& panel : panels_) {
@@ -149,7 +155,7 @@ bool Pipeline::deliver(const Frame& frame) {
 // A frame's slot is free when its file is written; syncing to the disk may take longer than drawing the next frame.
 void Pipeline::write_frames() {
     while (std::optional<Frame> frame = for_png_.pop()) {
-        auto file = timed(times_.files, [&] { return outputs_.folder->write(frame->number, frame->png); });
+        auto file = timed(times_.files, frame->number, [&] { return outputs_.folder->write(frame->number, frame->png); });
         frame.reset();
         if (!frame_files_.put(std::move(file))) return;
     }
@@ -158,7 +164,8 @@ void Pipeline::write_frames() {
 
 void Pipeline::write_aovs() {
     while (std::optional<Frame> frame = for_aovs_.pop()) {
-        auto file = timed(times_.aov_files, [&] { return outputs_.aovs->write(frame->number, frame->aovs); });
+        auto file =
+            timed(times_.aov_files, frame->number, [&] { return outputs_.aovs->write(frame->number, frame->aovs); });
         frame.reset();
         if (!aov_files_.put(std::move(file))) return;
     }
@@ -167,7 +174,7 @@ void Pipeline::write_aovs() {
 
 void Pipeline::write_video() {
     while (const std::optional<Frame> frame = for_video_.pop()) {
-        const StageTimer timer(times_.video);
+        const StageTimer timer(times_.video, frame->number);
         outputs_.video->write(frame->number, frame->video, frame->repeated);
         ++encoded_;
     }

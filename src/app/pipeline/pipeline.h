@@ -35,9 +35,12 @@ class TaskGroup;
 
 /// Work of the stages; they overlap, so the sum exceeds the time of the run.
 struct PipelineTimes {
-    StageTime simulation;
+    StageTime simulation{"simulation"};
     DrawingTimes drawing;
-    StageTime files, aov_files, video;
+    StageTime files{"PNG files"}, aov_files{"AOV files"}, video{"video"};
+
+    /// Every piece of work from now on goes into the trace, too.
+    void record(Trace& trace);
 };
 
 /// Destinations of the frames; null: not requested.
@@ -72,6 +75,8 @@ public:
     void run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report);
 
     const PipelineTimes& times() const { return times_; }
+    /// Call it before run(). The trace must outlive that.
+    void record(Trace& trace) { times_.record(trace); }
 
 private:
     void simulate();

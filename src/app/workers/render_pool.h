@@ -38,7 +38,7 @@ struct Frame {
 };
 
 struct DrawingTimes {
-    StageTime drawing, conversion, png, aovs;
+    StageTime drawing{"drawing"}, conversion{"conversion"}, png{"PNG"}, aovs{"AOVs"};
 };
 
 class ReorderBuffer;

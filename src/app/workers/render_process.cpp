@@ -2,7 +2,6 @@
 
 #include "app/composition/frame_composer.h"
 #include "app/files/aov_file.h"
-#include "app/threads/stage_timer.h"
 #include "app/workers/panel_drawing.h"
 #include "core/error.h"
 #include "core/memory_limit.h"
@@ -61,12 +60,9 @@ bool receive_message(int socket, T& message) {
 
 template <typename Work>
 WorkTime timed(const Work& work) {
-    StageTime time;
-    {
-        const StageTimer timer(time);
-        work();
-    }
-    return {time.wall.load(), time.cpu.load()};
+    const double wall = wall_seconds(), cpu = thread_seconds();
+    work();
+    return {wall, wall_seconds() - wall, thread_seconds() - cpu};
 }
 
 /// The child process: its OpenGL contexts, and its previous frame with all outputs.
