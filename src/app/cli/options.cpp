@@ -3,6 +3,7 @@
 #include "app/cli/command_line.h"
 #include "app/cli/command_reader.h"
 #include "app/cli/say.h"
+#include "app/cli/shell_text.h"
 #include "core/safe_text.h"
 
 #include <sstream>
@@ -35,6 +36,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
+    const CLI::App* farm = add_farm(app, line);
     add_doctor(app, line);
     const CLI::App* completion = add_completion(app, line);
     const CLI::App* man_pages = add_man_pages(app, line);
@@ -47,6 +49,7 @@ int run_command_line(int argc, char** argv) {
         say_text(wrong.str());
         return code == 0 ? 0 : 2;
     }
+    line.render.call = shell_text({argv, std::size_t(argc)});
     if (render->parsed())
         run_render(line.render);
     else if (simulate->parsed())
@@ -69,6 +72,8 @@ int run_command_line(int argc, char** argv) {
         run_completion(line.completion, read_command(app));
     else if (man_pages->parsed())
         run_man_pages(line.man_pages, read_command(app));
+    else if (farm->parsed())
+        return run_farm(line.farm);
     else
         return run_doctor(line.doctor);
     return 0;

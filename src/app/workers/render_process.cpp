@@ -2,7 +2,6 @@
 
 #include "app/composition/frame_composer.h"
 #include "app/files/aov_file.h"
-#include "app/threads/stage_timer.h"
 #include "app/workers/panel_drawing.h"
 #include "core/error.h"
 #include "core/memory_limit.h"
@@ -61,12 +60,9 @@ bool receive_message(int socket, T& message) {
 
 template <typename Work>
 WorkTime timed(const Work& work) {
-    StageTime time;
-    {
-        const StageTimer timer(time);
-        work();
-    }
-    return {time.wall.load(), time.cpu.load()};
+    const double wall = wall_seconds(), cpu = thread_seconds();
+    work();
+    return {wall, wall_seconds() - wall, thread_seconds() - cpu};
 }
 
 /// The child process: its OpenGL contexts, and its previous frame with all outputs.
@@ -77,9 +73,9 @@ public:
         : memory_(memory) {
         if (outputs.image()) open_panels(composition, options);
         if (outputs.image() && !composition.plain()) composer_.emplace(composition, outputs.transparent);
-        if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs);
+        if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs, outputs.aov_mark);
         if (outputs.video) video_.emplace(*outputs.video, composition.width, composition.height);
-        if (outputs.png) png_.emplace(outputs.transparent ? PngAlpha::kept : PngAlpha::dropped);
+        if (outputs.png) png_.emplace(outputs.transparent ? PngAlpha::kept : PngAlpha::dropped, outputs.png_mark);
     }
 
     DrawnFrame make(const Job& job) {

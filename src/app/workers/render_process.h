@@ -4,6 +4,7 @@
 #pragma once
 
 #include "app/composition/composition.h"
+#include "app/threads/stage_timer.h"
 #include "app/workers/motion_blur_frame.h"
 #include "app/workers/shared_frames.h"
 #include "output/process.h"
@@ -17,11 +18,6 @@
 #include <span>
 
 namespace tumble {
-
-/// Working time, s: wall clock and processor.
-struct WorkTime {
-    double wall = 0.0, cpu = 0.0;
-};
 
 /// Report of a worker about a frame that it has drawn.
 struct DrawnFrame {
