@@ -289,7 +289,8 @@ void World::restore(CheckpointReader& reader) {
     s.motion->restore(reader);
     bool recorded = false;
     reader.keep(recorded);
-    if (records && !recorded) CheckpointReader::fail("has no records of contacts");
+    if (records && !recorded)
+        CheckpointReader::fail("has no records of contacts: give the tables to simulate --checkpoints too");
     if (!recorded) return;
     ContactLog unused({}, Vec3::Zero(), Vec3::Zero());
     ContactRecords unused_records;

@@ -128,6 +128,19 @@ class Checkpoints(program.ProgramTest):
         self.assertEqual(read(), alone)
         self.assertRegex(run.stderr, r"wrote states: 4 checkpoints, [0-9.]+ MB")
 
+    def test_tables_go_on(self):
+        tables = ("--trajectory", "t.csv", "--energy", "e.csv", "--impacts", "i.csv", "--contacts", "c.csv", "--loads", "l.csv")
+        self.simulate(*tables)
+        whole = {name: self.rows(name) for name in tables[1::2]}
+        for start in (0.1, 0.8):
+            self.check(0, "simulate", "scene.toml", "--from-checkpoints", "states", "--start", start, *tables, "--quiet")
+            for name, rows in whole.items():
+                self.assertEqual(self.rows(name), [row for row in rows if int(row["frame"]) >= round(20 * start)], name)
+        self.simulate()
+        run = self.check(2, "simulate", "scene.toml", "--from-checkpoints", "states", "--start", 0.8, "--energy", "e2.csv")
+        self.assertIn("has no records of contacts: give the tables to simulate --checkpoints too", run.stderr)
+        self.assertFalse((self.folder / "e2.csv").exists())
+
     def test_the_same_bytes_with_any_number_of_threads(self):
         folder = self.folder / "states"
         read = lambda: {path.name: path.read_bytes() for path in folder.iterdir()}
@@ -152,9 +165,9 @@ class Checkpoints(program.ProgramTest):
         self.refused("the number of panels: 1 there, 2 here", "--vary", "simulation.seed=1,2")
         self.refused("the values of the scene: [0-9a-f]{64} there, [0-9a-f]{64} here", "--set", "body.ball.mass=2.5")
         self.refused("the overlay 'damage'", "--overlay", "damage")
-        self.write("other.toml", SCENE.replace("# a comment\n", ""))
         self.write("other.toml", "# a comment\n" + SCENE)
-        self.check(0, "render", "other.toml", "--frames", "other", "--start", 0.6, "--from-checkpoints", "states", "--quiet")
+        self.check(0, "render", "other.toml", "--frames", "other", "--start", 0.6, "--from-checkpoints", "states", "--quiet",
+                   "--samples", 4, "--transparent")
 
     def test_damaged_and_missing_checkpoints_are_refused(self):
         self.refused("has no checkpoints of a whole clip")
@@ -176,6 +189,9 @@ class Checkpoints(program.ProgramTest):
     def test_misuse_of_simulate(self):
         for reason, options in {
                 "--every requires --checkpoints": ("--every", 1),
+                "--start requires --from-checkpoints": ("--start", 1),
+                "--size requires --checkpoints or --from-checkpoints": ("--size", "64x36"),
+                "excludes": ("--checkpoints", "states", "--from-checkpoints", "states"),
                 "several scenes are simulated together only with --checkpoints": ("scene.toml",),
                 "tables are of the frames of one scene": ("--checkpoints", "states", "--speed", 2, "--energy", "e.csv"),
         }.items():

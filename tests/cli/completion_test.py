@@ -70,7 +70,7 @@ def listed_commands(text):
 class Completion(program.ProgramTest):
     def setUp(self):
         super().setUp()
-        for name in ("clip.mp4", "other.gif", "frame.png", "note.txt", "table.csv"):
+        for name in (".hidden.toml", "clip.mp4", "other.gif", "frame.png", "note.txt", "table.csv"):
             self.write(name, "")
         (self.folder / "out").mkdir()
 

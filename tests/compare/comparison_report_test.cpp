@@ -101,7 +101,7 @@ TEST_F(Report, PicturesAreThoseOfTheFiles) {
     EXPECT_EQ(count(page, "<figure data-role=\"windows\""), 1u);
     EXPECT_EQ(count(page, "data:image/png;base64,iVBOR"), 5u);  // and a thumbnail
     EXPECT_NE(page.find("data-changed=\"10 20 14 9\""), std::string::npos);
-    EXPECT_NE(page.find("1 of 1 image fails"), std::string::npos);
+    EXPECT_NE(page.find("1 of 1 picture fails"), std::string::npos);
     EXPECT_NE(page.find("Tumble 1.2.3"), std::string::npos);
 }
 
@@ -110,7 +110,7 @@ TEST_F(Report, EqualPicturesAreNamedOnly) {
     set.images = {pair("one.png", 0, Verdict::same), pair("two.png", 0, Verdict::same)};
     const std::string page = html(set);
     EXPECT_EQ(count(page, "data:image/png"), 0u);
-    EXPECT_NE(page.find("All 2 images are the same"), std::string::npos);
+    EXPECT_NE(page.find("All 2 pictures are the same"), std::string::npos);
     EXPECT_EQ(count(page, "<li>one.png</li>"), 1u);
 }
 
@@ -164,7 +164,7 @@ TEST_F(Report, ThePicturesOfTheLeastDifferencesAreLeftOutFirst) {
     EXPECT_LT(figures, 4u * 20u);
     EXPECT_NE(part.find("Reference of image_29.png"), std::string::npos);
     EXPECT_EQ(part.find("Reference of image_02.png"), std::string::npos);
-    EXPECT_NE(part.find(fmt::format("those of {} images are left out", 28 - figures / 4)), std::string::npos);
+    EXPECT_NE(part.find(fmt::format("those of {} pairs are left out", 28 - figures / 4)), std::string::npos);
     EXPECT_EQ(count(part, "<article"), 28u);  // each keeps its figures
     EXPECT_LT(part.size(), whole.size());
 }

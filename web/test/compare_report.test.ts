@@ -91,8 +91,9 @@ test("worst first, with names as text", async () => {
   const { page } = opened;
   assert.deepEqual(await names(page), ["broken.png", "gone.png", "moved.png", hostile, "extra.png", "noise.png"]);
   assert.deepEqual(await page.locator(".same li").allTextContents(), ["same_1.png", "same_2.png"]);
-  assert.match((await page.locator("h1").textContent())!, /^5 of 8 images fail$/);
+  assert.match((await page.locator("h1").textContent())!, /^5 of 8 pictures fail$/);
   assert.equal(await page.locator("article:visible").count(), 1);
+  assert.equal(await page.evaluate(() => scrollY), 0);
   assert.deepEqual(await opened.problems(), []);
   await opened.close();
 });

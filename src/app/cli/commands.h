@@ -49,10 +49,12 @@ struct SimulateCommand {
     std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
     std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
     SceneOverrides overrides;
-    std::optional<std::filesystem::path> checkpoints;  // folder
-    double every = 1.0;                                // s of the clip between two checkpoints
-    bool motion = true;                                // is in the folder too
-    RenderCommand clip;                                // that is drawn from the checkpoints: only its panels and times
+    std::optional<std::filesystem::path> checkpoints;       // folder
+    double every = 1.0;                                     // s of the clip between two checkpoints
+    std::optional<std::filesystem::path> from_checkpoints;  // folder to go on from
+    double start = 0.0;                                     // s, scene time: earlier frames are not in the tables
+    bool motion = true;                                     // is in the folder too
+    RenderCommand clip;  // that is drawn from the checkpoints: only its panels and times
     int threads = 1;
     bool quiet = false;
 };

@@ -62,8 +62,8 @@ NamedValues drawing_settings(const RenderCommand& command, const Composition& co
 }
 
 /// The frames of a folder that are to be drawn.
-FrameSet missing_in(const RenderCommand& command, const fs::path& folder, FrameFiles kind, const ClipIdentity& identity,
-                    const FrameSet& wanted) {
+FrameSet missing_in(const RenderCommand& command, const fs::path& folder, FrameFiles kind,
+                    const FrameIdentity& identity, const FrameSet& wanted) {
     if (command.resume || command.frames_range) require_same_clip(folder, kind, identity);
     if (!command.resume) return wanted;
     const FrameSet kept = kept_frames(folder, kind, identity, wanted);

@@ -72,7 +72,8 @@ RenderFigures figures_of(const RenderPlan& plan, const RenderScenes& scenes) {
     figures.height = scenes.composition.height;
     figures.fps = scenes.first().output.fps;
     figures.frames = scenes.frames;
-    figures.rendered = plan.to_draw();
+    figures.clip_frames = scenes.clip_frames;
+    figures.rendered = plan.needed();
     figures.clip = plan.clip;
     figures.folder = plan.folder;
     figures.aov_folder = plan.aov_folder;
@@ -161,6 +162,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
     RenderWork work{plan.outputs(command), std::nullopt, plan.to_draw(), shutter.blur_samples};
     const FrameOutputs& outputs = work.outputs;
     if (plan.format) work.clip = plan.format->kind;
+    if (plan.segments) work.encoders = 2;
     const int requested_workers =
         scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, plan.to_draw()));
     const int workers = workers_that_fit(composition, work, requested_workers);

@@ -5,7 +5,8 @@
 
 namespace tumble {
 
-RunTables::RunTables(const SimulateCommand& command, const v0::Scene& scene) : fps_(scene.output().fps) {
+RunTables::RunTables(const SimulateCommand& command, const v0::Scene& scene, std::int64_t first)
+    : fps_(scene.output().fps), first_(first) {
     if (command.trajectory) trajectory_.emplace(*command.trajectory, scene);
     if (command.energy) energy_.emplace(*command.energy);
     if (command.impacts) impacts_.emplace(*command.impacts, scene);
@@ -33,7 +34,8 @@ void RunTables::add(std::int64_t frame, const World& world) {
     if (trajectory_) trajectory_->add(v0::to_public(world.snapshot()));
     if (energy_) energy_->add(frame, time, v0::to_public(world.measure(), world.contact_records().energy));
     if (!impacts_ && !contacts_ && !loads_) return;
-    const v0::FrameContacts contacts = v0::to_public(world.contact_records());
+    v0::FrameContacts contacts = v0::to_public(world.contact_records());
+    std::erase_if(contacts.impacts, [&](const v0::Impact& impact) { return impact.frame < first_; });
     if (impacts_) impacts_->add(contacts);
     if (contacts_) contacts_->add(frame, time, contacts);
     if (loads_) loads_->add(frame, time, contacts);

@@ -17,7 +17,8 @@ class OutputPlan;
 class RunTables {
 public:
     /// Those that the command asks for. Throws RunError if a file cannot be made.
-    RunTables(const SimulateCommand& command, const v0::Scene& scene);
+    /// `first`: of the frames that are added; impacts before it are left out.
+    RunTables(const SimulateCommand& command, const v0::Scene& scene, std::int64_t first = 0);
 
     static void plan(const SimulateCommand& command, OutputPlan& plan);
     static std::vector<std::filesystem::path> files(const SimulateCommand& command);
@@ -30,6 +31,7 @@ public:
 
 private:
     double fps_;
+    std::int64_t first_;
     std::optional<v0::TrajectoryTable> trajectory_;
     std::optional<v0::EnergyTable> energy_;
     std::optional<v0::ImpactTable> impacts_;

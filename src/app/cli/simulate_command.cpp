@@ -9,6 +9,7 @@
 #include "app/threads/wall_clock.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "sim/checkpoint/archive.h"
 
 #include <fmt/format.h>
 
@@ -86,6 +87,39 @@ RenderCommand clip_of(const SimulateCommand& command) {
     return clip;
 }
 
+/// The tables of the frames from --start on.
+void simulate_rest(const SimulateCommand& command) {
+    const double start = wall_seconds();
+    RenderCommand clip = clip_of(command);
+    clip.start = command.start;
+    RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
+    OutputPlan plan;
+    for (const auto& file : scenes.inputs) plan.add_input(file);
+    RunTables::plan(command, plan);
+    const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
+    const std::int64_t first = scenes.frames.first, end = scenes.ends.front();
+    const std::optional<ClipState> state = checkpoints.before(first);
+    const std::int64_t begin = state ? state->frame : 0;
+    const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
+    {
+        RunMonitor monitor(end - begin, command.quiet);
+        RunTables tables(command, scene, first);
+        World world = scenes.world(0, command.threads);
+        if (tables.needs_records() && !world.records_contacts()) world.record_contacts();
+        if (state) {
+            CheckpointReader reader(state->panels.front().simulation);
+            world.restore(reader);
+        }
+        for (std::int64_t n = begin; n < end; ++n) {
+            if (n > begin) world.advance_frame();
+            if (n >= first) tables.add(n, world);
+            monitor.update(n + 1 - begin);
+        }
+        tables.finish();
+    }
+    if (!command.quiet) say_run(command, scenes.first(), end - begin, wall_seconds() - start);
+}
+
 void simulate_clip(const SimulateCommand& command) {
     const double start = wall_seconds();
     const RenderCommand clip = clip_of(command);
@@ -127,6 +161,7 @@ void simulate_clip(const SimulateCommand& command) {
 
 void run_simulate(const SimulateCommand& command) {
     if (command.checkpoints) return simulate_clip(command);
+    if (command.from_checkpoints) return simulate_rest(command);
     if (command.scenes.size() > 1) throw InputError("several scenes are simulated together only with --checkpoints");
     simulate_tables(command);
 }

@@ -22,29 +22,48 @@ void read_impacts(const std::string& text, SimulateCommand& c) {
             "--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}')", safe_text(text)));
 }
 
-/// The folder of checkpoints, and the settings of the clip that is drawn from it.
+/// The folders of checkpoints, and the settings of the clip that is drawn from them.
 void add_checkpoints(CLI::App& command, SimulateCommand& c) {
     CLI::Option* const folder =
         command
             .add_option("--checkpoints", c.checkpoints,
                         "Write the state of the simulation to DIR, from which parts of a clip are drawn:\n"
-                        "tumble render --from-checkpoints DIR (docs/how-to/long-renders.md). The following\n"
-                        "settings of the clip, if it has any, are given here as well")
+                        "tumble render --from-checkpoints DIR (docs/how-to/long-renders.md)")
             ->check(some_name())
             ->type_name("DIR");
-    const std::vector<CLI::Option*> before = command.get_options();
     command.add_option("--every", c.every, "Seconds of the clip between two checkpoints")
         ->check(number_within(1e-6, limits::duration.max))
+        ->needs(folder)
         ->option_text("S [1]");
-    command.add_flag_callback(
-        "--no-motion", [&c] { c.motion = false; },
-        "Leave the motion of the frames out: DIR is smaller, but each part simulates its\nframes once more");
-    add_size(command, c.overrides.width, c.overrides.height, "Picture size, in place of the scene's");
+    command
+        .add_flag_callback(
+            "--no-motion", [&c] { c.motion = false; },
+            "Leave the motion of the frames out: DIR is smaller, but each part simulates its\nframes once more")
+        ->needs(folder);
+    CLI::Option* const from =
+        command
+            .add_option("--from-checkpoints", c.from_checkpoints,
+                        "Go on from the last checkpoint before --start, in place of the start of the scene")
+            ->check(some_name())
+            ->excludes(folder)
+            ->type_name("DIR");
+    command.add_option("--start", c.start, "Seconds of the scene before the first rows of the tables")
+        ->check(number_within(limits::duration.min, limits::duration.max))
+        ->needs(from)
+        ->option_text("S [0]");
+    // Of the clip: the same as those of render.
+    const std::vector<CLI::Option*> before = command.get_options();
+    add_size(command, c.overrides.width, c.overrides.height, "Of the clip: picture size, in place of the scene's");
     add_clip_times(command, c.clip);
     add_panels(command, c.clip, "A panel");
     add_text(command, c.overrides);
-    for (CLI::Option* const option : command.get_options())
-        if (std::find(before.begin(), before.end(), option) == before.end()) option->needs(folder);
+    std::vector<CLI::Option*> of_clip = command.get_options();
+    std::erase_if(of_clip, [&](CLI::Option* o) { return std::find(before.begin(), before.end(), o) != before.end(); });
+    command.parse_complete_callback([of_clip, folder, from] {
+        for (const CLI::Option* const option : of_clip)
+            if (option->count() > 0 && folder->count() + from->count() == 0)
+                throw CLI::RequiresError(option->get_name(), "--checkpoints or --from-checkpoints");
+    });
 }
 
 }  // namespace
@@ -113,6 +132,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     command->footer(
         "Examples:\n"
         "  tumble simulate scene.toml --checkpoints states --every 10\n"
+        "  tumble simulate scene.toml --from-checkpoints states --start 50 --energy e.csv\n"
         "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
         "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row");
     return command;

@@ -2,7 +2,7 @@
 
 #include "app/farm/shell_text.h"
 #include "app/files/frame_folder.h"
-#include "app/resume/clip_identity.h"
+#include "app/resume/frame_identity.h"
 #include "app/resume/kept_frames.h"
 #include "core/safe_text.h"
 #include "output/png_check.h"
@@ -35,7 +35,7 @@ std::vector<int> FarmStatus::incomplete() const {
 
 FarmStatus look_at_farm(const FarmJob& job) {
     const fs::path folder = frames_folder(job.folder);
-    const std::optional<ClipIdentity> manifest = read_manifest(manifest_path(folder, FrameFiles::pictures));
+    const std::optional<FrameIdentity> manifest = read_manifest(manifest_path(folder, FrameFiles::pictures));
     const std::optional<std::string> mark = manifest ? std::optional(manifest->mark()) : std::nullopt;
     FarmStatus status;
     for (const FarmPart& part : job.parts) {

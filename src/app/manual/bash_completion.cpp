@@ -27,6 +27,7 @@ _PROGRAM_files() {
     local name start=$current
     start=${start#[\"\']} start=${start//\\/}
     while IFS= read -r name; do
+        [[ ${name##*/} != .* || ${start##*/} == .* ]] || continue
         if [[ -d ${name/#\~/$HOME} || ( $1 == files && ( -z $2 || $name =~ \.($2)$ ) ) ]]; then COMPREPLY+=("$name"); fi
     done < <(compgen -f -- "$start")
     compopt -o filenames 2>/dev/null
