@@ -2,10 +2,9 @@
 // errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
-#include "app/composition/frame_layout.h"
+#include "app/clip/clip_request.h"
 #include "gltf/key_track.h"
 #include "output/video_format.h"
-#include "render/aov/aov_kind.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "tumble/output.h"
@@ -15,22 +14,13 @@
 
 namespace tumble {
 
-struct RenderCommand {
-    std::vector<std::filesystem::path> scenes;    // a panel for each
-    std::optional<std::string> text;              // of the only scene, in place of its file's
-    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
-    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
-    std::optional<std::filesystem::path> frames;  // folder
-    std::optional<std::filesystem::path> report;  // .html
-    AovSet aovs;
+struct RenderCommand : ClipRequest {
+    std::optional<std::filesystem::path> clip;        // without this, frames and AOVs: the first scene's name
+    std::optional<std::filesystem::path> frames;      // folder
+    std::optional<std::filesystem::path> report;      // .html
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
-    SceneOverrides overrides;
-    PanelArrangement arrangement = PanelArrangement::automatic;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    double start = 0.0;          // s, scene time; earlier frames are not drawn
-    double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
-    int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;        // images per frame while the shutter is open
     std::optional<int> threads;  // of the simulation; see thread_budget.h

@@ -1,8 +1,8 @@
 #include "app/cli/render_run.h"
 
 #include "app/cli/progress.h"
-#include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
+#include "app/clip/render_scenes.h"
 #include "app/files/output_plan.h"
 #include "app/pipeline/pipeline.h"
 #include "app/threads/interrupt.h"

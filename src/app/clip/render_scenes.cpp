@@ -1,4 +1,4 @@
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 
 #include "app/plots/variants.h"
 #include "app/survey/survey.h"
@@ -44,7 +44,7 @@ void require_same_rate(const std::vector<ClipScene>& scenes) {
 
 }  // namespace
 
-RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter) : shutter_(shutter) {
+RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter) : shutter_(shutter) {
     load(command);
     if (scenes.size() > 1 && !command.aovs.empty())
         throw InputError(fmt::format("--aov: needs a single scene ({} are shown side by side)", scenes.size()));
@@ -66,7 +66,7 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
     add_overlays();
 }
 
-void RenderScenes::load(const RenderCommand& command) {
+void RenderScenes::load(const ClipRequest& command) {
     for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary)) {
         SceneDescription loaded = command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
                                                : load_scene(variant.scene, variant.overrides, &inputs);
@@ -79,7 +79,7 @@ void RenderScenes::load(const RenderCommand& command) {
 }
 
 /// The plot of the first scene that has one, of all scenes.
-void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& options) {
+void RenderScenes::read_plot(const ClipRequest& command, CompositionOptions& options) {
     const auto with_plot =
         std::ranges::find_if(scenes, [](const ClipScene& one) { return !one.scene->overlay.plot.empty(); });
     if (with_plot == scenes.end() && (!command.overrides.plot || command.overrides.plot == "none")) return;

@@ -1,7 +1,7 @@
-// The scenes of `tumble render`, their place in the frame, and the frames of the clip.
+// The scenes of a clip, their place in the frame, and the frames of the clip.
 #pragma once
 
-#include "app/cli/commands.h"
+#include "app/clip/clip_request.h"
 #include "app/composition/make_composition.h"
 #include "app/pipeline/frame_range.h"
 #include "app/plots/plotted_run.h"
@@ -19,7 +19,7 @@ namespace tumble {
 class RenderScenes {
 public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
-    RenderScenes(const RenderCommand& command, const Shutter& shutter);
+    RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
     /// Simulates all scenes once, if a plot or the scale of arrows needs it, and fills them in. Leaves no thread behind.
     void survey_clip(int threads, Interrupt& interrupt);
@@ -39,10 +39,10 @@ public:
     Composition composition;
 
 private:
-    void load(const RenderCommand& command);
+    void load(const ClipRequest& command);
     void fill_plots();
     void add_overlays();
-    void read_plot(const RenderCommand& command, CompositionOptions& options);
+    void read_plot(const ClipRequest& command, CompositionOptions& options);
 
     Shutter shutter_;
     std::vector<PlottedRun> runs_;  // one for each scene if there is a plot
