@@ -1,9 +1,9 @@
 #include "output/npz_archive.h"
 
 #include "core/error.h"
+#include "output/checksum.h"
 
 #include <fmt/format.h>
-#include <isa-l/crc.h>
 
 #include <bit>
 #include <cstring>
@@ -61,10 +61,6 @@ void copy_to(std::vector<std::byte>& file, std::size_t& used, std::span<const st
     used += bytes.size();
 }
 
-std::uint32_t checksum_of(std::uint32_t before, std::span<const std::byte> bytes) {
-    return crc32_gzip_refl(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-}
-
 }  // namespace
 
 void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<const float> values) {
@@ -99,7 +95,7 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
     member.name = fmt::format("{}.npy", name);
     member.offset = static_cast<std::uint32_t>(used_);
     member.size = static_cast<std::uint32_t>(head.size() + values.size());
-    member.checksum = checksum_of(checksum_of(0, head), values);
+    member.checksum = crc32_of(crc32_of(0, head), values);
     const std::size_t local = 30 + member.name.size();
     used_ += local;  // written below, when the compressed size is known
     member.packed = compress(head, values);
