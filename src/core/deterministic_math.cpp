@@ -123,7 +123,7 @@ double logarithm(double x) {
     if (!(x > 0.0)) return x == 0.0 ? -HUGE_VAL : std::nan("");
     if (x == HUGE_VAL) return x;
     int k = 0;
-    double m = std::frexp(x, &k);  // exact
+    double m = std::frexp(x, &k);                 // exact
     if (m < 0x1.6a09e667f3bcdp-1) m *= 2.0, --k;  // sqrt(1/2) <= m < sqrt(2)
     // ln m = 2 atanh s, s = (m - 1) / (m + 1), as a series to s^23; the remainder is below 1e-19.
     const double f = m - 1.0, s = f / (2.0 + f), square = s * s;

@@ -29,6 +29,7 @@ struct CommandLine {
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
+    SweepCommand sweep;
     DoctorCommand doctor;
 };
 
@@ -41,6 +42,7 @@ CLI::App* add_lesson(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
+CLI::App* add_sweep(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
 
 /// A number in a range; CLI::Range lets NaN through.

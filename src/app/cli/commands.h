@@ -9,8 +9,11 @@
 #include "scene/load.h"
 #include "tumble/output.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -120,6 +123,19 @@ struct InfoCommand {
     std::optional<std::filesystem::path> bodies;
 };
 void run_info(const InfoCommand& command);
+
+struct SweepCommand {
+    std::filesystem::path plan;
+    std::optional<std::filesystem::path> folder;
+    std::vector<std::string> set;    // "PATH=VALUE", for all samples
+    std::vector<std::int64_t> only;  // samples to make again
+    int workers = 1;                 // processes
+    bool dry_run = false;            // prints what would be made
+    bool stop = false;               // at the first sample that fails
+    bool quiet = false;
+};
+/// Returns 0, or 1 if a sample failed.
+int run_sweep(const SweepCommand& command);
 
 struct DoctorCommand {
     double time_limit = 30.0;  // s for each program and driver: a driver without caches takes seconds on a busy machine

@@ -34,6 +34,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* info = add_info(app, line);
+    const CLI::App* sweep = add_sweep(app, line);
     add_doctor(app, line);
     try {
         app.parse(argc, argv);
@@ -62,6 +63,8 @@ int run_command_line(int argc, char** argv) {
         return run_compare(line.compare);
     else if (info->parsed())
         run_info(line.info);
+    else if (sweep->parsed())
+        return run_sweep(line.sweep);
     else
         return run_doctor(line.doctor);
     return 0;

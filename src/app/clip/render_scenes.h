@@ -7,6 +7,7 @@
 #include "app/plots/plotted_run.h"
 #include "app/threads/interrupt.h"
 #include "overlay/overlay_builder.h"
+#include "scene/load.h"
 #include "sim/frames/clip_timing.h"
 #include "sim/world.h"
 

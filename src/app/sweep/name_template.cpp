@@ -84,7 +84,7 @@ void check_path(const std::string& name) {
 void check_name_template(const SweepPlan& plan) {
     std::vector<std::string_view> known{"index"};
     if (plan.pair) known.insert(known.end(), {"pair", "side"});
-    for (const Axis& axis : plan.axes) known.push_back(axis.name);
+    for (const SweepAxis& axis : plan.axes) known.push_back(axis.name);
     const std::string example = filled(plan.name, [&](const Field& field) {
         if (std::find(known.begin(), known.end(), field.name) == known.end())
             fail(fmt::format("has the unknown field \"{}\"{}", safe_text(field.name), suggestion(field.name, known)));
@@ -93,7 +93,7 @@ void check_name_template(const SweepPlan& plan) {
     check_path(example);
 }
 
-std::string name_of_sample(const SweepPlan& plan, const Sample& sample) {
+std::string name_of_sample(const SweepPlan& plan, const SweepSample& sample) {
     std::string name = filled(plan.name, [&](const Field& field) -> std::string {
         if (field.name == "index") return number_with(sample.index, field.digits);
         if (sample.pair && field.name == "pair") return number_with(sample.pair->pair, field.digits);

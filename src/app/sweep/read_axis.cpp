@@ -193,8 +193,7 @@ AxisSource read_source(const TomlTable& table) {
     const bool distribution = table.has("distribution"), range = table.has("range"), values = table.has("values");
     if (!distribution)
         for (const char* key : {"min", "max", "mean", "deviation", "weights", "decimals"})
-            if (const auto value = table.find(key))
-                value->origin().fail("needs \"distribution\", such as \"uniform\"");
+            if (const auto value = table.find(key)) value->origin().fail("needs \"distribution\", such as \"uniform\"");
     if (range && (values || distribution))
         table.require("range").origin().fail("excludes \"values\" and \"distribution\": give one of them");
     if (distribution) return read_distribution(table);
@@ -223,10 +222,10 @@ std::string read_path(const TomlValue& value) {
     return path;
 }
 
-Axis read_axis(const TomlTable& table) {
+SweepAxis read_axis(const TomlTable& table) {
     table.expect_keys({"name", "path", "paths", "values", "range", "distribution", "min", "max", "mean", "deviation",
                        "weights", "decimals", "seed"});
-    Axis axis;
+    SweepAxis axis;
     if (const auto path = table.find("path")) axis.paths.push_back(read_path(*path));
     if (const auto paths = table.find("paths")) {
         if (!axis.paths.empty()) paths->origin().fail("and path exclude each other: give one of them");

@@ -2,21 +2,18 @@
 
 #include "app/sweep/name_template.h"
 #include "app/sweep/read_axis.h"
-#include "app/sweep/sample.h"
+#include "app/sweep/sweep_sample.h"
 #include "core/error.h"
 #include "scene/toml/limits.h"
+#include "scene/toml/toml_file.h"
 #include "scene/toml/toml_text.h"
 #include "sim/frames/clip_timing.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <set>
-#include <sstream>
 
 namespace tumble {
 namespace {
@@ -35,24 +32,6 @@ constexpr Choice<VideoQuality> qualities[] = {
 constexpr Choice<GlBackend> backends[] = {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
 constexpr Choice<SceneForm> forms[] = {{"toml", SceneForm::toml}, {"json", SceneForm::json}, {"none", SceneForm::none}};
 constexpr Choice<bool> table_formats[] = {{"csv", false}, {"npz", true}};
-
-std::string read_text(const fs::path& file) {
-    const auto fail = [&](const std::string& problem) {
-        throw InputError(SourceLocation{file.string(), 0, 0}, "the plan " + problem);
-    };
-    std::error_code error;
-    if (fs::is_directory(file, error)) fail("is a folder, not a file");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    std::string text;
-    char block[1 << 16];
-    while (stream.read(block, sizeof block), stream.gcount() > 0) {
-        text.append(block, static_cast<std::size_t>(stream.gcount()));
-        if (std::int64_t(text.size()) > plan_bytes) fail(fmt::format("is larger than {} MiB", plan_bytes >> 20));
-    }
-    if (stream.bad()) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    return text;
-}
 
 void check_format(const TomlTable& root) {
     const auto format = root.find("format");
@@ -73,15 +52,15 @@ void read_fixed(const toml::table& table, const std::string& path, std::vector<s
     }
 }
 
-std::vector<Axis> read_axes(const TomlTable& root) {
-    std::vector<Axis> axes;
+std::vector<SweepAxis> read_axes(const TomlTable& root) {
+    std::vector<SweepAxis> axes;
     const auto list = root.find("axis");
     if (!list) return axes;
     std::set<std::string> names, paths;
     for (TomlTable& table : list->tables("; write [[axis]] for each")) {
         table.set_title("[[axis]]");
         axes.push_back(read_axis(table));
-        const Axis& axis = axes.back();
+        const SweepAxis& axis = axes.back();
         if (!names.insert(axis.name).second)
             table.require(table.has("name") ? "name" : "path").fail("must be unique, and another axis has it");
         for (const std::string& path : axis.paths)
@@ -97,24 +76,22 @@ void check_lists(const TomlTable& root, const SweepPlan& plan) {
     std::size_t i = 0;
     if (plan.axes.empty()) return;
     for (const TomlTable& table : root.require("axis").tables()) {
-        const Axis& axis = plan.axes[i++];
+        const SweepAxis& axis = plan.axes[i++];
         if (!axis.is_list()) continue;
         const auto own = std::int64_t(axis.list_size());
         const TomlValue given = table.require(table.has("values") ? "values" : "range");
         if (plan.combination == Combination::zip && size >= 0 && own != size)
-            given.origin().fail(
-                fmt::format("must have as many values as the lists before, {} (given {})", size, own));
+            given.origin().fail(fmt::format("must have as many values as the lists before, {} (given {})", size, own));
         size = own;
         product = plan.combination == Combination::product ? product * own : own;
-        if (product > most_samples)
-            given.origin().fail(fmt::format("makes more than {} combinations", most_samples));
+        if (product > most_samples) given.origin().fail(fmt::format("makes more than {} combinations", most_samples));
     }
 }
 
 std::int64_t read_samples(const TomlTable& root, const SweepPlan& plan) {
     const auto given = root.find("samples");
     const std::int64_t each = plan.pair ? 2 : 1;
-    const bool lists = std::any_of(plan.axes.begin(), plan.axes.end(), [](const Axis& a) { return a.is_list(); });
+    const bool lists = std::any_of(plan.axes.begin(), plan.axes.end(), [](const SweepAxis& a) { return a.is_list(); });
     if (!given) {
         if (lists && plan.combination != Combination::random) return each * plan.combinations();
         if (plan.axes.empty()) return 1;
@@ -156,7 +133,8 @@ PairPlan read_pair(const TomlTable& table, const SweepPlan& plan) {
         if (pair.value.index() != 0) b->origin().fail("excludes \"factor\" and \"offset\"");
         TomlTable source = b->table();
         source.set_title("b");
-        source.expect_keys({"values", "range", "distribution", "min", "max", "mean", "deviation", "weights", "decimals"});
+        source.expect_keys(
+            {"values", "range", "distribution", "min", "max", "mean", "deviation", "weights", "decimals"});
         pair.value = PairSource{read_source(source)};
     }
     if (pair.value.index() == 0)
@@ -253,11 +231,11 @@ void check_names(const TomlTable& root, const SweepPlan& plan) {
 }  // namespace
 
 SweepPlan read_plan(const fs::path& file) {
-    const toml::table document = parse_toml(read_text(file), file.string());
+    const toml::table document = parse_toml(read_toml_file(file, "plan", plan_bytes), file.string());
     const TomlTable root(document, {"plan", {file.string(), 1, 1}}, "a plan");
     check_format(root);
-    root.expect_keys({"format", "scene", "name", "seed", "combine", "samples", "set", "axis", "pair", "outputs",
-                      "render"});
+    root.expect_keys(
+        {"format", "scene", "name", "seed", "combine", "samples", "set", "axis", "pair", "outputs", "render"});
     SweepPlan plan;
     plan.file = file;
     plan.scene = file.parent_path() / root.require("scene").text();

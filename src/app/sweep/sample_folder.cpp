@@ -113,6 +113,9 @@ void SampleFolder::publish(const fs::path& final_path) {
     if (error) fail(final_path.parent_path(), error.value());
     if (::rename(part_.c_str(), final_path.c_str()) != 0) {
         if (errno != EEXIST && errno != ENOTEMPTY && errno != ENOTDIR) fail(final_path, errno);
+        if (!fs::exists(final_path / record_name, error))
+            throw RunError(fmt::format("'{}' exists and is no sample ({} is missing): move it, or name another folder",
+                                       safe_path(final_path), record_name));
         // An older folder: the two change places, so that at each moment one of them is there.
         if (::renameat2(AT_FDCWD, part_.c_str(), AT_FDCWD, final_path.c_str(), RENAME_EXCHANGE) == 0) {
             fs::remove_all(part_, error);

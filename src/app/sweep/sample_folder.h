@@ -11,13 +11,16 @@
 
 namespace tumble {
 
+/// The record of a sample, which makes a folder one.
+inline constexpr const char* record_name = "sample.json";
+
 /// A file of a sample, or the files of its frames, in order, as one.
 struct SampleFile {
     std::string path;                   // relative to the sample; of a series with "{:06}" for the number
     std::optional<std::int64_t> first;  // number of a series
     std::int64_t count = 1;
-    std::uint64_t bytes = 0;      // of all
-    std::uint32_t checksum = 0;   // CRC-32 of their bytes one after the other
+    std::uint64_t bytes = 0;     // of all
+    std::uint32_t checksum = 0;  // CRC-32 of their bytes one after the other
 
     std::string path_of(std::int64_t number) const;
 };
@@ -44,7 +47,7 @@ public:
 
     const std::vector<SampleFile>& files() const { return files_; }
 
-    /// Gives it its final name, in place of an older folder. Throws RunError.
+    /// Gives it its final name, in place of an older sample. Throws RunError, also where another folder has that name.
     void publish(const std::filesystem::path& final_path);
 
 private:

@@ -16,10 +16,7 @@ namespace tumble {
 namespace fs = std::filesystem;
 
 SampleMaker::SampleMaker(const SweepPlan& plan, std::string scene, fs::path folder)
-    : plan_(plan),
-      text_(std::move(scene)),
-      title_(title_assignment(text_, plan.scene)),
-      folder_(std::move(folder)) {}
+    : plan_(plan), text_(std::move(scene)), title_(title_assignment(text_, plan.scene)), folder_(std::move(folder)) {}
 
 SampleMaker::~SampleMaker() = default;
 
@@ -30,7 +27,7 @@ GlDevice& SampleMaker::device() {
     return *device_;
 }
 
-RenderScenes SampleMaker::load(const Sample& sample) const {
+RenderScenes SampleMaker::load(const SweepSample& sample) const {
     ClipRequest request;
     request.scenes = {plan_.scene};
     request.text = text_;
@@ -45,7 +42,7 @@ RenderScenes SampleMaker::load(const Sample& sample) const {
 bool SampleMaker::make(std::int64_t index, Known known) {
     SampleRecord record;
     record.sample = sample_of(plan_, index);
-    const Sample& sample = record.sample;
+    const SweepSample& sample = record.sample;
     RenderScenes scenes = load(sample);
     record.scene_hash = scene_hash(scenes.first());
     record.identity = identity_of(plan_, sample, record.scene_hash);
@@ -62,7 +59,7 @@ bool SampleMaker::make(std::int64_t index, Known known) {
     return true;
 }
 
-SampleFigures SampleMaker::write_files(const Sample& sample, RenderScenes& scenes, SampleFolder& folder) {
+SampleFigures SampleMaker::write_files(const SweepSample& sample, RenderScenes& scenes, SampleFolder& folder) {
     const SceneDescription& scene = scenes.first();
     SampleFigures figures;
     figures.frames = plan_.outputs.drawn() ? scenes.frames.count() : scene.frame_count();

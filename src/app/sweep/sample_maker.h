@@ -26,14 +26,14 @@ public:
     bool make(std::int64_t index, Known known);
 
     /// Loads and checks the scene of a sample, without an output.
-    RenderScenes load(const Sample& sample) const;
+    RenderScenes load(const SweepSample& sample) const;
 
     /// Where samples are while they are made.
     static std::filesystem::path hidden_folder(const std::filesystem::path& folder);
 
 private:
     GlDevice& device();
-    SampleFigures write_files(const Sample& sample, RenderScenes& scenes, SampleFolder& folder);
+    SampleFigures write_files(const SweepSample& sample, RenderScenes& scenes, SampleFolder& folder);
 
     const SweepPlan& plan_;
     std::string text_;

@@ -13,10 +13,10 @@
 namespace tumble {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using RecordJson = nlohmann::ordered_json;
 
-Json json_of_file(const SampleFile& file) {
-    Json json;
+RecordJson json_of_file(const SampleFile& file) {
+    RecordJson json;
     json["path"] = file.path;
     if (file.first) {
         json["first"] = *file.first;
@@ -27,7 +27,7 @@ Json json_of_file(const SampleFile& file) {
     return json;
 }
 
-SampleFile file_of_json(const Json& json) {
+SampleFile file_of_json(const RecordJson& json) {
     SampleFile file;
     file.path = json.at("path").get<std::string>();
     if (json.contains("first")) {
@@ -40,12 +40,12 @@ SampleFile file_of_json(const Json& json) {
 }
 
 /// The beginning of each line.
-Json head(const SweepPlan& plan, const Sample& sample, const char* status) {
-    Json json;
+RecordJson head(const SweepPlan& plan, const SweepSample& sample, const char* status) {
+    RecordJson json;
     json["index"] = sample.index;
     json["name"] = sample.name;
     json["status"] = status;
-    Json values = Json::object();
+    RecordJson values = RecordJson::object();
     for (std::size_t i = 0; i < sample.values.size(); ++i) values[plan.axes[i].name] = json_of(sample.values[i]);
     json["values"] = std::move(values);
     if (sample.pair) {
@@ -57,12 +57,12 @@ Json head(const SweepPlan& plan, const Sample& sample, const char* status) {
 }
 
 /// Names and other foreign text may not be UTF-8.
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
+std::string text_of(const RecordJson& json) { return json.dump(-1, ' ', false, RecordJson::error_handler_t::replace); }
 
 }  // namespace
 
 std::string record_text(const SweepPlan& plan, const SampleRecord& record) {
-    Json json = head(plan, record.sample, "done");
+    RecordJson json = head(plan, record.sample, "done");
     json["scene_hash"] = record.scene_hash;
     json["identity"] = record.identity;
     const SampleFigures& f = record.figures;
@@ -73,14 +73,14 @@ std::string record_text(const SweepPlan& plan, const SampleRecord& record) {
     json["height"] = f.height;
     json["fps"] = f.fps;
     json["duration"] = f.duration;
-    Json files = Json::array();
+    RecordJson files = RecordJson::array();
     for (const SampleFile& file : record.files) files.push_back(json_of_file(file));
     json["files"] = std::move(files);
     return text_of(json);
 }
 
-std::string failure_text(const SweepPlan& plan, const Sample& sample, const std::string& reason) {
-    Json json = head(plan, sample, "failed");
+std::string failure_text(const SweepPlan& plan, const SweepSample& sample, const std::string& reason) {
+    RecordJson json = head(plan, sample, "failed");
     json["reason"] = reason;
     return text_of(json);
 }
@@ -92,16 +92,16 @@ std::optional<KnownRecord> read_record(const std::filesystem::path& folder) {
     known.text.assign(std::istreambuf_iterator<char>(file), {});
     if (!known.text.empty() && known.text.back() == '\n') known.text.pop_back();
     try {
-        const Json json = Json::parse(known.text);
+        const RecordJson json = RecordJson::parse(known.text);
         known.identity = json.at("identity").get<std::string>();
-        for (const Json& one : json.at("files")) known.files.push_back(file_of_json(one));
+        for (const RecordJson& one : json.at("files")) known.files.push_back(file_of_json(one));
     } catch (const std::exception&) {  // of the parser or std::stoul: the record of another program, or damaged
         return std::nullopt;
     }
     return known;
 }
 
-std::string identity_of(const SweepPlan& plan, const Sample& sample, const std::string& scene_hash) {
+std::string identity_of(const SweepPlan& plan, const SweepSample& sample, const std::string& scene_hash) {
     const SampleOutputs& o = plan.outputs;
     const SampleDrawing& d = plan.drawing;
     std::string text = fmt::format("{}\n{}\n{}\n", v0::version(), scene_hash, text_of(head(plan, sample, "done")));

@@ -1,8 +1,8 @@
 // The record of a finished sample: a line of JSON, which is in the sample's folder and in the manifest.
 #pragma once
 
-#include "app/sweep/sample.h"
 #include "app/sweep/sample_folder.h"
+#include "app/sweep/sweep_sample.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -11,8 +11,6 @@
 #include <vector>
 
 namespace tumble {
-
-inline constexpr const char* record_name = "sample.json";
 
 /// Figures of the run: the same for each run of the sample.
 struct SampleFigures {
@@ -23,7 +21,7 @@ struct SampleFigures {
 };
 
 struct SampleRecord {
-    Sample sample;
+    SweepSample sample;
     std::string scene_hash;
     std::string identity;  // of all that decides the bytes: see identity_of()
     SampleFigures figures;
@@ -33,7 +31,7 @@ struct SampleRecord {
 /// A line without a line break.
 std::string record_text(const SweepPlan& plan, const SampleRecord& record);
 /// The line of a sample that failed.
-std::string failure_text(const SweepPlan& plan, const Sample& sample, const std::string& reason);
+std::string failure_text(const SweepPlan& plan, const SweepSample& sample, const std::string& reason);
 
 /// The identity and files in the record of a folder; empty if there is none, or a broken one.
 struct KnownRecord {
@@ -43,6 +41,6 @@ struct KnownRecord {
 std::optional<KnownRecord> read_record(const std::filesystem::path& folder);
 
 /// Differs where the files or the record of the sample would: by the version, the scene, the values and the settings.
-std::string identity_of(const SweepPlan& plan, const Sample& sample, const std::string& scene_hash);
+std::string identity_of(const SweepPlan& plan, const SweepSample& sample, const std::string& scene_hash);
 
 }  // namespace tumble

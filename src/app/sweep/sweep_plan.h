@@ -2,7 +2,7 @@
 // values; read_plan.h makes them from a file.
 #pragma once
 
-#include "app/sweep/axis.h"
+#include "app/sweep/sweep_axis.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
 #include "render/gl/gl_backend.h"
@@ -67,7 +67,7 @@ struct SweepPlan {
     Combination combination = Combination::product;
     std::int64_t samples = 0;
     std::vector<std::string> fixed;  // "PATH=VALUE"
-    std::vector<Axis> axes;
+    std::vector<SweepAxis> axes;
     std::optional<PairPlan> pair;
     SampleOutputs outputs;
     SampleDrawing drawing;

@@ -22,8 +22,8 @@ enum class DistributionKind { uniform, log_uniform, normal, integer, choice };
 /// Numbers are drawn for each component: one for a number, several for an array.
 struct Distribution {
     DistributionKind kind = DistributionKind::uniform;
-    bool array = false;             // the value is an array of the components
-    std::vector<double> min, max;   // of each component; of a normal one the bounds within which it is drawn
+    bool array = false;                   // the value is an array of the components
+    std::vector<double> min, max;         // of each component; of a normal one the bounds within which it is drawn
     std::vector<double> mean, deviation;  // normal
     std::vector<std::string> values;      // choice: as TOML
     std::vector<double> weights;          // choice: of each value
@@ -32,9 +32,9 @@ struct Distribution {
 
 using AxisSource = std::variant<ValueList, Distribution>;
 
-struct Axis {
-    std::string name;                  // in names of samples, in the manifest, and of its random numbers
-    std::vector<std::string> paths;    // of the keys that get the value, as for --set
+struct SweepAxis {
+    std::string name;                // in names of samples, in the manifest, and of its random numbers
+    std::vector<std::string> paths;  // of the keys that get the value, as for --set
     AxisSource source;
     std::optional<std::uint64_t> seed;  // in place of the plan's
 

@@ -17,7 +17,7 @@ struct PairSide {
     std::string differs;  // name of the axis
 };
 
-struct Sample {
+struct SweepSample {
     std::int64_t index = 0;
     std::vector<std::string> values;  // of the axes in order, as TOML
     std::optional<PairSide> pair;
@@ -30,6 +30,6 @@ struct Sample {
 };
 
 /// Throws InputError where a pair finds no second value.
-Sample sample_of(const SweepPlan& plan, std::int64_t index);
+SweepSample sample_of(const SweepPlan& plan, std::int64_t index);
 
 }  // namespace tumble

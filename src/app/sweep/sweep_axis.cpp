@@ -1,4 +1,4 @@
-#include "app/sweep/axis.h"
+#include "app/sweep/sweep_axis.h"
 
 #include "core/check.h"
 #include "core/deterministic_math.h"
@@ -12,11 +12,12 @@
 namespace tumble {
 namespace {
 
-constexpr int most_tries = 1000;  // for a normal value within its bounds: fewer than one in a thousand draws is outside all
+constexpr int most_normal_draws =
+    1000;  // for a normal value within its bounds: fewer than one in a thousand draws is outside all
 
 double draw_normal(const Distribution& d, std::size_t component, DrawStream& stream) {
     double value = 0.0;
-    for (int i = 0; i < most_tries; ++i) {
+    for (int i = 0; i < most_normal_draws; ++i) {
         value = d.mean[component] + d.deviation[component] * stream.normal();
         if (value >= d.min[component] && value <= d.max[component]) return value;
     }
@@ -71,8 +72,8 @@ std::string draw_value(const Distribution& distribution, DrawStream& stream) {
     if (distribution.kind == DistributionKind::choice) return draw_choice(distribution, stream);
     if (!distribution.array) return draw_component(distribution, 0, stream);
     std::string text = "[";
-    const std::size_t components = distribution.kind == DistributionKind::normal ? distribution.mean.size()
-                                                                                 : distribution.min.size();
+    const std::size_t components =
+        distribution.kind == DistributionKind::normal ? distribution.mean.size() : distribution.min.size();
     for (std::size_t i = 0; i < components; ++i) {
         if (i > 0) text += ", ";
         text += draw_component(distribution, i, stream);

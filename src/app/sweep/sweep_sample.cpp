@@ -1,4 +1,4 @@
-#include "app/sweep/sample.h"
+#include "app/sweep/sweep_sample.h"
 
 #include "app/sweep/name_template.h"
 #include "core/error.h"
@@ -14,9 +14,9 @@
 namespace tumble {
 namespace {
 
-constexpr int most_tries = 64;  // to draw another value than that of A
+constexpr int most_draws = 64;  // to draw another value than that of A
 
-DrawStream stream_of(const SweepPlan& plan, const Axis& axis, std::int64_t draw, std::string_view purpose = "") {
+DrawStream stream_of(const SweepPlan& plan, const SweepAxis& axis, std::int64_t draw, std::string_view purpose = "") {
     return {axis.seed.value_or(plan.seed), fmt::format("{}{}", axis.name, purpose), std::uint64_t(draw)};
 }
 
@@ -25,7 +25,7 @@ std::vector<std::size_t> list_numbers(const SweepPlan& plan, std::int64_t draw) 
     std::vector<std::size_t> numbers(plan.axes.size(), 0);
     std::int64_t rest = draw % plan.combinations();
     for (std::size_t i = plan.axes.size(); i-- > 0;) {
-        const Axis& axis = plan.axes[i];
+        const SweepAxis& axis = plan.axes[i];
         if (!axis.is_list()) continue;
         const auto size = std::int64_t(axis.list_size());
         if (plan.combination == Combination::random) {
@@ -40,14 +40,14 @@ std::vector<std::size_t> list_numbers(const SweepPlan& plan, std::int64_t draw) 
     return numbers;
 }
 
-std::string value_of(const SweepPlan& plan, const Axis& axis, std::size_t list_number, std::int64_t draw) {
+std::string value_of(const SweepPlan& plan, const SweepAxis& axis, std::size_t list_number, std::int64_t draw) {
     if (const auto* list = std::get_if<ValueList>(&axis.source)) return list->values[list_number];
     DrawStream stream = stream_of(plan, axis, draw);
     return draw_value(std::get<Distribution>(axis.source), stream);
 }
 
 /// Times the factor plus the offset; a whole number stays one if the result is whole.
-std::string scaled(const toml::node& value, const PairFactor& by, const Axis& axis) {
+std::string scaled(const toml::node& value, const PairFactor& by, const SweepAxis& axis) {
     if (const toml::array* array = value.as_array()) {
         std::vector<std::string> items;
         for (const toml::node& item : *array) items.push_back(scaled(item, by, axis));
@@ -64,28 +64,27 @@ std::string scaled(const toml::node& value, const PairFactor& by, const Axis& ax
     return rounded_number(result, distribution != nullptr ? distribution->decimals : std::nullopt);
 }
 
-std::string scaled(const std::string& value, const PairFactor& by, const Axis& axis) {
+std::string scaled(const std::string& value, const PairFactor& by, const SweepAxis& axis) {
     const toml::table parsed = parse_toml("value = " + value, "");
     return scaled(*parsed.get("value"), by, axis);
 }
 
 /// Another value than that of A.
-std::string drawn_again(const Axis& axis, const std::string& a, DrawStream stream) {
-    for (int i = 0; i < most_tries; ++i)
+std::string drawn_again(const SweepAxis& axis, const std::string& a, DrawStream stream) {
+    for (int i = 0; i < most_draws; ++i)
         if (std::string b = draw_value(std::get<Distribution>(axis.source), stream); b != a) return b;
     throw InputError(fmt::format("[pair]: {} draws {} again and again, and a pair needs two values",
                                  safe_text(axis.name), safe_text(a)));
 }
 
-std::string other_in_list(const SweepPlan& plan, const Axis& axis, std::size_t number, std::int64_t draw) {
+std::string other_in_list(const SweepPlan& plan, const SweepAxis& axis, std::size_t number, std::int64_t draw) {
     const std::size_t size = axis.list_size();
     const bool random = plan.combination == Combination::random;
-    const std::int64_t steps =
-        random ? 1 + stream_of(plan, axis, draw, "/B").index(std::int64_t(size) - 1) : 1;
+    const std::int64_t steps = random ? 1 + stream_of(plan, axis, draw, "/B").index(std::int64_t(size) - 1) : 1;
     return std::get<ValueList>(axis.source).values[(number + std::size_t(steps)) % size];
 }
 
-std::string value_of_b(const SweepPlan& plan, const Axis& axis, std::size_t list_number, std::int64_t draw,
+std::string value_of_b(const SweepPlan& plan, const SweepAxis& axis, std::size_t list_number, std::int64_t draw,
                        const std::string& a) {
     const PairValue& value = plan.pair->value;
     if (const auto* by = std::get_if<PairFactor>(&value)) return scaled(a, *by, axis);
@@ -103,7 +102,7 @@ std::string value_of_b(const SweepPlan& plan, const Axis& axis, std::size_t list
 std::int64_t SweepPlan::combinations() const {
     if (combination == Combination::random) return 1;
     std::int64_t count = 1;
-    for (const Axis& axis : axes) {
+    for (const SweepAxis& axis : axes) {
         if (!axis.is_list()) continue;
         const auto size = std::int64_t(axis.list_size());
         count = combination == Combination::zip ? size : count * size;
@@ -111,8 +110,8 @@ std::int64_t SweepPlan::combinations() const {
     return count;
 }
 
-Sample sample_of(const SweepPlan& plan, std::int64_t index) {
-    Sample sample;
+SweepSample sample_of(const SweepPlan& plan, std::int64_t index) {
+    SweepSample sample;
     sample.index = index;
     const std::int64_t draw = plan.pair ? index / 2 : index;
     const std::vector<std::size_t> numbers = list_numbers(plan, draw);
@@ -120,7 +119,7 @@ Sample sample_of(const SweepPlan& plan, std::int64_t index) {
         sample.values.push_back(value_of(plan, plan.axes[i], numbers[i], draw));
     if (plan.pair) {
         const std::size_t differs = plan.pair->axes[std::size_t(draw) % plan.pair->axes.size()];
-        const Axis& axis = plan.axes[differs];
+        const SweepAxis& axis = plan.axes[differs];
         sample.pair = PairSide{draw, index % 2 == 0 ? 'A' : 'B', axis.name};
         if (index % 2 == 1)
             sample.values[differs] = value_of_b(plan, axis, numbers[differs], draw, sample.values[differs]);
@@ -129,14 +128,14 @@ Sample sample_of(const SweepPlan& plan, std::int64_t index) {
     return sample;
 }
 
-std::string Sample::text(const SweepPlan& plan) const {
+std::string SweepSample::text(const SweepPlan& plan) const {
     std::string text;
     for (std::size_t i = 0; i < values.size(); ++i)
         text += fmt::format("{}{} = {}", i > 0 ? ", " : "", safe_text(plan.axes[i].name), safe_text(values[i]));
     return text;
 }
 
-std::vector<std::string> Sample::assignments(const SweepPlan& plan) const {
+std::vector<std::string> SweepSample::assignments(const SweepPlan& plan) const {
     std::vector<std::string> all = plan.fixed;
     for (std::size_t i = 0; i < values.size(); ++i)
         for (const std::string& path : plan.axes[i].paths) all.push_back(path + "=" + values[i]);
