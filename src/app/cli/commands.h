@@ -130,7 +130,7 @@ struct SweepCommand {
     std::vector<std::string> set;    // "PATH=VALUE", for all samples
     std::vector<std::int64_t> only;  // samples to make again
     int workers = 1;                 // processes
-    bool dry_run = false;            // prints what would be made
+    bool dry_run = false;            // prints the plan's size and first samples
     bool stop = false;               // at the first sample that fails
     bool quiet = false;
 };

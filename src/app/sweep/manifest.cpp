@@ -42,7 +42,7 @@ void ManifestFile::finish() {
     file_.commit();
 }
 
-std::map<std::int64_t, std::string> read_manifest(const std::filesystem::path& folder) {
+std::map<std::int64_t, std::string> read_sweep_manifest(const std::filesystem::path& folder) {
     std::map<std::int64_t, std::string> lines;
     std::ifstream file(ManifestFile::path_in(folder), std::ios::binary);
     for (std::string line; std::getline(file, line);) {

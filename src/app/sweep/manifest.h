@@ -35,6 +35,6 @@ private:
 };
 
 /// The lines of an older manifest by index; none if there is no such file. Lines that are no JSON are left out.
-std::map<std::int64_t, std::string> read_manifest(const std::filesystem::path& folder);
+std::map<std::int64_t, std::string> read_sweep_manifest(const std::filesystem::path& folder);
 
 }  // namespace tumble

@@ -27,7 +27,7 @@ constexpr const char* number_field = "{:06}";
     throw RunError(fmt::format("cannot write '{}': {}", safe_path(path), std::generic_category().message(error)));
 }
 
-/// The file is not brought to the disk: what counts is the name of its folder, which comes later.
+/// The file is not brought to the disk: its folder gets its name later, and its record has the number of bytes.
 void write_whole(const fs::path& path, std::span<const std::byte> bytes) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) fail(path, errno);

@@ -225,7 +225,7 @@ SweepCounts run_sweep(const SweepPlan& plan, const std::string& scene, const Swe
     fs::remove_all(hidden, ignored);  // of a killed sweep
     ManifestFile manifest(options.folder);
     if (!options.only.empty())
-        for (auto& [index, line] : read_manifest(options.folder))
+        for (auto& [index, line] : read_sweep_manifest(options.folder))
             if (std::find(options.only.begin(), options.only.end(), index) == options.only.end())
                 manifest.add(index, std::move(line));
     const SweepTask task{plan, scene, options.folder};

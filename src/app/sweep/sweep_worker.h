@@ -28,7 +28,7 @@ struct SampleReply {
     std::array<char, 8192> reason{};  // of a failure
 };
 
-/// What a worker needs to know of the sweep.
+/// The sweep, as a worker knows it.
 struct SweepTask {
     const SweepPlan& plan;
     const std::string& scene;  // text of the plan's scene

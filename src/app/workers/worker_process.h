@@ -1,5 +1,5 @@
-// What worker processes have in common: processes that are forked from the program, draw in a single thread on one
-// core, and exchange messages with it.
+// Parts that all worker processes share. They are forked from the program, draw in a single thread on one core, and
+// exchange messages with it.
 #pragma once
 
 #include <sys/socket.h>

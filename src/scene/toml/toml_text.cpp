@@ -76,7 +76,7 @@ std::string toml_number(double value) {
     if (std::isnan(value)) return "nan";
     if (std::isinf(value)) return value < 0.0 ? "-inf" : "inf";
     std::string text = fmt::format("{}", value);
-    if (text.find_first_of(".e") == std::string::npos) text += ".0";
+    if (text.find_first_of(".e") == std::string::npos) text.append({'.', '0'});
     return text;
 }
 
