@@ -24,6 +24,8 @@ struct RenderCommand : ClipRequest {
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
+    bool resume = false;         // keeps finished frames of the same clip
+    std::string call;            // the command as it was typed, for messages
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;        // images per frame while the shutter is open
     std::optional<int> threads;  // of the simulation; see thread_budget.h
@@ -102,8 +104,9 @@ int run_lesson(const LessonCommand& command);
 struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;
-    double fps = 60.0;
-    bool transparent = false;  // the clip keeps the alpha of the frames
+    std::optional<double> fps;   // without this, that of the run that drew the frames, or 60
+    bool allow_missing = false;  // frames may be missing: the others follow each other
+    bool transparent = false;    // the clip keeps the alpha of the frames
     VideoQuality quality = VideoQuality::normal;
     bool quiet = false;
 };

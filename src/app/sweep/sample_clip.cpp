@@ -1,5 +1,6 @@
 #include "app/sweep/sample_clip.h"
 
+#include "app/clip/drawing_settings.h"
 #include "app/files/aov_folder.h"
 #include "app/workers/frame_filter.h"
 #include "app/workers/frame_maker.h"
@@ -27,7 +28,7 @@ public:
           sequence_(world_, shutter),
           overlay_(outputs.image() ? scenes.overlay(0) : nullptr),
           outputs_(outputs),
-          end_(scenes.frames.end) {}
+          end_(scenes.frames.end()) {}
 
     MotionBlurFrame next() {
         MotionBlurFrame frame = waiting_ ? std::move(*waiting_) : simulate();
@@ -124,19 +125,26 @@ RenderOptions render_options(const SampleDrawing& drawing) {
 
 Shutter shutter_of(const SampleDrawing& drawing) { return Shutter::of(drawing.shutter, drawing.blur_samples); }
 
-FrameOutputs frame_outputs(const SweepPlan& plan, const SceneDescription& scene) {
+FrameOutputs frame_outputs(const SweepPlan& plan, const RenderScenes& scenes) {
+    const SampleDrawing& drawing = plan.drawing;
+    const ClipIdentity pictures = identity_of(
+        scenes.scenes,
+        drawing_settings(scenes.request, {drawing.shutter, drawing.blur_samples, drawing.transparent, drawing.backend},
+                         scenes.composition));
     FrameOutputs outputs;
+    outputs.png_mark = pictures.mark();
+    outputs.aov_mark = identity_of_aovs(pictures, plan.outputs.aovs).mark();
     outputs.png = plan.outputs.frames;
     outputs.aovs = plan.outputs.aovs;
     outputs.transparent = plan.drawing.transparent;
     if (!plan.outputs.clip.empty())
-        outputs.video = video_format(plan.outputs.clip, scene.output.fps, plan.drawing.transparent).pixels;
+        outputs.video = video_format(plan.outputs.clip, scenes.first().output.fps, plan.drawing.transparent).pixels;
     return outputs;
 }
 
 std::int64_t write_clip(const SweepPlan& plan, const RenderScenes& scenes, GlDevice* device, SampleFolder& folder) {
     constexpr int slot = 0;
-    const FrameOutputs outputs = frame_outputs(plan, scenes.first());
+    const FrameOutputs outputs = frame_outputs(plan, scenes);
     const Shutter shutter = shutter_of(plan.drawing);
     RenderSwitches switches{render_options(plan.drawing)};
     switches.device = device;
@@ -146,11 +154,11 @@ std::int64_t write_clip(const SweepPlan& plan, const RenderScenes& scenes, GlDev
     FrameFilter filter(scenes.composition, outputs);
     Poses poses(scenes, shutter, outputs);
     std::int64_t drawn_frames = 0;
-    for (std::int64_t n = 0; n < scenes.frames.end; ++n) {
+    for (std::int64_t n = 0; n < scenes.frames.end(); ++n) {
         MotionBlurFrame frame = poses.next();
-        const bool first = n == scenes.frames.first;
+        const bool first = n == scenes.frames.first();
         const bool wanted = filter.follow(frame, first);
-        if (n < scenes.frames.first) continue;
+        if (!scenes.frames.contains(n)) continue;
         DrawnFrame drawn;
         const bool image = !frame.panels.empty(), aovs = frame.aovs.has_value();
         if (wanted) {

@@ -11,8 +11,8 @@
 
 namespace tumble {
 
-/// The outputs of a frame. Throws InputError where the clip's format cannot hold it.
-FrameOutputs frame_outputs(const SweepPlan& plan, const SceneDescription& scene);
+/// The outputs of a frame, with the marks of `tumble render`. Throws InputError where the clip's format cannot hold it.
+FrameOutputs frame_outputs(const SweepPlan& plan, const RenderScenes& scenes);
 
 RenderOptions render_options(const SampleDrawing& drawing);
 Shutter shutter_of(const SampleDrawing& drawing);

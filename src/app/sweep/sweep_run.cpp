@@ -156,7 +156,7 @@ std::unique_ptr<FolderLock> lock_folder(const fs::path& folder) {
     const auto end = std::chrono::steady_clock::now() + longest_end_of_workers;
     for (;;) {
         try {
-            return std::make_unique<FolderLock>(folder);
+            return std::make_unique<FolderLock>(folder, LockKind::alone);
         } catch (const RunError&) {
             if (std::chrono::steady_clock::now() > end) throw;
         }
@@ -173,7 +173,7 @@ void bring_all_to_disk(const fs::path& folder) {
 }
 
 void check_outputs_of(const SweepPlan& plan, const RenderScenes& scenes) {
-    const FrameOutputs outputs = frame_outputs(plan, scenes.first());
+    const FrameOutputs outputs = frame_outputs(plan, scenes);
     if (outputs.video) find_ffmpeg();
 }
 
@@ -185,7 +185,7 @@ std::string reason_in_plan(const std::exception& error) {
 }
 
 int workers_for(const SweepPlan& plan, const RenderScenes& scenes, int workers) {
-    RenderWork work{frame_outputs(plan, scenes.first()), std::nullopt, scenes.frames.count(),
+    RenderWork work{frame_outputs(plan, scenes), std::nullopt, scenes.frames.count(),
                     shutter_of(plan.drawing).blur_samples};
     if (work.outputs.video)
         work.clip = video_format(plan.outputs.clip, scenes.first().output.fps, plan.drawing.transparent).kind;

@@ -18,7 +18,7 @@ public:
     FrameFilter(const Composition& composition, const FrameOutputs& outputs);
 
     /// Removes the poses of outputs that equal those of the previous frame. False: the whole frame equals it, which is
-    /// not allowed for the first drawn frame (`anew`).
+    /// not allowed where that was not drawn (`anew`).
     bool follow(MotionBlurFrame& frame_poses, bool anew);
 
 private:

@@ -89,8 +89,8 @@ RenderPool::RenderPool(const Composition& composition, const RenderOptions& opti
 RenderPool::~RenderPool() = default;
 
 void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
-                     DrawingTimes& times, std::int64_t first) {
-    ReorderBuffer order(workers_.size(), first);
+                     DrawingTimes& times, const FrameSet& frames) {
+    ReorderBuffer order(workers_.size(), frames);
     std::vector<std::thread> threads;
     const auto stop = [&] {
         poses.cancel();
@@ -102,7 +102,7 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
         for (std::size_t i = 0; i < workers_.size(); ++i)
             threads.push_back(start_thread<std::thread>([&, i] {
                 try {
-                    serve(i, poses, order, times, first);
+                    serve(i, poses, order, times, frames);
                 } catch (...) {
                     order.fail(std::current_exception());
                 }
@@ -119,13 +119,13 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
 
 /// Main function of the thread that serves one worker.
 void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order,
-                       DrawingTimes& times, std::int64_t first) {
+                       DrawingTimes& times, const FrameSet& frames) {
     Slots& slots = *slots_[worker];
     const auto next_pose = [&]() -> std::optional<MotionBlurFrame> {
         const std::lock_guard lock(pose_mutex_);
         while (std::optional<MotionBlurFrame> pose = poses.pop()) {
-            const bool wanted = filter_.follow(*pose, pose->frame == first);
-            if (pose->frame < first) continue;
+            const bool wanted = filter_.follow(*pose, !frames.contains(pose->frame - 1));
+            if (!frames.contains(pose->frame)) continue;
             if (wanted) {
                 if (!pose->panels.empty()) ++drawn_;
                 return pose;
