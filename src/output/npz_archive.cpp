@@ -170,8 +170,6 @@ std::span<const std::byte> NpzArchive::finish(std::string_view mark) {
                     .text(m.name)
                     .all());
     const std::size_t size = used_ - directory;
-    const std::string comment =
-        mark.empty() ? "" : npz_comment(mark, crc32_of(0, std::span<const std::byte>(file_).first(used_)));
     copy_to(file_, used_,
             LittleEndianBytes()
                 .u32(0x06054b50)
@@ -181,9 +179,12 @@ std::span<const std::byte> NpzArchive::finish(std::string_view mark) {
                 .u16(members_.size())
                 .u32(size)
                 .u32(directory)
-                .u16(comment.size())
-                .text(comment)
+                .u16(mark.empty() ? 0 : npz_comment_size)
                 .all());
+    if (!mark.empty()) {
+        const std::string comment = npz_comment(mark, crc32_of(0, std::span<const std::byte>(file_).first(used_)));
+        copy_to(file_, used_, std::as_bytes(std::span(comment)));
+    }
     const std::size_t all = std::exchange(used_, 0);
     members_.clear();
     return std::span<const std::byte>(file_).first(all);

@@ -36,6 +36,7 @@ void check_outputs(const RenderCommand& command, const RenderPlan& plan, const R
     if (plan.aov_folder && command.aovs.has(Aov::segmentation))
         files.add("--aov", segmentation_table_path(*plan.aov_folder));
     if (command.report) files.add("--report", *command.report);
+    if (command.profile) files.add("--profile", *command.profile);
     const auto add_series = [&](const char* option, const fs::path& folder, FrameFiles kind) {
         const bool pictures = kind == FrameFiles::pictures;
         files.add(option, manifest_path(folder, kind));
@@ -51,8 +52,8 @@ DrawingChoices choices_of(const RenderCommand& command) {
 }
 
 /// The frames of a folder that are to be drawn.
-FrameSet missing_in(const RenderCommand& command, const fs::path& folder, FrameFiles kind, const ClipIdentity& identity,
-                    const FrameSet& wanted) {
+FrameSet missing_in(const RenderCommand& command, const fs::path& folder, FrameFiles kind,
+                    const FrameIdentity& identity, const FrameSet& wanted) {
     if (command.resume || command.frames_range) require_same_clip(folder, kind, identity);
     if (!command.resume) return wanted;
     const FrameSet kept = kept_frames(folder, kind, identity, wanted);

@@ -1,6 +1,7 @@
 #include "app/workers/frame_filter.h"
 
 #include "core/check.h"
+#include "sim/checkpoint/archive.h"
 
 #include <utility>
 
@@ -15,6 +16,11 @@ bool FrameFilter::follow(MotionBlurFrame& frame_poses, bool anew) {
     if (!outputs_.image() || (!follow_image(frame_poses) && !anew)) frame_poses.panels.clear();
     if (frame_poses.aovs && !aov_changes_.follow(*frame_poses.aovs) && !anew) frame_poses.aovs.reset();
     return !frame_poses.panels.empty() || frame_poses.aovs;
+}
+
+void FrameFilter::restore(std::size_t panel, std::span<const std::byte> poses) {
+    CheckpointReader reader(poses);
+    reader.keep(panels_.at(panel).poses);
 }
 
 /// Selects the poses to draw of all panels; false: the image equals that of the previous frame.

@@ -9,6 +9,7 @@
 #include "render/scene/pose_filter.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -20,6 +21,9 @@ public:
     /// Removes the poses of outputs that equal those of the previous frame. False: the whole frame equals it, which is
     /// not allowed where that was not drawn (`anew`).
     bool follow(MotionBlurFrame& frame_poses, bool anew);
+
+    /// The state of a panel's pose filter from a checkpoint. Throws InputError.
+    void restore(std::size_t panel, std::span<const std::byte> poses);
 
 private:
     /// The filtered poses of one panel.

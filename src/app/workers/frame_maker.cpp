@@ -1,6 +1,6 @@
 #include "app/workers/frame_maker.h"
 
-#include "app/threads/stage_timer.h"
+#include "app/threads/wall_clock.h"
 
 #include <algorithm>
 
@@ -9,12 +9,9 @@ namespace {
 
 template <typename Work>
 WorkTime timed(const Work& work) {
-    StageTime time;
-    {
-        const StageTimer timer(time);
-        work();
-    }
-    return {time.wall.load(), time.cpu.load()};
+    const double wall = wall_seconds(), cpu = thread_seconds();
+    work();
+    return {wall, wall_seconds() - wall, thread_seconds() - cpu};
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "app/composition/composition.h"
 #include "app/composition/frame_composer.h"
 #include "app/files/aov_file.h"
+#include "app/threads/stage_timer.h"
 #include "app/workers/panel_drawing.h"
 #include "app/workers/shared_frames.h"
 #include "output/png_writer.h"
@@ -26,11 +27,6 @@ struct FrameJob {
     double time = 0.0;  // s
     int slot = 0;
     bool image = true, aovs = false;
-};
-
-/// Working time, s: wall clock and processor.
-struct WorkTime {
-    double wall = 0.0, cpu = 0.0;
 };
 
 /// Report about a frame that was made.

@@ -139,10 +139,10 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
         const std::optional<MotionBlurFrame> pose = next_pose();
         if (!pose) return;
         const DrawnFrame drawn = workers_[worker]->draw(*pose, *slot);
-        times.drawing.add(drawn.drawing.wall, drawn.drawing.cpu);
-        times.conversion.add(drawn.conversion.wall, drawn.conversion.cpu);
-        times.png.add(drawn.png.wall, drawn.png.cpu);
-        times.aovs.add(drawn.aovs.wall, drawn.aovs.cpu);
+        times.drawing.add(drawn.drawing, pose->frame);
+        times.conversion.add(drawn.conversion, pose->frame);
+        times.png.add(drawn.png, pose->frame);
+        times.aovs.add(drawn.aovs, pose->frame);
         Frame frame;
         frame.number = pose->frame;
         if (pose->aovs) {
@@ -159,6 +159,8 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
         order.add(std::move(frame), worker, drawn.unchanged);
     }
 }
+
+void RenderPool::restore(std::size_t panel, std::span<const std::byte> poses) { filter_.restore(panel, poses); }
 
 void RenderPool::abandon() {
     for (const auto& worker : workers_) worker->kill();

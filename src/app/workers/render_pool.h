@@ -38,7 +38,7 @@ struct Frame {
 };
 
 struct DrawingTimes {
-    StageTime drawing, conversion, png, aovs;
+    StageTime drawing{"drawing"}, conversion{"conversion"}, png{"PNG"}, aovs{"AOVs"};
 };
 
 class ReorderBuffer;
@@ -56,6 +56,9 @@ public:
     /// bodies look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
     void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
              DrawingTimes& times, const FrameSet& frames);
+
+    /// Goes on with the poses of a panel that another run has filtered (PoseFilter). Precondition: run() has not been called.
+    void restore(std::size_t panel, std::span<const std::byte> poses);
 
     /// Ends the processes at once, from any thread; run() then returns.
     void abandon();

@@ -1,0 +1,75 @@
+#include "core/html_text.h"
+
+#include <cstdint>
+
+namespace tumble {
+namespace {
+
+constexpr std::string_view replacement = "\xef\xbf\xbd";  // U+FFFD in UTF-8
+
+/// Bytes of the UTF-8 character at the start of the text; 0 if it is none.
+std::size_t character_length(std::string_view text) {
+    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+    const unsigned char first = byte(0);
+    if (first < 0x80) return 1;
+    const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+    if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
+    for (std::size_t i = 1; i < length; ++i)
+        if ((byte(i) & 0xc0) != 0x80) return 0;
+    // Overlong forms, surrogates and numbers beyond U+10FFFF.
+    const unsigned char second = byte(1);
+    const bool bad = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+                     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
+    return bad ? 0 : length;
+}
+
+bool forbidden_control(char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7f;
+}
+
+}  // namespace
+
+std::string html_text(std::string_view text) {
+    std::string html;
+    html.reserve(text.size() + text.size() / 8);
+    while (!text.empty()) {
+        const std::size_t length = character_length(text);
+        if (length == 0 || forbidden_control(text[0]))
+            html += replacement;
+        else if (text[0] == '&')
+            html += "&amp;";
+        else if (text[0] == '<')
+            html += "&lt;";
+        else if (text[0] == '>')
+            html += "&gt;";
+        else if (text[0] == '"')
+            html += "&quot;";
+        else if (text[0] == '\'')
+            html += "&#39;";
+        else
+            html += text.substr(0, length);
+        text.remove_prefix(length == 0 ? 1 : length);
+    }
+    return html;
+}
+
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr char digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    text.reserve(base64_length(bytes.size()));
+    for (std::size_t i = 0; i < bytes.size(); i += 3) {
+        const std::size_t count = bytes.size() - i < 3 ? bytes.size() - i : 3;
+        std::uint32_t group = 0;
+        for (std::size_t k = 0; k < 3; ++k)
+            group = group << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
+        for (std::size_t k = 0; k < 4; ++k) text += k <= count ? digits[group >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+std::string data_address(std::string_view media_type, std::span<const std::byte> bytes) {
+    return "data:" + std::string(media_type) + ";base64," + base64(bytes);
+}
+
+}  // namespace tumble
