@@ -16,12 +16,13 @@
 namespace tumble {
 
 struct RenderCommand {
-    std::vector<std::filesystem::path> scenes;    // a panel for each
-    std::optional<std::string> text;              // of the only scene, in place of its file's
-    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a panel for each
-    std::optional<std::filesystem::path> clip;    // without this, frames and AOVs: the first scene's name
-    std::optional<std::filesystem::path> frames;  // folder
-    std::optional<std::filesystem::path> report;  // .html
+    std::vector<std::filesystem::path> scenes;           // a panel for each
+    std::optional<std::string> text;                     // of the only scene, in place of its file's
+    std::vector<std::string> vary;                       // "PATH=VALUE,VALUE": a panel for each
+    std::optional<std::filesystem::path> clip;           // without this, frames and AOVs: the first scene's name
+    std::optional<std::filesystem::path> frames;         // folder
+    std::optional<std::filesystem::path> report;         // .html
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
     AovSet aovs;
     std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
     SceneOverrides overrides;
@@ -50,9 +51,10 @@ void run_simulate(const SimulateCommand& command);
 
 struct PlotCommand {
     std::vector<std::filesystem::path> scenes;
-    std::string quantities;         // names separated by commas (app/plots/quantities.h)
-    std::filesystem::path output;   // .svg, .png or .pdf
-    std::vector<std::string> vary;  // "PATH=VALUE,VALUE"
+    std::string quantities;                              // names separated by commas (app/plots/quantities.h)
+    std::filesystem::path output;                        // .svg, .png or .pdf
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
+    std::vector<std::string> vary;                       // "PATH=VALUE,VALUE"
     SceneOverrides overrides;
     std::optional<std::string> title;  // without this, the first scene's
     bool log = false;                  // logarithmic vertical axes

@@ -1,5 +1,7 @@
 #include "app/cli/render_run.h"
 
+#include "app/causes/motion_recorder.h"
+#include "app/causes/record_file.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
@@ -14,6 +16,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <numeric>
 #include <system_error>
 #include <vector>
 
@@ -42,6 +45,12 @@ void check_outputs(const RenderCommand& command, const FileList& inputs, const F
     if (command.report) plan.add("--report", *command.report);
     if (command.frames) plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
     if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
+}
+
+std::vector<std::int64_t> numbers_of(const FrameRange& frames) {
+    std::vector<std::int64_t> numbers(std::size_t(frames.count()));
+    std::iota(numbers.begin(), numbers.end(), frames.first);
+    return numbers;
 }
 
 StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outputs) {
@@ -97,9 +106,12 @@ RenderFigures render_to_files(const RenderCommand& command) {
     for (std::size_t i = 0; i < scenes.scenes.size(); ++i) worlds.push_back(scenes.world(i, threads));
     std::vector<PanelSource> panels;
     std::vector<std::unique_ptr<OverlayBuilder>> overlays;
+    std::optional<MotionRecorder> recorder;
+    if (command.motion_record) recorder.emplace(composition, numbers_of(frames), frames.end);
     for (std::size_t i = 0; i < worlds.size(); ++i) {
         overlays.push_back(outputs.image() ? scenes.overlay(i) : nullptr);
-        panels.push_back({worlds[i], scenes.ends[i], overlays.back().get()});
+        panels.push_back({worlds[i], scenes.ends[i], overlays.back().get(), recorder ? &recorder->panel(i) : nullptr});
+        if (recorder) worlds[i].record_contacts();
     }
     std::optional<FrameFolder> folder;
     if (command.frames) folder.emplace(*command.frames);
@@ -121,6 +133,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         Progress progress(frames.count(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
+    if (recorder) write_record(*command.motion_record, recorder->finish());
     const ProcessEnd workers_end = render_pool.finish();
     RenderFigures figures;
     figures.width = composition.width;

@@ -53,7 +53,7 @@ Pipeline::Pipeline(std::span<const PanelSource> panels, const FrameRange& frames
       for_aovs_(queued_frames),
       for_video_(queued_frames) {
     for (const PanelSource& panel : panels)
-        panels_.push_back({{panel.world, shutter}, panel.end, panel.overlay, {}, {}});
+        panels_.push_back({{panel.world, shutter}, panel.end, panel.overlay, panel.observer, {}, {}});
 }
 
 void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
@@ -122,6 +122,8 @@ MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
         const PanelPoses& poses = frame_poses.panels.back();
         if (frame + 1 == panel.end && panel.end < frames_.end) panel.last.assign(1, poses.front());
         if (frame < panel.end) frame_poses.time = poses.front().time;
+        if (panel.observer != nullptr && frame < panel.end)
+            panel.observer->see(poses.front(), {}, panel.sequence.records());
         if (panel.overlay != nullptr && frame < panel.end)
             write_bytes(panel.overlay->next(poses.front(), panel.sequence.records()), panel.shapes);
         frame_poses.overlays.push_back(panel.shapes);

@@ -13,6 +13,7 @@
 #include "app/files/frame_folder.h"
 #include "app/files/publish_queue.h"
 #include "app/pipeline/frame_range.h"
+#include "app/survey/survey.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/render_pool.h"
 #include "output/video_writer.h"
@@ -47,9 +48,10 @@ struct PipelineOutputs {
 
 /// The simulation of a panel.
 struct PanelSource {
-    World& world;                       // its frames are the intervals of the shutter
-    std::int64_t end = 0;               // one after its last frame; later frames of the clip repeat that
-    OverlayBuilder* overlay = nullptr;  // of the shapes over it, or null
+    World& world;                        // its frames are the intervals of the shutter
+    std::int64_t end = 0;                // one after its last frame; later frames of the clip repeat that
+    OverlayBuilder* overlay = nullptr;   // of the shapes over it, or null
+    SurveyObserver* observer = nullptr;  // sees every simulated frame, or null
 };
 
 class Pipeline {
@@ -79,6 +81,7 @@ private:
         FrameSequence sequence;
         std::int64_t end;
         OverlayBuilder* overlay;
+        SurveyObserver* observer;
         PanelPoses last;                // a single sample, once the frames have ended
         std::vector<std::byte> shapes;  // of the last frame: OverlayFrame as bytes
     };

@@ -37,6 +37,7 @@ public:
 
     const SourcePosition& origin() const { return origin_; }
     bool is_number() const { return node_->is_number(); }
+    bool is_text() const { return node_->is_string(); }
     bool is_table() const { return node_->is_table(); }
 
     double number(const Range& range) const;  // integers are accepted
