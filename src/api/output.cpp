@@ -3,7 +3,7 @@
 #include "api/convert.h"
 #include "api/guard.h"
 #include "api/scene_data.h"
-#include "output/image_compare.h"
+#include "compare/image_compare.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
 #include "output/video_writer.h"

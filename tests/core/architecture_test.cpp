@@ -33,6 +33,8 @@ const std::map<std::string, Layer> layers = {
      {{"core/", "scene/description/", "sim/snapshot/snapshot.h", "render/"},
       {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"output", {{"core/", "output/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
+    {"compare",
+     {{"core/", "scene/toml/", "output/", "compare/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
     {"plot", {{"core/", "plot/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"overlay",
      {{"core/", "scene/description/", "sim/snapshot/", "render/", "plot/", "overlay/"},
@@ -44,11 +46,11 @@ const std::map<std::string, Layer> layers = {
      {{"core/", "scene/description/", "sim/snapshot/", "overlay/", "page/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"api",
-     {{"core/", "scene/", "sim/", "render/", "output/", "api/", "tumble/"},
+     {{"core/", "scene/", "sim/", "render/", "output/", "compare/", "api/", "tumble/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"app",
-     {{"core/", "scene/", "sim/", "render/", "output/", "plot/", "overlay/", "gltf/", "page/", "api/", "tumble/",
-       "app/"},
+     {{"core/", "scene/", "sim/", "render/", "output/", "compare/", "plot/", "overlay/", "gltf/", "page/", "api/",
+       "tumble/", "app/"},
       {}}},
 };
 
@@ -60,13 +62,14 @@ struct Include {
     bool ours;
 };
 
+// A header of the standard library may have the name of a folder: <compare>.
 std::vector<Include> includes_of(std::istream& text) {
     static const std::regex include("^\\s*#\\s*include\\s*([\"<])([^\">]+)[\">].*$");
     std::vector<Include> includes;
     std::smatch match;
     for (std::string line; std::getline(text, line);)
         if (std::regex_match(line, match, include))
-            includes.push_back({match[2], match[1] == "\"" || fs::exists(source / match[2].str())});
+            includes.push_back({match[2], match[1] == "\"" || fs::is_regular_file(source / match[2].str())});
     return includes;
 }
 

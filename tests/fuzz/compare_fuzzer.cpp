@@ -3,9 +3,9 @@
 // next two are the first file's length, low byte first.
 #include "png_bytes.h"
 
+#include "compare/image_compare.h"
 #include "core/check.h"
 #include "core/error.h"
-#include "output/image_compare.h"
 
 #include <vector>
 

@@ -4,7 +4,7 @@
 #include "output/png_writer.h"
 
 #include "../support/folder.h"
-#include "pictures.h"
+#include "support/pictures.h"
 
 #include <gtest/gtest.h>
 #include <png.h>

@@ -3,7 +3,7 @@
 #include "output/video_writer.h"
 
 #include "../support/folder.h"
-#include "pictures.h"
+#include "support/pictures.h"
 
 #include <gtest/gtest.h>
 

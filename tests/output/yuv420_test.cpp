@@ -3,7 +3,7 @@
 #include "output/video_pixels.h"
 #include "output/yuva420.h"
 
-#include "pictures.h"
+#include "support/pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "output/image_compare.h"
+#include "compare/image_compare.h"
 
 #include "core/check.h"
 #include "core/error.h"

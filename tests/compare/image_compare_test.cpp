@@ -1,8 +1,8 @@
 // Comparison of pictures: noise between processors passes, and a visible change fails.
-#include "output/image_compare.h"
+#include "compare/image_compare.h"
 #include "core/error.h"
 
-#include "pictures.h"
+#include "support/pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,0 +1,64 @@
+// Results of a comparison of two sets of images: the material of reports, tables and exit codes.
+#pragma once
+
+#include "core/rectangle.h"
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+enum class Verdict {
+    same,       // every pixel
+    alike,      // within the tolerances
+    different,  // beyond them
+    missing,    // a reference without an image
+    added,      // an image without a reference
+    broken,     // cannot be compared: not a PNG file, another size
+};
+inline constexpr std::size_t verdict_count = 6;
+
+/// "same", "alike", ...
+std::string_view name_of(Verdict verdict);
+
+/// A measured value of a pair and the limit that the tolerances set.
+struct Figure {
+    std::string metric;  // pixels, cluster, window, shade, ssim or flip
+    double value = 0.0, limit = 0.0;
+    bool holds = true;
+    int x = 0, y = 0;  // pixel, or top left pixel of the window, of the worst place
+};
+
+/// Result of a pair of images, or of one without a partner.
+struct ImageResult {
+    std::string name;                        // path in the folder, with '/', or frame_000041.png of a clip
+    std::filesystem::path reference, image;  // files; empty where there is none
+    Verdict verdict = Verdict::same;
+    std::string rule;                   // pattern of the last rule of the tolerances that applied; empty: none
+    std::vector<Figure> figures;        // of a compared pair
+    std::string reason;                 // a sentence for each failed rule, one per line; empty for same and alike
+    int width = 0, height = 0;          // pixels, of the reference, or of an added image; 0: unknown
+    std::int64_t differing_pixels = 0;  // with any difference
+    int max_difference = 0;             // levels, largest over pixels and channels
+    Rectangle changed;                  // bounds of the pixels beyond the tolerance, or of all that differ if none is
+    std::vector<std::string> causes;    // changes of the scene, a sentence each
+};
+
+struct SetResult {
+    std::string reference, image;     // as the caller named them
+    std::vector<ImageResult> images;  // by name
+    bool added_allowed = false;       // an image without a reference is no difference
+
+    /// The number of images of each verdict, in the order of the enumeration.
+    std::array<std::int64_t, verdict_count> counts() const;
+    std::int64_t count(Verdict verdict) const { return counts()[std::size_t(verdict)]; }
+
+    /// 2 if an image is broken, else 3 if one is missing, else 1 if one differs or an added one is not allowed, else 0.
+    int exit_code() const;
+};
+
+}  // namespace tumble
