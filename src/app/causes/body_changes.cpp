@@ -115,8 +115,7 @@ std::vector<Cause> matter_changes(const PanelView& before, const PanelView& afte
     return value_changes(before, after, pairs, &BodyKind::matter);
 }
 
-std::vector<Cause> motion_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs,
-                                  double seconds) {
+std::vector<Cause> motion_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs) {
     std::vector<Cause> causes;
     const FirstDifferences first(before.panel(), after.panel());
     for (const auto& [a, b] : pairs.both) {
@@ -127,7 +126,7 @@ std::vector<Cause> motion_changes(const PanelView& before, const PanelView& afte
         const double visible = std::max(area(from), area(to));
         const double sides = std::max(from.width + from.height, to.width + to.height);
         causes.push_back({fmt::format("{} {}{}", before.panel().bodies[a].name, move_text(before, a, now),
-                                      first.text(a, b, seconds)),
+                                      first.text(a, b, after.time())),
                           std::min(2.0 * visible, sides * moved)});
     }
     return causes;

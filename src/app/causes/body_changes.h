@@ -26,8 +26,6 @@ std::vector<Cause> look_changes(const PanelView& before, const PanelView& after,
 std::vector<Cause> matter_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
 
 /// "crate.17 moved by 3 px (first differing frame 41, first differing contact at 0.68 s)", of each body that moved.
-/// `seconds`: of the frame.
-std::vector<Cause> motion_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs,
-                                  double seconds);
+std::vector<Cause> motion_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
 
 }  // namespace tumble

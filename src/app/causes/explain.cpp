@@ -70,12 +70,11 @@ std::string late_text(std::int64_t late, std::int64_t frame) {
 struct FramePlace {
     std::int64_t frame;
     std::size_t before, after;
-    double seconds;
 };
 
 void add_motion(const PanelView& before, const PanelView& after, const BodyPairs& pairs, const FramePlace& place,
                 std::vector<Cause>& causes) {
-    std::vector<Cause> moves = motion_changes(before, after, pairs, place.seconds);
+    std::vector<Cause> moves = motion_changes(before, after, pairs);
     if (moves.empty()) return;
     if (const auto late = frames_late(before.panel(), after.panel(), place.frame)) {
         causes.push_back({late_text(*late, place.frame), root_cause});
@@ -141,10 +140,8 @@ std::vector<std::string> causes_between(const MotionRecord& before, const Motion
         causes.push_back({fmt::format("panels ({} to {})", before.panels.size(), after.panels.size()), root_cause});
         return sentences(std::move(causes));
     }
-    const auto fps = after.values.find("fps");
-    const double seconds = fps == after.values.end() ? infinity : double(frame) / std::stod(fps->second);
     for (std::size_t i = 0; i < before.panels.size(); ++i) {
-        for (Cause& cause : panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, seconds})) {
+        for (Cause& cause : panel_causes(before.panels[i], after.panels[i], {frame, *a, *b})) {
             if (before.panels.size() > 1) cause.text += fmt::format(" in panel {}", i + 1);
             causes.push_back(std::move(cause));
         }

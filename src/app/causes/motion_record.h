@@ -63,6 +63,7 @@ struct PanelRecord {
     std::vector<BodyKind> kinds;
     std::vector<RecordedBody> bodies;              // in scene order
     std::vector<RecordedPose> start;               // by body
+    std::vector<double> times;                     // s of the motion, by recorded frame
     std::vector<RecordedView> views;               // by recorded frame
     std::vector<std::vector<RecordedPose>> poses;  // by recorded frame, then by body that moves
     MotionTrace trace;

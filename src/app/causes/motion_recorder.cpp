@@ -61,6 +61,7 @@ void PanelRecorder::see(const Snapshot& snapshot, const Measurement&, const Cont
 }
 
 void PanelRecorder::add_pose(const Snapshot& snapshot) {
+    record_.times.push_back(snapshot.time);
     record_.views.push_back(view_of(camera_.at(snapshot)));
     std::vector<RecordedPose>& poses = record_.poses.emplace_back();
     for (const std::size_t i : moving_) poses.push_back({snapshot.bodies[i].origin, snapshot.bodies[i].orientation});

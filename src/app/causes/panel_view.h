@@ -17,6 +17,7 @@ public:
 
     const PanelRecord& panel() const { return panel_; }
     const RecordedView& view() const { return panel_.views[recorded_]; }
+    double time() const { return panel_.times[recorded_]; }  // s
     const RecordedPose& pose(std::size_t body) const;
 
     /// Bounds of a body on the screen, in pixels of the image, cut at the panel; empty without a part in view. The whole

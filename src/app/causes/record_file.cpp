@@ -93,6 +93,7 @@ Json json_of(const PanelRecord& panel) {
         contacts.add(c.impulse);
     }
     json["start"] = text_of(start);
+    json["times"] = panel.times;
     json["views"] = views_json(panel.views);
     json["poses"] = text_of(poses);
     json["trace"] = json_of(panel.trace);
@@ -165,6 +166,8 @@ void read_poses(const Json& json, std::size_t frames, PanelRecord& panel) {
         auto& of_frame = panel.poses.emplace_back();
         for (std::size_t i = 0; i < moving; ++i) of_frame.push_back(next_pose(from));
     }
+    panel.times = json.at("times").get<std::vector<double>>();
+    if (panel.times.size() != frames) throw std::out_of_range("times are missing");
     const Json& views = json.at("views");
     for (std::size_t f = 0; f < frames; ++f) panel.views.push_back(view_of(views.at(views.size() == 1 ? 0 : f)));
     if (moving > 0 && panel.trace.blocks.size() % moving != 0) throw std::out_of_range("the trace is cut");
