@@ -1,0 +1,414 @@
+// The hash of a scene: equal for equal content, different after a change of any key of the format.
+#include "scene/hash/scene_hash.h"
+
+#include "scene/load.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+namespace tumble::scene_hash_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path source = TUMBLE_SOURCE_DIR;
+const std::string scene_path = (source / "assets/scenes/scene.toml").string();
+
+const std::string base = R"(
+format = 1
+title = "Everything"
+[simulation]
+duration = 2
+steps_per_frame = 8
+gravity = [0.0, -1.62, 0.5]
+method = "tumble"
+integrator = "explicit-euler"
+impacts = "stepped"
+impact_law = "simultaneous"
+contact_solver = "soft"
+rotation = "matrix"
+sleep = false
+seed = 42
+[output]
+size = [640, 360]
+fps = 30
+samples = 2
+[camera]
+eye = [1, 2, 3]
+target = [4, 5, 6]
+up = [0, 0, 2]
+vertical_fov = 55.5
+interpolation = "linear"
+orbit = 3
+follow = "ball"
+keyframes = [{ time = 0, eye = [1, 1, 1] }, { time = 1, target = [0, 0, 1], vertical_fov = 21 }]
+[light]
+direction = [0, -2, 1]
+shadows = false
+[wind]
+velocity = [3, 0, -1]
+density = 1.1
+drag = 0.8
+[materials.steel]
+color = "#8090A0"
+density = 7800
+restitution = 0.91
+friction = 0.11
+roughness = 0.2
+metallic = 1
+pattern = "checker"
+[[body]]
+name = "plain steel"
+material = "steel"
+shape = { type = "sphere", radius = 1.5 }
+[[body]]
+name = "floor"
+type = "fixed"
+shape = { type = "plane", normal = [0, 3, 4], offset = 0.5 }
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.25 }
+restitution = 0.4
+friction = 0.7
+color = "#ff0080"
+visible = false
+position = [1, 2, 3]
+rotation = { axis = [0, 0, 10], angle = 90 }
+velocity = [4, 5, 6]
+angular_velocity = [7, 8, 9]
+mass = 3
+[[body]]
+shape = { type = "box", size = [1, 2, 3] }
+density = 501
+roughness = 0.9
+metallic = 0.25
+pattern = "grid"
+integrator = "symplectic-euler"
+[[body]]
+name = "paddle"
+type = "kinematic"
+shape = { type = "box", size = [1, 1, 1] }
+interpolation = "smooth"
+keyframes = [{ time = 0.5, rotation = [0, 1, 0, 0] }, { time = 1.5, position = [1, 0, 0] }]
+[[body]]
+name = "stone"
+shape = { type = "mesh", file = "../meshes/gem.obj", scale = 0.7 }
+[[body]]
+name = "table"
+shape = { type = "compound", parts = [{ shape = { type = "box", size = [1, 1, 2] }, position = [0, 0, 1], rotation = [0, 0, 1, 0], density = 70, color = "#7c4a24" }] }
+[[body]]
+name = "crate"
+shape = { type = "box", size = [0.5, 0.5, 0.5] }
+grid = { count = [2, 1, 2], spacing = 0.75, jitter = 0.05, tilt = 10 }
+scale = [0.5, 0.9]
+colors = ["#c8853c", "#a86b2d"]
+[[body]]
+name = "cloud"
+shape = { type = "sphere", radius = 0.125 }
+position = [0, 12, 0]
+scatter = { count = 4, size = [6, 4, 6], rotation = "random", clearance = 0.01 }
+[[force]]
+body = "ball"
+point = [0, 0.25, 0]
+force = [10, 0, 0]
+frame = "body"
+start = 0.5
+end = 1.5
+[[cord]]
+body = "paddle"
+point = [0, 0.5, 0]
+anchor = [0, 5, 0]
+radius = 0.02
+color = "#010203"
+[overlay]
+show = ["contacts"]
+bodies = ["floor"]
+start = 0.1
+end = 1.9
+impulse_time = 0.26
+trail_time = 4
+trail_points = [{ body = "table", point = [0, 0, 3], color = "#ffd040" }]
+ghost_every = 11
+legend = false
+scale = { force = 1, impulse = 2, velocity = 3, omega = 4, momentum = 5, angular-momentum = 6 }
+color = { force = "#000001" }
+plot = ["kinetic_energy"]
+plot_place = "beside"
+[[caption]]
+text = "Hello"
+start = 0.2
+end = 0.3
+)";
+
+/// A change of one key: the first place of `old_text` after the line `after` becomes `new_text`.
+struct Change {
+    std::string key, after, old_text, new_text;
+    bool motion;  // it changes the motion too
+};
+
+const std::vector<std::vector<Change>> tables = {
+    {{"title", "", "title = \"Everything\"", "title = \"All\"", false},
+     {"format", "", "", "", false},  // one value only
+     {"simulation", "[simulation]", "duration = 2", "duration = 3", true},
+     {"output", "[output]", "fps = 30", "fps = 60", true},
+     {"camera", "[camera]", "eye = [1, 2, 3]", "eye = [1, 2, 4]", false},
+     {"light", "[light]", "shadows = false", "", false},
+     {"wind", "", "[wind]\nvelocity = [3, 0, -1]\ndensity = 1.1\ndrag = 0.8\n", "", true},
+     {"materials", "[materials", "density = 7800", "", true},
+     {"body", "", "[[body]]\nname = \"floor\"",
+      "[[body]]\nshape = { type = \"sphere\", radius = 1 }\n[[body]]\nname = \"floor\"", true},
+     {"force", "", "[[force]]\nbody = \"ball\"",
+      "[[force]]\nbody = \"ball\"\nforce = [1, 0, 0]\n[[force]]\nbody = \"ball\"", true},
+     {"cord", "", "[[cord]]\nbody = \"paddle\"",
+      "[[cord]]\nbody = \"ball\"\nanchor = [1, 0, 0]\n[[cord]]\nbody = \"paddle\"", false},
+     {"overlay", "[overlay]", "start = 0.1", "", false},
+     {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false}},
+    {{"duration", "[simulation]", "duration = 2", "duration = 2.5", true},
+     {"steps_per_frame", "[simulation]", "steps_per_frame = 8", "steps_per_frame = 9", true},
+     {"step", "[simulation]", "steps_per_frame = 8", "step = 0.00333333333333333", true},
+     {"gravity", "[simulation]", "0.5]", "0.25]", true},
+     {"method", "[simulation]", "method = \"tumble\"\n", "method = \"notes\"\n", true},
+     {"push_out", "[simulation]", "method = \"tumble\"\n", "method = \"notes\"\npush_out = true\n", true},
+     {"integrator", "[simulation]", "explicit-euler", "rk4", true},
+     {"impacts", "[simulation]", "stepped", "exact", true},
+     {"impact_law", "[simulation]", "simultaneous", "propagating", true},
+     {"contact_solver", "[simulation]", "soft", "direct", true},
+     {"rotation", "[simulation]", "matrix", "quaternion", true},
+     {"sleep", "[simulation]", "sleep = false", "sleep = true", true},
+     {"seed", "[simulation]", "seed = 42", "seed = 43", true}},
+    {{"size", "[output]", "size = [640, 360]", "size = [640, 361]", false},
+     {"fps", "[output]", "fps = 30", "fps = 31", true},
+     {"samples", "[output]", "samples = 2", "samples = 4", false}},
+    {{"eye", "[camera]", "eye = [1, 2, 3]", "eye = [1, 2, 3.5]", false},
+     {"target", "[camera]", "target = [4, 5, 6]", "target = [4, 5, 7]", false},
+     {"up", "[camera]", "up = [0, 0, 2]", "up = [0, 1, 2]", false},
+     {"vertical_fov", "[camera]", "55.5", "55.25", false},
+     {"keyframes", "[camera]", "{ time = 0, eye = [1, 1, 1] }, ", "", false},
+     {"interpolation", "[camera]", "linear", "smooth", false},
+     {"orbit", "[camera]", "orbit = 3", "orbit = -3", false},
+     {"follow", "[camera]", "follow = \"ball\"", "follow = \"table\"", false}},
+    {{"time", "[camera]", "{ time = 1,", "{ time = 2,", false},
+     {"eye", "[camera]", "eye = [1, 1, 1]", "eye = [1, 1, 2]", false},
+     {"target", "[camera]", "target = [0, 0, 1]", "target = [0, 0, 2]", false},
+     {"vertical_fov", "[camera]", "vertical_fov = 21", "vertical_fov = 22", false}},
+    {{"direction", "[light]", "direction = [0, -2, 1]", "direction = [0, -2, 2]", false},
+     {"shadows", "[light]", "shadows = false", "shadows = true", false}},
+    {{"velocity", "[wind]", "velocity = [3, 0, -1]", "velocity = [3, 0, 1]", true},
+     {"density", "[wind]", "density = 1.1", "density = 1.2", true},
+     {"drag", "[wind]", "drag = 0.8", "drag = 0.9", true}},
+    {{"color", "[materials", "#8090A0", "#8090A1", false},
+     {"density", "[materials", "density = 7800", "density = 7801", true},
+     {"restitution", "[materials", "restitution = 0.91", "restitution = 0.92", true},
+     {"friction", "[materials", "friction = 0.11", "friction = 0.12", true},
+     {"roughness", "[materials", "roughness = 0.2", "roughness = 0.25", false},
+     {"metallic", "[materials", "metallic = 1", "metallic = 0", false},
+     {"pattern", "[materials", "checker", "plain", false}},
+    {{"name", "", "name = \"stone\"", "name = \"rock\"", true},
+     {"type", "", "name = \"crate\"", "name = \"crate\"\ntype = \"fixed\"", true},
+     {"shape", "name = \"crate\"", "size = [0.5, 0.5, 0.5]", "size = [0.5, 0.5, 0.6]", true},
+     {"material", "", "material = \"steel\"", "", true},
+     {"color", "name = \"ball\"", "#ff0080", "#ff0081", false},
+     {"density", "", "density = 501", "density = 502", true},
+     {"restitution", "name = \"ball\"", "restitution = 0.4", "restitution = 0.5", true},
+     {"friction", "name = \"ball\"", "friction = 0.7", "friction = 0.8", true},
+     {"roughness", "", "roughness = 0.9", "roughness = 0.8", false},
+     {"metallic", "", "metallic = 0.25", "metallic = 0.5", false},
+     {"pattern", "", "pattern = \"grid\"", "pattern = \"checker\"", false},
+     {"mass", "", "mass = 3", "mass = 4", true},
+     {"visible", "", "visible = false", "visible = true", false},
+     {"position", "name = \"ball\"", "position = [1, 2, 3]", "position = [1, 2, 4]", true},
+     {"rotation", "name = \"ball\"", "angle = 90", "angle = 91", true},
+     {"velocity", "name = \"ball\"", "velocity = [4, 5, 6]", "velocity = [4, 5, 7]", true},
+     {"angular_velocity", "name = \"ball\"", "angular_velocity = [7, 8, 9]", "angular_velocity = [7, 8, 0]", true},
+     {"integrator", "", "integrator = \"symplectic-euler\"", "", true},
+     {"keyframes", "name = \"paddle\"", ", { time = 1.5, position = [1, 0, 0] }", "", true},
+     {"interpolation", "name = \"paddle\"", "smooth", "linear", true},
+     {"grid", "", "grid = { count = [2, 1, 2]", "grid = { count = [2, 2, 2]", true},
+     {"scatter", "", "scatter = { count = 4", "scatter = { count = 5", true},
+     {"scale", "name = \"crate\"", "scale = [0.5, 0.9]", "scale = [0.5, 0.8]", true},
+     {"colors", "name = \"crate\"", "\"#c8853c\", \"#a86b2d\"", "\"#c8853d\", \"#a86b2e\"", false}},
+    {{"axis", "name = \"ball\"", "axis = [0, 0, 10]", "axis = [0, 1, 10]", true},
+     {"angle", "name = \"ball\"", "angle = 90", "angle = 89", true}},
+    {{"time", "name = \"paddle\"", "time = 1.5", "time = 1.6", true},
+     {"position", "name = \"paddle\"", "position = [1, 0, 0]", "position = [2, 0, 0]", true},
+     {"rotation", "name = \"paddle\"", "rotation = [0, 1, 0, 0]", "rotation = [0, 0, 1, 0]", true}},
+    {{"type", "name = \"floor\"", "type = \"plane\", normal = [0, 3, 4], offset = 0.5",
+      "type = \"box\", size = [1, 1, 1]", true},
+     {"normal", "name = \"floor\"", "normal = [0, 3, 4]", "normal = [0, 3, 5]", true},
+     {"offset", "name = \"floor\"", "offset = 0.5", "offset = 0.6", true}},
+    {{"type", "name = \"paddle\"", "type = \"box\", size = [1, 1, 1]", "type = \"sphere\", radius = 1", true},
+     {"size", "name = \"paddle\"", "size = [1, 1, 1]", "size = [1, 1, 3]", true}},
+    {{"type", "name = \"cloud\"", "type = \"sphere\", radius = 0.125", "type = \"box\", size = [1, 1, 1]", true},
+     {"radius", "name = \"cloud\"", "radius = 0.125", "radius = 0.126", true}},
+    {{"type", "name = \"stone\"", "type = \"mesh\", file = \"../meshes/gem.obj\", scale = 0.7",
+      "type = \"box\", size = [1, 1, 1]", true},
+     {"file", "name = \"stone\"", "gem.obj", "torus.obj", true},
+     {"scale", "name = \"stone\"", "scale = 0.7", "scale = 0.75", true},
+     {"parts", "name = \"stone\"", "scale = 0.7", "scale = 0.7, parts = \"objects\"", true}},
+    {{"type", "name = \"table\"", "", "", true},  // by the shapes above
+     {"parts", "name = \"table\"", "parts = [", "parts = [{ shape = { type = \"sphere\", radius = 1 } }, ", true}},
+    {{"shape", "name = \"table\"", "size = [1, 1, 2]", "size = [1, 1, 3]", true},
+     {"position", "name = \"table\"", "position = [0, 0, 1]", "position = [0, 0, 2]", true},
+     {"rotation", "name = \"table\"", "rotation = [0, 0, 1, 0]", "rotation = [0, 1, 0, 0]", true},
+     {"density", "name = \"table\"", "density = 70", "density = 71", true},
+     {"color", "name = \"table\"", "#7c4a24", "#7c4a25", false}},
+    {{"count", "name = \"crate\"", "count = [2, 1, 2]", "count = [2, 1, 3]", true},
+     {"spacing", "name = \"crate\"", "spacing = 0.75", "spacing = 0.8", true},
+     {"jitter", "name = \"crate\"", "jitter = 0.05", "jitter = 0.06", true},
+     {"tilt", "name = \"crate\"", "tilt = 10", "tilt = 11", true}},
+    {{"count", "name = \"cloud\"", "count = 4", "count = 3", true},
+     {"size", "name = \"cloud\"", "size = [6, 4, 6]", "size = [6, 4, 7]", true},
+     {"rotation", "name = \"cloud\"", "random", "none", true},
+     {"clearance", "", "clearance = 0.01", "clearance = 2.5", true}},
+    {{"body", "[[force]]", "ball", "stone", true},
+     {"point", "[[force]]", "0.25", "0.5", true},
+     {"force", "[[force]]", "[10, 0, 0]", "[11, 0, 0]", true},
+     {"frame", "[[force]]", "\"body\"", "\"world\"", true},
+     {"start", "[[force]]", "start = 0.5", "start = 0.6", true},
+     {"end", "[[force]]", "end = 1.5", "end = 1.6", true}},
+    {{"body", "[[cord]]", "paddle", "stone", false},
+     {"point", "[[cord]]", "0.5", "0.6", false},
+     {"anchor", "[[cord]]", "[0, 5, 0]", "[0, 6, 0]", false},
+     {"radius", "[[cord]]", "0.02", "0.03", false},
+     {"color", "[[cord]]", "#010203", "#010204", false}},
+    {{"show", "[overlay]", "\"contacts\"", "\"contacts\", \"mode\"", false},
+     {"bodies", "[overlay]", "\"floor\"", "\"table\"", false},
+     {"start", "[overlay]", "start = 0.1", "start = 0.2", false},
+     {"end", "[overlay]", "end = 1.9", "", false},
+     {"impulse_time", "[overlay]", "0.26", "0.27", false},
+     {"trail_time", "[overlay]", "trail_time = 4", "", false},
+     {"trail_points", "[overlay]", "{ body = \"table\", point = [0, 0, 3], color = \"#ffd040\" }", "", false},
+     {"ghost_every", "[overlay]", "11", "12", false},
+     {"legend", "[overlay]", "legend = false", "legend = true", false},
+     {"scale", "[overlay]", "force = 1,", "", false},
+     {"color", "[overlay]", "#000001", "#000002", false},
+     {"plot", "[overlay]", "[\"kinetic_energy\"]", "[]", false},
+     {"plot_place", "[overlay]", "beside", "below", false}},
+    {{"body", "trail_points", "table", "ball", false},
+     {"point", "trail_points", "[0, 0, 3]", "[0, 0, 4]", false},
+     {"color", "trail_points", "#ffd040", "#ffd041", false}},
+    {{"force", "[overlay]", "force = 1", "force = 9", false},
+     {"impulse", "[overlay]", "impulse = 2", "impulse = 9", false},
+     {"velocity", "[overlay]", "velocity = 3", "velocity = 9", false},
+     {"omega", "[overlay]", "omega = 4", "omega = 9", false},
+     {"momentum", "[overlay]", "momentum = 5", "momentum = 9", false},
+     {"angular-momentum", "[overlay]", "angular-momentum = 6", "angular-momentum = 9", false}},
+    {{"text", "[[caption]]", "Hello", "Good bye", false},
+     {"start", "[[caption]]", "start = 0.2", "start = 0.25", false},
+     {"end", "[[caption]]", "end = 0.3", "", false}},
+    {{"type", "", "", "", true}, {"memory", "", "", "", true}, {"scale", "", "", "", true}},  // MeshesInMemory
+};
+
+SceneDescription parse(const std::string& text, const std::string& file = scene_path) {
+    return parse_scene(text, file);
+}
+
+std::string changed(const Change& change) {
+    std::string text = base;
+    const std::size_t from = change.after.empty() ? 0 : text.find(change.after);
+    const std::size_t place = from == std::string::npos ? from : text.find(change.old_text, from);
+    EXPECT_NE(place, std::string::npos) << change.key << ": " << change.old_text;
+    return place == std::string::npos ? text : text.replace(place, change.old_text.size(), change.new_text);
+}
+
+TEST(SceneHash, EveryKeyOfTheFormatChangesIt) {
+    const SceneDescription scene = parse(base);
+    std::map<std::string, std::string> seen;  // a hash and the change that made it
+    for (const std::vector<Change>& table : tables)
+        for (const Change& change : table) {
+            if (change.old_text.empty()) continue;
+            SCOPED_TRACE(change.key + " after " + change.after + ": " + change.new_text);
+            const SceneDescription other = parse(changed(change));
+            EXPECT_NE(scene_hash(other), scene_hash(scene));
+            EXPECT_EQ(motion_hash(other) != motion_hash(scene), change.motion);
+        }
+}
+
+TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
+    std::multiset<std::set<std::string>> changed_keys, known_keys;
+    for (const std::vector<Change>& table : tables) {
+        std::set<std::string> keys;
+        for (const Change& change : table) keys.insert(change.key);
+        changed_keys.insert(keys);
+    }
+    const std::regex call("expect_keys\\(\\{([^}]*)\\}\\)"), word("\"([^\"]*)\"");
+    for (const auto& entry : fs::recursive_directory_iterator(source / "src/scene")) {
+        if (entry.path().extension() != ".cpp") continue;
+        std::ifstream file(entry.path());
+        std::stringstream content;
+        content << file.rdbuf();
+        const std::string text = content.str();
+        for (std::sregex_iterator one(text.begin(), text.end(), call), end; one != end; ++one) {
+            const std::string list = (*one)[1];
+            std::set<std::string> keys;
+            for (std::sregex_iterator w(list.begin(), list.end(), word); w != end; ++w) keys.insert((*w)[1]);
+            known_keys.insert(keys);
+        }
+    }
+    EXPECT_EQ(changed_keys, known_keys);
+}
+
+TEST(SceneHash, CommentsOrderAndSpellingDoNotMatter) {
+    const std::string text =
+        "format = 1\n[simulation]\nduration = 2\nseed = 3\n[[body]]\nshape = { type = \"sphere\", "
+        "radius = 0.5 }\nposition = [0, 1, 0]\n";
+    const std::string same =
+        "# a comment\nformat = 1\n[[body]]\nposition = [0.0, 1.0, 0]\nshape = { radius = 5e-1, type = "
+        "\"sphere\" }\n[simulation]\nseed = 0x3\nduration = 2.0\n";
+    EXPECT_EQ(scene_hash(parse(text)), scene_hash(parse(same, "/elsewhere/other.toml")));
+}
+
+TEST(SceneHash, TheNameOfTheFileCountsWhereItIsShown) {
+    const std::string text =
+        "format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 0.5 }\n[overlay]\nshow = [\"title\"]\n";
+    EXPECT_NE(scene_hash(parse(text, "a.toml")), scene_hash(parse(text, "b.toml")));
+    EXPECT_EQ(scene_hash(parse(text, "a.toml")), scene_hash(parse(text, "folder/a.toml")));
+    EXPECT_EQ(motion_hash(parse(text, "a.toml")), motion_hash(parse(text, "b.toml")));
+    const std::string titled = "title = \"A\"\n" + text;
+    EXPECT_EQ(scene_hash(parse(titled, "a.toml")), scene_hash(parse(titled, "b.toml")));
+}
+
+SceneDescription with_mesh(const std::shared_ptr<const MeshAsset>& first,
+                           const std::shared_ptr<const MeshAsset>& second) {
+    SceneDescription scene;
+    for (const auto& asset : {first, second}) {
+        BodyDescription body;
+        body.shape = MeshShape{asset};
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+TEST(SceneHash, AMeshCountsByItsContent) {
+    MeshAsset asset;
+    asset.file = "a.obj";
+    asset.mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    asset.mesh.triangles = {{0, 1, 2}};
+    asset.vertices = {{{0, 0, 0}, {0, 0, 1}}, {{1, 0, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}}};
+    asset.indices = {0, 1, 2};
+    MeshAsset moved = asset;
+    moved.file = "b.obj";
+    const auto one = std::make_shared<const MeshAsset>(asset), renamed = std::make_shared<const MeshAsset>(moved);
+    const std::string hash = scene_hash(with_mesh(one, one));
+    EXPECT_EQ(scene_hash(with_mesh(one, renamed)), hash);
+
+    const auto differs = [&](const auto& change) {
+        MeshAsset other = asset;
+        change(other);
+        return scene_hash(with_mesh(one, std::make_shared<const MeshAsset>(other))) != hash;
+    };
+    EXPECT_TRUE(differs([](MeshAsset& a) { a.mesh.vertices[2].z() = 1e-300; }));
+    EXPECT_TRUE(differs([](MeshAsset& a) { a.mesh.triangles[0] = {0, 2, 1}; }));
+    EXPECT_TRUE(differs([](MeshAsset& a) { a.vertices[1].position[1] = 1e-30f; }));
+    EXPECT_TRUE(differs([](MeshAsset& a) { a.vertices[1].normal[2] = -1.0f; }));
+    EXPECT_TRUE(differs([](MeshAsset& a) { a.indices = {0, 2, 1}; }));
+}
+
+}  // namespace
+}  // namespace tumble::scene_hash_test
