@@ -141,11 +141,16 @@ void check_default_keys(const TomlTable& defaults) {
                           "set", "seed", "layout", "transparent", "speed", "shutter", "blur_samples"});
 }
 
-GoldenCase read_case(const TomlTable& own, const std::optional<TomlTable>& defaults,
-                     const std::filesystem::path& folder) {
+Tolerances read_tolerances(const TomlValue& value, const std::filesystem::path& folder, const PairTolerances& base) {
+    if (value.is_text()) return Tolerances::read(folder / value.text(), base);
+    return Tolerances::of_table(value.table(), folder, base);
+}
+
+GoldenCase read_case(const TomlTable& own, const std::optional<TomlTable>& defaults, const GoldenSuite& suite) {
+    const std::filesystem::path folder = suite.file.parent_path();
     own.expect_keys({"name",    "scene",  "scenes",      "frames", "size",       "fps",          "duration",
                      "samples", "method", "overlay",     "plot",   "plot_place", "set",          "seed",
-                     "vary",    "layout", "transparent", "speed",  "shutter",    "blur_samples", "of"});
+                     "vary",    "layout", "transparent", "speed",  "shutter",    "blur_samples", "of", "tolerances"});
     GoldenCase golden;
     golden.where = own.origin().where;
     CaseTable table(own, defaults, golden);
@@ -157,6 +162,8 @@ GoldenCase read_case(const TomlTable& own, const std::optional<TomlTable>& defau
         golden.name = golden.scenes.front().stem().string();
     }
     table.read("of", golden.of, joined);
+    if (const auto tolerances = own.find("tolerances"))
+        golden.tolerances = read_tolerances(*tolerances, folder, suite.tolerances.of(golden.image_name(0)));
     read_overrides(table, golden);
     read_drawing(table, golden);
     if (golden.of) {

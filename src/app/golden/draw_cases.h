@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -24,6 +25,7 @@ struct DrawnCase {
 struct DrawCasesOptions {
     bool force = false;                            // ignores images of the cache
     int jobs = 1;                                  // cases at a time
+    std::optional<DrawingWork> work;  // of each case; empty: by the jobs
     std::string identity;                          // of the program (program_identity.h)
     std::function<void(const DrawnCase&)> report;  // at the end of each case, in any order; may be empty
 };

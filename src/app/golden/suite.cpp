@@ -80,18 +80,20 @@ GoldenSuite parse_suite(const std::string& text, const fs::path& file) {
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"suite", {file.string(), 1, 1}}, "a suite");
     check_format(root);
-    root.expect_keys({"format", "references", "platforms", "tolerances", "defaults", "case"});
+    root.expect_keys({"format", "references", "tolerances", "defaults", "case"});
     GoldenSuite suite;
     suite.file = file;
     std::string references = default_references;
     root.read("references", references);
     suite.references = (file.parent_path() / references).lexically_normal();
+    if (const auto tolerances = root.find("tolerances"))
+        suite.tolerances = read_tolerances(*tolerances, file.parent_path());
     const std::optional<TomlTable> defaults = root.find_table("defaults");
     if (defaults) check_default_keys(*defaults);
     if (const auto cases = root.find("case"))
         for (TomlTable& one : cases->tables("; write [[case]] above the keys of each")) {
             one.set_title("a case");
-            suite.cases.push_back(read_case(one, defaults, file.parent_path()));
+            suite.cases.push_back(read_case(one, defaults, suite));
         }
     if (suite.cases.empty())
         throw InputError(root.origin().where, "a suite needs a case: [[case]] with scene = \"FILE\" (not given)");

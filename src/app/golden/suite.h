@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/composition/frame_layout.h"
+#include "compare/tolerances.h"
 #include "core/error.h"
 #include "scene/keys/overrides.h"
 
@@ -32,6 +33,7 @@ struct GoldenCase {
     double shutter = 0.0;           // degrees
     int blur_samples = 8;           // images per frame while the shutter is open
     std::optional<std::string> of;  // quantities: the case is a plot of them
+    std::optional<Tolerances> tolerances;  // in place of the suite's
 
     /// The place of a key, else of the case.
     const SourceLocation& place_of(std::string_view key) const;
@@ -44,6 +46,7 @@ struct GoldenCase {
 struct GoldenSuite {
     std::filesystem::path file;
     std::filesystem::path references;  // folder
+    Tolerances tolerances;
     std::vector<GoldenCase> cases;     // in the order of the file
 
     const GoldenCase* find(std::string_view name) const;
