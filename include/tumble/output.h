@@ -22,12 +22,14 @@ void write_png(const std::string& file, const Image& image, PngAlpha alpha = Png
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
 Image read_png(const std::string& file);
 
-/// The three rules of `tumble compare` for images that are the same for the eye.
+/// The four rules of `tumble compare` for images that are the same for the eye.
 struct CompareOptions {
     int tolerance = 3;           // levels of 255, 0 to 255: a smaller difference of a channel does not count
     double fraction = 1e-4;      // of all pixels, 0 to 1: so many may differ by more
     std::optional<int> cluster;  // pixels, 0 to 64, of any 8 x 8 that may differ by more; 4 + 64 fraction if not given
     std::optional<double> window;  // levels, 0 to 255: mean difference of any 8 x 8; tolerance / 2 + 255 fraction
+    std::optional<int> shade;  // pixels, 0 to 64, of any 8 x 8 that may be off by more than half the tolerance in one
+                               // direction; as cluster
 };
 
 struct Comparison {

@@ -32,7 +32,8 @@ tumble::CompareOptions to_internal(const CompareOptions& o) {
     check("fraction", o.fraction, 1.0);
     if (o.cluster) check("cluster", *o.cluster, 64.0);
     if (o.window) check("window", *o.window, 255.0);
-    return {o.tolerance, o.fraction, o.cluster, o.window};
+    if (o.shade) check("shade", *o.shade, 64.0);
+    return {o.tolerance, o.fraction, o.cluster, o.window, o.shade};
 }
 
 Comparison to_public(const tumble::Comparison& c) {

@@ -26,7 +26,7 @@ inline constexpr std::size_t verdict_count = 6;
 std::string_view name_of(Verdict verdict);
 
 /// A measured value of a pair and the limit that the tolerances set.
-struct Figure {
+struct RuleFigure {
     std::string metric;  // pixels, cluster, window, shade, ssim or flip
     double value = 0.0, limit = 0.0;
     bool holds = true;
@@ -39,7 +39,7 @@ struct ImageResult {
     std::filesystem::path reference, image;  // files; empty where there is none
     Verdict verdict = Verdict::same;
     std::string rule;                   // pattern of the last rule of the tolerances that applied; empty: none
-    std::vector<Figure> figures;        // of a compared pair
+    std::vector<RuleFigure> figures;    // of a compared pair
     std::string reason;                 // a sentence for each failed rule, one per line; empty for same and alike
     int width = 0, height = 0;          // pixels, of the reference, or of an added image; 0: unknown
     std::int64_t differing_pixels = 0;  // with any difference
@@ -51,6 +51,7 @@ struct ImageResult {
 struct SetResult {
     std::string reference, image;     // as the caller named them
     std::vector<ImageResult> images;  // by name
+    std::string platform;             // whose references replace general ones; empty: none
     bool added_allowed = false;       // an image without a reference is no difference
 
     /// The number of images of each verdict, in the order of the enumeration.

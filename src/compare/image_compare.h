@@ -1,17 +1,21 @@
 // Compares two images as a viewer would. Renderings of one scene differ slightly between processors (a few pixels on
 // edges, by a few dozen levels), which must pass. A small object moved by one pixel, a lost shadow or a shifted color
-// must fail. All of three rules must hold:
+// must fail. All of four rules must hold:
 //
 //   pixels    at most a small fraction of all pixels differs by more than the tolerance in some channel
 //   cluster   no 8 x 8 window has several such pixels: noise is scattered, a moved edge is not
 //   window    no 8 x 8 window differs by more than half the tolerance on average: a soft shadow stays below the
 // tolerance in each of its pixels, but covers many
+//   shade     no 8 x 8 window has several pixels that are brighter, or several that are darker, by more than half the
+//             tolerance in one channel: noise goes both ways and rounds to the next level, a changed color is off
+//             everywhere in the same direction
 //
 // Windows start at every fourth row and column, and flush with the far edges. The window rule bounds single pixels as
 // well: one that is off by 64 times the rule's limit (98 levels by default) is visible as a dot.
 #pragma once
 
 #include "core/image.h"
+#include "core/rectangle.h"
 
 #include <array>
 #include <cstdint>
@@ -33,20 +37,22 @@ struct CompareOptions {
     std::optional<int> cluster = std::nullopt;
     /// Mean difference of a window, levels. Default: tolerance / 2 + 255 fraction.
     std::optional<double> window = std::nullopt;
+    /// Pixels of a window that may be off by more than half the tolerance in one direction. Default: as many as cluster.
+    std::optional<int> shade = std::nullopt;
 };
 
 /// Result of a rule and its place: the pixel that differs most for `pixels`, else the worst window's top left pixel (of
 /// equal ones the first from the top, then from the left).
 struct CompareRule {
     const char* name = "";
-    double figure = 0.0, limit = 0.0;  // pixels for `pixels` and `cluster`, levels for `window`
+    double figure = 0.0, limit = 0.0;  // levels for `window`, pixels for the others
     int x = 0, y = 0;
     bool holds() const { return figure <= limit; }
 };
 
 struct Comparison {
     bool alike = false;
-    std::array<CompareRule, 3> rules;              // pixels, cluster, window
+    std::array<CompareRule, 4> rules;              // pixels, cluster, window, shade
     std::string reason;                            // a sentence for each failed rule, one per line
     std::size_t differing_pixels = 0;              // with any difference
     std::size_t failing_pixels = 0;                // beyond the tolerance
@@ -57,7 +63,15 @@ struct Comparison {
     int worst_window_x = 0, worst_window_y = 0;    // its top left pixel
     int worst_cluster = 0;                         // failing pixels, most in an 8 x 8 window
     int worst_cluster_x = 0, worst_cluster_y = 0;  // its top left pixel
+    int worst_shade = 0;                           // pixels, most in an 8 x 8 window that are off in one direction
+    int worst_shade_x = 0, worst_shade_y = 0;      // its top left pixel
+    int worst_shade_channel = 0;                   // red, green, blue, alpha
+    bool worst_shade_brighter = false;             // the second image has the higher values
+    Rectangle changed;                             // bounds of the failing pixels, or of all that differ if none fails
 };
+
+/// Names of the limits in sentences.
+enum class LimitNames { options, keys };  // --window; the key window of tolerances.toml
 
 /// Compares two images of one size from top to bottom, with the differences of the last eight rows in memory.
 class ImageComparer {
@@ -68,19 +82,34 @@ public:
     void add_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
 
     /// Call it after the last row.
-    Comparison result() const;
+    Comparison result(LimitNames names = LimitNames::options) const;
 
 private:
+    struct Sums {  // of a column or a window, down eight rows
+        int difference = 0, failing = 0;
+        std::array<int, 8> off{};  // pixels of each bit of offs_
+    };
+    /// Bounds of some pixels.
+    struct Bounds {
+        int left = 0, right = -1, top = 0, bottom = -1;
+        void add(int column, int row);
+        Rectangle rectangle() const;
+    };
+
+    std::size_t ring_row(int row) const;
+    void add_differing_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b);
     void check_windows(int top, int bottom);
-    std::span<const std::uint8_t> differences(int row) const;
+    void check_window(int left, int top, const Sums& sums);
 
     int width_, height_;
     CompareOptions options_;
     int row_ = 0;                            // index of the next row
     std::vector<int> columns_;               // starts of windows
     std::vector<std::uint8_t> differences_;  // levels, of the last eight rows, as a ring
-    std::vector<int> sums_, failing_;  // over the columns of a row of windows: levels, pixels beyond the tolerance
-    int last_difference_ = -1;         // row
+    std::vector<std::uint8_t> offs_;         // the same of pixels that are off: a bit for each channel and direction
+    std::vector<Sums> sums_;                 // over the columns of a row of windows
+    int last_difference_ = -1;               // row
+    Bounds differing_, failing_;
     Comparison found_;
 };
 

@@ -58,6 +58,10 @@ public:
     /// read(). (A program that passes pages on with splice() may still hold them.)
     bool lend(std::shared_ptr<const std::byte> memory, std::size_t size);
 
+    /// Takes the messages on its standard error that are waiting, so that it need not wait for room. Call it from time
+    /// to time while its output is read.
+    void take_messages() { read_error_text(); }
+
     /// Closes its input and waits for its end. If it stopped reading before that, it is killed after a second.
     /// Processes that it started are not waited for.
     ProcessEnd finish();

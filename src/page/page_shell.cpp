@@ -2,8 +2,8 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/html_text.h"
 #include "core/safe_text.h"
-#include "page/html_text.h"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 #include "page/player_figure.h"
 
-#include "page/html_text.h"
+#include "core/html_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 #include "page/run_html.h"
 
-#include "page/html_text.h"
+#include "core/html_text.h"
 #include "page/run_statistics.h"
 
 #include <fmt/format.h>

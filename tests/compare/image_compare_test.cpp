@@ -153,7 +153,30 @@ TEST(Compare, EveryFailedRuleIsNamedWithItsValueAndPlace) {
         "rule cluster: 64 pixels of the 8 x 8 from x 20, y 40 on differ by more than 3 levels (at most 4 may; see "
         "--cluster)\n"
         "rule window: the 8 x 8 pixels from x 20, y 40 on differ by 100 levels on average (at most 1.526 may; see "
-        "--window)");
+        "--window)\n"
+        "rule shade: 64 pixels of the 8 x 8 from x 20, y 40 on have more red by 2 levels or more (at most 4 may; see "
+        "--shade)");
+}
+
+TEST(Compare, ASmallRegionOffByTwoLevelsFails) {
+    const Image a = landscape(width, height);
+    for (int channel = 0; channel < 3; ++channel) {
+        Image b = a, noise = a;
+        for (int y = 100; y < 103; ++y)
+            for (int x = 200; x < 203; ++x) {
+                b.at(x, y)[channel] = std::uint8_t(b.at(x, y)[channel] - 2);
+                noise.at(x, y)[channel] = std::uint8_t(noise.at(x, y)[channel] + ((x + y) % 2 == 0 ? -2 : 1));
+            }
+        const Comparison off = compare_images(a, b);
+        EXPECT_FALSE(off.alike);
+        EXPECT_FALSE(off.rules[3].holds());
+        EXPECT_TRUE(off.rules[0].holds() && off.rules[1].holds() && off.rules[2].holds());
+        EXPECT_EQ(off.rules[3].figure, 9.0);
+        EXPECT_EQ(compare_images(a, noise).rules[3].figure, 5.0);  // of one direction
+        CompareOptions options;
+        options.tolerance = 4;  // and half of it are two levels
+        EXPECT_TRUE(compare_images(a, b, options).alike);
+    }
 }
 
 TEST(Compare, EachRuleCanBeSet) {

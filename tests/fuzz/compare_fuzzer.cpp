@@ -37,7 +37,8 @@ void compare(std::span<const std::uint8_t> first, std::span<const std::uint8_t> 
     TUMBLE_CHECK_EQ(same.result().alike, true);
     const tumble::Comparison result = comparer.result();
     TUMBLE_CHECK_EQ(result.differing_pixels, differing);
-    TUMBLE_CHECK_EQ(result.alike, result.rules[0].holds() && result.rules[1].holds() && result.rules[2].holds());
+    TUMBLE_CHECK_EQ(result.alike, result.rules[0].holds() && result.rules[1].holds() && result.rules[2].holds() &&
+                                      result.rules[3].holds());
     TUMBLE_CHECK_EQ(result.alike, result.reason.empty());
     if (differing == 0) TUMBLE_CHECK_EQ(result.alike, true);
     for (const tumble::CompareRule& rule : result.rules)

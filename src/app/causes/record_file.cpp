@@ -4,7 +4,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
-#include "page/html_text.h"
+#include "core/html_text.h"
 #include "scene/mesh/base64.h"
 
 #include <fmt/format.h>

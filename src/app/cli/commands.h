@@ -122,8 +122,15 @@ struct CompareCommand {
     std::filesystem::path a, b;
     std::optional<std::filesystem::path> difference;
     v0::CompareOptions options;
+    std::optional<std::filesystem::path> tolerances;           // .toml
+    std::optional<std::filesystem::path> report, json, junit;  // to write
+    std::optional<std::string> platform;                       // of the references; "none": the general ones alone
+    bool allow_added = false;                                  // a picture without a reference is no difference
+    SceneOverrides overrides;                                  // of a scene that is drawn
+    int workers = 1;                                           // pairs at a time, and render processes
+    bool quiet = false;
 };
-/// Returns 0 if the images are alike, 1 if they differ, 2 if they cannot be compared.
+/// Returns 0 if the images are alike, 1 if they differ, 2 if they cannot be compared, 3 if one is missing.
 int run_compare(const CompareCommand& command);
 
 struct InfoCommand {

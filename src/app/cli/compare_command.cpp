@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/compare_sets.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
 #include "core/error.h"
@@ -38,6 +39,7 @@ int run_compare(const CompareCommand& command) try {
     const double fraction = command.options.fraction;
     if (!(fraction >= 0.0 && fraction <= 1.0))  // CLI11's range check lets NaN through
         throw InputError(fmt::format("--fraction: must be between 0 and 1 (was {})", fraction));
+    if (compares_sets(command)) return compare_sets(command);
     OutputPlan plan;
     for (const auto& image : {command.a, command.b}) plan.add_input(image);
     if (command.difference) plan.add("--diff", *command.difference);

@@ -20,46 +20,6 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
     return command;
 }
 
-CLI::App* add_compare(CLI::App& app, CommandLine& line) {
-    CompareCommand& c = line.compare;
-    CLI::App* command =
-        app.add_subcommand("compare", "Compare two pictures: exit code 0 alike, 1 different, 2 cannot compare");
-    command->add_option("a", c.a, "A picture (PNG)")->required()->type_name("A.png");
-    command->add_option("b", c.b, "Another, of the same size")->required()->type_name("B.png");
-    command
-        ->add_option("--diff", c.difference,
-                     "Write a picture of the differences: red beyond the tolerance, blue within")
-        ->check(some_name())
-        ->type_name("D.png");
-    command
-        ->add_option("--tolerance", c.options.tolerance,
-                     "Levels (of 255) that a pixel may differ in each channel without counting")
-        ->check(CLI::Range(0, 255))
-        ->option_text("N [3]");
-    command
-        ->add_option("--fraction", c.options.fraction,
-                     "Rule pixels: part of the pixels that may differ by more (rounded up to whole\npixels)")
-        ->check(number_within(0.0, 1.0))
-        ->option_text("F [0.0001]");
-    command->add_option("--cluster", c.options.cluster, "Rule cluster: pixels of any 8 x 8 that may differ by more")
-        ->check(CLI::Range(0, 64))
-        ->option_text("N [4 + 64 F]");
-    command
-        ->add_option("--window", c.options.window,
-                     "Rule window: levels that any 8 x 8 pixels may differ by on average. A single\npixel that is off "
-                     "by 64 times that breaks it as well")
-        ->check(number_within(0.0, 255.0))
-        ->option_text("L [tolerance / 2 + 255 F]");
-    command->footer(
-        "Pictures are alike if all three rules hold. A rule that fails is named with its value, its limit and its\n"
-        "place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a\n"
-        "small object moved by one pixel (cluster), a lost shadow or a shifted color (window) do not. The 8 x 8 "
-        "pixels\n"
-        "begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
-        "Example:\n  tumble compare golden.png frame_000100.png --diff difference.png");
-    return command;
-}
-
 CLI::App* add_info(CLI::App& app, CommandLine& line) {
     CLI::App* command = app.add_subcommand("info", "Describe a scene and estimate its cost");
     add_scene(*command, line.info.scene);

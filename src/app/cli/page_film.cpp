@@ -4,17 +4,15 @@
 #include "app/cli/say.h"
 #include "app/files/frame_folder.h"
 #include "core/error.h"
+#include "core/html_text.h"
 #include "core/safe_text.h"
 #include "output/process.h"
-#include "page/html_text.h"
+#include "output/temporary_folder.h"
 
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstring>
 #include <fstream>
 #include <optional>
 #include <span>
@@ -28,27 +26,6 @@ namespace fs = std::filesystem;
 constexpr double most_fps = 30.0;            // of the film; more doubles its bytes
 constexpr double poster_place = 1.0 / 3.0;   // of the clip: bodies are in motion, and near their start
 constexpr const char* poster_quality = "3";  // of ffmpeg's JPEG, 2 (best) to 31
-
-/// A folder of its own for files on their way into the page.
-class TemporaryFolder {
-public:
-    TemporaryFolder() {
-        std::string name = (fs::temp_directory_path() / "tumble-page-XXXXXX").string();
-        if (::mkdtemp(name.data()) == nullptr)
-            throw RunError(fmt::format("cannot make a temporary folder {}: {}", safe_path(name), std::strerror(errno)));
-        path_ = name;
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    TemporaryFolder(const TemporaryFolder&) = delete;
-    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-    const fs::path& path() const { return path_; }
-
-private:
-    fs::path path_;
-};
 
 std::string address_of(const fs::path& file, const char* media_type) {
     std::ifstream stream(file, std::ios::binary);
@@ -104,7 +81,7 @@ void set_film_size(SceneOverrides& overrides, const SceneDescription& scene, int
 }
 
 PageFilm draw_film(RenderCommand command, const FilmOptions& options) {
-    const TemporaryFolder folder;
+    const TemporaryFolder folder("page");
     const std::optional<fs::path> ffmpeg = find_program("ffmpeg");
     command.clip.reset();
     command.report.reset();

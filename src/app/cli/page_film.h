@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// Data addresses (page/html_text.h); empty: there is none.
+/// Data addresses (core/html_text.h); empty: there is none.
 struct PageFilm {
     std::string poster, film;
     int width = 0, height = 0;  // of both, pixels

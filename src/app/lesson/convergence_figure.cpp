@@ -1,6 +1,6 @@
 #include "app/lesson/convergence_figure.h"
 
-#include "page/html_text.h"
+#include "core/html_text.h"
 #include "page/run_html.h"
 #include "plot/axis.h"
 

@@ -1,6 +1,6 @@
 #include "app/lesson/lesson_page.h"
 
-#include "page/html_text.h"
+#include "core/html_text.h"
 #include "page/run_html.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-#include "page/html_text.h"
+#include "core/html_text.h"
 
 #include <cstdint>
 

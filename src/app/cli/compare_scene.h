@@ -1,0 +1,19 @@
+// Draws the frames of a scene that a folder of references holds.
+#pragma once
+
+#include "app/cli/commands.h"
+#include "compare/image_folder.h"
+
+#include <filesystem>
+
+namespace tumble {
+
+/// The references that are frames (frame_000041.png), which a scene can be compared with. Throws InputError if there
+/// are none, or if their sizes differ.
+NamedFiles frames_among(const NamedFiles& references, const std::filesystem::path& folder);
+
+/// Draws the frames with the numbers of the references into `to`, at their size.
+void draw_frames_of(const CompareCommand& command, const std::filesystem::path& scene, const NamedFiles& references,
+                    const std::filesystem::path& to);
+
+}  // namespace tumble

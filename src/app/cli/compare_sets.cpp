@@ -1,0 +1,178 @@
+#include "app/cli/compare_sets.h"
+
+#include "app/cli/compare_scene.h"
+#include "app/cli/compare_summary.h"
+#include "app/cli/say.h"
+#include "app/compare/clip_pairs.h"
+#include "app/compare/compare_input.h"
+#include "app/files/output_plan.h"
+#include "app/threads/interrupt.h"
+#include "compare/comparison_text.h"
+#include "compare/image_folder.h"
+#include "compare/platform.h"
+#include "compare/set_compare.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/temporary_file.h"
+#include "output/temporary_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+PairTolerances tolerances_of_options(const v0::CompareOptions& options) {
+    PairTolerances tolerances;
+    tolerances.pixels = {options.tolerance, options.fraction, options.cluster, options.window, options.shade};
+    return tolerances;
+}
+
+/// The comparison of a command: its operands in order, its settings, and the folder for frames that are drawn.
+class SetComparisonRun {
+public:
+    explicit SetComparisonRun(const CompareCommand& command) : command_(command) {
+        reference_ = command.a;
+        image_ = command.b;
+        // A scene is always the side under test.
+        if (compare_input(reference_) == CompareInput::scene) std::swap(reference_, image_);
+        of_reference_ = compare_input(reference_);
+        of_image_ = compare_input(image_);
+        check_kinds();
+        const PairTolerances base = tolerances_of_options(command.options);
+        tolerances_ = command.tolerances ? Tolerances::read(*command.tolerances, base) : Tolerances(base);
+        plan_outputs();
+    }
+
+    SetResult compare() {
+        SetResult result;
+        result.reference = reference_.string();
+        result.image = image_.string();
+        result.added_allowed = command_.allow_added;
+        const bool pictures = of_reference_ == CompareInput::picture;
+        if (pictures || of_reference_ == CompareInput::folder) {
+            if (pictures)
+                result.images = compare_files({{reference_.filename().string(), reference_}},
+                                              {{reference_.filename().string(), image_}});
+            else if (of_image_ == CompareInput::scene)
+                result.images = compare_scene(result);
+            else if (of_image_ == CompareInput::folder)
+                result.images = compare_folders(result);
+        }
+        if (of_reference_ == CompareInput::clip || of_image_ == CompareInput::clip) result.images = compare_frames();
+        return result;
+    }
+
+    const Tolerances& tolerances() const { return tolerances_; }
+
+private:
+    void check_kinds() const {
+        const auto both = [&](CompareInput kind) { return of_reference_ == kind && of_image_ == kind; };
+        const auto one = [&](CompareInput kind) { return of_reference_ == kind || of_image_ == kind; };
+        if (both(CompareInput::picture) || both(CompareInput::folder) || both(CompareInput::clip)) return;
+        if (one(CompareInput::folder) && !one(CompareInput::picture)) return;
+        throw InputError(
+            fmt::format("cannot compare '{}' with '{}': compare two pictures, two folders, two clips, or a "
+                        "folder with a clip or a scene",
+                        safe_path(command_.a), safe_path(command_.b)));
+    }
+
+    void plan_outputs() const {
+        OutputPlan plan;
+        for (const fs::path& input : {reference_, image_})
+            if (!fs::is_directory(input)) plan.add_input(input);
+        if (command_.tolerances) plan.add_input(*command_.tolerances);
+        if (command_.json) plan.add("--json", *command_.json);
+        if (command_.junit) plan.add("--junit", *command_.junit);
+    }
+
+    std::vector<ImageResult> compare(const PairSource& next) {
+        Interrupt interrupt;
+        return compare_pairs(
+            [&]() -> std::optional<ImagePair> {
+                if (interrupt.pending()) throw RunError("interrupted");
+                return next();
+            },
+            tolerances_, command_.workers);
+    }
+
+    std::vector<ImageResult> compare_files(const NamedFiles& references, const NamedFiles& images) {
+        const std::vector<ImagePair> pairs = pairs_of(references, images);
+        std::size_t index = 0;
+        return compare([&]() -> std::optional<ImagePair> {
+            return index < pairs.size() ? std::optional(pairs[index++]) : std::nullopt;
+        });
+    }
+
+    References references_for(const NamedFiles& files, const NamedFiles& images, SetResult& result) const {
+        std::vector<std::string> platforms(std::begin(known_platforms), std::end(known_platforms));
+        platforms.insert(platforms.end(), tolerances_.platforms().begin(), tolerances_.platforms().end());
+        const std::string platform = command_.platform.value_or(this_platform());
+        References references = references_of(files, images, platform == "none" ? "" : platform, platforms);
+        result.platform = references.platform;
+        return references;
+    }
+
+    std::vector<ImageResult> compare_folders(SetResult& result) {
+        const NamedFiles images = png_files_in(image_);
+        const References references = references_for(png_files_in(reference_), images, result);
+        if (references.files.empty() && images.empty())
+            throw InputError(
+                fmt::format("there are no PNG files in '{}' and '{}'", safe_path(reference_), safe_path(image_)));
+        return compare_files(references.files, images);
+    }
+
+    std::vector<ImageResult> compare_scene(SetResult& result) {
+        const References references = references_for(png_files_in(reference_), {}, result);
+        const NamedFiles frames = frames_among(references.files, reference_);
+        if (frames.size() < references.files.size())
+            say("note: {} files of the folder are no frames of a scene, and are not compared\n",
+                references.files.size() - frames.size());
+        drawn_.emplace("compare");
+        draw_frames_of(command_, image_, frames, drawn_->path());
+        NamedFiles images = png_files_in(drawn_->path());
+        std::erase_if(images, [&](const auto& image) { return frames.count(image.first) == 0; });
+        return compare_files(frames, images);
+    }
+
+    std::vector<ImageResult> compare_frames() {
+        FramePairs pairs(reference_, image_);
+        return compare([&] { return pairs.next(); });
+    }
+
+    const CompareCommand& command_;
+    fs::path reference_, image_;
+    CompareInput of_reference_, of_image_;
+    Tolerances tolerances_;
+    std::optional<TemporaryFolder> drawn_;  // frames of a scene
+};
+
+void write_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
+
+}  // namespace
+
+bool compares_sets(const CompareCommand& command) {
+    if (command.tolerances || command.json || command.junit || command.report) return true;
+    return compare_input(command.a) != CompareInput::picture || compare_input(command.b) != CompareInput::picture;
+}
+
+int compare_sets(const CompareCommand& command) {
+    if (command.difference) throw InputError("--diff: is for two pictures (see --report)");
+    SetComparisonRun run(command);
+    const SetResult result = run.compare();
+    if (command.json) write_text(*command.json, to_json(result));
+    if (command.junit) write_text(*command.junit, to_junit(result));
+    std::vector<std::string> names;
+    for (const ImageResult& image : result.images) names.push_back(image.name);
+    for (const std::string& rule : run.tolerances().unused(names))
+        say("note: the rule stands for no picture: {}\n", rule);
+    print_summary(result, command.quiet);
+    return result.exit_code();
+}
+
+}  // namespace tumble

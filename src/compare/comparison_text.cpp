@@ -1,0 +1,130 @@
+#include "compare/comparison_text.h"
+
+#include "core/safe_text.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const Rectangle& r) { return {{"x", r.x}, {"y", r.y}, {"width", r.width}, {"height", r.height}}; }
+
+/// A number; null for an infinite one.
+Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(); }
+
+Json json_of(const RuleFigure& figure) {
+    return {{"metric", figure.metric},
+            {"value", json_of(figure.value)},
+            {"limit", json_of(figure.limit)},
+            {"holds", figure.holds},
+            {"x", figure.x},
+            {"y", figure.y}};
+}
+
+Json json_of(const ImageResult& image) {
+    Json json{{"name", image.name}, {"verdict", name_of(image.verdict)}};
+    json["reference"] = image.reference.empty() ? Json() : Json(image.reference.string());
+    json["image"] = image.image.empty() ? Json() : Json(image.image.string());
+    json["width"] = image.width;
+    json["height"] = image.height;
+    json["rule"] = image.rule.empty() ? Json() : Json(image.rule);
+    json["reason"] = image.reason;
+    json["figures"] = Json::array();
+    for (const RuleFigure& figure : image.figures) json["figures"].push_back(json_of(figure));
+    json["differing_pixels"] = image.differing_pixels;
+    json["max_difference"] = image.max_difference;
+    json["changed"] = image.changed.width > 0 ? json_of(image.changed) : Json();
+    json["causes"] = image.causes;
+    return json;
+}
+
+/// Text for an attribute or an element. XML 1.0 allows no control characters but tab and line breaks.
+std::string escaped(std::string_view text) {
+    std::string xml;
+    for (const char c : safe_lines(text, text.size() + message_text_bytes)) {
+        switch (c) {
+            case '&':
+                xml += "&amp;";
+                break;
+            case '<':
+                xml += "&lt;";
+                break;
+            case '>':
+                xml += "&gt;";
+                break;
+            case '"':
+                xml += "&quot;";
+                break;
+            case '\n':
+                xml += "&#10;";
+                break;
+            case '\t':
+                xml += "&#9;";
+                break;
+            default:
+                xml += c;
+        }
+    }
+    return xml;
+}
+
+bool is_failure(const ImageResult& image, const SetResult& result) {
+    return image.verdict == Verdict::different || (image.verdict == Verdict::added && !result.added_allowed);
+}
+
+bool is_error(const ImageResult& image) {
+    return image.verdict == Verdict::missing || image.verdict == Verdict::broken;
+}
+
+std::string testcase(const ImageResult& image, const SetResult& result) {
+    const std::string head =
+        fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(result.reference), escaped(image.name));
+    const bool failure = is_failure(image, result);
+    if (!failure && !is_error(image)) return head + "/>\n";
+    std::string text = image.reason;
+    for (const std::string& cause : image.causes) text += "\n" + cause;
+    const std::string_view element = failure ? "failure" : "error";
+    return fmt::format("{}>\n    <{} type=\"{}\" message=\"{}\">{}</{}>\n  </testcase>\n", head, element,
+                       name_of(image.verdict), escaped(text.substr(0, text.find('\n'))), escaped(text), element);
+}
+
+}  // namespace
+
+std::string to_json(const SetResult& result) {
+    Json json{{"format", "tumble-comparison"},
+              {"version", 1},
+              {"reference", result.reference},
+              {"image", result.image},
+              {"platform", Json()},
+              {"added_allowed", result.added_allowed},
+              {"exit_code", result.exit_code()},
+              {"counts", Json::object()}};
+    if (!result.platform.empty()) json["platform"] = result.platform;
+    const auto counts = result.counts();
+    for (std::size_t i = 0; i < verdict_count; ++i) json["counts"][std::string(name_of(Verdict(i)))] = counts[i];
+    json["images"] = Json::array();
+    for (const ImageResult& image : result.images) json["images"].push_back(json_of(image));
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string to_junit(const SetResult& result) {
+    std::size_t failures = 0, errors = 0;
+    std::string cases;
+    for (const ImageResult& image : result.images) {
+        failures += is_failure(image, result) ? 1 : 0;
+        errors += is_error(image) ? 1 : 0;
+        cases += testcase(image, result);
+    }
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
+        "errors=\"{}\" skipped=\"0\">\n{}</testsuite>\n",
+        escaped(fmt::format("tumble compare {} {}", result.reference, result.image)), result.images.size(), failures,
+        errors, cases);
+}
+
+}  // namespace tumble

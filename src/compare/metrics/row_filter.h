@@ -1,0 +1,33 @@
+// Convolution with filters of one dimension, symmetric or antisymmetric about the middle. Filters of two dimensions are
+// products of them: one along rows, one along columns. All operations are in a fixed order, so vector instructions of
+// any width give the same bits.
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+enum class FilterKind {
+    symmetric,
+    antisymmetric,  // the weight of the middle is 0
+    zero_sum,       // symmetric, and all weights sum to 0
+};
+
+/// Weights of the middle and of the offsets 1 to radius; the weight of offset -k is that of k, or its negative. Filters
+/// of the last two kinds give exactly 0 where all values are equal.
+struct RowFilter {
+    std::vector<float> weights;  // radius + 1
+    FilterKind kind = FilterKind::symmetric;
+
+    int radius() const { return static_cast<int>(weights.size()) - 1; }
+};
+
+/// The filter along a row: `width` values. Precondition: row[-radius] to row[width - 1 + radius] exist.
+void filter_row(const float* row, int width, const RowFilter& filter, float* to);
+
+/// The filter along columns: rows[rows.size() / 2] is the middle, and the next one is the row below. At least
+/// 2 * radius + 1 rows, each of `width` values.
+void filter_columns(std::span<const float* const> rows, int width, const RowFilter& filter, float* to);
+
+}  // namespace tumble

@@ -1,0 +1,21 @@
+#include "compare/platform.h"
+
+#include <fstream>
+#include <iterator>
+
+namespace tumble {
+
+std::string platform_of(std::string_view cpuinfo) {
+    if (cpuinfo.find("AuthenticAMD") != std::string_view::npos) return "amd";
+    if (cpuinfo.find("GenuineIntel") != std::string_view::npos) return "intel";
+    if (cpuinfo.find("CPU implementer") != std::string_view::npos) return "arm";
+    return "other";
+}
+
+std::string this_platform() {
+    std::ifstream stream("/proc/cpuinfo");
+    const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    return platform_of(text);
+}
+
+}  // namespace tumble
