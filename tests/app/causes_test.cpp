@@ -4,6 +4,7 @@
 #include "app/causes/record_file.h"
 #include "core/error.h"
 #include "scene/load.h"
+#include "sim/frames/frame_sequence.h"
 
 #include <gtest/gtest.h>
 
@@ -95,9 +96,8 @@ TEST(Causes, ABodyThatMovedIsNamedWithItsPixels) {
 }
 
 TEST(Causes, ABodyThatTurned) {
-    const std::string turned =
-        replaced(scene_text, "position = [-1.2, 0.25, 0.0]",
-                 "position = [-1.2, 0.25, 0.0]\nrotation = { axis = [0, 1, 0], angle = 20 }");
+    const std::string turned = replaced(scene_text, "position = [-1.2, 0.25, 0.0]",
+                                        "position = [-1.2, 0.25, 0.0]\nrotation = { axis = [0, 1, 0], angle = 20 }");
     EXPECT_EQ(causes_of(turned, 0), Texts{"crate turned by 20 degrees (first differing frame 0)"});
 }
 
@@ -150,8 +150,9 @@ TEST(Causes, AFrameThatIsLate) {
 }
 
 TEST(Causes, ABodyThatIsMissingOrNew) {
-    const std::string more = scene_text + "[[body]]\nname = \"cone\"\ntype = \"fixed\"\n"
-                                          "shape = { type = \"sphere\", radius = 0.3 }\nposition = [0, 0.3, 1]\n";
+    const std::string more = scene_text +
+                             "[[body]]\nname = \"cone\"\ntype = \"fixed\"\n"
+                             "shape = { type = \"sphere\", radius = 0.3 }\nposition = [0, 0.3, 1]\n";
     EXPECT_EQ(causes_of(more, 0), Texts{"cone is new"});
     EXPECT_EQ(causes_between(record_of(more), record_of(scene_text), 0, {}), Texts{"cone is missing"});
 }

@@ -92,8 +92,7 @@ TEST(GoldenSuite, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(mistake(head + "[[case]]\n"), "2:1: error: a case needs \"scene\", the path of a scene file (not given)");
     EXPECT_EQ(mistake(head + "refrences = \"x\"\n"),
               "2:1: error: unknown key \"refrences\" in a suite (did you mean \"references\"?)");
-    EXPECT_EQ(mistake(one + "frame = [1]\n"),
-              "4:1: error: unknown key \"frame\" in a case (did you mean \"frames\"?)");
+    EXPECT_EQ(mistake(one + "frame = [1]\n"), "4:1: error: unknown key \"frame\" in a case (did you mean \"frames\"?)");
     EXPECT_EQ(mistake(one + "frames = []\n"), "4:10: error: frames must have 1 to 1000 numbers of frames (given [])");
     EXPECT_EQ(mistake(one + "frames = [3, 3]\n"),
               "4:14: error: frames must be larger than the number before it (given 3)");
@@ -103,7 +102,8 @@ TEST(GoldenSuite, NamesThePlaceOfEachMistake) {
     EXPECT_EQ(mistake(one + "scenes = [\"b.toml\"]\n").substr(0, 40), "4:10: error: scenes and scene exclude ea");
     EXPECT_EQ(mistake(one + "of = \"energy\"\nframes = [1]\n").substr(0, 40),
               "5:10: error: frames has no meaning in a p");
-    EXPECT_EQ(mistake(one + "layout = \"ring\"\n"), "4:10: error: layout must be one of \"row\", \"grid\" (given \"ring\")");
+    EXPECT_EQ(mistake(one + "layout = \"ring\"\n"),
+              "4:10: error: layout must be one of \"row\", \"grid\" (given \"ring\")");
     EXPECT_EQ(mistake(one + "[defaults]\nname = \"x\"\n").substr(0, 34), "5:1: error: unknown key \"name\" in [");
     EXPECT_EQ(mistake(one + "tolerances = { level = 3 }\n").substr(0, 34), "4:16: error: unknown key \"level\" in");
     EXPECT_EQ(mistake(one + "[[case]]\nscene = \"b/A.toml\"\n"),

@@ -2,9 +2,9 @@
 
 #include "app/causes/record_bytes.h"
 #include "core/error.h"
+#include "core/html_text.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
-#include "core/html_text.h"
 #include "scene/mesh/base64.h"
 
 #include <fmt/format.h>

@@ -51,8 +51,9 @@ std::vector<std::int64_t> read_frames(const std::string& text) {
 
 void add_check(CLI::App& golden, GoldenCommand& c) {
     CLI::App* command =
-        golden.add_subcommand("check", "Draw the cases and compare them with their references: exit code 0 alike,\n"
-                                       "1 different, 2 broken, 3 a reference is missing");
+        golden.add_subcommand("check",
+                              "Draw the cases and compare them with their references: exit code 0 alike,\n"
+                              "1 different, 2 broken, 3 a reference is missing");
     add_suite(*command, c);
     add_cases(*command, c, "Names of cases; without one: all");
     command->add_option("--report", c.report, "Write a page with the images that differ, and the causes")
@@ -72,7 +73,8 @@ void add_check(CLI::App& golden, GoldenCommand& c) {
     command
         ->add_option("--cache", c.cache,
                      "Folder of drawn images, in place of tumble/golden in $XDG_CACHE_HOME or ~/.cache: a case is\n"
-                     "drawn again only if its scene, the program, a library or a font has changed; none: all\nare drawn, and removed at the end")
+                     "drawn again only if its scene, the program, a library or a font has changed; none: all\nare "
+                     "drawn, and removed at the end")
         ->check(some_name())
         ->type_name("DIR");
     command->add_flag("--force", c.force, "Draw all cases, changed or not");
@@ -84,9 +86,10 @@ void add_check(CLI::App& golden, GoldenCommand& c) {
 }
 
 void add_accept(CLI::App& golden, GoldenCommand& c) {
-    CLI::App* command = golden.add_subcommand(
-        "accept", "Draw cases twice and take the images as references; an image that does not render\n"
-                  "twice alike is refused (exit code 1)");
+    CLI::App* command =
+        golden.add_subcommand("accept",
+                              "Draw cases twice and take the images as references; an image that does not render\n"
+                              "twice alike is refused (exit code 1)");
     add_suite(*command, c);
     add_cases(*command, c, "Names of the cases to accept");
     command->add_flag("--all", c.all, "All cases");
@@ -125,8 +128,7 @@ void add_add(CLI::App& golden, GoldenCommand& c) {
 CLI::App* add_golden(CLI::App& app, CommandLine& line) {
     GoldenCommand& c = line.golden;
     c.jobs = std::min(machine_threads(), enough_workers);
-    CLI::App* command =
-        app.add_subcommand("golden", "Check scenes against accepted images, by a suite of cases");
+    CLI::App* command = app.add_subcommand("golden", "Check scenes against accepted images, by a suite of cases");
     command->require_subcommand(1);
     add_check(*command, c);
     add_accept(*command, c);

@@ -51,9 +51,10 @@ std::string difference_between(const DrawnCase& first, const DrawnCase& second, 
     const fs::path a = first.folder / name, b = second.folder / name;
     if (content(a) == content(b) || read_png(a) == read_png(b)) return "";
     const ImageResult compared =
-        compare_pair({name, Picture{a, nullptr}, Picture{b, nullptr}}, PairTolerances());
+        compare_pair({name, ComparedPicture{a, nullptr}, ComparedPicture{b, nullptr}}, PairTolerances());
     return fmt::format(
-        "does not render twice alike: {} pixels differ, by {} levels at most, between drawings with {} and {} processes",
+        "does not render twice alike: {} pixels differ, by {} levels at most, between drawings with {} and {} "
+        "processes",
         compared.differing_pixels, compared.max_difference, first_work.workers, second_work.workers);
 }
 
@@ -64,7 +65,7 @@ AcceptedImage::What place_of(const fs::path& image, const fs::path& reference, c
     if (!fs::exists(reference, error)) return What::made;
     const std::string name = reference.filename().string();
     const ImageResult result =
-        compare_pair({name, Picture{reference, nullptr}, Picture{image, nullptr}}, tolerances.of(name));
+        compare_pair({name, ComparedPicture{reference, nullptr}, ComparedPicture{image, nullptr}}, tolerances.of(name));
     if (result.verdict == Verdict::same) return What::kept_same;
     return result.verdict == Verdict::alike ? What::kept_alike : What::replaced;
 }
@@ -124,8 +125,8 @@ private:
         std::error_code error;
         fs::create_directories(folder_, error);
         if (error)
-            throw RunError(fmt::format("cannot make the folder of references '{}': {}", safe_path(folder_),
-                                       error.message()));
+            throw RunError(
+                fmt::format("cannot make the folder of references '{}': {}", safe_path(folder_), error.message()));
     }
 
     const GoldenSuite& suite_;

@@ -148,9 +148,9 @@ Tolerances read_tolerances(const TomlValue& value, const std::filesystem::path& 
 
 GoldenCase read_case(const TomlTable& own, const std::optional<TomlTable>& defaults, const GoldenSuite& suite) {
     const std::filesystem::path folder = suite.file.parent_path();
-    own.expect_keys({"name",    "scene",  "scenes",      "frames", "size",       "fps",          "duration",
-                     "samples", "method", "overlay",     "plot",   "plot_place", "set",          "seed",
-                     "vary",    "layout", "transparent", "speed",  "shutter",    "blur_samples", "of", "tolerances"});
+    own.expect_keys({"name",        "scene",   "scenes",  "frames",       "size", "fps",       "duration", "samples",
+                     "method",      "overlay", "plot",    "plot_place",   "set",  "seed",      "vary",     "layout",
+                     "transparent", "speed",   "shutter", "blur_samples", "of",   "tolerances"});
     GoldenCase golden;
     golden.where = own.origin().where;
     CaseTable table(own, defaults, golden);

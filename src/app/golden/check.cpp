@@ -39,8 +39,8 @@ ImagePair pair_of(const ImagePlace& place, const NamedFiles& references) {
     ImagePair pair;
     pair.name = place.drawn->golden->image_name(place.frame);
     if (const auto reference = references.find(pair.name); reference != references.end())
-        pair.reference = Picture{reference->second, nullptr};
-    if (place.drawn->error.empty()) pair.image = Picture{place.drawn->folder / pair.name, nullptr};
+        pair.reference = ComparedPicture{reference->second, nullptr};
+    if (place.drawn->error.empty()) pair.image = ComparedPicture{place.drawn->folder / pair.name, nullptr};
     return pair;
 }
 
@@ -67,8 +67,8 @@ void explain(const ImagePlace& place, ImageResult& result) {
     std::error_code error;
     if (!fs::exists(before, error)) return;
     try {
-        result.causes = causes_between(read_record(before), read_record(place.drawn->folder / name), place.frame,
-                                       result.changed);
+        result.causes =
+            causes_between(read_record(before), read_record(place.drawn->folder / name), place.frame, result.changed);
     } catch (const InputError&) {
         // Causes are an addition: the verdict stands without them.
     }

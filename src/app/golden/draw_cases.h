@@ -25,7 +25,7 @@ struct DrawnCase {
 struct DrawCasesOptions {
     bool force = false;                            // ignores images of the cache
     int jobs = 1;                                  // cases at a time
-    std::optional<DrawingWork> work;  // of each case; empty: by the jobs
+    std::optional<DrawingWork> work;               // of each case; empty: by the jobs
     std::string identity;                          // of the program (program_identity.h)
     std::function<void(const DrawnCase&)> report;  // at the end of each case, in any order; may be empty
 };

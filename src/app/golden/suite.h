@@ -29,10 +29,10 @@ struct GoldenCase {
     std::vector<std::string> vary;  // "PATH=VALUE,VALUE"
     PanelArrangement arrangement = PanelArrangement::automatic;
     bool transparent = false;
-    double speed = 1.0;             // of the motion in the clip
-    double shutter = 0.0;           // degrees
-    int blur_samples = 8;           // images per frame while the shutter is open
-    std::optional<std::string> of;  // quantities: the case is a plot of them
+    double speed = 1.0;                    // of the motion in the clip
+    double shutter = 0.0;                  // degrees
+    int blur_samples = 8;                  // images per frame while the shutter is open
+    std::optional<std::string> of;         // quantities: the case is a plot of them
     std::optional<Tolerances> tolerances;  // in place of the suite's
 
     /// The place of a key, else of the case.
@@ -47,7 +47,7 @@ struct GoldenSuite {
     std::filesystem::path file;
     std::filesystem::path references;  // folder
     Tolerances tolerances;
-    std::vector<GoldenCase> cases;     // in the order of the file
+    std::vector<GoldenCase> cases;  // in the order of the file
 
     const GoldenCase* find(std::string_view name) const;
 };
