@@ -1,6 +1,6 @@
 // Named causes of planted changes, from records of real runs that went through their files.
 #include "app/causes/explain.h"
-#include "app/causes/motion_recorder.h"
+#include "app/causes/run_recorder.h"
 #include "app/causes/record_file.h"
 #include "core/error.h"
 #include "scene/load.h"
@@ -70,7 +70,7 @@ std::vector<std::pair<Snapshot, ContactRecords>> run_of(const SceneDescription& 
 MotionRecord record_of(const std::string& text, std::int64_t late = 0) {
     const SceneDescription scene = parse_scene(text, "scene.toml");
     const Composition composition(scene);
-    MotionRecorder recorder(composition, kept, frame_count);
+    RunRecorder recorder(composition, kept, frame_count);
     const auto run = run_of(scene);
     for (std::int64_t n = 0; n < frame_count; ++n) {
         const auto& [snapshot, records] = run[std::size_t(std::max<std::int64_t>(n - late, 0))];
@@ -163,7 +163,7 @@ TEST(Causes, TextAndSize) {
     const SceneDescription scene = parse_scene(captioned, "scene.toml");
     Composition composition(scene);
     composition.text.title = "Hello";
-    MotionRecorder recorder(composition, kept, frame_count);
+    RunRecorder recorder(composition, kept, frame_count);
     for (const auto& [snapshot, records] : run_of(scene)) recorder.panel(0).see(snapshot, {}, &records);
     EXPECT_EQ(causes_between(record_of(scene_text), recorder.finish(), 30, {}), Texts{"text (title: none to Hello)"});
     EXPECT_EQ(causes_of(replaced(scene_text, "[160, 90]", "[320, 180]"), 0), Texts{"size (160 x 90 to 320 x 180)"});

@@ -42,9 +42,9 @@ std::vector<const GoldenCase*> chosen_cases(const GoldenSuite& suite, const std:
     return chosen;
 }
 
-void write_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
+void save_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
 
-void check_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
+void plan_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
     OutputPlan plan;
     plan.add_input(suite.file);
     for (const GoldenCase& golden : suite.cases)
@@ -144,7 +144,7 @@ std::int64_t print_accepted(const std::vector<AcceptedImage>& images, bool quiet
 int run_golden_check(const GoldenCommand& command) {
     const GoldenSuite suite = load_suite(command.suite);
     const std::vector<const GoldenCase*> cases = chosen_cases(suite, command.cases);
-    check_outputs(command, suite);
+    plan_outputs(command, suite);
     const SceneDrawer drawer;
     Interrupt interrupt;
     std::optional<TemporaryFolder> no_cache;
@@ -163,8 +163,8 @@ int run_golden_check(const GoldenCommand& command) {
     }
     const SetResult result = check_cases(suite, drawn, {command.platform, command.jobs}, interrupt);
     if (command.failures) keep_failures(*command.failures, result);
-    if (command.json) write_text(*command.json, to_json(result));
-    if (command.junit) write_text(*command.junit, to_junit(result));
+    if (command.json) save_text(*command.json, to_json(result));
+    if (command.junit) save_text(*command.junit, to_junit(result));
     print_summary(result, command.quiet);
     if (!command.quiet) print_drawn(drawn);
     print_hints(command, suite, result, drawn);
@@ -185,7 +185,7 @@ int run_golden_add(const GoldenCommand& command) {
     const GoldenSuite suite = parse_suite(text, command.suite);
     const GoldenCase* const added = &suite.cases.back();
     if (print_accepted(accept(command, suite, {added}), command.quiet) > 0) return 1;
-    write_text(command.suite, text);
+    save_text(command.suite, text);
     if (!command.quiet) say("added the case {} to {}\n", added->name, safe_path(command.suite));
     return 0;
 }

@@ -1,4 +1,4 @@
-#include "app/causes/motion_recorder.h"
+#include "app/causes/run_recorder.h"
 #include "app/causes/record_file.h"
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
@@ -54,7 +54,7 @@ void run_plot(const PlotCommand& command) {
         runs.emplace_back(variant.label, parse_quantities(command.quantities, scenes.back()));
     }
     plan.add("-o", command.output);
-    std::optional<MotionRecorder> recorder;
+    std::optional<RunRecorder> recorder;
     if (command.motion_record) recorder.emplace(scenes);
     {
         Interrupt interrupt;

@@ -1,6 +1,6 @@
 #include "app/cli/render_run.h"
 
-#include "app/causes/motion_recorder.h"
+#include "app/causes/run_recorder.h"
 #include "app/causes/record_file.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_scenes.h"
@@ -106,7 +106,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
     for (std::size_t i = 0; i < scenes.scenes.size(); ++i) worlds.push_back(scenes.world(i, threads));
     std::vector<PanelSource> panels;
     std::vector<std::unique_ptr<OverlayBuilder>> overlays;
-    std::optional<MotionRecorder> recorder;
+    std::optional<RunRecorder> recorder;
     if (command.motion_record) recorder.emplace(composition, numbers_of(frames), frames.end);
     for (std::size_t i = 0; i < worlds.size(); ++i) {
         overlays.push_back(outputs.image() ? scenes.overlay(i) : nullptr);

@@ -1,6 +1,6 @@
 #include "app/golden/check.h"
 
-#include "app/causes/explain.h"
+#include "app/causes/explain_images.h"
 #include "app/causes/record_file.h"
 #include "compare/image_folder.h"
 #include "compare/platform.h"
@@ -67,8 +67,7 @@ void explain(const ImagePlace& place, ImageResult& result) {
     std::error_code error;
     if (!fs::exists(before, error)) return;
     try {
-        result.causes =
-            causes_between(read_record(before), read_record(place.drawn->folder / name), place.frame, result.changed);
+        explain_image(read_record(before), read_record(place.drawn->folder / name), place.frame, result);
     } catch (const InputError&) {
         // Causes are an addition: the verdict stands without them.
     }

@@ -51,7 +51,7 @@ void add_content(const fs::path& file, Sha256& hash) {
 std::string stamp_of(const fs::path& file) {
     struct stat status {};
     if (::stat(file.c_str(), &status) != 0) return file.string();
-    return fmt::format("{} {} {}.{}", file.string(), status.st_size, status.st_mtim.tv_sec, status.st_mtim.tv_nsec);
+    return fmt::format("{} {} {}", file.string(), status.st_size, status.st_mtim.tv_sec);
 }
 
 int add_library(dl_phdr_info* info, std::size_t, void* list) {
@@ -85,22 +85,17 @@ std::string content_hash(const fs::path& folder) {
     return hash.finish();
 }
 
-/// Folders of fonts change their time when a font is added or replaced.
-std::string font_folders() {
+/// The files of fonts and of their configuration.
+std::string fonts() {
     std::vector<fs::path> roots = {"/usr/share/fonts", "/usr/local/share/fonts", "/etc/fonts"};
-    if (const char* home = std::getenv("HOME")) {
-        roots.push_back(fs::path(home) / ".fonts");
-        roots.push_back(fs::path(home) / ".local/share/fonts");
-        roots.push_back(fs::path(home) / ".config/fontconfig");
-    }
+    if (const char* home = std::getenv("HOME"))
+        for (const char* folder : {".fonts", ".local/share/fonts", ".config/fontconfig"})
+            roots.push_back(fs::path(home) / folder);
     std::vector<std::string> stamps;
     std::error_code error;
-    for (const fs::path& root : roots) {
-        if (!fs::is_directory(root, error)) continue;
-        stamps.push_back(stamp_of(root));
+    for (const fs::path& root : roots)
         for (fs::recursive_directory_iterator it(root, error), end; !error && it != end; it.increment(error))
-            if (it->is_directory(error)) stamps.push_back(stamp_of(it->path()));
-    }
+            if (it->is_regular_file(error)) stamps.push_back(stamp_of(it->path()));
     std::ranges::sort(stamps);
     std::string text;
     for (const std::string& stamp : stamps) text += stamp + "\n";
@@ -128,7 +123,7 @@ std::string program_identity(Interrupt& interrupt) {
         [&](std::size_t, const TaskEnd& end) { text += end.text; }, interrupt);
     for (const char* name : driver_variables)
         if (const char* value = std::getenv(name)) text += fmt::format("{}={}\n", name, value);
-    return text + font_folders() + processor();
+    return text + fonts() + processor();
 }
 
 }  // namespace tumble

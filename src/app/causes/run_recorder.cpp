@@ -1,4 +1,4 @@
-#include "app/causes/motion_recorder.h"
+#include "app/causes/run_recorder.h"
 
 #include "app/causes/described_values.h"
 
@@ -107,19 +107,19 @@ void PanelRecorder::add_contacts(const Snapshot& snapshot, const ContactRecords&
 
 PanelRecord PanelRecorder::finish() { return std::move(record_); }
 
-MotionRecorder::MotionRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length) {
+RunRecorder::RunRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length) {
     record_.values = values_of(composition);
     record_.frames = std::move(frames);
     for (const ClipPanel& panel : composition.panels) panels_.emplace_back(panel, record_.frames, length);
 }
 
-MotionRecorder::MotionRecorder(const std::vector<SceneDescription>& runs) {
+RunRecorder::RunRecorder(const std::vector<SceneDescription>& runs) {
     record_.frames = {0};
     for (const SceneDescription& run : runs)
         panels_.emplace_back(Composition(run).panels.front(), record_.frames, run.frame_count());
 }
 
-MotionRecord MotionRecorder::finish() {
+MotionRecord RunRecorder::finish() {
     for (PanelRecorder& panel : panels_) record_.panels.push_back(panel.finish());
     return std::move(record_);
 }

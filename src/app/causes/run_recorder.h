@@ -40,13 +40,13 @@ private:
 };
 
 /// The panels of a clip.
-class MotionRecorder {
+class RunRecorder {
 public:
     /// `frames`: those that are drawn, ascending. `length`: frames that the simulation makes.
-    MotionRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length);
+    RunRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length);
 
     /// Of a plot: its runs as panels, whose first frame is recorded.
-    explicit MotionRecorder(const std::vector<SceneDescription>& runs);
+    explicit RunRecorder(const std::vector<SceneDescription>& runs);
 
     PanelRecorder& panel(std::size_t index) { return panels_[index]; }
     MotionRecord finish();
