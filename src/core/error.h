@@ -42,4 +42,10 @@ private:
     std::string message_;
 };
 
+/// A signal, such as that of Ctrl-C, ended the run.
+class Interrupted : public RunError {
+public:
+    Interrupted() : RunError("interrupted") {}
+};
+
 }  // namespace tumble

@@ -7,8 +7,8 @@
 
 namespace tumble {
 
-Lock lock_file(int file) {
-    while (::flock(file, LOCK_EX | LOCK_NB) != 0) {
+Lock lock_file(int file, LockKind kind) {
+    while (::flock(file, (kind == LockKind::alone ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
         if (errno == EWOULDBLOCK) return Lock::held;
         if (errno != EINTR) return Lock::unknown;
     }

@@ -1,6 +1,7 @@
 #include "output/npz_archive.h"
 
 #include "core/error.h"
+#include "output/npz_check.h"
 
 #include <fmt/format.h>
 #include <isa-l/crc.h>
@@ -124,7 +125,7 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
     members_.push_back(std::move(member));
 }
 
-std::span<const std::byte> NpzArchive::finish() {
+std::span<const std::byte> NpzArchive::finish(std::string_view mark) {
     const std::size_t directory = used_;
     for (const Member& m : members_)
         copy_to(file_, used_,
@@ -149,6 +150,8 @@ std::span<const std::byte> NpzArchive::finish() {
                     .text(m.name)
                     .all());
     const std::size_t size = used_ - directory;
+    const std::string comment =
+        mark.empty() ? "" : npz_comment(mark, checksum_of(0, std::span<const std::byte>(file_).first(used_)));
     copy_to(file_, used_,
             LittleEndianBytes()
                 .u32(0x06054b50)
@@ -158,7 +161,8 @@ std::span<const std::byte> NpzArchive::finish() {
                 .u16(members_.size())
                 .u32(size)
                 .u32(directory)
-                .u16(0)
+                .u16(comment.size())
+                .text(comment)
                 .all());
     const std::size_t all = std::exchange(used_, 0);
     members_.clear();

@@ -25,8 +25,9 @@ public:
     void add(std::string_view name, const ArrayShape& shape, std::span<const std::int32_t> values);
     void add(std::string_view name, const ArrayShape& shape, std::span<const std::uint8_t> values);
 
-    /// The whole file, valid until the next call. The archive is empty again.
-    std::span<const std::byte> finish();
+    /// The whole file, valid until the next call. The archive is empty again. With a mark (at most 100 bytes), the file
+    /// ends with a comment of the mark and a checksum of all bytes before the zip format's end record (npz_check.h).
+    std::span<const std::byte> finish(std::string_view mark = {});
 
     /// Upper bound of the size of an array in a file, including the end of the file, bytes.
     static std::size_t bytes_bound(std::size_t bytes_of_values);

@@ -22,14 +22,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view mark = ".tumble.part-";
+constexpr std::string_view part_mark = ".tumble.part-";
 constexpr std::size_t digits = 8;  // of the hexadecimal number behind it
 
 fs::path folder_beside(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 /// The part of a final name that fits into a hidden one: all of it, except for the longest names.
 std::string kept_of(std::string name) {
-    const std::size_t room = NAME_MAX - 1 - mark.size() - digits;
+    const std::size_t room = NAME_MAX - 1 - part_mark.size() - digits;
     if (name.size() <= room) return name;
     std::size_t end = room;
     while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xc0) == 0x80) --end;  // UTF-8 characters stay complete
@@ -39,12 +39,12 @@ std::string kept_of(std::string name) {
 
 /// The part of the final name in a hidden name, if that is the name of a part file.
 std::optional<std::string_view> final_name_in(std::string_view name) {
-    if (name.size() <= 1 + mark.size() + digits || name.front() != '.') return std::nullopt;
+    if (name.size() <= 1 + part_mark.size() + digits || name.front() != '.') return std::nullopt;
     const std::string_view number = name.substr(name.size() - digits);
     if (number.find_first_not_of("0123456789abcdef") != std::string_view::npos) return std::nullopt;
     const std::string_view rest = name.substr(1, name.size() - 1 - digits);
-    if (!rest.ends_with(mark)) return std::nullopt;
-    return rest.substr(0, rest.size() - mark.size());
+    if (!rest.ends_with(part_mark)) return std::nullopt;
+    return rest.substr(0, rest.size() - part_mark.size());
 }
 
 /// Removes a part file if its process has ended: its lock is then free.
@@ -64,7 +64,7 @@ PartFile::PartFile(const fs::path& final_path) : final_path_(final_path) {
     std::random_device random;
     const std::string kept = kept_of(final_path.filename().string());
     for (;;) {
-        path_ = final_path.parent_path() / fmt::format(".{}{}{:08x}", kept, mark, random() & 0xffffffffu);
+        path_ = final_path.parent_path() / fmt::format(".{}{}{:08x}", kept, part_mark, random() & 0xffffffffu);
         file_ = ::open(path_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (file_ < 0 && (errno == EEXIST || errno == EINTR)) continue;
         if (file_ < 0) fail(errno);

@@ -31,7 +31,7 @@ constexpr int rows_of_band = 32;
 
 constexpr std::uint8_t zlib_head[] = {0x78, 0x01};   // RFC 1950: deflate with a window of 32 KB, a fast level
 constexpr std::uint8_t last_block[] = {0x03, 0x00};  // RFC 1951: an empty block that is the last
-constexpr std::size_t head_and_end = 1024;           // bytes of all chunks but the pixels': below 200
+constexpr std::size_t head_and_end = 1024;           // bytes of all chunks but the pixels': below 300
 
 std::size_t row_bytes(int width, int channels) { return std::size_t(channels) * std::size_t(width) + 1; }
 
@@ -207,6 +207,12 @@ void PngEncoder::make_head() {
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
     const bool done = info != nullptr && write_head(png, info, width_, height_, channels_, sink);
     png_destroy_write_struct(&png, &info);
+    if (done && !mark_.empty()) {
+        const std::string text = std::string(png_mark_keyword) + '\0' + mark_;
+        const std::span<const std::uint8_t> segments[] = {
+            {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}};
+        append_chunk(head_, "tEXt", segments);
+    }
     if (done) return;
     const int width = std::exchange(width_, 0);  // the next image is a first one
     fail(width, height_, sink.error.empty() ? "out of memory" : sink.error);

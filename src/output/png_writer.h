@@ -12,16 +12,24 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace tumble {
 
 enum class PngAlpha { dropped, kept };
 
+/// Keyword of the tEXt chunk of frames, which names the scene, the settings and the version that they are drawn from.
+inline constexpr std::string_view png_mark_keyword = "Tumble-Scene";
+
 /// Makes PNG files in memory, one after the other; not for several threads at once.
 class PngEncoder {
 public:
-    explicit PngEncoder(PngAlpha alpha = PngAlpha::dropped) : channels_(alpha == PngAlpha::kept ? 4 : 3) {}
+    /// `mark`: the text of a chunk png_mark_keyword in each file; none if it is empty.
+    explicit PngEncoder(PngAlpha alpha = PngAlpha::dropped, std::string mark = {})
+        : channels_(alpha == PngAlpha::kept ? 4 : 3), mark_(std::move(mark)) {}
 
     /// The whole file, valid until the next call. `changed`: the regions that may differ from the previous image; a
     /// first image, or one of another size, is converted completely. Throws RunError if the image is empty or
@@ -39,6 +47,7 @@ private:
     void make_head();
 
     int channels_;
+    std::string mark_;
     Deflater deflater_;
     int width_ = 0, height_ = 0;  // of the previous image
     std::vector<Band> bands_;

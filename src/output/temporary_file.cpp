@@ -30,7 +30,7 @@ void stop_if_interrupted() {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP})
         if (sigismember(&waiting, signal) == 1) sigaddset(&taken, signal);
     const timespec no_wait{0, 0};
-    if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw RunError("interrupted");
+    if (!sigisemptyset(&taken) && sigtimedwait(&taken, nullptr, &no_wait) > 0) throw Interrupted();
 }
 
 constexpr int interrupt_poll_period = 20;  // ms between checks for an interrupt while waiting for a reader

@@ -58,6 +58,18 @@ FrameRate best_fraction(double x, std::int64_t limit) {
 
 bool has_its_head_last(const VideoFormat& format) { return format.container == "mp4" || format.container == "mov"; }
 
+Arguments gif_from(const Arguments& input, const fs::path& output) {
+    Arguments arguments = common();
+    append(arguments, input);
+    append(arguments, input);
+    append(arguments, {"-filter_complex",
+                       // An ordered pattern does not move between frames, and still regions compress well. Coarser
+                       // patterns (a smaller scale) hide the ground's lines.
+                       "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
+                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif", file_argument(output)});
+    return arguments;
+}
+
 }  // namespace
 
 std::string FrameRate::text() const { return fmt::format("{}/{}", numerator, denominator); }
@@ -146,12 +158,33 @@ Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& optio
 }
 
 Arguments gif_arguments(const fs::path& lossless, const fs::path& output) {
+    return gif_from({"-i", file_argument(lossless)}, output);
+}
+
+VideoFormat segment_format(const VideoFormat& format) {
+    VideoFormat segment = format;
+    if (format.kind == VideoKind::h264) segment.container = "mp4";
+    segment.lossless_stage = format.kind == VideoKind::gif;
+    return segment;
+}
+
+std::string segment_ending(const VideoFormat& format) {
+    const std::string container = segment_format(format).container;
+    return container == "matroska" ? ".mkv" : "." + container;
+}
+
+Arguments join_arguments(const VideoFormat& format, const fs::path& list, const fs::path& output,
+                         const std::string& comment) {
+    const Arguments input = {"-f", "concat", "-safe", "0", "-i", file_argument(list)};
+    if (format.kind == VideoKind::gif) return gif_from(input, output);
     Arguments arguments = common();
-    append(arguments, {"-i", file_argument(lossless), "-i", file_argument(lossless), "-filter_complex",
-                       // An ordered pattern does not move between frames, and still regions compress well. Coarser
-                       // patterns (a smaller scale) hide the ground's lines.
-                       "[0]palettegen[palette];[1][palette]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle",
-                       "-map_metadata", "-1", "-fflags", "+bitexact", "-f", "gif", file_argument(output)});
+    append(arguments, input);
+    append(arguments, {"-map", "0:v", "-c", "copy", "-map_metadata", "-1", "-metadata", "comment=" + comment});
+    // The alpha is beside the pictures; players look for it where this says so.
+    if (format.kind == VideoKind::vp9_alpha) append(arguments, {"-metadata:s:v", "alpha_mode=1"});
+    append(arguments, {"-fflags", "+bitexact"});
+    if (has_its_head_last(format)) append(arguments, {"-movflags", "+faststart"});
+    append(arguments, {"-f", format.container, file_argument(output)});
     return arguments;
 }
 

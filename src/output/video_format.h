@@ -67,6 +67,7 @@ struct VideoFormat {
     FrameRate rate;      // of the clip
     int frame_step = 1;  // 1, or more to drop frames if the format cannot hold all of them
     PixelFormat pixels = PixelFormat::yuv420;
+    bool lossless_stage = false;  // of a GIF: only the lossless clip that it is made from
 };
 
 /// Throws InputError if the ending is unknown, or the format cannot hold this frame rate or, if needed, alpha.
@@ -81,5 +82,15 @@ constexpr const char* clip_to_standard_output = "/dev/stdout";
 std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
                                             const std::filesystem::path& output);
 std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);
+
+/// The format of a segment of a clip of this format, and the ending of its name. Segments have exact times where the
+/// container allows.
+VideoFormat segment_format(const VideoFormat& format);
+std::string segment_ending(const VideoFormat& format);
+
+/// Arguments that make ffmpeg join the segments of a list (of its concat demuxer) into `output`, without encoding them
+/// again, or into a GIF. `comment`: in the clip's metadata, except in a GIF.
+std::vector<std::string> join_arguments(const VideoFormat& format, const std::filesystem::path& list,
+                                        const std::filesystem::path& output, const std::string& comment);
 
 }  // namespace tumble

@@ -29,15 +29,19 @@ fs::path find_ffmpeg() {
 }
 
 VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, const ClipOptions& options)
+    : VideoWriter(clip, width, height, fps, video_format(clip, fps, options.transparent), options) {}
+
+VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps, const VideoFormat& format,
+                         const ClipOptions& options)
     : clip_(clip),
-      format_(video_format(clip, fps, options.transparent)),
+      format_(format),
       pixels_(format_.pixels, width, height),
       program_(find_ffmpeg()),
       file_(clip),
       longest_(options.times == FrameTimes::constant_rate
                    ? 1
                    : std::max(std::int64_t(longest_frame * fps / format_.frame_step), std::int64_t(1))) {
-    if (format_.kind == VideoKind::gif) {
+    if (format_.kind == VideoKind::gif && !format_.lossless_stage) {
         remove_left_parts(clip);
         lossless_.emplace(clip);
     }

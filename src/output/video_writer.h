@@ -34,6 +34,9 @@ public:
     /// Starts ffmpeg, for images of this size. Throws InputError for an invalid ending or rate (see video_format()),
     /// RunError if ffmpeg is missing or the folder cannot be written.
     VideoWriter(const std::filesystem::path& clip, int width, int height, double fps, const ClipOptions& options = {});
+    /// The same in a format that the clip's name does not tell; `fps`: of the frames.
+    VideoWriter(const std::filesystem::path& clip, int width, int height, double fps, const VideoFormat& format,
+                const ClipOptions& options);
 
     /// The next frame, as a image. Throws RunError with ffmpeg's message if it died.
     void write(const Image& image);

@@ -133,8 +133,8 @@ TEST(Panels, ASceneThatEndsEarlierKeepsItsLastFrame) {
     RenderPool render_pool(composition, {}, {std::nullopt, true, {}}, 2);
     World shorter(*falling), longer(*falling);
     const std::vector<PanelSource> sources{{shorter, 4}, {longer, 8}};
-    const FrameFolder folder(std::filesystem::temp_directory_path() / "tumble-panels-test");
-    Pipeline pipeline(sources, {0, 8}, render_pool, {&folder, nullptr, nullptr});
+    FrameFolder folder(std::filesystem::temp_directory_path() / "tumble-panels-test");
+    Pipeline pipeline(sources, PipelineFrames::all({0, 8}), render_pool, {&folder, nullptr, nullptr});
     Interrupt interrupt;
     pipeline.run(interrupt, [](std::int64_t) {});
     std::vector<Image> frames;

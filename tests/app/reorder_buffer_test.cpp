@@ -19,7 +19,7 @@ Frame numbered(std::int64_t number) {
 std::int64_t slot_of(const Frame& frame) { return *static_cast<const std::int64_t*>(frame.slot.get()); }
 
 TEST(ReorderBuffer, PutsFramesInOrder) {
-    ReorderBuffer order(2);
+    ReorderBuffer order(2, {0, 100'000});
     for (const std::int64_t n : {3, 1, 0, 2}) order.add(numbered(n), std::size_t(n % 2), false);
     for (std::int64_t n = 0; n < 4; ++n) {
         const std::optional<Frame> frame = order.next();
@@ -34,7 +34,7 @@ TEST(ReorderBuffer, PutsFramesInOrder) {
 }
 
 TEST(ReorderBuffer, ARepeatedFrameShowsTheOneBefore) {
-    ReorderBuffer order(1);
+    ReorderBuffer order(1, {0, 100'000});
     ASSERT_TRUE(order.add_repeated(1));
     ASSERT_TRUE(order.add_repeated(2));
     order.add(numbered(3), 0, false);
@@ -50,7 +50,7 @@ TEST(ReorderBuffer, ARepeatedFrameShowsTheOneBefore) {
 }
 
 TEST(ReorderBuffer, AovsAreIndependentOfPictures) {
-    ReorderBuffer order(1);
+    ReorderBuffer order(1, {0, 100'000});
     const auto with_aovs = [](Frame frame) {
         frame.aov_slot = std::make_shared<std::int64_t>(frame.number);
         return frame;
@@ -76,7 +76,7 @@ TEST(ReorderBuffer, AovsAreIndependentOfPictures) {
 TEST(ReorderBuffer, UnchangedRefersToTheWorkersOwnFrame) {
     // Worker 0 draws 0, 2, 4, 5; worker 1 draws 1, 3. A frame that is "unchanged" since the worker's own previous frame
     // is a repetition only if that is also the previous image of the clip.
-    ReorderBuffer order(2);
+    ReorderBuffer order(2, {0, 100'000});
     const auto add = [&](std::int64_t n, std::size_t worker, bool unchanged) {
         order.add(numbered(n), worker, unchanged);
     };
@@ -91,7 +91,7 @@ TEST(ReorderBuffer, UnchangedRefersToTheWorkersOwnFrame) {
 }
 
 TEST(ReorderBuffer, TheFirstErrorIsThrown) {
-    ReorderBuffer order(2);
+    ReorderBuffer order(2, {0, 100'000});
     order.add(numbered(1), 0, false);
     std::thread later([&] {
         order.fail(std::make_exception_ptr(RunError("first")));
@@ -108,7 +108,7 @@ TEST(ReorderBuffer, TheFirstErrorIsThrown) {
 }
 
 TEST(ReorderBuffer, RepeatedFramesWaitForThoseBefore) {
-    ReorderBuffer order(2);
+    ReorderBuffer order(2, {0, 100'000});
     std::thread ahead([&] {
         std::int64_t n = 1;
         while (order.add_repeated(n)) ++n;

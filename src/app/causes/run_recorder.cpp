@@ -58,6 +58,7 @@ void PanelRecorder::see(const Snapshot& snapshot, const Measurement&, const Cont
         ++next_recorded_;
     }
     ++next_;
+    last_ = snapshot;
 }
 
 void PanelRecorder::add_pose(const Snapshot& snapshot) {
@@ -105,7 +106,10 @@ void PanelRecorder::add_contacts(const Snapshot& snapshot, const ContactRecords&
     }
 }
 
-PanelRecord PanelRecorder::finish() { return std::move(record_); }
+PanelRecord PanelRecorder::finish() {
+    for (; next_recorded_ < frames_.size() && next_ > 0; ++next_recorded_) add_pose(last_);
+    return std::move(record_);
+}
 
 RunRecorder::RunRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length) {
     record_.values = values_of(composition);

@@ -22,6 +22,7 @@ public:
 
     void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords* records) override;
 
+    /// A panel that has ended before a recorded frame has its last pose there.
     PanelRecord finish();
 
 private:
@@ -35,6 +36,7 @@ private:
     std::vector<std::size_t> moving_;                            // bodies
     std::vector<std::uint32_t> blocks_;                          // digests of the present block, by moving body
     std::vector<std::pair<std::size_t, std::size_t>> touching_;  // pairs of the frame before, ascending
+    Snapshot last_;                                              // seen
     std::int64_t next_ = 0;                                      // frame
     std::size_t next_recorded_ = 0;                              // index into frames_
 };

@@ -29,8 +29,11 @@ struct RenderCommand {
     PanelArrangement arrangement = PanelArrangement::automatic;
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    double start = 0.0;          // s, scene time; earlier frames are not drawn
-    double speed = 1.0;          // of the motion in the clip: 0.25 is slow motion
+    std::optional<std::string> frames_range;  // "1-10,30-40:2": frames that are drawn; else all
+    bool resume = false;                      // keeps finished frames of the same clip
+    std::string call;                         // the command as it was typed, for messages
+    double start = 0.0;                       // s, scene time; earlier frames are not drawn
+    double speed = 1.0;                       // of the motion in the clip: 0.25 is slow motion
     int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
     double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;        // images per frame while the shutter is open
@@ -111,8 +114,9 @@ int run_lesson(const LessonCommand& command);
 struct EncodeCommand {
     std::filesystem::path frames;  // folder
     std::filesystem::path clip;
-    double fps = 60.0;
-    bool transparent = false;  // the clip keeps the alpha of the frames
+    std::optional<double> fps;   // without this, that of the run that drew the frames, or 60
+    bool allow_missing = false;  // frames may be missing: the others follow each other
+    bool transparent = false;    // the clip keeps the alpha of the frames
     VideoQuality quality = VideoQuality::normal;
     bool quiet = false;
 };

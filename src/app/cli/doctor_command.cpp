@@ -70,7 +70,7 @@ int run_doctor(const DoctorCommand& command) {
     const Finding osmesa = try_drawing(GlBackend::osmesa, time_limit);
     const Finding egl = try_drawing(GlBackend::egl, time_limit);
     const Finding ffmpeg = check_ffmpeg(time_limit);
-    if (time_limit.interrupted()) throw RunError("interrupted");
+    if (time_limit.interrupted()) throw Interrupted();
     print("shaders", shaders, "set TUMBLE_SHADERS to the folder of that name, or install Tumble again");
     print("OpenGL, osmesa", osmesa, "apt-get install libosmesa6");
     print("OpenGL, egl", egl, "apt-get install libegl1 libgl1-mesa-dri   (only for --gl egl)");

@@ -4,6 +4,7 @@
 #include "app/files/frame_folder.h"
 #include "app/files/output_plan.h"
 #include "app/pipeline/pipeline.h"
+#include "app/resume/kept_frames.h"
 #include "app/threads/bounded_queue.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/task_group.h"
@@ -11,6 +12,7 @@
 #include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/png_check.h"
 #include "output/png_reader.h"
 #include "output/video_writer.h"
 
@@ -18,8 +20,10 @@
 
 #include <algorithm>
 #include <atomic>
+#include <optional>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -27,6 +31,14 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t waiting_frames = 4;
+constexpr double default_fps = 60.0;
+
+struct FramesToEncode {
+    std::vector<std::int64_t> numbers;  // ascending
+    ImageSize size;                     // of all
+
+    std::int64_t count() const { return std::int64_t(numbers.size()); }
+};
 
 /// Opening a pipe without a writer would wait.
 void check_regular(const fs::path& path) {
@@ -36,30 +48,61 @@ void check_regular(const fs::path& path) {
         throw InputError({path.string(), 0, 0}, "is not a regular file, but a pipe or device");
 }
 
-/// Number of frames. Precondition: they are numbered from 0 without gaps and have one size; throws InputError naming a
-/// file that violates it.
-std::int64_t checked_frame_count(const fs::path& folder, ImageSize& size) {
-    const std::vector<std::int64_t> numbers = frames_in(folder);
-    if (numbers.empty())
+/// The frames that the run which drew them promised, but that are not there, are an InputError.
+void require_whole_clip(const fs::path& folder, const ClipIdentity& manifest,
+                        const std::vector<std::int64_t>& numbers) {
+    const auto is_there = [&](std::int64_t n) { return std::ranges::binary_search(numbers, n); };
+    const FrameSet missing = FrameSet(0, manifest.frames).where([&](std::int64_t n) { return !is_there(n); });
+    if (!missing.empty())
         throw InputError({folder.string(), 0, 0},
-                         "the folder holds no frames (frame_000000.png, frame_000001.png, ...)");
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const auto n = static_cast<std::int64_t>(i);
-        const fs::path path = frame_path(folder, n);
-        if (numbers[i] != n)
+                         fmt::format("{} of the clip's {} frames are missing: {} (render --resume draws them, "
+                                     "--allow-missing encodes the others)",
+                                     missing.count(), manifest.frames, missing.text()));
+}
+
+void require_no_gaps(const fs::path& folder, const std::vector<std::int64_t>& numbers) {
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        if (numbers[i] != std::int64_t(i))
             throw InputError(
-                {path.string(), 0, 0},
-                fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {})",
+                {frame_path(folder, std::int64_t(i)).string(), 0, 0},
+                fmt::format("the frame is missing (frames must be numbered without gaps from 0 to the last, {}, or "
+                            "--allow-missing must be given)",
                             frame_path(folder, numbers.back()).filename().string()));
+}
+
+/// Throws InputError for a frame of another size than the first one, or that is drawn from another scene than the
+/// folder's.
+void check_frames(const fs::path& folder, const std::optional<ClipIdentity>& manifest, const FramesToEncode& frames) {
+    const std::string mark = manifest ? manifest->mark() : "";
+    for (const std::int64_t n : frames.numbers) {
+        const fs::path path = frame_path(folder, n);
         check_regular(path);
-        const ImageSize this_size = read_png_size(path);
-        if (i == 0) size = this_size;
-        if (this_size != size)
+        const ImageSize size = read_png_size(path);
+        if (size != frames.size)
             throw InputError({path.string(), 0, 0},
-                             fmt::format("the frame is {} x {} pixels, but the first one is {} x {}", this_size.width,
-                                         this_size.height, size.width, size.height));
+                             fmt::format("the frame is {} x {} pixels, but the first one is {} x {}", size.width,
+                                         size.height, frames.size.width, frames.size.height));
+        if (manifest && mark_of_png(path).value_or(mark) != mark)
+            throw InputError({path.string(), 0, 0},
+                             "the frame is of another scene, other settings or another version than the folder's "
+                             "frames.json says; delete it, or render the folder anew");
     }
-    return static_cast<std::int64_t>(numbers.size());
+}
+
+FramesToEncode frames_to_encode(const EncodeCommand& command, const std::optional<ClipIdentity>& manifest) {
+    FramesToEncode frames{frames_in(command.frames), {}};
+    if (frames.numbers.empty())
+        throw InputError({command.frames.string(), 0, 0},
+                         "the folder holds no frames (frame_000000.png, frame_000001.png, ...)");
+    if (!command.allow_missing) {
+        if (manifest) require_whole_clip(command.frames, *manifest, frames.numbers);
+        require_no_gaps(command.frames, frames.numbers);
+    }
+    const fs::path first = frame_path(command.frames, frames.numbers.front());
+    check_regular(first);
+    frames.size = read_png_size(first);
+    check_frames(command.frames, manifest, frames);
+    return frames;
 }
 
 /// Bytes of at most this many frames: those in the queue, the one being read, and the one being written. ffmpeg holds
@@ -71,7 +114,8 @@ std::uint64_t buffered_image_bytes(const ImageSize& size, const VideoFormat& for
 }
 
 /// Reading and encoding overlap.
-void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Interrupt& interrupt, Progress& progress) {
+void encode(const fs::path& folder, const FramesToEncode& frames, VideoWriter& video, Interrupt& interrupt,
+            Progress& progress) {
     BoundedQueue<Image> images(waiting_frames);
     std::atomic<std::int64_t> done{0};
     TaskGroup stages;
@@ -80,7 +124,7 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
         video.abandon();
     });
     stages.start([&] {
-        for (std::int64_t n = 0; n < frames; ++n)
+        for (const std::int64_t n : frames.numbers)
             if (!images.push(read_png(frame_path(folder, n)))) return;
         images.close();
     });
@@ -89,7 +133,7 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
             video.write(*image);
             ++done;
         }
-        if (done == frames) video.finish();
+        if (done == frames.count()) video.finish();
     });
     supervise(stages, interrupt, [&] { progress.update(done); });
 }
@@ -97,24 +141,26 @@ void encode(const fs::path& folder, std::int64_t frames, VideoWriter& video, Int
 }  // namespace
 
 void run_encode(const EncodeCommand& command) {
-    const VideoFormat format = video_format(command.clip, command.fps, command.transparent);
-    ImageSize size;
-    const std::int64_t frames = checked_frame_count(command.frames, size);
+    const std::optional<ClipIdentity> manifest = read_manifest(manifest_path(command.frames, FrameFiles::pictures));
+    const double fps = command.fps.value_or(manifest ? manifest->fps : default_fps);
+    const VideoFormat format = video_format(command.clip, fps, command.transparent);
+    const FramesToEncode frames = frames_to_encode(command, manifest);
+    const ImageSize size = frames.size;
     OutputPlan plan;
-    for (std::int64_t n = 0; n < frames; ++n) plan.add_input(frame_path(command.frames, n));
+    for (const std::int64_t n : frames.numbers) plan.add_input(frame_path(command.frames, n));
     plan.add("--output", command.clip);
     find_ffmpeg();
     const std::string what = fmt::format("encoding {} x {} pixels", size.width, size.height);
-    const std::uint64_t buffered = buffered_image_bytes(size, format, frames);
+    const std::uint64_t buffered = buffered_image_bytes(size, format, frames.count());
     require_memory(buffered, what, "smaller frames take less");
     require_memory(buffered + encoder_memory(format.kind, size.width, size.height), shared_memory(), what,
                    "smaller frames take less");
 
     Interrupt interrupt;
-    VideoWriter video(command.clip, size.width, size.height, command.fps,
+    VideoWriter video(command.clip, size.width, size.height, fps,
                       {FrameTimes::constant_rate, command.quality, command.transparent});
     {
-        Progress progress(frames, command.quiet);
+        Progress progress(frames.count(), command.quiet);
         encode(command.frames, frames, video, interrupt, progress);
     }
     if (!command.quiet)

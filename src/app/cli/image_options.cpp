@@ -11,7 +11,13 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
     command->add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
         ->required()
         ->type_name("CLIP");
-    command->add_option("--fps", c.fps, "Frames per second")->type_name("N")->capture_default_str();
+    command
+        ->add_option("--fps", c.fps,
+                     "Frames per second, in place of that of the run that drew the frames (frames.json in\n"
+                     "the folder; without it 60)")
+        ->type_name("N");
+    command->add_flag("--allow-missing", c.allow_missing,
+                      "Encode the frames that are there. Without this, a folder with missing frames is refused");
     command->add_flag("--transparent", c.transparent,
                       "Keep the alpha of the frames (.webm and .mov); without this it is left out");
     add_quality(*command, c.quality);

@@ -2,6 +2,7 @@
 
 #include "app/cli/command_line.h"
 #include "app/cli/say.h"
+#include "app/cli/shell_text.h"
 #include "core/safe_text.h"
 
 #include <sstream>
@@ -45,6 +46,7 @@ int run_command_line(int argc, char** argv) {
         say_text(wrong.str());
         return code == 0 ? 0 : 2;
     }
+    line.render.call = shell_text({argv, std::size_t(argc)});
     if (render->parsed())
         run_render(line.render);
     else if (simulate->parsed())

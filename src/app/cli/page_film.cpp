@@ -105,7 +105,7 @@ PageFilm draw_film(RenderCommand command, const FilmOptions& options) {
         command.start = poster_time(options.duration, options.fps);
         command.overrides.duration = command.start;
         figures = render_to_files(command);
-        const fs::path png = frame_path(folder.path(), figures.frames.first);
+        const fs::path png = frame_path(folder.path(), figures.frames.first());
         if (!ffmpeg) made.poster = address_of(png, "image/png");
         if (ffmpeg) make_jpeg(*ffmpeg, png, 0.0, jpeg);
     }

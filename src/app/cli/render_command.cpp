@@ -4,6 +4,7 @@
 #include "app/cli/say.h"
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
+#include "core/error.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
@@ -31,7 +32,7 @@ std::string stored(const RenderFigures& done) {
 void print_times(const RenderFigures& done) {
     std::string text =
         fmt::format("{:.2f} s, {:.1f} frames/s; {} drawn; CPU: simulation {:.2f} s, drawing {:.2f} s", done.seconds,
-                    double(done.frames.count()) / done.seconds, done.drawn, done.cpu.simulation, done.cpu.drawing);
+                    double(done.rendered) / done.seconds, done.drawn, done.cpu.simulation, done.cpu.drawing);
     if (done.folder) text += fmt::format(", PNG {:.2f} s", done.cpu.png);
     if (done.aov_folder) text += fmt::format(", AOVs {:.2f} s", done.cpu.aovs);
     if (done.clip) text += fmt::format(", conversion {:.2f} s, video {:.2f} s", done.cpu.conversion, done.cpu.video);
@@ -41,14 +42,14 @@ void print_times(const RenderFigures& done) {
 /// Warns of frames of an earlier, longer clip, because `tumble encode` would append them to this one.
 void print_older(const RenderFigures& done, const char* what, const std::vector<std::int64_t>& there,
                  const fs::path& where, fs::path (&path)(const fs::path&, std::int64_t)) {
-    const auto older = std::lower_bound(there.begin(), there.end(), done.frames.end);
+    const auto older = std::lower_bound(there.begin(), there.end(), done.frames.end());
     if (older != there.end())
         say("note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
             safe_path(path(where, *older)));
 }
 
 void print_summary(const RenderFigures& done, const AovSet& aovs) {
-    const std::int64_t first = done.frames.first, last = done.frames.end - 1;
+    const std::int64_t first = done.frames.first(), last = done.frames.last();
     if (done.clip)
         say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*done.clip), done.frames_in_clip, done.width, done.height,
             frame_step_note(done), stored(done));
@@ -58,9 +59,23 @@ void print_summary(const RenderFigures& done, const AovSet& aovs) {
     if (done.aov_folder)
         say("wrote {} to {}: {}\n", safe_path(aov_path(*done.aov_folder, first)),
             aov_path(*done.aov_folder, last).filename().string(), names_of(aovs));
-    print_times(done);
+    if (done.rendered < done.frames.count())
+        say("kept {} of {} frames from an earlier run\n", done.frames.count() - done.rendered, done.frames.count());
+    if (done.rendered > 0) print_times(done);
     if (done.folder) print_older(done, "frames", frames_in(*done.folder), *done.folder, frame_path);
     if (done.aov_folder) print_older(done, "AOVs", aovs_in(*done.aov_folder), *done.aov_folder, aov_path);
+}
+
+/// Frames in a folder carry the mark of their clip, so that any run with --frames can be continued.
+std::string how_to_go_on(const RenderCommand& command) {
+    const bool continues = command.resume || command.frames || command.aov_folder;
+    if (!continues) return "";
+    return fmt::format("; finished {} are kept. To go on:\n  {}{}",
+                       command.frames || command.aov_folder ? "frames" : "segments",
+                       command.call.empty() ? "the same command" : command.call,
+                       command.resume         ? ""
+                       : command.call.empty() ? " with --resume"
+                                              : " --resume");
 }
 
 }  // namespace
@@ -68,7 +83,12 @@ void print_summary(const RenderFigures& done, const AovSet& aovs) {
 void run_render(const RenderCommand& command) {
     std::optional<RenderReport> report;
     if (command.report) report.emplace(command);
-    const RenderFigures done = render_to_files(command);
+    RenderFigures done;
+    try {
+        done = render_to_files(command);
+    } catch (const Interrupted& interrupted) {
+        throw RunError(interrupted.message() + how_to_go_on(command));
+    }
     if (!command.quiet) print_summary(done, command.aovs);
     if (report) report->write(done);
 }

@@ -95,6 +95,17 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
         ->check(number_within(limits::duration.min, limits::duration.max))
         ->option_text("S [0]");
     command
+        ->add_option("--frames-range", c.frames_range,
+                     "Frames that are drawn, by number from 0: 7, 1-10 or 30-40:2, with commas between\n"
+                     "them. Earlier frames are simulated. A clip needs frames without gaps")
+        ->check(some_name())
+        ->type_name("FRAMES");
+    command->add_flag("--resume", c.resume,
+                      "Keep the finished frames of an earlier run with the same scene, version and settings,\n"
+                      "and draw the rest. Clips are written in segments of a second, in a folder beside them,\n"
+                      "so that a run that is ended at any moment loses at most a second\n"
+                      "(docs/how-to/long-renders.md)");
+    command
         ->add_option("--samples", c.overrides.samples,
                      "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");

@@ -69,7 +69,7 @@ std::string times_html(const RenderFigures& done) {
                "<p>The render of {} frames, {} of them drawn, took {:.2f}&#8239;s: {:.1f} frames a second with {} "
                "render "
                "process{} and {} thread{} of the simulation, and {} MiB of memory.</p>\n",
-               done.frames.count(), done.drawn, done.seconds, double(done.frames.count()) / done.seconds, done.workers,
+               done.rendered, done.drawn, done.seconds, double(done.rendered) / done.seconds, done.workers,
                done.workers == 1 ? "" : "es", done.threads, done.threads == 1 ? "" : "s", done.peak_memory);
 }
 

@@ -3,53 +3,29 @@
 #include "app/causes/run_recorder.h"
 #include "app/causes/record_file.h"
 #include "app/cli/progress.h"
+#include "app/cli/render_plan.h"
 #include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
-#include "app/files/output_plan.h"
 #include "app/pipeline/pipeline.h"
+#include "app/resume/kept_frames.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
 #include "app/workers/frame_memory.h"
-#include "core/error.h"
 
 #include <sys/resource.h>
 
 #include <algorithm>
 #include <memory>
-#include <numeric>
 #include <system_error>
 #include <vector>
 
 namespace tumble {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// The folder of the AOVs, if any are requested.
-std::optional<fs::path> aov_folder(const RenderCommand& command) {
-    if (command.aovs.empty() && command.aov_folder)
-        throw InputError("--aov-folder: needs --aov with the AOVs to write, as in --aov depth,normal");
-    if (command.aovs.empty()) return std::nullopt;
-    if (!command.aov_folder && !command.frames)
-        throw InputError("--aov: needs --frames or --aov-folder for the folder to write to");
-    return command.aov_folder ? command.aov_folder : command.frames;
-}
-
-/// Throws InputError if an output would replace another one or an input.
-void check_outputs(const RenderCommand& command, const FileList& inputs, const FrameRange& frames,
-                   const std::optional<fs::path>& clip, const std::optional<fs::path>& aovs_to) {
-    OutputPlan plan;
-    for (const fs::path& file : inputs) plan.add_input(file);
-    if (clip) plan.add("--output", *clip);
-    if (aovs_to && command.aovs.has(Aov::segmentation)) plan.add("--aov", segmentation_table_path(*aovs_to));
-    if (command.report) plan.add("--report", *command.report);
-    if (command.frames) plan.add({"--frames", *command.frames, "frame_", ".png", frame_path, frames.first, frames.end});
-    if (aovs_to) plan.add({"--aov", *aovs_to, "aov_", ".npz", aov_path, frames.first, frames.end});
-}
-
-std::vector<std::int64_t> numbers_of(const FrameRange& frames) {
-    std::vector<std::int64_t> numbers(std::size_t(frames.count()));
-    std::iota(numbers.begin(), numbers.end(), frames.first);
+/// Numbers of the frames of a set.
+std::vector<std::int64_t> numbers_of(const FrameSet& frames) {
+    std::vector<std::int64_t> numbers;
+    frames.for_each([&](std::int64_t frame) { numbers.push_back(frame); });
     return numbers;
 }
 
@@ -64,41 +40,103 @@ StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outp
     return cpu;
 }
 
+RenderFigures figures_of(const RenderPlan& plan, const RenderScenes& scenes) {
+    RenderFigures figures;
+    figures.width = scenes.composition.width;
+    figures.height = scenes.composition.height;
+    figures.fps = scenes.first().output.fps;
+    figures.frames = scenes.frames;
+    figures.rendered = plan.to_draw();
+    figures.clip = plan.clip;
+    figures.folder = plan.folder;
+    figures.aov_folder = plan.aov_folder;
+    return figures;
+}
+
+/// The open outputs.
+class Destinations {
+public:
+    Destinations(const RenderCommand& command, RenderPlan& plan, const RenderScenes& scenes) : plan_(plan) {
+        const LockKind kind = command.resume || command.frames_range ? LockKind::shared : LockKind::alone;
+        if (plan.folder) {
+            folder_.emplace(*plan.folder, kind);
+            folder_->set_manifest(manifest_path(*plan.folder, FrameFiles::pictures), manifest_text(plan.pictures));
+        }
+        std::error_code missing;
+        if (plan.aov_folder && !(folder_ && std::filesystem::equivalent(*plan.aov_folder, folder_->path(), missing)))
+            own_aov_folder_.emplace(*plan.aov_folder, kind);
+        if (plan.aov_folder) {
+            aovs_.emplace(*plan.aov_folder, scenes.first(), command.aovs);
+            aovs_->set_manifest(manifest_path(*plan.aov_folder, FrameFiles::aovs), manifest_text(plan.aovs));
+        }
+        if (plan.segments) {
+            plan.segments->open();
+        } else if (plan.clip) {
+            ClipOptions options = command.clip_options;
+            options.transparent = command.drawing.transparent;
+            clip_ = std::make_unique<WholeClip>(*plan.clip, scenes.composition.width, scenes.composition.height,
+                                                scenes.first().output.fps, options);
+        }
+    }
+
+    /// Without those of which all frames are kept.
+    PipelineOutputs outputs() {
+        return {folder_ && !plan_.frames.folder.empty() ? &*folder_ : nullptr,
+                plan_.frames.video.empty() ? nullptr : sink(), aovs_ && !plan_.frames.aovs.empty() ? &*aovs_ : nullptr};
+    }
+
+    /// Completes outputs of which all frames are kept.
+    void complete() {
+        if (folder_) folder_->write_manifest();
+        if (aovs_) aovs_->write_manifest();
+        if (plan_.segments && plan_.frames.video.empty()) plan_.segments->finish();
+    }
+
+    void describe(RenderFigures& figures) {
+        if (sink() == nullptr) return;
+        figures.frames_in_clip = sink()->frames_in_clip();
+        figures.frames_stored = sink()->frames_stored();
+        figures.frame_step = plan_.format->frame_step;
+    }
+
+private:
+    ClipSink* sink() { return plan_.segments ? plan_.segments.get() : clip_.get(); }
+
+    RenderPlan& plan_;
+    std::optional<FrameFolder> folder_, own_aov_folder_;
+    std::optional<AovFolder> aovs_;
+    std::unique_ptr<ClipSink> clip_;
+};
+
 }  // namespace
 
 RenderFigures render_to_files(const RenderCommand& command) {
     const double start = wall_seconds();
-    const std::optional<fs::path> aovs_to = aov_folder(command);
     const Shutter shutter = Shutter::of(command.shutter, command.blur_samples);
     RenderScenes scenes(command, shutter);
     const Composition& composition = scenes.composition;
-    const FrameRange& frames = scenes.frames;
-    const double clip_fps = scenes.first().output.fps;
-    std::optional<fs::path> clip = command.clip;
-    if (!clip && !command.frames && !aovs_to)
-        clip = command.scenes.front().stem().string() + (command.drawing.transparent ? ".webm" : ".mp4");
-
     // All checks of the outputs come before the simulation and before anything is written.
-    RenderWork work{{std::nullopt, command.frames.has_value(), command.aovs, command.drawing.transparent},
-                    std::nullopt,
-                    frames.count(),
-                    shutter.blur_samples};
-    const FrameOutputs& outputs = work.outputs;
-    if (clip) {
-        const VideoFormat format = video_format(*clip, clip_fps, command.drawing.transparent);
-        work.outputs.video = format.pixels;
-        work.clip = format.kind;
-        find_ffmpeg();
+    RenderPlan plan = plan_render(command, scenes);
+    RenderFigures figures = figures_of(plan, scenes);
+    Interrupt interrupt;  // before any thread or process is made
+    if (plan.frames.drawn.empty()) {
+        Destinations destinations(command, plan, scenes);
+        destinations.complete();
+        destinations.describe(figures);
+        figures.seconds = wall_seconds() - start;
+        return figures;
     }
-    check_outputs(command, scenes.inputs, frames, clip, aovs_to);
+
+    RenderWork work{plan.outputs(command), std::nullopt, plan.to_draw(), shutter.blur_samples};
+    const FrameOutputs& outputs = work.outputs;
+    if (plan.format) work.clip = plan.format->kind;
     const int requested_workers =
-        scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, frames.count()));
+        scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, plan.to_draw()));
     const int workers = workers_that_fit(composition, work, requested_workers);
     if (workers < requested_workers && !command.quiet)
         say("note: {} render processes in place of {}, because there is no memory for more\n", workers,
             requested_workers);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
-    Interrupt interrupt;  // before any thread or process is made
     if (outputs.image()) scenes.survey_clip(threads, interrupt);
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
@@ -107,51 +145,26 @@ RenderFigures render_to_files(const RenderCommand& command) {
     std::vector<PanelSource> panels;
     std::vector<std::unique_ptr<OverlayBuilder>> overlays;
     std::optional<RunRecorder> recorder;
-    if (command.motion_record) recorder.emplace(composition, numbers_of(frames), frames.end);
+    if (command.motion_record) recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
     for (std::size_t i = 0; i < worlds.size(); ++i) {
         overlays.push_back(outputs.image() ? scenes.overlay(i) : nullptr);
         panels.push_back({worlds[i], scenes.ends[i], overlays.back().get(), recorder ? &recorder->panel(i) : nullptr});
         if (recorder) worlds[i].record_contacts();
     }
-    std::optional<FrameFolder> folder;
-    if (command.frames) folder.emplace(*command.frames);
-    std::optional<FrameFolder> own_aov_folder;
-    std::error_code missing;
-    if (aovs_to && !(folder && fs::equivalent(*aovs_to, folder->path(), missing))) own_aov_folder.emplace(*aovs_to);
-    std::optional<AovFolder> aovs;
-    if (aovs_to) aovs.emplace(*aovs_to, scenes.first(), command.aovs);
-    std::optional<VideoWriter> video;
-    if (clip) {
-        ClipOptions clip_options = command.clip_options;
-        clip_options.transparent = command.drawing.transparent;
-        video.emplace(*clip, composition.width, composition.height, clip_fps, clip_options);
-    }
-
-    const PipelineOutputs destinations{folder ? &*folder : nullptr, video ? &*video : nullptr, aovs ? &*aovs : nullptr};
-    Pipeline pipeline(panels, frames, render_pool, destinations, shutter);
+    Destinations destinations(command, plan, scenes);
+    Pipeline pipeline(panels, plan.frames, render_pool, destinations.outputs(), shutter);
     {
-        Progress progress(frames.count(), command.quiet);
+        Progress progress(plan.to_draw(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
+    destinations.complete();
     if (recorder) write_record(*command.motion_record, recorder->finish());
     const ProcessEnd workers_end = render_pool.finish();
-    RenderFigures figures;
-    figures.width = composition.width;
-    figures.height = composition.height;
-    figures.fps = clip_fps;
-    figures.frames = frames;
     figures.drawn = render_pool.drawn();
-    figures.clip = clip;
-    figures.folder = command.frames;
-    figures.aov_folder = aovs_to;
-    if (video) {
-        figures.frames_in_clip = video->frames_in_clip();
-        figures.frames_stored = video->frames_stored();
-        figures.frame_step = video_format(*clip, clip_fps, command.drawing.transparent).frame_step;
-    }
+    destinations.describe(figures);
     figures.workers = workers;
     figures.threads = threads;
-    figures.cpu = cpu_seconds(pipeline.times(), destinations);
+    figures.cpu = cpu_seconds(pipeline.times(), destinations.outputs());
     figures.seconds = wall_seconds() - start;
     rusage used{};
     getrusage(RUSAGE_SELF, &used);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/cli/commands.h"
-#include "app/pipeline/frame_range.h"
+#include "app/files/frame_set.h"
 
 #include <cstdint>
 #include <filesystem>
@@ -17,9 +17,10 @@ struct StageSeconds {
 
 /// Figures of a finished render.
 struct RenderFigures {
-    int width = 0, height = 0;  // of the frames, pixels
-    double fps = 0.0;           // of the clip
-    FrameRange frames;
+    int width = 0, height = 0;                          // of the frames, pixels
+    double fps = 0.0;                                   // of the clip
+    FrameSet frames;                                    // that were asked for,
+    std::int64_t rendered = 0;                          // and those among them that were not kept from an earlier run
     std::int64_t drawn = 0;                             // frames that differ from the one before
     std::optional<std::filesystem::path> clip, folder;  // written; of the frames
     std::optional<std::filesystem::path> aov_folder;

@@ -57,10 +57,14 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
     }
     const SceneDescription& last = *scenes[longest].scene;
     const FrameTiming timing = timing_at_speed(last, command.speed);
-    frames = frames_from(timing, last.simulation.duration, command.start);
+    clip_frames = timing.frame_count(last.simulation.duration);
+    if (command.frames_range && command.start > 0.0)
+        throw InputError("--frames-range: not together with --start; frames are numbered from the start of the clip");
+    frames = command.frames_range ? read_frame_set(*command.frames_range, clip_frames)
+                                  : frames_from(timing, last.simulation.duration, command.start);
     CompositionOptions options;
     options.arrangement = command.arrangement;
-    options.last_time = double(frames.end - 1) / timing.fps;
+    options.last_time = double(clip_frames - 1) / timing.fps;
     read_plot(command, options);
     composition = make_composition(scenes, options);
     add_overlays();

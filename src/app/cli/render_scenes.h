@@ -3,7 +3,7 @@
 
 #include "app/cli/commands.h"
 #include "app/composition/make_composition.h"
-#include "app/pipeline/frame_range.h"
+#include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
 #include "app/threads/interrupt.h"
 #include "overlay/overlay_builder.h"
@@ -35,7 +35,8 @@ public:
     std::vector<ClipScene> scenes;   // the timing is that of the simulation, with the intervals of the shutter
     std::vector<std::int64_t> ends;  // one after the last frame of each scene
     FileList inputs;
-    FrameRange frames;  // of the longest scene
+    FrameSet frames;               // that the command asks for
+    std::int64_t clip_frames = 0;  // of the longest scene
     Composition composition;
 
 private:

@@ -30,7 +30,7 @@ public:
         if (now - last_ < interrupt_period) return;
         last_ = now;
         progress_.update(done);
-        if (interrupt_.pending()) throw RunError("interrupted");
+        if (interrupt_.pending()) throw Interrupted();
     }
 
 private:

@@ -34,7 +34,7 @@ std::span<const std::byte> AovFile::make(const AovPoses& poses) {
     add(Aov::motion, {rows, columns, 2}, frame.motion);
     add(Aov::albedo, {rows, columns, 3}, frame.albedo);
     add_camera(archive_, frame.camera);
-    return archive_.finish();
+    return archive_.finish(mark_);
 }
 
 std::size_t bytes_of_pixel(Aov aov) {

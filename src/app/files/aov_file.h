@@ -11,13 +11,16 @@
 
 #include <cstddef>
 #include <span>
+#include <string>
+#include <utility>
 
 namespace tumble {
 
 class AovFile {
 public:
-    /// The scene must outlive it.
-    AovFile(const SceneDescription& scene, const AovSet& aovs) : maker_(scene, aovs) {}
+    /// The scene must outlive it. `mark`: see NpzArchive::finish().
+    AovFile(const SceneDescription& scene, const AovSet& aovs, std::string mark = {})
+        : maker_(scene, aovs), mark_(std::move(mark)) {}
 
     /// The whole file, valid until the next call. Throws RunError if it is too large.
     std::span<const std::byte> make(const AovPoses& poses);
@@ -25,6 +28,7 @@ public:
 private:
     AovRenderer maker_;
     NpzArchive archive_;
+    std::string mark_;
 };
 
 /// Of its values, before compression.

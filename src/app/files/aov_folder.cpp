@@ -1,6 +1,7 @@
 #include "app/files/aov_folder.h"
 
 #include "app/files/frame_folder.h"
+#include "output/file_bytes.h"
 #include "output/table_writer.h"
 #include "render/aov/shape_instance.h"
 
@@ -20,8 +21,20 @@ std::filesystem::path segmentation_table_path(const std::filesystem::path& folde
     return folder / "segmentation.csv";
 }
 
+void AovFolder::set_manifest(const std::filesystem::path& path, std::string text) {
+    manifest_path_ = path;
+    manifest_ = std::move(text);
+}
+
+void AovFolder::write_manifest() {
+    if (std::exchange(begun_, true)) return;
+    if (aovs_.has(Aov::segmentation)) write_table();
+    if (!manifest_.empty() && bytes_of_file(manifest_path_) != manifest_)
+        write_file(manifest_path_, std::as_bytes(std::span(manifest_)));
+}
+
 std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<const std::byte> file) {
-    if (!std::exchange(begun_, true) && aovs_.has(Aov::segmentation)) write_table();
+    write_manifest();
     auto part = std::make_unique<TemporaryFile>(aov_path(folder_, frame), LeftParts::kept);
     part->write(file);
     return part;

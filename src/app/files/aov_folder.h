@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace tumble {
@@ -32,8 +33,13 @@ public:
     const std::filesystem::path& path() const { return folder_; }
     const AovSet& aovs() const { return aovs_; }
 
-    /// Writes the file of one frame, without publishing it; the table is written before the first one. Throws RunError
-    /// naming the file.
+    /// Describes the AOVs: the file is written before the first one.
+    void set_manifest(const std::filesystem::path& path, std::string text);
+    /// Writes it and the table, if they are not there. Throws RunError.
+    void write_manifest();
+
+    /// Writes the file of one frame, without publishing it; table and manifest are written before the first one. Throws
+    /// RunError naming the file.
     std::unique_ptr<TemporaryFile> write(std::int64_t frame, std::span<const std::byte> file);
 
 private:
@@ -43,6 +49,8 @@ private:
     const SceneDescription& scene_;
     AovSet aovs_;
     bool begun_ = false;
+    std::filesystem::path manifest_path_;
+    std::string manifest_;
 };
 
 }  // namespace tumble

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/file_lock.h"
+#include "output/file_bytes.h"
 #include "output/part_file.h"
 
 #include <fmt/format.h>
@@ -13,15 +13,22 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <chrono>
 #include <optional>
 #include <string>
 #include <system_error>
+#include <thread>
+#include <utility>
 
 namespace tumble {
 
 namespace fs = std::filesystem;
 
 namespace {
+
+// A run that ends holds the lock alone for a moment, to remove the file.
+constexpr int waits_for_end_of_run = 50;
+constexpr auto wait_for_end_of_run = std::chrono::milliseconds(20);
 
 int open_lock(const std::filesystem::path& path) {
     constexpr int how = O_CREAT | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC;
@@ -59,33 +66,36 @@ std::vector<std::int64_t> numbers_in(const fs::path& folder, std::string_view be
     return numbers;
 }
 
-FolderLock::FolderLock(const std::filesystem::path& folder) : path_(folder / ".tumble.lock") {
-    for (;;) {
+FolderLock::FolderLock(const std::filesystem::path& folder, LockKind kind) : path_(folder / ".tumble.lock") {
+    for (int waits = 0;;) {
         file_ = open_lock(path_);
         if (file_ < 0)
             throw RunError(
                 fmt::format("cannot write into '{}': {}", safe_path(folder), std::generic_category().message(errno)));
-        const Lock lock = lock_file(file_);
+        const Lock lock = lock_file(file_, kind);
         // The run that held it may have ended between the two calls and removed the file.
         if (lock != Lock::held && is_still_at(file_, path_)) return;
         ::close(file_);
-        if (lock == Lock::held)
+        if (lock != Lock::held) continue;
+        if (kind == LockKind::alone || ++waits > waits_for_end_of_run)
             throw RunError(
                 fmt::format("cannot write into '{}': another run is writing frames there; wait for its end, or "
                             "name another folder",
                             safe_path(folder)));
+        std::this_thread::sleep_for(wait_for_end_of_run);
     }
 }
 
 FolderLock::~FolderLock() {
-    ::unlink(path_.c_str());  // while it is still locked
+    // While it is still locked. Others that share it keep the file: they hold it by its name.
+    if (lock_file(file_) != Lock::held) ::unlink(path_.c_str());
     ::close(file_);
 }
 
-FrameFolder::FrameFolder(const fs::path& folder) : folder_(folder) {
+FrameFolder::FrameFolder(const fs::path& folder, LockKind kind) : folder_(folder) {
     try {
         make();
-        lock_.emplace(folder);
+        lock_.emplace(folder, kind);
     } catch (...) {
         remove_empty();
         throw;
@@ -107,6 +117,24 @@ void FrameFolder::make() {
     if (!failed && !fs::is_directory(folder_, failed) && !failed)
         failed = std::make_error_code(std::errc::not_a_directory);
     if (failed) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder_), failed.message()));
+}
+
+void FrameFolder::set_manifest(const fs::path& path, std::string text) {
+    manifest_path_ = path;
+    manifest_ = std::move(text);
+}
+
+void FrameFolder::write_manifest() {
+    const std::string text = std::exchange(manifest_, {});
+    if (!text.empty() && bytes_of_file(manifest_path_) != text)
+        write_file(manifest_path_, std::as_bytes(std::span(text)));
+}
+
+std::unique_ptr<TemporaryFile> FrameFolder::write(std::int64_t frame, std::span<const std::byte> file) {
+    write_manifest();
+    auto part = std::make_unique<TemporaryFile>(frame_path(folder_, frame), LeftParts::kept);
+    part->write(file);
+    return part;
 }
 
 FrameFolder::~FrameFolder() {

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr DrawingWork first_work{1, 1}, second_work{3, 2};
+constexpr DrawingWork first_work{1, 1, false}, second_work{3, 2, true};
 
 std::string content(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);

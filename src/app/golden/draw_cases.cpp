@@ -54,7 +54,7 @@ std::vector<DrawnCase> draw_cases(std::span<const GoldenCase* const> cases, cons
     const int jobs = std::max(1, std::min(options.jobs, int(cases.size())));
     const int share = std::max(1, options.jobs / jobs);  // of a few cases
     const auto draw = [&](std::size_t i) {
-        return draw_case(*cases[i], drawer, cache, options, options.work.value_or(DrawingWork{share, share}));
+        return draw_case(*cases[i], drawer, cache, options, options.work.value_or(DrawingWork{share, share, false}));
     };
     const auto ended = [&](std::size_t i, const TaskEnd& end) {
         if (end.ok()) {

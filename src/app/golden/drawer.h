@@ -14,6 +14,7 @@ namespace tumble {
 struct DrawingWork {
     int workers = 1;  // render processes
     int threads = 1;  // of the simulation
+    bool neighbors = false;  // also draws the frame before each one
 };
 
 class CaseDrawer {

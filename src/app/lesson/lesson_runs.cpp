@@ -165,7 +165,7 @@ void LessonRuns::run(int threads, const std::function<void(std::size_t)>& progre
     for (int i = 0; i < std::min<int>(threads, int(list.size())); ++i) group.start(work);
     while (!group.wait(std::chrono::milliseconds(50))) {
         progress(done);
-        if (interrupt.pending()) group.stop(std::make_exception_ptr(RunError("interrupted")));
+        if (interrupt.pending()) group.stop(std::make_exception_ptr(Interrupted()));
     }
     group.finish();
     progress(done);

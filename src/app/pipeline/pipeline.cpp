@@ -38,12 +38,12 @@ auto timed(StageTime& time, const Work& work) {
 void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void()>& report) {
     while (!stages.wait(supervision_period)) {
         report();
-        if (interrupt.pending()) stages.stop(std::make_exception_ptr(RunError("interrupted")));
+        if (interrupt.pending()) stages.stop(std::make_exception_ptr(Interrupted()));
     }
     stages.finish();
 }
 
-Pipeline::Pipeline(std::span<const PanelSource> panels, const FrameRange& frames, RenderPool& render_pool,
+Pipeline::Pipeline(std::span<const PanelSource> panels, const PipelineFrames& frames, RenderPool& render_pool,
                    const PipelineOutputs& outputs, Shutter shutter)
     : frames_(frames),
       render_pool_(render_pool),
@@ -71,7 +71,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
     stages.start([this] { simulate(); });
     stages.start([this] {
         render_pool_.run(
-            poses_, [this](const Frame& frame) { return deliver(frame); }, times_.drawing, frames_.first);
+            poses_, [this](const Frame& frame) { return deliver(frame); }, times_.drawing, frames_.drawn);
         for_png_.close();
         for_aovs_.close();
         for_video_.close();
@@ -96,7 +96,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 void Pipeline::simulate() {
     const bool ahead = outputs_.aovs != nullptr && outputs_.aovs->aovs().has(Aov::motion);
     std::optional<MotionBlurFrame> waiting;  // with motion AOVs, a frame waits for the poses of the next one
-    for (std::int64_t n = 0; n < frames_.end; ++n) {
+    for (std::int64_t n = 0; n < end(); ++n) {
         MotionBlurFrame frame_poses = simulate_frame(n);
         if (waiting) waiting->aovs->next = frame_poses.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
@@ -120,7 +120,7 @@ MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
     for (Panel& panel : panels_) {
         frame_poses.panels.push_back(frame < panel.end ? panel.sequence.next() : panel.last);
         const PanelPoses& poses = frame_poses.panels.back();
-        if (frame + 1 == panel.end && panel.end < frames_.end) panel.last.assign(1, poses.front());
+        if (frame + 1 == panel.end && panel.end < end()) panel.last.assign(1, poses.front());
         if (frame < panel.end) frame_poses.time = poses.front().time;
         if (panel.observer != nullptr && frame < panel.end)
             panel.observer->see(poses.front(), {}, panel.sequence.records());
@@ -133,20 +133,18 @@ MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
 }
 
 bool Pipeline::deliver(const Frame& frame) {
-    if (outputs_.folder != nullptr && !for_png_.push(frame)) return false;
-    if (outputs_.aovs != nullptr && !for_aovs_.push(frame)) return false;
-    return outputs_.video == nullptr || for_video_.push(frame);
+    const auto takes = [&](const void* output, const FrameSet& frames) {
+        return output != nullptr && frames.contains(frame.number);
+    };
+    if (takes(outputs_.folder, frames_.folder) && !for_png_.push(frame)) return false;
+    if (takes(outputs_.aovs, frames_.aovs) && !for_aovs_.push(frame)) return false;
+    return !takes(outputs_.video, frames_.video) || for_video_.push(frame);
 }
 
 // A frame's slot is free when its file is written; syncing to the disk may take longer than drawing the next frame.
 void Pipeline::write_frames() {
     while (std::optional<Frame> frame = for_png_.pop()) {
-        auto file = timed(times_.files, [&] {
-            auto part =
-                std::make_unique<TemporaryFile>(frame_path(outputs_.folder->path(), frame->number), LeftParts::kept);
-            part->write(frame->png);
-            return part;
-        });
+        auto file = timed(times_.files, [&] { return outputs_.folder->write(frame->number, frame->png); });
         frame.reset();
         if (!frame_files_.put(std::move(file))) return;
     }
@@ -165,24 +163,24 @@ void Pipeline::write_aovs() {
 void Pipeline::write_video() {
     while (const std::optional<Frame> frame = for_video_.pop()) {
         const StageTimer timer(times_.video);
-        if (frame->repeated)
-            outputs_.video->repeat();
-        else
-            outputs_.video->write(frame->video);
+        outputs_.video->write(frame->number, frame->video, frame->repeated);
         ++encoded_;
     }
     // After a stop the queue ends as well, but the clip is not complete.
-    if (encoded_ != frames_.count()) return;
+    if (encoded_ != frames_.video.count()) return;
     const StageTimer timer(times_.video);
     outputs_.video->finish();
 }
 
 std::int64_t Pipeline::finished() const {
-    std::int64_t done = frames_.count();
-    if (outputs_.folder != nullptr) done = std::min(done, frame_files_.published());
-    if (outputs_.aovs != nullptr) done = std::min(done, aov_files_.published());
-    if (outputs_.video != nullptr) done = std::min(done, encoded_.load());
-    return done;
+    std::int64_t missing = 0;
+    const auto add = [&](const void* output, const FrameSet& frames, std::int64_t done) {
+        if (output != nullptr) missing = std::max(missing, frames.count() - done);
+    };
+    add(outputs_.folder, frames_.folder, frame_files_.published());
+    add(outputs_.aovs, frames_.aovs, aov_files_.published());
+    add(outputs_.video, frames_.video, encoded_);
+    return frames_.drawn.count() - missing;
 }
 
 }  // namespace tumble

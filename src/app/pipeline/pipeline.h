@@ -10,13 +10,13 @@
 #pragma once
 
 #include "app/files/aov_folder.h"
+#include "app/files/clip_sink.h"
 #include "app/files/frame_folder.h"
+#include "app/files/frame_set.h"
 #include "app/files/publish_queue.h"
-#include "app/pipeline/frame_range.h"
 #include "app/survey/survey.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/render_pool.h"
-#include "output/video_writer.h"
 #include "overlay/overlay_builder.h"
 #include "scene/description/description.h"
 #include "sim/frames/frame_sequence.h"
@@ -41,9 +41,17 @@ struct PipelineTimes {
 
 /// Destinations of the frames; null: not requested.
 struct PipelineOutputs {
-    const FrameFolder* folder = nullptr;
-    VideoWriter* video = nullptr;
+    FrameFolder* folder = nullptr;
+    ClipSink* video = nullptr;
     AovFolder* aovs = nullptr;
+};
+
+/// Frames that are drawn, and those among them that each output takes.
+struct PipelineFrames {
+    FrameSet drawn, folder, aovs, video;
+
+    /// The same for all outputs.
+    static PipelineFrames all(const FrameSet& frames) { return {frames, frames, frames, frames}; }
 };
 
 /// The simulation of a panel.
@@ -56,9 +64,9 @@ struct PanelSource {
 
 class Pipeline {
 public:
-    /// Simulates the frames up to the end of the range and draws those in it. All arguments must outlive run(); the
+    /// Simulates the frames up to the last one that is drawn, and draws those in the set. All arguments must outlive run(); the
     /// render pool must have the same panels and make the outputs that are requested.
-    Pipeline(std::span<const PanelSource> panels, const FrameRange& frames, RenderPool& render_pool,
+    Pipeline(std::span<const PanelSource> panels, const PipelineFrames& frames, RenderPool& render_pool,
              const PipelineOutputs& outputs, Shutter shutter = {});
 
     /// Runs to the end, calling `report` about twenty times per second with the number of finished frames. Throws the
@@ -75,6 +83,7 @@ private:
     void write_aovs();
     void write_video();
     bool deliver(const Frame& frame);
+    std::int64_t end() const { return frames_.drawn.end(); }
     std::int64_t finished() const;
 
     struct Panel {
@@ -86,7 +95,7 @@ private:
         std::vector<std::byte> shapes;  // of the last frame: OverlayFrame as bytes
     };
     std::vector<Panel> panels_;
-    FrameRange frames_;
+    PipelineFrames frames_;
     RenderPool& render_pool_;
     PipelineOutputs outputs_;
     BoundedQueue<MotionBlurFrame> poses_;

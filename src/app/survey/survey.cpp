@@ -16,7 +16,7 @@ void survey(World& world, const SurveyFrames& frames, std::span<SurveyObserver* 
         const Snapshot snapshot = sequence.next_start();
         const Measurement measurement = measures ? world.measure() : Measurement{};
         for (SurveyObserver* observer : observers) observer->see(snapshot, measurement, sequence.records());
-        if (interrupt.pending()) throw RunError("interrupted");
+        if (interrupt.pending()) throw Interrupted();
     }
 }
 

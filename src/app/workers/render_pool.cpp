@@ -94,8 +94,8 @@ RenderPool::RenderPool(const Composition& composition, const RenderOptions& opti
 RenderPool::~RenderPool() = default;
 
 void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
-                     DrawingTimes& times, std::int64_t first) {
-    ReorderBuffer order(workers_.size(), first);
+                     DrawingTimes& times, const FrameSet& frames) {
+    ReorderBuffer order(workers_.size(), frames);
     std::vector<std::thread> threads;
     const auto stop = [&] {
         poses.cancel();
@@ -107,7 +107,7 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
         for (std::size_t i = 0; i < workers_.size(); ++i)
             threads.push_back(start_thread<std::thread>([&, i] {
                 try {
-                    serve(i, poses, order, times, first);
+                    serve(i, poses, order, times, frames);
                 } catch (...) {
                     order.fail(std::current_exception());
                 }
@@ -122,7 +122,7 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
     stop();
 }
 
-/// Selects the poses to draw; false: the frame equals the previous one, which is not allowed for the first frame
+/// Selects the poses to draw; false: the frame equals the previous one, which is not allowed where that was not drawn
 /// (`anew`).
 bool RenderPool::filter(MotionBlurFrame& frame_poses, bool anew) {
     if (!outputs_.image() || (!filter_image(frame_poses) && !anew)) frame_poses.panels.clear();
@@ -158,13 +158,13 @@ bool RenderPool::PanelFilter::follow(PanelPoses& samples) {
 
 /// Main function of the thread that serves one worker.
 void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order,
-                       DrawingTimes& times, std::int64_t first) {
+                       DrawingTimes& times, const FrameSet& frames) {
     Slots& slots = *slots_[worker];
     const auto next_pose = [&]() -> std::optional<MotionBlurFrame> {
         const std::lock_guard lock(pose_mutex_);
         while (std::optional<MotionBlurFrame> pose = poses.pop()) {
-            const bool wanted = filter(*pose, pose->frame == first);
-            if (pose->frame < first) continue;
+            const bool wanted = filter(*pose, !frames.contains(pose->frame - 1));
+            if (!frames.contains(pose->frame)) continue;
             if (wanted) {
                 if (!pose->panels.empty()) ++drawn_;
                 return pose;

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "app/composition/composition.h"
+#include "app/files/frame_set.h"
 #include "app/threads/bounded_queue.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/motion_blur_frame.h"
@@ -51,10 +52,10 @@ public:
     ~RenderPool();
 
     /// Takes poses until their queue ends, and delivers each finished frame in the order of the poses. Stops early if
-    /// `deliver` returns false. For frames before `first`, poses are filtered but not drawn, so that resting bodies
-    /// look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
+    /// `deliver` returns false. For frames that are not in `frames`, poses are filtered but not drawn, so that resting
+    /// bodies look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
     void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
-             DrawingTimes& times, std::int64_t first = 0);
+             DrawingTimes& times, const FrameSet& frames);
 
     /// Ends the processes at once, from any thread; run() then returns.
     void abandon();
@@ -70,7 +71,7 @@ private:
     bool filter(MotionBlurFrame& frame_poses, bool anew);
     bool filter_image(MotionBlurFrame& frame_poses);
     void serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
-               std::int64_t first);
+               const FrameSet& frames);
 
     std::shared_ptr<ShaderCompileSchedule> compile_schedule_;
     std::vector<std::unique_ptr<RenderProcess>> workers_;

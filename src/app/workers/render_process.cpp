@@ -77,9 +77,9 @@ public:
         : memory_(memory) {
         if (outputs.image()) open_panels(composition, options);
         if (outputs.image() && !composition.plain()) composer_.emplace(composition, outputs.transparent);
-        if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs);
+        if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs, outputs.aov_mark);
         if (outputs.video) video_.emplace(*outputs.video, composition.width, composition.height);
-        if (outputs.png) png_.emplace(outputs.transparent ? PngAlpha::kept : PngAlpha::dropped);
+        if (outputs.png) png_.emplace(outputs.transparent ? PngAlpha::kept : PngAlpha::dropped, outputs.png_mark);
     }
 
     DrawnFrame make(const Job& job) {

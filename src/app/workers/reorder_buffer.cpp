@@ -11,8 +11,8 @@ constexpr std::int64_t most_ahead = 4096;  // bounds the repeated frames that wa
 
 }  // namespace
 
-ReorderBuffer::ReorderBuffer(std::size_t workers, std::int64_t first)
-    : first_(first), next_(first), working_(workers), image_of_worker_(workers, -1) {}
+ReorderBuffer::ReorderBuffer(std::size_t workers, FrameSet frames)
+    : frames_(std::move(frames)), next_(frames_.first()), working_(workers), image_of_worker_(workers, -1) {}
 
 void ReorderBuffer::add(Frame frame, std::size_t worker, bool unchanged) {
     const std::lock_guard lock(mutex_);
@@ -62,7 +62,7 @@ std::optional<Frame> ReorderBuffer::next() {
     if (stopped_ || found == waiting_.end()) return std::nullopt;
     Waiting waiting = std::move(found->second);
     waiting_.erase(found);
-    ++next_;
+    next_ = frames_.after(next_);
     changed_.notify_all();
     return marked_repeated(std::move(waiting));
 }
@@ -70,13 +70,14 @@ std::optional<Frame> ReorderBuffer::next() {
 /// Frames arrive here in order, so the previous frame of the worker is known.
 Frame ReorderBuffer::marked_repeated(Waiting waiting) {
     Frame& frame = waiting.frame;
-    TUMBLE_CHECK_EQ(frame.number > first_ || waiting.worker || frame.aov_slot, true);
+    const bool follows = frames_.contains(frame.number - 1);
+    TUMBLE_CHECK_EQ(follows || waiting.worker || frame.aov_slot, true);
     if (!frame.aov_slot) {
         frame.aovs = last_.aovs;
         frame.aov_slot = last_.aov_slot;
     }
     if (!waiting.worker) {
-        frame.repeated = frame.number > first_;
+        frame.repeated = follows;
         frame.video = last_.video;
         frame.png = last_.png;
         frame.slot = last_.slot;

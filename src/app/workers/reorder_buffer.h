@@ -1,6 +1,7 @@
 // Reorder buffer: finished frames of several workers wait here for earlier frames.
 #pragma once
 
+#include "app/files/frame_set.h"
 #include "app/workers/render_pool.h"
 
 #include <condition_variable>
@@ -15,8 +16,9 @@ namespace tumble {
 
 class ReorderBuffer {
 public:
-    /// `workers`: their number; `first`: the first frame, which must have all outputs.
-    explicit ReorderBuffer(std::size_t workers, std::int64_t first = 0);
+    /// `workers`: their number; `frames`: those to come. Each frame that does not follow the one before it in the set by
+    /// one must have all outputs.
+    ReorderBuffer(std::size_t workers, FrameSet frames);
 
     /// Adds a drawn frame; `unchanged`: it is the same image as the previous frame of this worker.
     void add(Frame frame, std::size_t worker, bool unchanged);
@@ -48,7 +50,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     std::map<std::int64_t, Waiting> waiting_;
-    const std::int64_t first_;
+    const FrameSet frames_;
     std::int64_t next_;
     std::size_t working_;
     bool stopped_ = false;

@@ -23,6 +23,8 @@ struct FrameOutputs {
     bool png = false;
     AovSet aovs;
     bool transparent = false;  // images have alpha: with RenderOptions::transparent
+    std::string png_mark{};    // in each PNG file (png_mark_keyword), if not empty
+    std::string aov_mark{};    // in each AOV file
 
     bool image() const { return video.has_value() || png; }
 };

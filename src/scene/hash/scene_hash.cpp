@@ -25,8 +25,18 @@ public:
         add_value(bodies);
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
-        const bool shows_file = title.empty() && overlay.show.has(Overlay::title);
-        add_value(shows_file ? std::filesystem::path(file).stem().string() : std::string());
+        add_shown_file(scene);
+    }
+
+    void add_shown_file(const SceneDescription& scene) {
+        const bool shows_file = scene.title.empty() && scene.overlay.show.has(Overlay::title);
+        add_value(shows_file ? std::filesystem::path(scene.file).stem().string() : std::string());
+    }
+
+    template <class T>
+    std::string finish_with(const T& part) {
+        add_value(part);
+        return finish();
     }
 
 private:
@@ -198,5 +208,23 @@ std::string hash_of(const SceneDescription& scene, Content content) {
 std::string scene_hash(const SceneDescription& scene) { return hash_of(scene, Content::all); }
 
 std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, Content::motion); }
+
+std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
+    const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, cords, overlay] = scene;
+    const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
+    SimulationSettings of_any_duration = simulation;
+    of_any_duration.duration = 0.0;
+    DescriptionHash text(Content::all);
+    if (overlay.show.has(Overlay::title)) text.add(title);
+    text.add_shown_file(scene);
+    return {{"simulation", part(of_any_duration)},
+            {"camera", part(camera)},
+            {"light", part(light)},
+            {"wind", part(wind)},
+            {"forces", part(forces)},
+            {"bodies", part(bodies)},
+            {"cords", part(cords)},
+            {"overlay", text.finish_with(overlay)}};
+}
 
 }  // namespace tumble
