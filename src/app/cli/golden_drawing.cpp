@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <system_error>
+#include <algorithm>
 
 namespace tumble {
 namespace {
@@ -56,6 +56,18 @@ void draw_plot(const GoldenCase& golden, const fs::path& folder, const DrawingWo
     run_plot(command);
 }
 
+/// "0,44-45,89-90", with or without the frame before each one.
+std::string range_of(const std::vector<std::int64_t>& frames, bool with_neighbors) {
+    std::string range;
+    std::int64_t end = 0;  // one after the last frame in it
+    for (const std::int64_t frame : frames) {
+        const std::int64_t first = std::max(with_neighbors ? frame - 1 : frame, end);
+        range += fmt::format("{}{}-{}", range.empty() ? "" : ",", first, frame);
+        end = frame + 1;
+    }
+    return range;
+}
+
 void draw_frames(const GoldenCase& golden, const std::vector<std::int64_t>& frames, const fs::path& folder,
                  const DrawingWork& work) {
     RenderCommand command = render_command(golden);
@@ -63,15 +75,12 @@ void draw_frames(const GoldenCase& golden, const std::vector<std::int64_t>& fram
     command.motion_record = folder / golden.record_name();
     command.workers = work.workers;
     command.threads = work.threads;
-    const RenderFigures done = render_to_files(command);
-    for (const std::int64_t frame : frames) {
-        if (frame >= done.frames.end)
-            throw InputError(
-                fmt::format("--frames: there is no frame {}; the last one is {} (at the end of the "
-                            "scene's duration)",
-                            frame, done.frames.end - 1));
+    // Dirty regions are those since the frame before, which is drawn as well.
+    const bool all = RenderScenes(command, Shutter::of(command.shutter, command.blur_samples)).shows_damage();
+    command.frames_range = all ? fmt::format("0-{}", frames.back()) : range_of(frames, work.neighbors);
+    render_to_files(command);
+    for (const std::int64_t frame : frames)
         fs::rename(frame_path(*command.frames, frame), folder / golden.image_name(frame));
-    }
     fs::remove_all(*command.frames);
 }
 

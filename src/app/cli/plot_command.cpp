@@ -1,5 +1,5 @@
-#include "app/causes/run_recorder.h"
 #include "app/causes/record_file.h"
+#include "app/causes/run_recorder.h"
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"

@@ -1,7 +1,7 @@
 #include "app/cli/render_run.h"
 
-#include "app/causes/run_recorder.h"
 #include "app/causes/record_file.h"
+#include "app/causes/run_recorder.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_plan.h"
 #include "app/cli/render_scenes.h"

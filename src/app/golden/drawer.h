@@ -12,8 +12,8 @@ namespace tumble {
 
 /// How the drawing is divided; the images must not depend on it.
 struct DrawingWork {
-    int workers = 1;  // render processes
-    int threads = 1;  // of the simulation
+    int workers = 1;         // render processes
+    int threads = 1;         // of the simulation
     bool neighbors = false;  // also draws the frame before each one
 };
 

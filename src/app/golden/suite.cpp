@@ -59,7 +59,7 @@ void check_names(const std::vector<GoldenCase>& cases) {
 std::string key_of_option(std::string_view text) {
     std::string key(text.substr(2, text.find_first_of(" :=") - 2));
     std::ranges::replace(key, '-', '_');
-    return key;
+    return key == "frames_range" ? "frames" : key;
 }
 
 }  // namespace
