@@ -46,8 +46,8 @@ private:
     }
 
     void put(std::size_t index, const ImagePair& pair, ImageResult result) {
-        const std::lock_guard lock(mutex_);
         if (found_) found_(pair, result);
+        const std::lock_guard lock(mutex_);
         results_[index] = std::move(result);
     }
 

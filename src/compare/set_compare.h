@@ -15,7 +15,7 @@ namespace tumble {
 /// The next pair, or nothing at the end. Called by one thread at a time.
 using PairSource = std::function<std::optional<ImagePair>()>;
 
-/// Called with each result by the thread that found it, one at a time and in no order.
+/// Called with each result by the thread that found it: in no order, and several at a time.
 using PairSink = std::function<void(const ImagePair&, ImageResult&)>;
 
 /// Compares the pairs with `workers` threads; the results are in the order of the pairs. As many pairs are in memory as

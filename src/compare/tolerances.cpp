@@ -154,10 +154,14 @@ Tolerances Tolerances::of_table(const TomlTable& table, const fs::path& folder, 
     return tolerances;
 }
 
-Tolerances Tolerances::read(const fs::path& file, const PairTolerances& base) {
-    const toml::table document = parse_toml(text_of(file), file.string());
+Tolerances Tolerances::parse(const std::string& text, const fs::path& file, const PairTolerances& base) {
+    const toml::table document = parse_toml(text, file.string());
     const TomlTable table(document, {file.filename().string(), {file.string(), 1, 1}}, "a file of tolerances");
     return of_table(table, file.parent_path(), base);
+}
+
+Tolerances Tolerances::read(const fs::path& file, const PairTolerances& base) {
+    return parse(text_of(file), file, base);
 }
 
 PairTolerances Tolerances::of(std::string_view name) const {

@@ -52,6 +52,10 @@ public:
     /// the file does not have.
     static Tolerances read(const std::filesystem::path& file, const PairTolerances& base = {});
 
+    /// The same from the text of the file.
+    static Tolerances parse(const std::string& text, const std::filesystem::path& file,
+                            const PairTolerances& base = {});
+
     /// The same from a table of another file with the keys of tolerances.toml. `folder` is that of relative names of
     /// masks.
     static Tolerances of_table(const TomlTable& table, const std::filesystem::path& folder,

@@ -30,19 +30,24 @@ constexpr int message_period = 100;            // ms
 constexpr std::size_t longest_line = 256;      // bytes, of a frame's header
 
 /// Frames as PAM: a header of lines with width and height, then the bytes of RGBA.
-std::vector<std::string> arguments_for(const fs::path& clip, bool with_alpha_decoder) {
+std::vector<std::string> arguments_for(const fs::path& clip, std::optional<double> fps, bool with_alpha_decoder) {
     std::vector<std::string> arguments{"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror"};
     // ffmpeg's own decoder of VP9 drops the alpha.
     if (with_alpha_decoder) arguments.insert(arguments.end(), {"-c:v", "libvpx-vp9"});
-    arguments.insert(arguments.end(),
-                     {"-i", "file:" + clip.string(), "-map", "0:v:0", "-fps_mode", "cfr", "-sws_flags",
-                      "accurate_rnd+bitexact", "-pix_fmt", "rgba", "-c:v", "pam", "-f", "image2pipe", "pipe:1"});
+    arguments.insert(arguments.end(), {"-i", "file:" + clip.string(), "-map", "0:v:0", "-sws_flags",
+                                       "accurate_rnd+bitexact", "-pix_fmt", "rgba", "-c:v", "pam", "-f", "image2pipe"});
+    if (fps)
+        arguments.insert(arguments.end(), {"-fps_mode", "cfr", "-r", fmt::format("{}", *fps)});
+    else
+        arguments.insert(arguments.end(), {"-fps_mode", "passthrough"});
+    arguments.push_back("pipe:1");
     return arguments;
 }
 
 }  // namespace
 
-ClipReader::ClipReader(const fs::path& clip) : clip_(clip), ffmpeg_(find_ffmpeg()) {
+ClipReader::ClipReader(const fs::path& clip, std::optional<double> fps)
+    : clip_(clip), ffmpeg_(find_ffmpeg()), fps_(fps) {
     std::error_code error;
     const fs::file_status status = fs::status(clip, error);
     if (!fs::exists(status)) fail("the file does not exist");
@@ -60,7 +65,7 @@ void ClipReader::start(bool with_alpha_decoder) {
     ::fcntl(ends[0], F_SETPIPE_SZ, int(buffer_bytes));
     pipe_ = ends[0];
     try {
-        process_ = std::make_unique<Process>(ffmpeg_, arguments_for(clip_, with_alpha_decoder), ends[1]);
+        process_ = std::make_unique<Process>(ffmpeg_, arguments_for(clip_, fps_, with_alpha_decoder), ends[1]);
     } catch (...) {
         ::close(ends[1]);
         throw;
@@ -127,7 +132,10 @@ std::optional<Image> ClipReader::read_frame() {
     if (width < 1 || height < 1 || std::int64_t(width) * height > max_image_pixels)
         fail(fmt::format("has frames of {} x {} pixels", width, height));
     Image image(width, height);
-    if (!read(image.pixels)) return std::nullopt;
+    if (!read(image.pixels)) {
+        inside_frame_ = true;
+        return std::nullopt;
+    }
     return image;
 }
 
@@ -139,6 +147,7 @@ std::optional<Image> ClipReader::next() {
     }
     const ProcessEnd end = process_->finish();
     stop();
+    if (end.ok() && inside_frame_) fail("ffmpeg ended within a frame");
     if (end.ok()) return std::nullopt;
     if (std::exchange(may_restart_, false)) {  // not VP9
         start(false);

@@ -12,12 +12,12 @@
 
 namespace tumble {
 
-/// Reads the frames one after the other, with a single one in memory. A picture that is shown longer is several frames
-/// at the clip's frame rate. Frames of a clip with alpha have it.
+/// Reads the frames one after the other, with a single one in memory. Frames of a clip with alpha have it.
 class ClipReader {
 public:
-    /// Throws InputError if the file is missing or no clip, RunError without ffmpeg.
-    explicit ClipReader(const std::filesystem::path& clip);
+    /// The stored frames; with a frame rate, those at its moments, so that a frame that is shown longer comes several
+    /// times. Throws InputError if the file is missing, RunError without ffmpeg.
+    explicit ClipReader(const std::filesystem::path& clip, std::optional<double> fps = std::nullopt);
     ~ClipReader();
     ClipReader(const ClipReader&) = delete;
     ClipReader& operator=(const ClipReader&) = delete;
@@ -35,9 +35,10 @@ private:
     [[noreturn]] void fail(const std::string& problem) const;
 
     std::filesystem::path clip_, ffmpeg_;
+    std::optional<double> fps_;
     std::unique_ptr<Process> process_;
     int pipe_ = -1;  // its output
-    bool may_restart_ = false;
+    bool may_restart_ = false, inside_frame_ = false;
     std::vector<std::uint8_t> buffer_;  // read from the pipe
     std::size_t used_ = 0;              // bytes of the buffer that were taken
 };

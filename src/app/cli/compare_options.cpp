@@ -1,4 +1,5 @@
 #include "app/cli/command_line.h"
+#include "scene/toml/limits.h"
 
 #include <algorithm>
 
@@ -26,8 +27,14 @@ void add_sets(CLI::App& command, CompareCommand& c) {
         ->check(some_name())
         ->type_name("NAME");
     command.add_flag("--allow-added", c.allow_added, "A picture without a reference is no difference");
+    command
+        .add_option("--fps", c.overrides.fps,
+                    "Frames per second of a scene, in place of its own; of clips whose pictures are shown\nlonger "
+                    "(--variable-rate), which without this have as many frames as are stored")
+        ->check(number_within(limits::fps.min, limits::fps.max))
+        ->type_name("N");
     add_values(command, c.overrides);
-    c.workers = machine_threads();
+    c.workers = std::min(machine_threads(), enough_workers);
     command.add_option("--workers", c.workers, "Pairs compared at a time, and render processes of a scene")
         ->check(CLI::Range(1, most_threads))
         ->option_text(fmt::format("N [{}]", c.workers));
@@ -49,9 +56,10 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
         ->type_name("B");
     command
         ->add_option("--diff", c.difference,
-                     "Write a picture of the differences: red beyond the tolerance, blue within")
+                     "Write a picture of the differences: red beyond the tolerance, blue within; of folders and\nclips "
+                     "a folder of them")
         ->check(some_name())
-        ->type_name("D.png");
+        ->type_name("D");
     command
         ->add_option("--tolerance", c.options.tolerance,
                      "Levels (of 255) that a pixel may differ in each channel without counting")

@@ -6,11 +6,13 @@
 #include "app/cli/say.h"
 #include "app/compare/clip_pairs.h"
 #include "app/compare/compare_input.h"
+#include "app/compare/compared_frames.h"
 #include "app/files/output_plan.h"
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"
 #include "compare/image_folder.h"
 #include "compare/platform.h"
+#include "compare/report/comparison_report.h"
 #include "compare/set_compare.h"
 #include "core/error.h"
 #include "core/safe_text.h"
@@ -55,18 +57,25 @@ public:
         result.reference = reference_.string();
         result.image = image_.string();
         result.added_allowed = command_.allow_added;
-        const bool pictures = of_reference_ == CompareInput::picture;
-        if (pictures || of_reference_ == CompareInput::folder) {
-            if (pictures)
-                result.images = compare_files({{reference_.filename().string(), reference_}},
-                                              {{reference_.filename().string(), image_}});
-            else if (of_image_ == CompareInput::scene)
-                result.images = compare_scene(result);
-            else if (of_image_ == CompareInput::folder)
-                result.images = compare_folders(result);
-        }
-        if (of_reference_ == CompareInput::clip || of_image_ == CompareInput::clip) result.images = compare_frames();
+        if (of_reference_ == CompareInput::clip || of_image_ == CompareInput::clip)
+            result.images = compare_frames();
+        else if (of_image_ == CompareInput::scene)
+            result.images = compare_scene(result);
+        else if (of_image_ == CompareInput::folder)
+            result.images = compare_folders(result);
+        else
+            result.images = compare_pictures();
         return result;
+    }
+
+    /// Precondition: it is the result of compare(), whose frames are still there.
+    void write_report(const SetResult& result) const {
+        ReportOptions options;
+        options.generator = "Tumble " TUMBLE_VERSION;
+        options.platform = this_platform();
+        if (command_.tolerances) options.tolerances = command_.tolerances->string();
+        options.workers = command_.workers;
+        write_comparison_report(result, options, *command_.report);
     }
 
     const Tolerances& tolerances() const { return tolerances_; }
@@ -90,6 +99,10 @@ private:
         if (command_.tolerances) plan.add_input(*command_.tolerances);
         if (command_.json) plan.add("--json", *command_.json);
         if (command_.junit) plan.add("--junit", *command_.junit);
+        if (command_.report) plan.add("--report", *command_.report);
+        if (command_.difference && fs::exists(*command_.difference) && !fs::is_directory(*command_.difference))
+            throw InputError(fmt::format("--diff: must be a folder for more than two pictures ('{}' is none)",
+                                         safe_path(*command_.difference)));
     }
 
     std::vector<ImageResult> compare(const PairSource& next) {
@@ -99,7 +112,17 @@ private:
                 if (interrupt.pending()) throw RunError("interrupted");
                 return next();
             },
-            tolerances_, command_.workers);
+            tolerances_, command_.workers,
+            [&](const ImagePair& pair, ImageResult& result) {
+                if (kept_) kept_->keep(pair, result);
+                if (command_.difference && result.verdict == Verdict::different)
+                    write_difference(pair, tolerances_.of(pair.name).pixels, *command_.difference);
+            });
+    }
+
+    std::vector<ImageResult> compare_pictures() {
+        const std::string name = reference_.filename().string();
+        return compare_files({{name, reference_}}, {{name, image_}});
     }
 
     std::vector<ImageResult> compare_files(const NamedFiles& references, const NamedFiles& images) {
@@ -134,15 +157,19 @@ private:
         if (frames.size() < references.files.size())
             say("note: {} files of the folder are no frames of a scene, and are not compared\n",
                 references.files.size() - frames.size());
-        drawn_.emplace("compare");
-        draw_frames_of(command_, image_, frames, drawn_->path());
-        NamedFiles images = png_files_in(drawn_->path());
+        temporary_.emplace("compare");
+        draw_frames_of(command_, image_, frames, temporary_->path());
+        NamedFiles images = png_files_in(temporary_->path());
         std::erase_if(images, [&](const auto& image) { return frames.count(image.first) == 0; });
         return compare_files(frames, images);
     }
 
     std::vector<ImageResult> compare_frames() {
-        FramePairs pairs(reference_, image_);
+        FramePairs pairs(reference_, image_, command_.overrides.fps);
+        if (command_.report) {
+            temporary_.emplace("compare");
+            kept_.emplace(temporary_->path());
+        }
         return compare([&] { return pairs.next(); });
     }
 
@@ -150,7 +177,8 @@ private:
     fs::path reference_, image_;
     CompareInput of_reference_, of_image_;
     Tolerances tolerances_;
-    std::optional<TemporaryFolder> drawn_;  // frames of a scene
+    std::optional<TemporaryFolder> temporary_;  // frames that a scene or a clip gave
+    std::optional<KeptFrames> kept_;
 };
 
 void write_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
@@ -163,12 +191,12 @@ bool compares_sets(const CompareCommand& command) {
 }
 
 int compare_sets(const CompareCommand& command) {
-    if (command.difference) throw InputError("--diff: is for two pictures (see --report)");
     SetComparisonRun run(command);
     SetResult result = run.compare();
     explain_frames(result);
     if (command.json) write_text(*command.json, to_json(result));
     if (command.junit) write_text(*command.junit, to_junit(result));
+    if (command.report) run.write_report(result);
     std::vector<std::string> names;
     for (const ImageResult& image : result.images) names.push_back(image.name);
     for (const std::string& rule : run.tolerances().unused(names))

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::int64_t listed = 50;  // of each verdict: a screenful or two; files have them all
+constexpr std::int64_t listed = 20;  // of each verdict: a screenful or two; files have them all
 
 std::string indented(const std::string& lines) {
     std::string text = "  ";
@@ -44,7 +44,7 @@ void print_summary(const SetResult& result, bool brief) {
         for (std::size_t i = 0; i < verdict_count; ++i)
             if (numbers[i] > 0)
                 counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", numbers[i], name_of(Verdict(i)));
-        put("{} pictures: {}\n", result.images.size(), counts);
+        put("{} {}: {}\n", result.images.size(), result.images.size() == 1 ? "picture" : "pictures", counts);
         if (!result.platform.empty())
             put("references of the platform {} replace general ones\n", safe_text(result.platform));
     }

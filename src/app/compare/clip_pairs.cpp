@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-FrameSource::FrameSource(const std::filesystem::path& clip_or_folder) {
+FrameSource::FrameSource(const std::filesystem::path& clip_or_folder, std::optional<double> fps) {
     if (std::filesystem::is_directory(clip_or_folder)) {
         folder_ = clip_or_folder;
         numbers_ = frames_in(folder_);
@@ -17,7 +17,7 @@ FrameSource::FrameSource(const std::filesystem::path& clip_or_folder) {
             throw InputError({folder_.string(), 0, 0},
                              "the folder holds no frames (frame_000000.png, frame_000001.png, ...)");
     } else {
-        clip_.emplace(clip_or_folder);
+        clip_.emplace(clip_or_folder, fps);
     }
 }
 

@@ -14,8 +14,8 @@ namespace tumble {
 /// The frames of a clip, or those of a folder (frame_000000.png, ...), by their numbers.
 class FrameSource {
 public:
-    /// Throws InputError if it is neither.
-    explicit FrameSource(const std::filesystem::path& clip_or_folder);
+    /// `fps`: of a clip (see ClipReader). Throws InputError if it is neither.
+    explicit FrameSource(const std::filesystem::path& clip_or_folder, std::optional<double> fps = std::nullopt);
 
     /// The frame of that number, which may only grow from call to call; nothing if there is none.
     std::optional<ComparedPicture> at(std::int64_t number);
@@ -35,8 +35,8 @@ private:
 /// The pairs of two sources by number: frame_000000.png and so on. A PairSource (set_compare.h).
 class FramePairs {
 public:
-    FramePairs(const std::filesystem::path& reference, const std::filesystem::path& image)
-        : reference_(reference), image_(image) {}
+    FramePairs(const std::filesystem::path& reference, const std::filesystem::path& image, std::optional<double> fps)
+        : reference_(reference, fps), image_(image, fps) {}
     std::optional<ImagePair> next();
 
 private:

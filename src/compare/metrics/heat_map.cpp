@@ -31,7 +31,7 @@ constexpr std::string_view magma =
 
 int digit(char c) { return c <= '9' ? c - '0' : c - 'a' + 10; }
 
-std::array<Color, 256> colors() {
+std::array<Color, 256> magma_colors() {
     std::array<Color, 256> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
         const auto channel = [&](std::size_t at) {
@@ -45,7 +45,7 @@ std::array<Color, 256> colors() {
 }  // namespace
 
 Image heat_map(const MetricMap& map, float cold, float hot) {
-    const std::array<Color, 256> table = colors();
+    const std::array<Color, 256> table = magma_colors();
     Image image(map.width, map.height);
     const float scale = 255.0f / (hot - cold);
     for (std::size_t i = 0; i < map.values.size(); ++i) {

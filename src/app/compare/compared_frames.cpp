@@ -1,0 +1,58 @@
+#include "app/compare/compared_frames.h"
+
+#include "compare/metrics/background.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/png_reader.h"
+#include "output/png_writer.h"
+
+#include <fmt/format.h>
+
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+void make_folder(const fs::path& folder) {
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error) throw RunError(fmt::format("cannot make the folder {}: {}", safe_path(folder), error.message()));
+}
+
+Image pixels_of(const ComparedPicture& picture) {
+    return picture.pixels != nullptr ? *picture.pixels : read_png(picture.file);
+}
+
+}  // namespace
+
+KeptFrames::KeptFrames(const fs::path& folder) : folder_(folder) {
+    make_folder(folder_ / "reference");
+    make_folder(folder_ / "image");
+}
+
+void KeptFrames::write(const ComparedPicture& picture, const fs::path& file, fs::path& name) {
+    if (picture.pixels == nullptr) return;
+    const auto bytes = std::int64_t(picture.pixels->pixels.size());
+    if (bytes_.fetch_add(bytes) + bytes > most_bytes) return;
+    write_png(file, *picture.pixels, has_alpha(*picture.pixels) ? PngAlpha::kept : PngAlpha::dropped);
+    name = file;
+}
+
+void KeptFrames::keep(const ImagePair& pair, ImageResult& result) {
+    if (result.verdict == Verdict::same) return;
+    if (pair.reference) write(*pair.reference, folder_ / "reference" / pair.name, result.reference);
+    if (pair.image) write(*pair.image, folder_ / "image" / pair.name, result.image);
+}
+
+void write_difference(const ImagePair& pair, const CompareOptions& options, const fs::path& folder) {
+    const fs::path file = folder / pair.name;
+    make_folder(file.parent_path());
+    if (pair.reference->pixels == nullptr && pair.image->pixels == nullptr)
+        compare_png_files(pair.reference->file, pair.image->file, options, file);
+    else
+        write_png(file, difference_image(pixels_of(*pair.reference), pixels_of(*pair.image), options));
+}
+
+}  // namespace tumble

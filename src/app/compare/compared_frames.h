@@ -1,0 +1,36 @@
+// Files of what a comparison finds: frames of clips for the report, and pictures of differences.
+#pragma once
+
+#include "compare/comparison.h"
+#include "compare/pair_compare.h"
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+
+namespace tumble {
+
+/// Keeps frames that are in memory only and that are not the same as their partner, as files. For several threads.
+class KeptFrames {
+public:
+    /// At most this many bytes of pixels are kept, so that a long clip does not fill the disk.
+    static constexpr std::int64_t most_bytes = std::int64_t(1) << 30;
+
+    /// Into REFERENCE and IMAGE in `folder`.
+    explicit KeptFrames(const std::filesystem::path& folder);
+
+    /// Names the files in the result.
+    void keep(const ImagePair& pair, ImageResult& result);
+
+private:
+    void write(const ComparedPicture& picture, const std::filesystem::path& file, std::filesystem::path& name);
+
+    std::filesystem::path folder_;
+    std::atomic<std::int64_t> bytes_{0};
+};
+
+/// Writes the picture of the differences (image_compare.h, difference_row) of a different pair as FOLDER/NAME. Throws
+/// RunError.
+void write_difference(const ImagePair& pair, const CompareOptions& options, const std::filesystem::path& folder);
+
+}  // namespace tumble

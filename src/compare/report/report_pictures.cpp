@@ -1,0 +1,148 @@
+#include "compare/report/report_pictures.h"
+
+#include "compare/metrics/flip.h"
+#include "compare/metrics/heat_map.h"
+#include "compare/metrics/ssim.h"
+#include "compare/metrics/window_map.h"
+#include "compare/report/thumbnail.h"
+#include "core/error.h"
+#include "core/start_thread.h"
+#include "output/png_reader.h"
+#include "output/png_writer.h"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+namespace tumble {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int thumbnail_width = 192, thumbnail_height = 144;  // pixels: twice their size on the page, for sharp screens
+constexpr float least_hot_window = 8.0f;                      // levels of the lightest color: noise stays dark
+
+PngBytes png_of(const Image& image, PngAlpha alpha) {
+    PngEncoder encoder(alpha);
+    const auto bytes = encoder.encode(image);
+    return {bytes.begin(), bytes.end()};
+}
+
+PngBytes bytes_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary | std::ios::ate);
+    if (!stream) return {};
+    PngBytes bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg())));
+    stream.seekg(0);
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    return stream ? bytes : PngBytes{};
+}
+
+/// Empty where there is no image, or none that can be read.
+std::optional<Image> image_of(const fs::path& file) {
+    if (file.empty()) return std::nullopt;
+    try {
+        return read_png(file);
+    } catch (const InputError&) {
+        return std::nullopt;
+    }
+}
+
+/// Bytes of both files, 0 for what is missing.
+std::int64_t bytes_of_files(const ImageResult& result) {
+    std::int64_t bytes = 0;
+    for (const fs::path& file : {result.reference, result.image}) {
+        std::error_code error;
+        const std::uintmax_t size = file.empty() ? 0 : fs::file_size(file, error);
+        if (!error && size != static_cast<std::uintmax_t>(-1)) bytes += static_cast<std::int64_t>(size);
+    }
+    return bytes;
+}
+
+void add_differences(const Image& reference, const Image& image, PairPictures& to) {
+    const FlipResult perceived = flip(reference, image);
+    to.figures = {perceived.mean, perceived.weighted_median, perceived.quantile_99, perceived.maximum};
+    to.ssim = ssim(reference, image).mean;
+    to.flip = png_of(heat_map(perceived.map), PngAlpha::dropped);
+    const MetricMap windows = window_map(reference, image);
+    to.hottest_window = std::max(least_hot_window, *std::max_element(windows.values.begin(), windows.values.end()));
+    to.windows = png_of(heat_map(windows, 0.0f, to.hottest_window), PngAlpha::dropped);
+}
+
+PairPictures pictures_of(const ImageResult& result) {
+    PairPictures pictures;
+    const std::optional<Image> reference = image_of(result.reference), image = image_of(result.image);
+    if (reference) {
+        pictures.reference = bytes_of(result.reference);
+        pictures.reference_size = {reference->width, reference->height};
+    }
+    if (image) {
+        pictures.image = bytes_of(result.image);
+        pictures.image_size = {image->width, image->height};
+    }
+    if (reference || image) {
+        const Image small = thumbnail(image ? *image : *reference, thumbnail_width, thumbnail_height);
+        pictures.thumbnail = png_of(small, PngAlpha::kept);
+    }
+    if (reference && image && reference->width == image->width && reference->height == image->height)
+        add_differences(*reference, *image, pictures);
+    return pictures;
+}
+
+/// The pictures of the results [first, last), several at a time.
+void draw(const std::vector<const ImageResult*>& results, std::size_t first, std::size_t last, int workers,
+          std::vector<PairPictures>& to) {
+    std::atomic<std::size_t> next = first;
+    std::vector<std::exception_ptr> errors(last - first);
+    const auto work = [&] {
+        for (std::size_t i; (i = next++) < last;) {
+            if (to[i].left_out) continue;
+            try {
+                to[i] = pictures_of(*results[i]);
+            } catch (...) {
+                errors[i - first] = std::current_exception();
+            }
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 1; i < workers; ++i) threads.push_back(start_thread<std::jthread>(work));
+        work();
+    }
+    for (const std::exception_ptr& error : errors)
+        if (error) std::rethrow_exception(error);
+}
+
+}  // namespace
+
+std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>& results, std::int64_t most_bytes,
+                                          int workers) {
+    // In groups of a fixed size, so that the same pictures are left out with any number of workers.
+    constexpr std::size_t group = 16;
+    constexpr std::int64_t alike_part = 8;  // pairs within the tolerances get an eighth of the bytes
+    std::vector<PairPictures> all(results.size());
+    std::int64_t used = 0;
+    const auto room = [&](std::size_t i) {
+        return (results[i]->verdict == Verdict::alike ? most_bytes / alike_part : most_bytes) - used;
+    };
+    for (std::size_t first = 0; first < results.size(); first += group) {
+        const std::size_t last = std::min(results.size(), first + group);
+        for (std::size_t i = first; i < last; ++i) all[i].left_out = bytes_of_files(*results[i]) > room(i);
+        draw(results, first, last, workers, all);
+        for (std::size_t i = first; i < last; ++i) {
+            const auto bytes = static_cast<std::int64_t>(all[i].bytes());
+            if (bytes > room(i)) {
+                all[i].left_out = true;
+                for (PngBytes* picture : {&all[i].reference, &all[i].image, &all[i].flip, &all[i].windows})
+                    *picture = {};
+            } else {
+                used += bytes;
+            }
+        }
+    }
+    return all;
+}
+
+}  // namespace tumble

@@ -1,0 +1,40 @@
+// The pictures of a report: of each pair both images, heat maps of their difference, and a thumbnail, as PNG files in
+// memory, within a number of bytes.
+#pragma once
+
+#include "compare/comparison.h"
+#include "output/png_reader.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace tumble {
+
+using PngBytes = std::vector<std::byte>;
+
+/// The whole error of a pair, of FLIP.
+struct FlipFigures {
+    double mean = 0.0, weighted_median = 0.0, quantile_99 = 0.0, maximum = 0.0;
+};
+
+struct PairPictures {
+    PngBytes reference, image;  // the files; empty: missing or unreadable
+    ImageSize reference_size, image_size;
+    PngBytes flip, windows;      // heat maps of a comparable pair
+    PngBytes thumbnail;          // of the image, else of the reference
+    float hottest_window = 0.0;  // levels that have the lightest color of `windows`
+    std::optional<FlipFigures> figures;
+    std::optional<double> ssim;
+    bool left_out = false;  // for their size
+
+    std::size_t bytes() const { return reference.size() + image.size() + flip.size() + windows.size(); }
+};
+
+/// The pictures of each result, in their order: those of the first ones up to the number of bytes; later ones keep
+/// their thumbnails.
+std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>& results, std::int64_t most_bytes,
+                                          int workers);
+
+}  // namespace tumble
