@@ -17,6 +17,11 @@ Wide quantized(const Vec3& value, double quantum) {
 
 Vec3 value_of(const Wide& whole, double quantum) { return quantum * whole.cast<double>(); }
 
+/// A velocity as the player decodes it: snapped to the quantum, so that a body at rest has none.
+Vec3 decoded(const Vec3& rate, const Wide& difference, double quantum) {
+    return value_of(quantized(rate + value_of(difference, quantum), quantum), quantum);
+}
+
 /// Derivative at frame n of the parabola through three frames; `at(i)` is a difference of positions or the like from
 /// frame i - 1 to frame i.
 template <class Step>
@@ -70,8 +75,8 @@ FrameChannels encode_frames(std::span<const BodySample> samples, const Quanta& q
         const Wide turning = quantized(samples[n].angular_velocity - spin, quanta.angular_velocity);
         put(6, n, velocity);
         put(9, n, turning);
-        result.errors.add(samples[n], {places[n], rotations[n], drift + value_of(velocity, quanta.velocity),
-                                       spin + value_of(turning, quanta.angular_velocity), false});
+        result.errors.add(samples[n], {places[n], rotations[n], decoded(drift, velocity, quanta.velocity),
+                                       decoded(spin, turning, quanta.angular_velocity), false});
     }
     for (std::size_t channel = 0; channel < channel_count; ++channel)
         result.orders.push_back(predict(std::span(result.values).subspan(channel * count, count)));

@@ -2,7 +2,7 @@
 //
 // Positions are multiples of a quantum. A rotation is the decoded one of the frame before, followed by a rotation vector
 // of whole quanta: errors do not add up. Velocities are differences to those that the decoded positions and rotations
-// show, which is nearly nothing.
+// show, which is nearly nothing; their sum is snapped to the quantum.
 #pragma once
 
 #include "page/page_run.h"

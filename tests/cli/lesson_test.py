@@ -133,6 +133,15 @@ class LessonTest(pages.PageTestCase):
         self.assertLess(index.index("first.html"), index.index("last.html"))
         self.assertIn("<h1>A &amp; B</h1>", index)
 
+    def test_the_example_of_the_guide(self):
+        guide = (ROOT / "docs/how-to/lessons.md").read_text(encoding="utf-8")
+        example = re.search(r"````markdown\n(.*?)````", guide, re.DOTALL)[1]
+        message = re.search(r"^drop\.md:.*", guide, re.MULTILINE)[0]
+        self.write("drop.md", example)
+        self.assertIn(message, self.check(2, "lesson", "drop.md", "--check", "--no-pictures").stderr.splitlines())
+        self.write("drop.md", example.replace("answer = 4.429", "answer = -4.429"))
+        self.check(0, "lesson", "drop.md", "-o", "site", "--no-pictures", "--quiet")
+
     def test_threads_change_nothing(self):
         self.lesson("a.md", STAGE + NUMBERS.format(speed=SPEED, answer=-SPEED / 2) + STAGE.replace("drop", "again")
                     + CONVERGENCE.format(exact=FALLEN, slope=1))

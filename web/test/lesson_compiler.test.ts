@@ -1,14 +1,17 @@
 // The compiler of lessons: mistakes with line and column, references, macros, expressions.
 import assert from "node:assert/strict";
+import { readFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { compile_course, type CourseOutput } from "../lesson/course.ts";
 import { ExpressionError, parse_expression } from "../lesson/expression.ts";
 import { math_to_html } from "../lesson/math.ts";
 import { suggestion } from "../lesson/problems.ts";
-import { symbols } from "../lesson/symbols.ts";
+import { symbol_types, symbols } from "../lesson/symbols.ts";
 import { evaluate, residual } from "../src/lesson/evaluate.ts";
 import { is_right, read_answer } from "../src/lesson/quiz.ts";
 import { impact_values, moment_values } from "../src/lesson/symbol_values.ts";
+import { repository } from "./paths.mjs";
 import { ball_mass, gravity, make_synthetic_run } from "./synthetic_clip.ts";
 
 const head = `+++
@@ -186,4 +189,12 @@ test("answers are read as people write them", () => {
   assert.equal(read_answer("1.2\u00b710^-3"), 1.2e-3);
   for (const text of ["", "x", "1.2.3", "1 m", "NaN", "Infinity"]) assert.equal(read_answer(text), null, text);
   assert.ok(is_right(0.65, 0.64, 0.01) && !is_right(0.6511, 0.64, 0.01));
+});
+
+test("the reference names every symbol, and every name in expressions", () => {
+  const reference = readFileSync(join(repository, "docs/reference/lessons.md"), "utf8");
+  for (const { macro, name, meaning } of symbols)
+    assert.ok(reference.includes(`| \`\\${macro}\` | \`${name}\` | ${meaning} |`), macro);
+  for (const types of Object.values(symbol_types))
+    for (const name of types.keys()) assert.ok(reference.includes(`\`${name}\``), name);
 });

@@ -15,6 +15,12 @@ function rate_at(n: number, steps: Vec3[], fps: number): Vec3 {
   return scaled(0.5 * fps, sum(steps[n], steps[n + 1]));
 }
 
+/** The nearest multiple, so that the velocity of a body at rest is zero and not a rounding of the places. */
+function snapped(value: Vec3, quantum: number): Vec3 {
+  const nearest = (x: number) => Math.sign(x) * quantum * Math.round(Math.abs(x) / quantum);
+  return [nearest(value[0]), nearest(value[1]), nearest(value[2])];
+}
+
 /** `values`: the body's channels one after the other; changed. */
 export function decode_frames(values: Float64Array, orders: Float64Array, quanta: [number, number, number, number], fps: number): Moment[] {
   const count = values.length / channel_count;
@@ -37,7 +43,7 @@ export function decode_frames(values: Float64Array, orders: Float64Array, quanta
     time: n / fps,
     position,
     rotation: rotations[n],
-    velocity: sum(rate_at(n, ways, fps), vector(6, n, quanta[2])),
-    angular_velocity: sum(rate_at(n, turns, fps), vector(9, n, quanta[3])),
+    velocity: snapped(sum(rate_at(n, ways, fps), vector(6, n, quanta[2])), quanta[2]),
+    angular_velocity: snapped(sum(rate_at(n, turns, fps), vector(9, n, quanta[3])), quanta[3]),
   }));
 }
