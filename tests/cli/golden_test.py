@@ -170,7 +170,7 @@ class Causes(Golden):
 
 
 class Cache(Golden):
-    def test_only_what_changed_is_drawn(self):
+    def test_only_changed_cases_are_drawn(self):
         self.write("golden.toml", SUITE + '[[case]]\nname = "other"\nscene = "scene.toml"\nset = ["simulation.seed=2"]\n')
         self.golden(0, "accept", "--all")
         self.assertIn("2 cases: 2 drawn, 0 unchanged", self.golden(0, "check").stderr)
@@ -204,7 +204,7 @@ class Cache(Golden):
 
 
 class Accept(Golden):
-    def test_what_is_the_same_stays(self):
+    def test_same_images_stay(self):
         self.golden(0, "accept", "--all")
         before = self.references()
         times = {p: p.stat().st_mtime_ns for p in (self.folder / "references").iterdir()}

@@ -1,4 +1,4 @@
-// The described values of a scene as text, by their paths: what a motion record compares.
+// The described values of a scene as text, by their paths, for motion records.
 #pragma once
 
 #include "app/causes/motion_record.h"

@@ -1,5 +1,5 @@
-// Motion record: what a run showed and why, small enough to stand beside its images. Two records of one name tell what
-// changed between two images: described values, poses, camera, first contacts.
+// Motion record: values, poses, camera and first contacts of a run, small enough to stand beside its images. Two records
+// of one name tell the causes of differences between their images.
 #pragma once
 
 #include "core/rectangle.h"

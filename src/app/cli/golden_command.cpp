@@ -11,6 +11,8 @@
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"
 #include "compare/image_compare.h"
+#include "compare/platform.h"
+#include "compare/report/comparison_report.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
@@ -43,6 +45,15 @@ std::vector<const GoldenCase*> chosen_cases(const GoldenSuite& suite, const std:
 }
 
 void save_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
+
+void save_report(const GoldenCommand& command, const GoldenSuite& suite, const SetResult& result) {
+    ReportOptions options;
+    options.title = suite.file.string();
+    options.generator = "Tumble " TUMBLE_VERSION;
+    options.platform = this_platform();
+    options.workers = command.jobs;
+    write_comparison_report(result, options, *command.report);
+}
 
 void plan_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
     OutputPlan plan;
@@ -165,6 +176,7 @@ int run_golden_check(const GoldenCommand& command) {
     if (command.failures) keep_failures(*command.failures, result);
     if (command.json) save_text(*command.json, to_json(result));
     if (command.junit) save_text(*command.junit, to_junit(result));
+    if (command.report) save_report(command, suite, result);
     print_summary(result, command.quiet);
     if (!command.quiet) print_drawn(drawn);
     print_hints(command, suite, result, drawn);

@@ -15,7 +15,7 @@ struct GoldenCommand {
     std::vector<std::string> cases;                            // by name; empty: all
     bool all = false;                                          // accept: all cases
     bool even_alike = false;                                   // accept: also within the tolerances
-    bool force = false;                                        // check: draws what is in the cache as well
+    bool force = false;                                        // check: ignores images of the cache
     std::optional<std::filesystem::path> cache;                // folder
     std::optional<std::filesystem::path> report, json, junit;  // check: to write
     std::optional<std::filesystem::path> failures;             // check: folder for images that differ

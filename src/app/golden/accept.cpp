@@ -58,7 +58,7 @@ std::string difference_between(const DrawnCase& first, const DrawnCase& second, 
         compared.differing_pixels, compared.max_difference, first_work.workers, second_work.workers);
 }
 
-/// What becomes of an image that renders twice alike.
+/// The fate of an image that renders twice alike.
 AcceptedImage::What place_of(const fs::path& image, const fs::path& reference, const Tolerances& tolerances) {
     using What = AcceptedImage::What;
     std::error_code error;

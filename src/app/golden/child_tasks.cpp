@@ -86,7 +86,7 @@ public:
     std::size_t index() const { return index_; }
     int pipe() const { return pipe_; }
 
-    /// Reads what has come; false at the end.
+    /// Reads the waiting bytes; false at the end.
     bool read() {
         char block[4096];
         const ssize_t n = ::read(pipe_, block, sizeof block);

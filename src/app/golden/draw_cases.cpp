@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is removed with what is left in it.
+/// A folder that is removed with all its files.
 class WorkFolder {
 public:
     explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
@@ -29,7 +29,7 @@ private:
     fs::path path_;
 };
 
-/// In a child: draws what is missing, and returns the number of images and the folder.
+/// In a child: draws the missing images; returns their number and the folder.
 std::string draw_case(const GoldenCase& golden, const CaseDrawer& drawer, const ImageCache& cache,
                       const DrawCasesOptions& options, const DrawingWork& work) {
     std::string identity;

@@ -1,4 +1,4 @@
-// What the golden commands need of drawing. The command line implements it (app/cli/golden_drawing.h).
+// The drawing that the golden commands need. The command line implements it (app/cli/golden_drawing.h).
 #pragma once
 
 #include "app/golden/suite.h"

@@ -18,7 +18,7 @@ public:
     /// The folder is made when an image is stored.
     explicit ImageCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// The folder of a case. `key`: a hash of what its images depend on.
+    /// The folder of a case. `key`: a hash of all that its images depend on.
     std::filesystem::path entry(const GoldenCase& golden, const std::string& key) const;
 
     /// The frames that are not in the entry; all of them if its record is missing or of other frames.

@@ -1,4 +1,4 @@
-// What images depend on apart from their scenes: the program, its shaders, the libraries that draw, fonts, the processor.
+// The causes of pixels apart from the scene: the program, its shaders, the libraries that draw, fonts, the processor.
 #pragma once
 
 #include "app/threads/interrupt.h"
