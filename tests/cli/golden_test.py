@@ -185,7 +185,7 @@ class Cache(Golden):
         self.write("golden.toml", text.replace("[0, 24]", "[0, 12, 24]").replace("seed=2", "seed=3"))
         self.assertIn("2 cases: 1 drawn, 1 unchanged", self.golden(3, "check").stderr)
         # One entry for each case is left, without parts.
-        self.assertEqual(len(list((self.folder / "cache").iterdir())), 2)
+        self.assertEqual(len(list((self.folder / "cache").glob("golden-*/*"))), 2)
 
     def test_a_verdict_from_the_cache_is_that_of_a_drawing(self):
         self.golden(0, "accept", "--all")
@@ -322,10 +322,61 @@ set = ["simulation.sleep=false"]
         self.assertIn("3 same", self.golden(0, "check").stdout)
 
     def test_a_case_that_cannot_be_drawn_is_not_added(self):
-        self.assertIn("cannot be drawn", self.golden(1, "add", "none.toml").stderr)
+        self.assertIn("cannot be drawn", self.golden(2, "add", "none.toml").stderr)
         self.assertIn("another case", self.golden(2, "add", "scene.toml", "--name", "Fall").stderr)
         self.assertEqual((self.folder / "golden.toml").read_text(), SUITE)
         self.assertFalse((self.folder / "references").exists())
+
+
+class Compare(Golden):
+    """Causes of `tumble compare`, by records that `tumble render` wrote."""
+
+    def render(self, folder):
+        self.check(0, "render", "scene.toml", "--frames", folder, "--motion-record", f"{folder}/frames.motion.json", "--quiet")
+
+    def test_folders_and_a_scene(self):
+        self.render("a")
+        self.change("restitution = 0.5", "restitution = 0.8")
+        self.render("b")
+        for other in ("b", "scene.toml"):
+            self.check(1, "compare", "a", other, "--json", "r.json")
+            images = json.loads((self.folder / "r.json").read_text())["images"]
+            causes = {i["name"]: i["causes"] for i in images if i["verdict"] == "different"}
+            self.assertIn("frame_000024.png", causes)
+            self.assertNotIn("frame_000013.png", causes)
+            for sentences in causes.values():
+                self.assertEqual(sentences[0], "restitution of ball (0.5 to 0.8)")
+                self.assertIn("(first differing frame 14, first differing contact at 0.4", sentences[1])
+
+    def test_late_frames_without_records(self):
+        self.check(0, "render", "scene.toml", "--frames", "a", "--quiet")
+        late = self.folder / "late"
+        late.mkdir()
+        for n in range(12):
+            shutil.copy(self.folder / f"a/frame_{max(n - 1, 0):06}.png", late / f"frame_{n:06}.png")
+        run = self.check(3, "compare", "a", "late", "--json", "r.json")
+        images = json.loads((self.folder / "r.json").read_text())["images"]
+        self.assertEqual([i["causes"] for i in images if i["name"] == "frame_000008.png"],
+                         [["one frame late (it is frame_000007.png of the reference)"]], run.stdout)
+
+    def test_images_that_only_the_drawing_changed(self):
+        """The same records: the pixels tell a lost shadow from another difference."""
+        self.render("a")
+        record = (self.folder / "a/frames.motion.json").read_bytes()
+        for old, new, cause in (("shadows = true", "shadows = false", "shadow only (brightness alone differs; "),
+                                ("#c8853c", "#3c85c8", "drawing at crate (")):
+            self.change(old, new)
+            self.render("b")
+            (self.folder / "b/frames.motion.json").write_bytes(record)
+            self.check(1, "compare", "a", "b", "--json", "r.json")
+            images = json.loads((self.folder / "r.json").read_text())["images"]
+            for image in images:
+                self.assertTrue(image["causes"][0].startswith(cause), image["causes"])
+
+    def test_a_record_is_of_a_whole_run(self):
+        run = self.check(2, "render", "scene.toml", "--frames", "a", "--motion-record", "r.json", "--resume")
+        self.assertIn("--motion-record", run.stderr)
+        self.check(2, "render", "scene.toml", "--frames", "a", "--motion-record", "scene.toml")
 
 
 if __name__ == "__main__":

@@ -25,7 +25,7 @@ int moments_per_frame(int steps) {
 /// Shows each moment of the run to the recorder.
 class ExportObserver : public SurveyObserver {
 public:
-    ExportObserver(RunRecorder& motion, const CameraDescription& camera, std::int64_t moments, bool quiet)
+    ExportObserver(MotionRecorder& motion, const CameraDescription& camera, std::int64_t moments, bool quiet)
         : motion_(motion), camera_(camera), progress_(moments, quiet) {}
 
     void see(const Snapshot& snapshot, const Measurement&, const ContactRecords* records) override {
@@ -38,7 +38,7 @@ public:
     const CameraDescription& start() const { return start_; }
 
 private:
-    RunRecorder& motion_;
+    MotionRecorder& motion_;
     CameraAnimation camera_;
     CameraDescription start_;
     Progress progress_;
@@ -55,7 +55,7 @@ ExportedScene export_scene(const SceneDescription& scene, KeyKind keys, int thre
     if (cubic && scene.simulation.impacts == ImpactMode::exact) world.record_contacts();
     std::vector<BodyReport> reports;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) reports.push_back(world.report(i));
-    RunRecorder motion(scene, std::move(reports), keys);
+    MotionRecorder motion(scene, std::move(reports), keys);
     const std::int64_t moments = (scene.frame_count() - 1) * parts + 1;
     ExportObserver observer(motion, scene.camera, moments, quiet);
     SurveyObserver* const observers[] = {&observer};

@@ -116,15 +116,19 @@ std::vector<AcceptedImage> accept(const GoldenCommand& command, const GoldenSuit
     return accept_cases(suite, cases, drawer, options, interrupt);
 }
 
-/// Returns the number of refused images.
-std::int64_t print_accepted(const std::vector<AcceptedImage>& images, bool quiet) {
+/// Returns the exit code.
+int print_accepted(const std::vector<AcceptedImage>& images, bool quiet) {
     using What = AcceptedImage::What;
-    std::int64_t refused = 0, made = 0, replaced = 0, same = 0, alike = 0;
+    std::int64_t refused = 0, broken = 0, made = 0, replaced = 0, same = 0, alike = 0;
     for (const AcceptedImage& image : images) {
         switch (image.what) {
             case What::refused:
                 ++refused;
                 say("refused: {}\n  {}\n", safe_text(image.name), safe_lines(image.reason));
+                break;
+            case What::broken:
+                ++broken;
+                say("broken: {}\n  {}\n", safe_text(image.name), safe_lines(image.reason));
                 break;
             case What::made:
                 ++made;
@@ -147,7 +151,7 @@ std::int64_t print_accepted(const std::vector<AcceptedImage>& images, bool quiet
             replaced, same, alike, refused);
         if (alike > 0) say("(--even-alike replaces images within the tolerances as well)\n");
     }
-    return refused;
+    return broken > 0 ? 2 : refused > 0 ? 1 : 0;
 }
 
 }  // namespace
@@ -160,7 +164,7 @@ int run_golden_check(const GoldenCommand& command) {
     Interrupt interrupt;
     std::optional<TemporaryFolder> no_cache;
     if (command.cache == "none") no_cache.emplace("golden");
-    const ImageCache cache(no_cache ? no_cache->path() : command.cache.value_or(default_cache_folder(suite)));
+    const ImageCache cache(no_cache ? no_cache->path() : cache_folder(suite, command.cache));
     DrawCasesOptions drawing;
     drawing.force = command.force || no_cache;
     drawing.jobs = command.jobs;
@@ -189,14 +193,14 @@ int run_golden_accept(const GoldenCommand& command) {
         throw InputError(command.all ? "--all: names all cases; give it or names of cases"
                                      : "give the names of the cases to accept, or --all");
     const std::vector<const GoldenCase*> cases = chosen_cases(suite, command.cases);
-    return print_accepted(accept(command, suite, cases), command.quiet) > 0 ? 1 : 0;
+    return print_accepted(accept(command, suite, cases), command.quiet);
 }
 
 int run_golden_add(const GoldenCommand& command) {
     const std::string text = suite_text_with(command.suite, command.added);
     const GoldenSuite suite = parse_suite(text, command.suite);
     const GoldenCase* const added = &suite.cases.back();
-    if (print_accepted(accept(command, suite, {added}), command.quiet) > 0) return 1;
+    if (const int code = print_accepted(accept(command, suite, {added}), command.quiet); code != 0) return code;
     save_text(command.suite, text);
     if (!command.quiet) say("added the case {} to {}\n", added->name, safe_path(command.suite));
     return 0;

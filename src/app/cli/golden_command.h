@@ -28,7 +28,7 @@ struct GoldenCommand {
 /// Returns 0 if all images are alike, 1 if one differs, 2 if one cannot be drawn or compared, 3 if a reference is
 /// missing.
 int run_golden_check(const GoldenCommand& command);
-/// Returns 0, or 1 if an image is refused.
+/// Both return 0, 1 if an image is refused, 2 if a case cannot be drawn.
 int run_golden_accept(const GoldenCommand& command);
 int run_golden_add(const GoldenCommand& command);
 

@@ -46,8 +46,6 @@ private:
 
 /// Why the image is no reference; empty if both drawings are the same.
 std::string difference_between(const DrawnCase& first, const DrawnCase& second, const std::string& name) {
-    for (const DrawnCase* drawn : {&first, &second})
-        if (!drawn->error.empty()) return "cannot be drawn: " + drawn->error;
     const fs::path a = first.folder / name, b = second.folder / name;
     if (content(a) == content(b) || read_png(a) == read_png(b)) return "";
     const ImageResult compared =
@@ -79,6 +77,12 @@ public:
 
     void accept(const DrawnCase& first, const DrawnCase& second, std::vector<AcceptedImage>& accepted) {
         const GoldenCase& golden = *first.golden;
+        const std::string& error = first.error.empty() ? second.error : first.error;
+        if (!error.empty()) {
+            for (const std::int64_t frame : golden.frames)
+                accepted.push_back({golden.image_name(frame), What::broken, "cannot be drawn: " + error});
+            return;
+        }
         std::vector<AcceptedImage> images;
         bool refused = false;
         for (const std::int64_t frame : golden.frames) {

@@ -19,15 +19,14 @@ struct AcceptOptions {
 };
 
 struct AcceptedImage {
-    enum class What { made, replaced, kept_same, kept_alike, refused };
+    enum class What { made, replaced, kept_same, kept_alike, refused, broken };
     std::string name;
     What what = What::made;
-    std::string reason;  // of a refused one
+    std::string reason;  // of a refused or broken one
 };
 
 /// Draws each case twice, divided into other processes and threads, and compares the two. Images that are the same
-/// pixel by pixel become references, all cases of which the images are so at once: a case with another image is refused
-/// as a whole. Throws RunError if a reference cannot be written, or after an interrupt.
+/// pixel by pixel become references. A case with another image is refused as a whole; one that cannot be drawn is broken. Throws RunError if a reference cannot be written, or after an interrupt.
 std::vector<AcceptedImage> accept_cases(const GoldenSuite& suite, std::span<const GoldenCase* const> cases,
                                         const CaseDrawer& drawer, const AcceptOptions& options, Interrupt& interrupt);
 

@@ -35,6 +35,14 @@ bool is_entry_of(const std::string& name, const std::string& file) {
     return file.find_first_not_of("0123456789abcdef", name.size() + 1) == std::string::npos;
 }
 
+fs::path default_base() {
+    const auto variable = [](const char* name) { return std::getenv(name) ? fs::path(std::getenv(name)) : fs::path(); };
+    fs::path base = variable("XDG_CACHE_HOME");
+    if (base.empty() && !variable("HOME").empty()) base = variable("HOME") / ".cache";
+    if (base.empty()) base = fs::temp_directory_path();
+    return base / "tumble" / "golden";
+}
+
 }  // namespace
 
 fs::path ImageCache::entry(const GoldenCase& golden, const std::string& key) const {
@@ -77,13 +85,9 @@ void ImageCache::remove_older(const GoldenCase& golden, const fs::path& entry) c
     for (const fs::path& folder : older) fs::remove_all(folder, error);
 }
 
-fs::path default_cache_folder(const GoldenSuite& suite) {
-    const auto variable = [](const char* name) { return std::getenv(name) ? fs::path(std::getenv(name)) : fs::path(); };
-    fs::path base = variable("XDG_CACHE_HOME");
-    if (base.empty() && !variable("HOME").empty()) base = variable("HOME") / ".cache";
-    if (base.empty()) base = fs::temp_directory_path();
+fs::path cache_folder(const GoldenSuite& suite, const std::optional<fs::path>& base) {
     const fs::path file = fs::weakly_canonical(suite.file);
-    return base / "tumble" / "golden" /
+    return base.value_or(default_base()) /
            fmt::format("{}-{}", file.stem().string(), sha256(file.string()).substr(0, key_digits));
 }
 

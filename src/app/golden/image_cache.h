@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,7 +37,8 @@ private:
     std::filesystem::path folder_;
 };
 
-/// $XDG_CACHE_HOME/tumble/golden/NAME-HASH of the suite, or the same in ~/.cache; in the temporary folder without a home.
-std::filesystem::path default_cache_folder(const GoldenSuite& suite);
+/// The folder NAME-HASH of the suite in `base`. Without it: in tumble/golden of $XDG_CACHE_HOME or of ~/.cache, or of the
+/// temporary folder without a home.
+std::filesystem::path cache_folder(const GoldenSuite& suite, const std::optional<std::filesystem::path>& base);
 
 }  // namespace tumble
