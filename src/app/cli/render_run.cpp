@@ -1,5 +1,7 @@
 #include "app/cli/render_run.h"
 
+#include "app/causes/record_file.h"
+#include "app/causes/run_recorder.h"
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_plan.h"
@@ -54,6 +56,13 @@ struct ClipMotion {
         }
     }
 };
+
+/// Numbers of the frames of a set.
+std::vector<std::int64_t> numbers_of(const FrameSet& frames) {
+    std::vector<std::int64_t> numbers;
+    frames.for_each([&](std::int64_t frame) { numbers.push_back(frame); });
+    return numbers;
+}
 
 StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outputs) {
     StageSeconds cpu;
@@ -174,6 +183,14 @@ RenderFigures render_to_files(const RenderCommand& command) {
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);
+    std::optional<RunRecorder> recorder;
+    if (command.motion_record) {
+        recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
+        for (std::size_t i = 0; i < motion.panels.size(); ++i) {
+            motion.panels[i].observer = &recorder->panel(i);
+            motion.worlds[i]->record_contacts();
+        }
+    }
     const double outputs_open = wall_seconds();
     Destinations destinations(command, plan, scenes);
     Pipeline pipeline(motion.panels, plan.frames, render_pool, destinations.outputs(), shutter);
@@ -193,6 +210,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         if (plan.clip) trace->add({"ffmpeg", outputs_open, wall_seconds()}, "ffmpeg");
         trace->write(*command.profile);
     }
+    if (recorder) write_record(*command.motion_record, recorder->finish());
     const ProcessEnd workers_end = render_pool.finish();
     figures.drawn = render_pool.drawn();
     destinations.describe(figures);
