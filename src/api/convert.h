@@ -5,6 +5,7 @@
 #include "core/image.h"
 #include "core/vector.h"
 #include "sim/snapshot/contact_records.h"
+#include "sim/snapshot/report.h"
 #include "sim/snapshot/snapshot.h"
 #include "tumble/contacts.h"
 #include "tumble/image.h"
@@ -44,6 +45,20 @@ inline FrameContacts to_public(const ContactRecords& from) {
     for (const tumble::ExternalLoad& r : from.loads)
         to.loads.push_back({r.body, to_public(r.force), to_public(r.moment)});
     return to;
+}
+
+inline Energies to_public(const Measurement& m, const EnergyLedger& ledger) {
+    return {.kinetic = m.kinetic,
+            .potential = m.potential,
+            .momentum = to_public(m.momentum),
+            .angular_momentum = to_public(m.angular_momentum),
+            .contacts = m.contacts,
+            .max_penetration = m.max_penetration,
+            .kinetic_linear = m.kinetic_linear,
+            .kinetic_angular = m.kinetic_angular,
+            .work = ledger.work,
+            .impact_loss = ledger.impact_loss,
+            .friction_loss = ledger.friction_loss};
 }
 
 /// Throws InputError where the snapshot is not of a scene with that many bodies.

@@ -51,21 +51,7 @@ Snapshot World::snapshot() const {
 }
 
 Energies World::energies() const {
-    return guarded([&] {
-        const Measurement m = state_->world.measure();
-        const EnergyLedger ledger = state_->world.contact_records().energy;
-        return Energies{.kinetic = m.kinetic,
-                        .potential = m.potential,
-                        .momentum = to_public(m.momentum),
-                        .angular_momentum = to_public(m.angular_momentum),
-                        .contacts = m.contacts,
-                        .max_penetration = m.max_penetration,
-                        .kinetic_linear = m.kinetic_linear,
-                        .kinetic_angular = m.kinetic_angular,
-                        .work = ledger.work,
-                        .impact_loss = ledger.impact_loss,
-                        .friction_loss = ledger.friction_loss};
-    });
+    return guarded([&] { return to_public(state_->world.measure(), state_->world.contact_records().energy); });
 }
 
 BodyProperties World::properties(std::size_t body) const {

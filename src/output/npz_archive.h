@@ -25,8 +25,8 @@ public:
     void add(std::string_view name, const ArrayShape& shape, std::span<const std::int32_t> values);
     void add(std::string_view name, const ArrayShape& shape, std::span<const std::uint8_t> values);
 
-    /// The whole file, valid until the next call. The archive is empty again. With a mark (at most 100 bytes), the file
-    /// ends with a comment of the mark and a checksum of all bytes before the zip format's end record (npz_check.h).
+    /// The whole file, valid until the next call. The archive is empty again. With a mark (64
+    /// characters), the file ends with a comment of it and a checksum (npz_check.h).
     std::span<const std::byte> finish(std::string_view mark = {});
 
     /// Upper bound of the size of an array in a file, including the end of the file, bytes.
@@ -40,7 +40,13 @@ private:
     void add_bytes(std::string_view name, const std::string& kind, const ArrayShape& shape,
                    std::span<const std::byte> values);
     std::uint32_t compress(std::span<const std::byte> head, std::span<const std::byte> values);
+    std::uint32_t compress_small(std::span<const std::byte> head, std::span<const std::byte> values);
 
+    /// A small array of the previous file. Most of its time is that of a code, and it seldom changes.
+    struct SmallArray {
+        std::vector<std::byte> content, packed;
+    };
+    std::vector<SmallArray> small_;  // by the number of the array in the file
     Deflater deflater_;
     std::vector<std::byte> file_;
     std::size_t used_ = 0;  // written bytes of file_

@@ -1,6 +1,7 @@
 // The mark of an .npz file, and whether the file is whole, without unpacking it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -9,7 +10,8 @@
 
 namespace tumble {
 
-/// The zip comment of a marked file: the mark, and the CRC-32 of all bytes before the end record.
+/// The zip comment of a marked file: the mark of 64 characters, and the CRC-32 of all bytes before the comment.
+inline constexpr std::size_t npz_comment_size = 86;
 std::string npz_comment(std::string_view mark, std::uint32_t checksum);
 
 /// The mark of a file whose bytes all have the checksum in its comment; empty for a damaged, cut or unmarked file, or

@@ -169,8 +169,8 @@ VideoFormat segment_format(const VideoFormat& format) {
 }
 
 std::string segment_ending(const VideoFormat& format) {
-    const std::string container = segment_format(format).container;
-    return container == "matroska" ? ".mkv" : "." + container;
+    const VideoFormat segment = segment_format(format);
+    return segment.container == "matroska" ? ".mkv" : "." + segment.container;
 }
 
 Arguments join_arguments(const VideoFormat& format, const fs::path& list, const fs::path& output,

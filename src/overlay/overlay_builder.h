@@ -24,6 +24,16 @@ public:
     /// next call.
     const OverlayFrame& next(const Snapshot& snapshot, const ContactRecords* records);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [scene, scales, shown, radii, trails, ghosts, frames, impacts, frame] = self;
+        archive.rebuilt(scene, scales, shown, radii);
+        archive.keep(ghosts, frames, impacts);
+        archive.keep_each(trails);
+        archive.scratch(frame);
+    }
+
 private:
     struct Trail {
         std::size_t body;
@@ -31,10 +41,21 @@ private:
         bool center;  // of the center of mass
         Color color;
         std::deque<std::pair<double, Vec3>> places;  // times (s) and places (m)
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [body, point, center, color, places] = self;
+            archive.rebuilt(body, point, center, color);
+            archive.keep(places);
+        }
     };
     struct Ghost {
         std::size_t body;
         BodyState state;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [body, state] = self;
+            archive.keep(body, state);
+        }
     };
     void remember(const Snapshot& snapshot, const ContactRecords* records);
     void add_ghosts(const Snapshot& snapshot, std::int64_t frame);

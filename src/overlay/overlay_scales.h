@@ -20,6 +20,11 @@ struct OverlayMarks {
     std::uint32_t states = 0, features = 0;  // a bit for each ContactRecord::State, and for each ContactFeatures
     bool friction = false;                   // of contact forces
     void add(const OverlayMarks& others);
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [states, features, friction] = self;
+        archive.keep(states, features, friction);
+    }
 };
 
 /// True if the friction part of a contact force is drawn as an arrow of its own.

@@ -169,6 +169,19 @@ void Canvas::text(const Point2& at, std::string_view text, const TextStyle& styl
     pango_cairo_show_layout(s.cairo.get(), s.layout.get());
 }
 
+std::string Canvas::font_family() const {
+    state_->set_text("", {});
+    PangoLayout* const layout = state_->layout.get();
+    PangoFont* const font =
+        pango_context_load_font(pango_layout_get_context(layout), pango_layout_get_font_description(layout));
+    if (font == nullptr) return "";
+    const std::unique_ptr<PangoFontDescription, State::Unref> description(pango_font_describe(font));
+    const char* const family = pango_font_description_get_family(description.get());
+    std::string name = family == nullptr ? "" : family;
+    g_object_unref(font);
+    return name;
+}
+
 double Canvas::text_width(std::string_view text, const TextStyle& style) const {
     state_->set_text(text, style);
     return state_->width();

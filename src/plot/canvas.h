@@ -58,6 +58,8 @@ public:
     /// `at`: where the baseline meets the anchor.
     void text(const Point2& at, std::string_view text, const TextStyle& style);
     double text_width(std::string_view text, const TextStyle& style) const;
+    /// The family of the font that text is set in; empty if there is none. "Inter" wherever it is installed.
+    std::string font_family() const;
 
     /// The whole file. Call it once, last. Throws RunError if Cairo fails.
     std::string finish();

@@ -1,5 +1,7 @@
 #include "sim/world.h"
 
+#include "core/check.h"
+#include "sim/checkpoint/archive.h"
 #include "sim/contact/contact_solver.h"
 #include "sim/contact/model/sleep.h"
 #include "sim/detection/broad_phase.h"
@@ -86,6 +88,17 @@ struct World::State {
                 .index = steps,
                 .h = clock.seconds(1),
                 .log = log.get()};
+    }
+
+    /// The log and its records are apart: a world without a log skips those of another.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [settings, clock, steps, set, forces, detection, impacts, contact_solver, motion, sleep, check, log,
+               totals, records, notes, asleep, pool] = self;
+        archive.rebuilt(settings, clock);
+        archive.keep(steps, set, forces, detection, impacts, contact_solver, sleep, check);
+        if (notes) archive.keep(*notes);
+        archive.scratch(motion, log, totals, records, asleep, pool);
     }
 
     void advance(std::int64_t to);
@@ -258,6 +271,30 @@ BodyReport World::report(std::size_t index) const {
     const BodySet& set = state_->set;
     const auto place = std::find(set.scene_index.begin(), set.scene_index.end(), index) - set.scene_index.begin();
     return describe(set.bodies[std::size_t(place)]);
+}
+
+void World::save(CheckpointWriter& writer) const {
+    const State& s = *state_;
+    State::visit(writer, s);
+    s.motion->save(writer);
+    writer.keep(s.log != nullptr);
+    if (s.log) writer.keep(*s.log, s.records);
+}
+
+void World::restore(CheckpointReader& reader) {
+    State& s = *state_;
+    TUMBLE_CHECK_EQ(s.steps, 0);
+    const bool records = s.log != nullptr;
+    State::visit(reader, s);
+    s.motion->restore(reader);
+    bool recorded = false;
+    reader.keep(recorded);
+    if (records && !recorded)
+        CheckpointReader::fail("has no records of contacts: give the tables to simulate --checkpoints too");
+    if (!recorded) return;
+    ContactLog unused({}, Vec3::Zero(), Vec3::Zero());
+    ContactRecords unused_records;
+    reader.keep(records ? *s.log : unused, records ? s.records : unused_records);
 }
 
 }  // namespace tumble

@@ -11,6 +11,9 @@
 
 namespace tumble {
 
+class CheckpointReader;
+class CheckpointWriter;
+
 class World {
 public:
     /// Builds the bodies: masses, inertia tensors, hulls. `threads` changes the time taken, never a byte of the result.
@@ -34,6 +37,15 @@ public:
     Snapshot snapshot() const;
     Measurement measure() const;
     BodyReport report(std::size_t body) const;
+
+    /// Writes the whole state (sim/checkpoint/archive.h). Precondition: no step but those of advance_frame() since the
+    /// start.
+    void save(CheckpointWriter& writer) const;
+    /// Goes on from such a state: all later steps give the bytes of the world that wrote it, for any number of threads.
+    /// Preconditions: no step has been done; the other world has the same scene and timing; if this one records
+    /// contacts, so did that one. Throws InputError where the bytes are not those of such a state, or the last
+    /// precondition does not hold.
+    void restore(CheckpointReader& reader);
 
 private:
     struct State;

@@ -74,6 +74,16 @@ TEST(Output, ComparisonOfFilesIsThatOfImages) {
     options.window = 255.0;
     EXPECT_TRUE(compare_png_files(folder / "a.png", folder / "b.png", options).alike);
     EXPECT_EQ(folder.files(), 3u);
+    options.fraction = 0.0;
+    options.cluster = 1;
+    EXPECT_FALSE(compare_images(plain(10), other, options).alike);  // rule pixels
+    options.tolerance = 200;
+    EXPECT_TRUE(compare_images(plain(10), other, options).alike);
+    options.shade = 0;  // of pixels that are off by more than 100 levels
+    EXPECT_FALSE(compare_images(plain(10), other, options).alike);
+    options.shade = 65;
+    EXPECT_THROW(compare_images(other, other, options), Error);
+    options.shade.reset();
     options.tolerance = 256;
     EXPECT_THROW(compare_images(other, other, options), Error);
     EXPECT_THROW(compare_png_files(folder / "a.png", folder / "none.png"), Error);

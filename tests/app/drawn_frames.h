@@ -31,19 +31,19 @@ inline std::vector<Seen> draw_frames(
     std::vector<Seen> seen;
     DrawingTimes times;
     try {
-        render_pool.run(
-            poses,
-            [&](const Frame& frame) {
-                seen.push_back({frame.number,
-                                frame.repeated,
-                                {},
-                                {frame.png.begin(), frame.png.end()},
-                                {frame.aovs.begin(), frame.aovs.end()}});
-                if (frame.video) seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
-                meanwhile(frame.number);
-                return true;
-            },
-            times, first);
+        render_pool.run(poses,
+                        [&](const Frame& frame) {
+                            seen.push_back({frame.number,
+                                            frame.repeated,
+                                            {},
+                                            {frame.png.begin(), frame.png.end()},
+                                            {frame.aovs.begin(), frame.aovs.end()}});
+                            if (frame.video)
+                                seen.back().video.assign(frame.video.get(), frame.video.get() + video_bytes);
+                            meanwhile(frame.number);
+                            return true;
+                        },
+                        times, {first, frames});
     } catch (...) {
         simulation.join();
         throw;

@@ -43,7 +43,7 @@ TEST(Interrupt, AfterTheFirstSignalTheNextEndsTheProgram) {
         interrupt.pending();
         raise(SIGTERM);
     };
-    EXPECT_EXIT(two_signals(), testing::KilledBySignal(SIGTERM), "");
+    EXPECT_EXIT(two_signals(), ::testing::KilledBySignal(SIGTERM), "");
 }
 
 }  // namespace

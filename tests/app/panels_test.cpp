@@ -132,7 +132,7 @@ TEST(Panels, ASceneThatEndsEarlierKeepsItsLastFrame) {
     const Composition composition = make_composition(scenes, {});
     RenderPool render_pool(composition, {}, {std::nullopt, true, {}}, 2);
     World shorter(*falling), longer(*falling);
-    const std::vector<PanelSource> sources{{shorter, 4}, {longer, 8}};
+    const std::vector<PanelSource> sources{{.world = &shorter, .end = 4}, {.world = &longer, .end = 8}};
     FrameFolder folder(std::filesystem::temp_directory_path() / "tumble-panels-test");
     Pipeline pipeline(sources, PipelineFrames::all({0, 8}), render_pool, {&folder, nullptr, nullptr});
     Interrupt interrupt;

@@ -79,7 +79,7 @@ class Aovs(program.ProgramTest):
     def test_values_against_closed_form(self):
         run = self.check(0, "render", "scene.toml", "--frames", "out", "--aov", ",".join(ALL))
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                         sorted(program.frame_names(4) + aov_names(4) + ["segmentation.csv"]))
+                         sorted(program.frame_names(4) + aov_names(4) + ["aovs.json", "frames.json", "segmentation.csv"]))
         self.assertIn("wrote out/aov_000000.npz to aov_000003.npz: depth, normal, segmentation, motion, albedo\n", run.stderr)
         focal = 24 / math.tan(math.radians(30))
         for frame in range(4):

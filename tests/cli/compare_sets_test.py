@@ -262,6 +262,10 @@ class Scenes(Sets):
         self.check(0, "render", "scene.toml", "--frames", "g", "--size", "40x30", "--quiet")
         self.assertEqual(self.check(0, "compare", "g", "scene.toml", "--quiet").stdout, "")
 
+    # A day of frames would take days.
+    def test_frames_after_the_last_reference_are_not_drawn(self):
+        self.check(0, "compare", "g", "scene.toml", "--set", "simulation.duration=86400", "--quiet", timeout=60)
+
     def test_a_changed_scene(self):
         run = self.check(1, "compare", "g", "scene.toml", "--set", "body.crate.position=[0.2, 3, 0]", "--quiet")
         self.assertIn("different: frame_000001.png\n", run.stdout)
@@ -272,8 +276,12 @@ class Scenes(Sets):
 
     def test_references_that_are_no_frames_or_of_two_sizes(self):
         self.picture("g/frame_000002.png", 40, 32)
-        self.assertIn("g/frame_000002.png: error: the reference is 40 x 32",
-                      self.check(2, "compare", "g", "scene.toml").stderr)
+        (self.folder / "g/frame_000000.png").write_text("no picture")
+        run = self.check(2, "compare", "g", "scene.toml", "--quiet")
+        self.assertIn("broken: frame_000000.png\n  g/frame_000000.png: ", run.stdout)
+        self.assertIn("broken: frame_000002.png\n  the picture has 48 x 32 pixels, and the reference 40 x 32\n", run.stdout)
+        self.assertNotIn("frame_000001.png", run.stdout)
+        os.remove(self.folder / "g/frame_000000.png")
         self.picture("other/x.png", 48, 32)
         self.assertIn("holds no frames of a scene", self.check(2, "compare", "other", "scene.toml").stderr)
         os.rename(self.folder / "other/x.png", self.folder / "g/x.png")
@@ -282,6 +290,7 @@ class Scenes(Sets):
         self.assertIn("note: 1 files of the folder are no frames of a scene", run.stderr)
 
     def test_drawn_frames_are_removed(self):
+        self.assertEqual(len(os.listdir(self.folder / "g")), 2)
         temporary = self.folder / "tmp"
         temporary.mkdir()
         environment = dict(os.environ, TMPDIR=str(temporary))

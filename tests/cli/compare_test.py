@@ -44,7 +44,8 @@ class Compare(program.ProgramTest):
 
     def test_the_help_names_every_rule(self):
         text = self.check(0, "compare", "--help").stdout
-        for word in ("--tolerance", "--fraction", "--cluster", "--window", "Rule pixels", "Rule cluster", "Rule window"):
+        for word in ("--tolerance", "--fraction", "--cluster", "--window", "--shade", "Rule pixels", "Rule cluster", "Rule window",
+                     "Rule shade"):
             self.assertIn(word, text)
 
     def test_a_color_off_by_8(self):
@@ -119,7 +120,8 @@ class Compare(program.ProgramTest):
 
     def test_options_out_of_range(self):
         for option in ("--tolerance=-1", "--tolerance=256", "--fraction=-0.1", "--fraction=1.1", "--fraction=nan",
-                       "--cluster=-1", "--cluster=65", "--window=-1", "--window=256", "--window=nan"):
+                       "--cluster=-1", "--cluster=65", "--window=-1", "--window=256", "--window=nan", "--shade=-1",
+                       "--shade=65"):
             self.check(2, "compare", "a.png", "a.png", option)
 
 

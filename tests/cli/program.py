@@ -83,8 +83,9 @@ class ProgramTest(unittest.TestCase):
         return run
 
     def names(self):
-        """All files and folders except the scene."""
-        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if p.name != "scene.toml")
+        """All files and folders except the scene and the manifests beside frames."""
+        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*")
+                      if p.name not in ("scene.toml", "frames.json", "aovs.json"))
 
     def rows(self, name):
         with open(self.folder / name, newline="") as file:

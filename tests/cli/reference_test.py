@@ -10,6 +10,7 @@ import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 TUMBLE = os.environ["TUMBLE"]
+WITH_SUBCOMMANDS = ("farm", "golden")
 BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.M | re.S)
 
 
@@ -50,12 +51,14 @@ class Documents(unittest.TestCase):
         self.assertGreater(len(commands), 10)
         for page, match in commands:
             with self.subTest(page=page, command=match[0]):
-                if match[1] not in helps:
-                    asked = run(TUMBLE, match[1], "--help")
-                    helps[match[1]] = asked.stdout if asked.returncode == 0 else ""
-                self.assertTrue(helps[match[1]], match[1])
+                below = re.match(r" ([a-z]+) ", match[2])   # as in: tumble farm slurm
+                words = (match[1], below[1]) if below and match[1] in WITH_SUBCOMMANDS else (match[1],)
+                if words not in helps:
+                    asked = run(TUMBLE, *words, "--help")
+                    helps[words] = asked.stdout if asked.returncode == 0 else ""
+                self.assertTrue(helps[words], words)
                 for option in re.findall(r"--[a-z-]+", match[2]):
-                    self.assertRegex(helps[match[1]], rf"{option}\b")
+                    self.assertRegex(helps[words], rf"{option}\b")
 
     def test_scripts_exist(self):
         for page, text in blocks("sh"):

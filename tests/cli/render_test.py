@@ -11,7 +11,7 @@ import program
 class Render(program.ProgramTest):
     def test_frames(self):
         run = self.check(0, "render", "scene.toml", "--frames", "out/deep")
-        self.assertEqual(sorted(p.name for p in (self.folder / "out/deep").iterdir()), program.frame_names(6))
+        self.assertEqual(sorted(p.name for p in (self.folder / "out/deep").iterdir()), [*program.frame_names(6), "frames.json"])
         for name in program.frame_names(6):
             self.assertEqual(program.png_size(self.folder / "out/deep" / name), (48, 32))
         self.assertIn("wrote out/deep/frame_000000.png to frame_000005.png", run.stderr)
@@ -59,11 +59,11 @@ class Render(program.ProgramTest):
         self.assertIn("wrote out/frame_000003.png to frame_000005.png", run.stderr)
         self.assertEqual(program.probe(self.folder / "a.mp4", "nb_read_frames"), ["3"])
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                         [f"aov_{n:06}.npz" for n in (3, 4, 5)] + program.frame_names(6)[3:])
+                         [f"aov_{n:06}.npz" for n in (3, 4, 5)] + ["aovs.json"] + program.frame_names(6)[3:] + ["frames.json"])
         for path in (self.folder / "out").iterdir():
             self.assertEqual(path.read_bytes(), (self.folder / "all" / path.name).read_bytes(), path.name)
         self.check(0, "render", "scene.toml", "--frames", "one", "--start", "0.3", "--duration", "0.3")
-        self.assertEqual([p.name for p in (self.folder / "one").iterdir()], ["frame_000003.png"])
+        self.assertEqual([p.name for p in (self.folder / "one").glob("frame_*")], ["frame_000003.png"])
         self.assertEqual((self.folder / "one/frame_000003.png").read_bytes(),
                          (self.folder / "all/frame_000003.png").read_bytes())
         run = self.check(2, "render", "scene.toml", "--frames", "none", "--start", "0.51")
@@ -132,7 +132,7 @@ class Render(program.ProgramTest):
     def test_almost_empty_scenes(self):
         self.write("empty.toml", "format = 1\n[simulation]\nduration = 0.1\n[output]\nsize = [32, 32]\n")
         self.check(0, "render", "empty.toml", "--frames", "out")
-        self.assertEqual(len(list((self.folder / "out").iterdir())), 7)
+        self.assertEqual(len(list((self.folder / "out").glob("frame_*"))), 7)
 
     def test_memory_does_not_grow_with_the_length_of_a_clip(self):
         def peak(seconds):

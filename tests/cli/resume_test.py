@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import time
@@ -36,7 +37,7 @@ class FramesRange(ProgramTest):
         self.assertEqual(contents(self.folder / "parts"), whole)
 
     def test_overlays_plots_and_aovs(self):
-        options = ("--size", "192x128", "--fps", "10", "--duration", "1.5", "--aov", "depth,segmentation,motion", "--overlay",
+        options = ("--size", "640x400", "--fps", "10", "--duration", "1.5", "--aov", "depth,segmentation,motion", "--overlay",
                    "trails,ghosts,velocity,contacts,clock,sleep", "--plot", "energy")
         whole = self.whole(*options)
         for part in ("9-12", "3,5-7,15"):
@@ -61,10 +62,10 @@ class FramesRange(ProgramTest):
         self.assertEqual(self.names(), ["a.mkv"])
 
     def test_mistakes(self):
-        for text, message in (("", "must not be empty"), ("x", "given 'x'"), ("3-", "given '3-'"), ("-3", "given '-3'"),
+        for text, message in (("", "FRAMES missing"), ("x", "given 'x'"), ("3-", "given '3-'"), ("-3", "given '-3'"),
                               ("1,,2", "given ''"), ("5-2", "must ascend: 2-5"), ("1-4:0", "a step must be at least 1"),
                               ("1-4:-1", "given '1-4:-1'"), ("4:2", "a step needs a range"),
-                              ("1-4,3", "must not overlap ('1-4' and '3' do)"), ("2-8:2,4", "must not overlap"),
+                              ("1-4,3", "must not overlap ('1-4' and '3' do)"), ("1-5:2,3", "must not overlap"),
                               ("0-6", "the clip's last frame is 5 (given '0-6')"), ("1.5", "given '1.5'"),
                               ("99999999999999999999", "is too large")):
             with self.subTest(text):
@@ -77,7 +78,7 @@ class FramesRange(ProgramTest):
 
 
 class Resume(ProgramTest):
-    def test_what_is_there_is_kept_and_the_rest_drawn(self):
+    def test_whole_frames_are_kept_and_the_rest_drawn(self):
         self.check(0, "render", "scene.toml", "--frames", "whole", "--aov", "depth,segmentation", "--quiet", *CLIP)
         whole = contents(self.folder / "whole")
         out = self.folder / "out"
@@ -213,61 +214,73 @@ class Resume(ProgramTest):
 class Kills(ProgramTest):
     """The run is killed when a random amount of its output is there, or after a random time, and continued."""
 
-    def killed_runs(self, command, done):
-        """Runs the command until it succeeds, with KILLS kills before. `done`: the finished pieces."""
+    def kill_and_continue(self, command, pieces, done, check):
+        """Runs the command with KILLS kills until it succeeds; starts over where it succeeds before. `done`: the finished
+        pieces, about `pieces` in all; None: the result is there. `check`: looks at the result, and removes it."""
         chance = random.Random(30)
         kills, before = 0, {}
-        for _ in range(100 * KILLS):
-            if kills == KILLS:
-                break
+        while kills < KILLS:
             run = subprocess.Popen([program.TUMBLE, *command], cwd=self.folder)
-            enough = len(before) + chance.randrange(1, 40 // KILLS + 2)
-            pause = chance.random() * 0.1
+            enough = len(before) + chance.randrange(pieces // KILLS + 1)
+            pause = chance.random() * 0.2
             deadline = time.monotonic() + 60
-            while run.poll() is None and len(done()) < enough and time.monotonic() < deadline:
+            while run.poll() is None and len(done() or {}) < enough and time.monotonic() < deadline:
                 time.sleep(0.002)
             time.sleep(pause)
             run.kill()
             if run.wait() == 0:
-                break
+                check()
+                before = {}
+                continue
             kills += 1
             now = done()
+            if now is None:
+                before = {}
+                continue
             self.assertEqual({name: now.get(name) for name in before}, before, "a finished piece is lost")
             before = now
         self.assertEqual(subprocess.run([program.TUMBLE, *command], cwd=self.folder).returncode, 0)
-        return kills
+        check()
 
     def test_frames_and_aovs(self):
         options = ("--aov", "depth,segmentation", "--quiet", "--workers", "2", *CLIP)
         self.check(0, "render", "scene.toml", "--frames", "whole", *options)
         out = self.folder / "out"
-        kills = self.killed_runs(("render", "scene.toml", "--frames", "out", "--resume", *options),
-                                 lambda: contents(out, "frame_*"))
-        self.assertGreater(kills, 0)
-        self.assertEqual(contents(out), contents(self.folder / "whole"))
-        self.assertEqual([p.name for p in out.glob(".*")], [])
+
+        def check():
+            self.assertEqual(contents(out), contents(self.folder / "whole"))
+            self.assertEqual([p.name for p in out.glob(".*")], [])
+            shutil.rmtree(out)
+        self.kill_and_continue(("render", "scene.toml", "--frames", "out", "--resume", *options), 121,
+                               lambda: {p.name: p.stat().st_ino for p in out.glob("frame_*")}, check)
 
     def check_clip(self, name, *options):
-        options = ("--quiet", "--size", "96x64", "--fps", "10", *options)
+        options = ("--quiet", "--size", "96x64", "--fps", "10", "--duration", str(2 * KILLS), *options)
         self.check(0, "render", "scene.toml", "-o", "whole" + name, "--resume", *options)
         parts = self.folder / (name + ".parts")
-        kills = self.killed_runs(("render", "scene.toml", "-o", name, "--resume", *options),
-                                 lambda: contents(parts, "*.sha256") if parts.exists() else {})
-        self.assertGreater(kills, 0)
-        self.assertEqual((self.folder / name).read_bytes(), (self.folder / ("whole" + name)).read_bytes())
-        self.assertEqual(self.names(), [name, "whole" + name])
+
+        def done():
+            if (self.folder / name).exists():
+                return None
+            return {p.name: p.stat().st_ino for p in parts.glob("*.sha256")} if parts.exists() else {}
+
+        def check():
+            self.assertEqual((self.folder / name).read_bytes(), (self.folder / ("whole" + name)).read_bytes())
+            self.assertEqual(self.names(), [name, "whole" + name])
+            (self.folder / name).unlink()
+        self.kill_and_continue(("render", "scene.toml", "-o", name, "--resume", *options), 2 * KILLS, done, check)
 
     def test_mp4(self):
-        self.check_clip("a.mp4", "--duration", "20")
+        self.check_clip("a.mp4")
 
     def test_variable_rate(self):
-        self.check_clip("a.mkv", "--duration", "20", "--variable-rate")
+        self.check_clip("a.mkv", "--variable-rate")
 
     def test_gif(self):
-        self.check_clip("a.gif", "--duration", "20")
+        self.check_clip("a.gif")
 
     def test_webm(self):
-        self.check_clip("a.webm", "--duration", "15", "--transparent")
+        self.check_clip("a.webm", "--transparent")
 
 
 class Segments(ProgramTest):
@@ -315,7 +328,7 @@ class Segments(ProgramTest):
         error = self.check(2, "render", "scene.toml", "-o", "a.mp4", "--duration", "2", "--resume").stderr
         self.assertIn("the folder holds segments of another clip, which differs in frames of the clip (0-3000 there, 0-20 here)",
                       error)
-        run = subprocess.Popen([program.TUMBLE, *render], cwd=self.folder)
+        run = subprocess.Popen([program.TUMBLE, *render], cwd=self.folder, stderr=subprocess.DEVNULL)
         while not ((parts / "segment_000003.sha256").exists() and (parts / "segment_000007.sha256").exists()) \
                 and run.poll() is None:
             time.sleep(0.01)
@@ -331,8 +344,6 @@ class Segments(ProgramTest):
         self.assertEqual(self.names(), ["a.mp4", "a.mp4.parts", "a.mp4.parts/notes.txt"])
 
     def test_a_pipe_is_refused(self):
-        error = self.check(2, "render", "scene.toml", "-o", "/dev/stdout.mkv", "--resume").stderr \
-            if os.path.exists("/dev/stdout.mkv") else ""
         os.mkfifo(self.folder / "a.mkv")
         error = self.check(2, "render", "scene.toml", "-o", "a.mkv", "--resume").stderr
         self.assertIn("--resume: 'a.mkv' is a pipe or device", error)

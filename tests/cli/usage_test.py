@@ -131,6 +131,17 @@ class Doctor(program.ProgramTest):
         for part in ("tumble ", "llvmpipe", "osmesa", "egl", "ffmpeg version", "shaders", "All requirements are met"):
             self.assertIn(part, text)
 
+    def test_font_and_player_are_no_requirements(self):
+        """Their lines name a remedy; the verdict does not depend on them."""
+        (self.folder / "page.html").touch()
+        built = self.check(0, "doctor", env={**os.environ, "TUMBLE_WEB": str(self.folder)}).stdout
+        self.assertRegex(built, rf"player of pages +ok +{self.folder}\n")
+        self.write("fonts.conf", "<fontconfig></fontconfig>")
+        bare = self.check(0, "doctor", env={**os.environ, "TUMBLE_WEB": str(self.folder / "none"),
+                                            "FONTCONFIG_FILE": str(self.folder / "fonts.conf")}).stdout
+        self.assertRegex(bare, r"player of pages +MISSING +not built\n +try: scripts/build-web")
+        self.assertRegex(bare, r"font +MISSING .*\n +try: apt-get install fonts-inter")
+
     def test_no_ffmpeg(self):
         run = self.check(1, "doctor", env={**os.environ, "PATH": str(self.folder)})
         self.assertIn("apt-get install ffmpeg", run.stdout)

@@ -78,7 +78,7 @@ void add_values(CLI::App& command, SceneOverrides& overrides) {
     command
         .add_option("--method", overrides.method,
                     "tumble: the whole simulation; notes: the course notes to the letter, for teaching")
-        ->type_name("NAME");
+        ->option_text("tumble|notes");
     command
         .add_option("--set", overrides.set,
                     "Any key of the scene by its path, in place of the scene's, as in\nsimulation.sleep=false or "

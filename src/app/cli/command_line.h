@@ -31,7 +31,11 @@ struct CommandLine {
     CompareCommand compare;
     GoldenCommand golden;
     InfoCommand info;
+    SweepCommand sweep;
+    FarmCommand farm;
     DoctorCommand doctor;
+    CompletionCommand completion;
+    ManPagesCommand man_pages;
 };
 
 CLI::App* add_render(CLI::App& app, CommandLine& line);
@@ -45,7 +49,11 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_golden(CLI::App& app, CommandLine& line);
 int run_golden(const CLI::App& command, const GoldenCommand& golden);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
+CLI::App* add_sweep(CLI::App& app, CommandLine& line);
+CLI::App* add_farm(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
+CLI::App* add_completion(CLI::App& app, CommandLine& line);
+CLI::App* add_man_pages(CLI::App& app, CommandLine& line);
 
 /// A number in a range; CLI::Range lets NaN through.
 CLI::Validator number_within(double least, double most);
@@ -56,6 +64,8 @@ CLI::Validator csv_name();
 /// Takes "-" as the file of standard output.
 CLI::Validator or_standard_output();
 
+/// All options of `render`.
+void add_render_options(CLI::App& command, RenderCommand& c);
 void add_scene(CLI::App& command, std::filesystem::path& scene);
 /// "1280x720" to a width and a height. Their range is checked elsewhere. Throws InputError.
 std::pair<int, int> read_size(const std::string& text, const char* option = "--size");
@@ -76,6 +86,12 @@ void add_frames_of_time(CLI::App& command, SceneOverrides& overrides);
 void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string& help);
 /// --vary; `what` is made for each value: "A panel", "A run".
 void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what);
+/// --vary and --layout; `what` as in add_vary().
+void add_panels(CLI::App& command, RenderCommand& clip, const std::string& what);
+/// --overlay, --plot and --plot-place.
+void add_text(CLI::App& command, SceneOverrides& overrides);
+/// --speed, --shutter and --blur-samples.
+void add_clip_times(CLI::App& command, RenderCommand& clip);
 void add_quality(CLI::App& command, VideoQuality& quality);
 
 /// An option with one of a list of names as its value.

@@ -2,51 +2,52 @@
 // errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
-#include "app/composition/frame_layout.h"
+#include "app/clip/clip_request.h"
+#include "app/farm/slurm_scripts.h"
 #include "gltf/key_track.h"
 #include "output/video_format.h"
-#include "render/aov/aov_kind.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "tumble/output.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tumble {
 
-struct RenderCommand {
-    std::vector<std::filesystem::path> scenes;           // a panel for each
-    std::optional<std::string> text;                     // of the only scene, in place of its file's
-    std::vector<std::string> vary;                       // "PATH=VALUE,VALUE": a panel for each
+struct RenderCommand : ClipRequest {
     std::optional<std::filesystem::path> clip;           // without this, frames and AOVs: the first scene's name
     std::optional<std::filesystem::path> frames;         // folder
     std::optional<std::filesystem::path> report;         // .html
+    std::optional<std::filesystem::path> profile;        // .json
     std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
-    AovSet aovs;
-    std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
-    SceneOverrides overrides;
-    PanelArrangement arrangement = PanelArrangement::automatic;
+    std::optional<std::filesystem::path> aov_folder;     // instead of the frames' folder
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    std::optional<std::string> frames_range;  // "1-10,30-40:2": frames that are drawn; else all
-    bool resume = false;                      // keeps finished frames of the same clip
-    std::string call;                         // the command as it was typed, for messages
-    double start = 0.0;                       // s, scene time; earlier frames are not drawn
-    double speed = 1.0;                       // of the motion in the clip: 0.25 is slow motion
-    int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
-    double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
-    int blur_samples = 8;        // images per frame while the shutter is open
-    std::optional<int> threads;  // of the simulation; see thread_budget.h
-    int workers = 1;             // render processes
+    bool resume = false;                                    // keeps finished frames of the same clip
+    std::string call;                                       // the command as it was typed, for messages
+    std::optional<std::filesystem::path> from_checkpoints;  // folder; else the frames before the first are simulated
+    double shutter = 0.0;                                   // degrees: 360 is always open, 0 a single moment
+    int blur_samples = 8;                                   // images per frame while the shutter is open
+    std::optional<int> threads;                             // of the simulation; see thread_budget.h
+    int workers = 1;                                        // render processes
     bool quiet = false;
 };
 void run_render(const RenderCommand& command);
 
 struct SimulateCommand {
-    std::filesystem::path scene;
+    std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
     std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
     SceneOverrides overrides;
+    std::optional<std::filesystem::path> checkpoints;       // folder
+    double every = 1.0;                                     // s of the clip between two checkpoints
+    std::optional<std::filesystem::path> from_checkpoints;  // folder to go on from
+    double start = 0.0;                                     // s, scene time: earlier frames are not in the tables
+    bool motion = true;                                     // is in the folder too
+    RenderCommand clip;  // that is drawn from the checkpoints: only its panels and times
     int threads = 1;
     bool quiet = false;
 };
@@ -137,6 +138,27 @@ struct CompareCommand {
 /// Returns 0 if the images are alike, 1 if they differ, 2 if they cannot be compared, 3 if one is missing.
 int run_compare(const CompareCommand& command);
 
+/// The commands below `farm`.
+enum class FarmAction { slurm, openjd, status };
+
+struct FarmCommand {
+    FarmAction action = FarmAction::slurm;
+    RenderCommand render;  // scene, clip, and the options that decide the frames
+    std::vector<std::string> simulate_options, render_options, encode_options;  // the given ones, as words
+    std::optional<std::filesystem::path> folder;  // of the job; without this, the clip's name with .farm
+    int parts = 0;
+    int retries = 2;
+    SlurmSettings slurm;
+    bool write_only = false;          // does not submit the job
+    std::filesystem::path job;        // of OpenJD (JSON)
+    int chunk = 0;                    // frames; 0: those of about 20 parts
+    std::string program = "tumble";   // on the machines of the farm
+    std::filesystem::path status_of;  // folder of a job
+    bool missing = false;             // only the numbers of the missing parts
+};
+/// Returns 0, or 3 if parts of the job are missing (`status`).
+int run_farm(const FarmCommand& command);
+
 struct InfoCommand {
     std::filesystem::path scene;
     SceneOverrides overrides;
@@ -144,10 +166,37 @@ struct InfoCommand {
 };
 void run_info(const InfoCommand& command);
 
+struct SweepCommand {
+    std::filesystem::path plan;
+    std::optional<std::filesystem::path> folder;
+    std::vector<std::string> set;    // "PATH=VALUE", for all samples
+    std::vector<std::int64_t> only;  // samples to make again
+    int workers = 1;                 // processes
+    bool dry_run = false;            // prints the plan's size and first samples
+    bool stop = false;               // at the first sample that fails
+    bool quiet = false;
+};
+/// Returns 0, or 1 if a sample failed.
+int run_sweep(const SweepCommand& command);
+
 struct DoctorCommand {
     double time_limit = 30.0;  // s for each program and driver: a driver without caches takes seconds on a busy machine
 };
 /// Returns 0 if clips can be rendered, else 1.
 int run_doctor(const DoctorCommand& command);
+
+namespace manual {
+struct CommandText;  // app/manual/command_text.h: all commands and options
+}
+
+struct CompletionCommand {
+    std::string shell;  // bash, zsh, fish
+};
+void run_completion(const CompletionCommand& command, const manual::CommandText& program);
+
+struct ManPagesCommand {
+    std::filesystem::path folder;
+};
+void run_man_pages(const ManPagesCommand& command, const manual::CommandText& program);
 
 }  // namespace tumble

@@ -4,6 +4,8 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/process.h"
+#include "page/web_folder.h"
+#include "plot/canvas.h"
 #include "render/gl/shader_locator.h"
 
 #include <fmt/format.h>
@@ -43,6 +45,18 @@ Finding check_ffmpeg(TimeLimit& time_limit) try {
     return {false, error.what()};
 }
 
+/// Frames with text are the same on two machines only with the same font.
+Finding check_font() {
+    const std::string family = Canvas(1, 1, 1.0).font_family();
+    if (family == "Inter") return {true, family};
+    return {false,
+            family.empty() ? "no font for text in clips and plots" : fmt::format("{} in place of Inter", family)};
+}
+
+Finding check_player() try { return {true, find_web_folder().string()}; } catch (const RunError&) {
+    return {false, "not built"};
+}
+
 /// Prints one line of the report, and another one with the remedy if needed.
 void print(const char* what, const Finding& finding, const char* remedy) {
     put("  {:<16} {:<8} {}\n", what,
@@ -74,6 +88,9 @@ int run_doctor(const DoctorCommand& command) {
     print("shaders", shaders, "set TUMBLE_SHADERS to the folder of that name, or install Tumble again");
     print("OpenGL, osmesa", osmesa, "apt-get install libosmesa6");
     print("OpenGL, egl", egl, "apt-get install libegl1 libgl1-mesa-dri   (only for --gl egl)");
+    print("font", check_font(), "apt-get install fonts-inter   (only for text: other fonts give other pixels)");
+    print("player of pages", check_player(),
+          "scripts/build-web in Tumble's source tree   (only for page, lesson and render --report)");
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");
 
     const bool able = shaders.good && osmesa.good && ffmpeg.good;

@@ -49,7 +49,7 @@ void check_regular(const fs::path& path) {
 }
 
 /// The frames that the run which drew them promised, but that are not there, are an InputError.
-void require_whole_clip(const fs::path& folder, const ClipIdentity& manifest,
+void require_whole_clip(const fs::path& folder, const FrameIdentity& manifest,
                         const std::vector<std::int64_t>& numbers) {
     const auto is_there = [&](std::int64_t n) { return std::ranges::binary_search(numbers, n); };
     const FrameSet missing = FrameSet(0, manifest.frames).where([&](std::int64_t n) { return !is_there(n); });
@@ -72,7 +72,7 @@ void require_no_gaps(const fs::path& folder, const std::vector<std::int64_t>& nu
 
 /// Throws InputError for a frame of another size than the first one, or that is drawn from another scene than the
 /// folder's.
-void check_frames(const fs::path& folder, const std::optional<ClipIdentity>& manifest, const FramesToEncode& frames) {
+void check_frames(const fs::path& folder, const std::optional<FrameIdentity>& manifest, const FramesToEncode& frames) {
     const std::string mark = manifest ? manifest->mark() : "";
     for (const std::int64_t n : frames.numbers) {
         const fs::path path = frame_path(folder, n);
@@ -89,7 +89,7 @@ void check_frames(const fs::path& folder, const std::optional<ClipIdentity>& man
     }
 }
 
-FramesToEncode frames_to_encode(const EncodeCommand& command, const std::optional<ClipIdentity>& manifest) {
+FramesToEncode frames_to_encode(const EncodeCommand& command, const std::optional<FrameIdentity>& manifest) {
     FramesToEncode frames{frames_in(command.frames), {}};
     if (frames.numbers.empty())
         throw InputError({command.frames.string(), 0, 0},
@@ -141,7 +141,7 @@ void encode(const fs::path& folder, const FramesToEncode& frames, VideoWriter& v
 }  // namespace
 
 void run_encode(const EncodeCommand& command) {
-    const std::optional<ClipIdentity> manifest = read_manifest(manifest_path(command.frames, FrameFiles::pictures));
+    const std::optional<FrameIdentity> manifest = read_manifest(manifest_path(command.frames, FrameFiles::pictures));
     const double fps = command.fps.value_or(manifest ? manifest->fps : default_fps);
     const VideoFormat format = video_format(command.clip, fps, command.transparent);
     const FramesToEncode frames = frames_to_encode(command, manifest);

@@ -2,7 +2,7 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/render_run.h"
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 #include "app/files/frame_folder.h"
 #include "app/plots/variants.h"
 #include "core/error.h"

@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
-#include "app/threads/stage_timer.h"
+#include "app/threads/wall_clock.h"
 #include "app/workers/frame_memory.h"
 #include "core/available_memory.h"
 #include "core/error.h"

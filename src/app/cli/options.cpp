@@ -1,6 +1,7 @@
 #include "app/cli/options.h"
 
 #include "app/cli/command_line.h"
+#include "app/cli/command_reader.h"
 #include "app/cli/say.h"
 #include "app/cli/shell_text.h"
 #include "core/safe_text.h"
@@ -36,7 +37,11 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* compare = add_compare(app, line);
     const CLI::App* golden = add_golden(app, line);
     const CLI::App* info = add_info(app, line);
+    const CLI::App* sweep = add_sweep(app, line);
+    const CLI::App* farm = add_farm(app, line);
     add_doctor(app, line);
+    const CLI::App* completion = add_completion(app, line);
+    const CLI::App* man_pages = add_man_pages(app, line);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -67,6 +72,14 @@ int run_command_line(int argc, char** argv) {
         return run_golden(*golden, line.golden);
     else if (info->parsed())
         run_info(line.info);
+    else if (sweep->parsed())
+        return run_sweep(line.sweep);
+    else if (completion->parsed())
+        run_completion(line.completion, read_command(app));
+    else if (man_pages->parsed())
+        run_man_pages(line.man_pages, read_command(app));
+    else if (farm->parsed())
+        return run_farm(line.farm);
     else
         return run_doctor(line.doctor);
     return 0;

@@ -42,7 +42,7 @@ void print_times(const RenderFigures& done) {
 /// Warns of frames of an earlier, longer clip, because `tumble encode` would append them to this one.
 void print_older(const RenderFigures& done, const char* what, const std::vector<std::int64_t>& there,
                  const fs::path& where, fs::path (&path)(const fs::path&, std::int64_t)) {
-    const auto older = std::lower_bound(there.begin(), there.end(), done.frames.end());
+    const auto older = std::lower_bound(there.begin(), there.end(), done.clip_frames);
     if (older != there.end())
         say("note: {} older {} are still in the folder, from {} on\n", there.end() - older, what,
             safe_path(path(where, *older)));

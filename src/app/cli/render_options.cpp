@@ -23,9 +23,11 @@ AovSet read_aovs(const std::string& text) {
     return aovs;
 }
 
-void add_panels(CLI::App& command, RenderCommand& c) {
-    add_vary(command, c.vary, "A panel");
-    add_choice<PanelArrangement>(command, "--layout", c.arrangement,
+}  // namespace
+
+void add_panels(CLI::App& command, RenderCommand& clip, const std::string& what) {
+    add_vary(command, clip.vary, what);
+    add_choice<PanelArrangement>(command, "--layout", clip.arrangement,
                                  {{"row", PanelArrangement::row}, {"grid", PanelArrangement::grid}},
                                  "Arrangement of several panels; by default up to three are in a row, more in a grid")
         ->option_text("row|grid");
@@ -44,12 +46,24 @@ void add_text(CLI::App& command, SceneOverrides& overrides) {
         ->option_text("inset|beside|below");
 }
 
-}  // namespace
+void add_clip_times(CLI::App& command, RenderCommand& clip) {
+    command
+        .add_option("--speed", clip.speed,
+                    "Speed of the motion: 0.25 is slow motion (the clip lasts four times as long,\n"
+                    "at the same frames per second), 2 twice as fast")
+        ->check(number_within(slowest_speed, fastest_speed))
+        ->option_text("X [1]");
+    command
+        .add_option("--shutter", clip.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
+        ->check(number_within(0.0, 360.0))
+        ->option_text("DEGREES [0]");
+    command.add_option("--blur-samples", clip.blur_samples, "Moments averaged while the shutter is open")
+        ->check(CLI::Range(2, most_blur_samples))
+        ->option_text(fmt::format("N [{}]", clip.blur_samples));
+}
 
-CLI::App* add_render(CLI::App& app, CommandLine& line) {
-    RenderCommand& c = line.render;
-    CLI::App* command =
-        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+void add_render_options(CLI::App& to, RenderCommand& c) {
+    CLI::App* command = &to;
     command->add_option("scene", c.scenes, "The scene files (TOML); several are shown side by side")
         ->check(some_name())
         ->required()
@@ -78,6 +92,12 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
             "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
             "DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
+    command
+        ->add_option("--profile", c.profile,
+                     "Write a trace of the run: which stage worked on which frame when (Chrome trace format,\n"
+                     "for ui.perfetto.dev; docs/reference/log.md)")
+        ->check(some_name())
+        ->type_name("TRACE.json");
     command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
         ->check(some_name())
         ->type_name("DIR");
@@ -106,6 +126,14 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
                       "so that a run that is ended at any moment loses at most a second\n"
                       "(docs/how-to/long-renders.md)");
     command
+        ->add_option(
+            "--from-checkpoints", c.from_checkpoints,
+            "A folder of tumble simulate --checkpoints: the frames before the first drawn one are\nnot simulated again "
+            "(docs/how-to/long-renders.md)")
+        ->check(some_name())
+        ->excludes("--report")  // which simulates the whole clip
+        ->type_name("DIR");
+    command
         ->add_option("--samples", c.overrides.samples,
                      "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->type_name("N");
@@ -113,18 +141,7 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
                           "OpenGL backend: osmesa (the default) draws on the CPU; egl uses a GPU if there is\none, "
                           "else it draws the same pixels on the CPU")
         ->option_text("osmesa|egl");
-    command
-        ->add_option("--speed", c.speed,
-                     "Speed of the motion: 0.25 is slow motion (the clip lasts four times as long,\n"
-                     "at the same frames per second), 2 twice as fast")
-        ->check(number_within(slowest_speed, fastest_speed))
-        ->option_text("X [1]");
-    command->add_option("--shutter", c.shutter, "Motion blur: how long the shutter is open, 180 for half of each frame")
-        ->check(number_within(0.0, 360.0))
-        ->option_text("DEGREES [0]");
-    command->add_option("--blur-samples", c.blur_samples, "Moments averaged while the shutter is open")
-        ->check(CLI::Range(2, most_blur_samples))
-        ->option_text(fmt::format("N [{}]", c.blur_samples));
+    add_clip_times(*command, c);
     command->add_flag("--transparent", c.drawing.transparent,
                       "Draw the bodies alone, lit and shadowed as in the scene, on a transparent background:\n"
                       "for slides (.webm, PNG frames) and video editors (.mov, ProRes 4444)");
@@ -137,9 +154,15 @@ CLI::App* add_render(CLI::App& app, CommandLine& line) {
     command->add_option("--workers", c.workers, "Render processes, one per core; the result is the same for any number")
         ->check(CLI::Range(1, most_threads))
         ->option_text(fmt::format("N [{}]", c.workers));
-    add_panels(*command, c);
+    add_panels(*command, c, "A panel");
     add_text(*command, c.overrides);
     add_run(*command, c.threads, "by the bodies", c.quiet);
+}
+
+CLI::App* add_render(CLI::App& app, CommandLine& line) {
+    CLI::App* command =
+        app.add_subcommand("render", "Simulate a scene, draw it, and write a clip, PNG frames, or both");
+    add_render_options(*command, line.render);
     command->footer(
         "Examples:\n"
         "  tumble render scene.toml                          writes scene.mp4\n"

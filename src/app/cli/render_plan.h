@@ -1,11 +1,11 @@
-// What a render writes where, and the frames that it draws for that: those of the command, less those that --resume
+// The outputs of a render, and the frames that it draws for that: those of the command, less those that --resume
 // keeps.
 #pragma once
 
 #include "app/cli/commands.h"
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 #include "app/pipeline/pipeline.h"
-#include "app/resume/clip_identity.h"
+#include "app/resume/frame_identity.h"
 #include "app/resume/segmented_clip.h"
 #include "output/video_format.h"
 
@@ -18,11 +18,12 @@ namespace tumble {
 struct RenderPlan {
     std::optional<std::filesystem::path> clip, folder, aov_folder;
     std::optional<VideoFormat> format;  // of the clip
-    ClipIdentity pictures, aovs;
+    FrameIdentity pictures, aovs;
     PipelineFrames frames;
     std::unique_ptr<SegmentedClip> segments;  // with --resume and a clip
 
-    /// The frames that are drawn.
+    /// Frames that an output needs, and those that are drawn: damage needs the frames before them too.
+    std::int64_t needed() const { return frames.folder.united_with(frames.aovs).united_with(frames.video).count(); }
     std::int64_t to_draw() const { return frames.drawn.count(); }
     FrameOutputs outputs(const RenderCommand& command) const;
 };

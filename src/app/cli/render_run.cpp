@@ -2,14 +2,16 @@
 
 #include "app/causes/record_file.h"
 #include "app/causes/run_recorder.h"
+#include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_plan.h"
-#include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
+#include "app/clip/render_scenes.h"
 #include "app/pipeline/pipeline.h"
 #include "app/resume/kept_frames.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
+#include "app/threads/trace.h"
 #include "app/workers/frame_memory.h"
 
 #include <sys/resource.h>
@@ -29,6 +31,46 @@ std::vector<std::int64_t> numbers_of(const FrameSet& frames) {
     return numbers;
 }
 
+/// Takes the survey of the clip from the folder.
+CheckpointReading open_checkpoints(const std::filesystem::path& folder, RenderScenes& scenes) {
+    if (scenes.shows_damage())
+        throw InputError(
+            "--from-checkpoints: the overlay 'damage' shows changes since the frame before, which a part of a clip has "
+            "not drawn; leave one of them out");
+    CheckpointReading checkpoints(folder, TUMBLE_VERSION, scenes.identity());
+    scenes.take_survey(checkpoints.survey());
+    return checkpoints;
+}
+
+/// The motion of the panels, simulated or recorded, from the start of the clip or from a checkpoint.
+struct ClipMotion {
+    std::optional<CheckpointReading> checkpoints;
+    std::optional<ClipState> state;  // to go on from
+    std::vector<std::unique_ptr<World>> worlds;
+    std::vector<std::unique_ptr<OverlayBuilder>> overlays;
+    std::vector<std::unique_ptr<RecordedFrames>> recorded;
+    std::vector<PanelSource> panels;
+
+    void make_panels(const RenderScenes& scenes, bool image, int threads) {
+        const bool known = checkpoints && checkpoints->has_motion();
+        for (std::size_t i = 0; i < scenes.scenes.size(); ++i) {
+            const std::int64_t first = PanelRun::first_recorded(state ? state->frame : 0, scenes.ends[i]);
+            worlds.push_back(known ? nullptr : std::make_unique<World>(scenes.world(i, threads)));
+            recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, first) : nullptr);
+            overlays.push_back(image ? scenes.overlay(i) : nullptr);
+            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(),
+                              scenes.scenes[i].scene->bodies.size()});
+        }
+    }
+    /// Precondition: worlds, from the start of the clip.
+    void record(RunRecorder& recorder) {
+        for (std::size_t i = 0; i < panels.size(); ++i) {
+            worlds[i]->record_contacts();
+            panels[i].observer = &recorder.panel(i);
+        }
+    }
+};
+
 StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outputs) {
     StageSeconds cpu;
     cpu.simulation = times.simulation.cpu.load();
@@ -46,7 +88,8 @@ RenderFigures figures_of(const RenderPlan& plan, const RenderScenes& scenes) {
     figures.height = scenes.composition.height;
     figures.fps = scenes.first().output.fps;
     figures.frames = scenes.frames;
-    figures.rendered = plan.to_draw();
+    figures.clip_frames = scenes.clip_frames;
+    figures.rendered = plan.needed();
     figures.clip = plan.clip;
     figures.folder = plan.folder;
     figures.aov_folder = plan.aov_folder;
@@ -126,10 +169,16 @@ RenderFigures render_to_files(const RenderCommand& command) {
         figures.seconds = wall_seconds() - start;
         return figures;
     }
+    ClipMotion motion;
+    if (command.from_checkpoints) {
+        motion.checkpoints.emplace(open_checkpoints(*command.from_checkpoints, scenes));
+        motion.state = motion.checkpoints->before(plan.frames.drawn.first());
+    }
 
     RenderWork work{plan.outputs(command), std::nullopt, plan.to_draw(), shutter.blur_samples};
     const FrameOutputs& outputs = work.outputs;
     if (plan.format) work.clip = plan.format->kind;
+    if (plan.segments) work.encoders = 2;
     const int requested_workers =
         scenes.shows_damage() ? 1 : int(std::min<std::int64_t>(command.workers, plan.to_draw()));
     const int workers = workers_that_fit(composition, work, requested_workers);
@@ -137,28 +186,35 @@ RenderFigures render_to_files(const RenderCommand& command) {
         say("note: {} render processes in place of {}, because there is no memory for more\n", workers,
             requested_workers);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
-    if (outputs.image()) scenes.survey_clip(threads, interrupt);
+    if (outputs.image() && !command.from_checkpoints) scenes.survey_clip(threads, interrupt);
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
-    std::vector<World> worlds;
-    for (std::size_t i = 0; i < scenes.scenes.size(); ++i) worlds.push_back(scenes.world(i, threads));
-    std::vector<PanelSource> panels;
-    std::vector<std::unique_ptr<OverlayBuilder>> overlays;
+    motion.make_panels(scenes, outputs.image(), threads);
     std::optional<RunRecorder> recorder;
-    if (command.motion_record) recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
-    for (std::size_t i = 0; i < worlds.size(); ++i) {
-        overlays.push_back(outputs.image() ? scenes.overlay(i) : nullptr);
-        panels.push_back({worlds[i], scenes.ends[i], overlays.back().get(), recorder ? &recorder->panel(i) : nullptr});
-        if (recorder) worlds[i].record_contacts();
+    if (command.motion_record) {
+        recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
+        motion.record(*recorder);
     }
+    const double outputs_open = wall_seconds();
     Destinations destinations(command, plan, scenes);
-    Pipeline pipeline(panels, plan.frames, render_pool, destinations.outputs(), shutter);
+    Pipeline pipeline(motion.panels, plan.frames, render_pool, destinations.outputs(), shutter);
+    if (motion.state) pipeline.go_on_from(*motion.state);
+    std::optional<Trace> trace;
+    if (command.profile) {
+        trace.emplace();
+        pipeline.record(*trace);
+        trace->add({"set-up", start, wall_seconds()});
+    }
     {
         Progress progress(plan.to_draw(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     destinations.complete();
     if (recorder) write_record(*command.motion_record, recorder->finish());
+    if (trace) {
+        if (plan.clip) trace->add({"ffmpeg", outputs_open, wall_seconds()}, "ffmpeg");
+        trace->write(*command.profile);
+    }
     const ProcessEnd workers_end = render_pool.finish();
     figures.drawn = render_pool.drawn();
     destinations.describe(figures);

@@ -19,6 +19,7 @@ struct StageSeconds {
 struct RenderFigures {
     int width = 0, height = 0;                          // of the frames, pixels
     double fps = 0.0;                                   // of the clip
+    std::int64_t clip_frames = 0;                       // of the whole clip
     FrameSet frames;                                    // that were asked for,
     std::int64_t rendered = 0;                          // and those among them that were not kept from an earlier run
     std::int64_t drawn = 0;                             // frames that differ from the one before

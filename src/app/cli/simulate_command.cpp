@@ -1,17 +1,20 @@
 #include "api/scene_data.h"
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
+#include "app/cli/record_clip.h"
+#include "app/cli/run_tables.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
 #include "app/threads/interrupt.h"
-#include "app/threads/stage_timer.h"
+#include "app/threads/wall_clock.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "tumble/output.h"
-#include "tumble/world.h"
+#include "sim/checkpoint/archive.h"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -39,58 +42,128 @@ private:
     double last_ = wall_seconds();
 };
 
+void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds) {
+    for (const std::filesystem::path& file : RunTables::files(command)) say("wrote {}\n", safe_path(file));
+    const FrameTiming timing = scene.timing();
+    say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
+        (frames - 1) * timing.steps_per_frame, 1.0 / (timing.fps * timing.steps_per_frame), seconds,
+        double(frames - 1) / timing.fps / seconds);
+}
+
+void simulate_tables(const SimulateCommand& command) {
+    const double start = wall_seconds();
+    FileList inputs;
+    const SceneDescription description = load_scene(command.scenes.front(), command.overrides, &inputs);
+    OutputPlan plan;
+    for (const auto& file : inputs) plan.add_input(file);
+    RunTables::plan(command, plan);
+    const v0::Scene scene = v0::make_scene(description, std::move(inputs));
+    const std::int64_t frames = scene.frame_count();
+    {
+        RunMonitor monitor(frames, command.quiet);
+        World world(description, command.threads);
+        RunTables tables(command, scene);
+        if (tables.needs_records()) world.record_contacts();
+        for (std::int64_t n = 0; n < frames; ++n) {
+            if (n > 0) world.advance_frame();
+            tables.add(n, world);
+            monitor.update(n + 1);
+        }
+        tables.finish();
+    }
+    if (!command.quiet) say_run(command, description, frames, wall_seconds() - start);
+}
+
+/// The clip that will be drawn from the checkpoints.
+RenderCommand clip_of(const SimulateCommand& command) {
+    RenderCommand clip = command.clip;
+    clip.scenes = command.scenes;
+    clip.overrides = command.overrides;
+    const bool own_frames = command.scenes.size() == 1 && clip.vary.empty() && clip.speed == 1.0 && clip.shutter == 0.0;
+    if (!own_frames && !RunTables::files(command).empty())
+        throw InputError(
+            "--checkpoints: tables are of the frames of one scene; leave out --trajectory, --energy, "
+            "--impacts, --contacts and --loads with several panels, --speed and --shutter");
+    return clip;
+}
+
+/// The tables of the frames from --start on.
+void simulate_rest(const SimulateCommand& command) {
+    const double start = wall_seconds();
+    RenderCommand clip = clip_of(command);
+    clip.start = command.start;
+    RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
+    OutputPlan plan;
+    for (const auto& file : scenes.inputs) plan.add_input(file);
+    RunTables::plan(command, plan);
+    const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
+    const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
+    const std::optional<ClipState> state = checkpoints.before(first);
+    const std::int64_t begin = state ? state->frame : 0;
+    const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
+    {
+        RunMonitor monitor(end - begin, command.quiet);
+        RunTables tables(command, scene, first);
+        World world = scenes.world(0, command.threads);
+        if (tables.needs_records() && !world.records_contacts()) world.record_contacts();
+        if (state) {
+            CheckpointReader reader(state->panels.front().simulation);
+            world.restore(reader);
+        }
+        for (std::int64_t n = begin; n < end; ++n) {
+            if (n > begin) world.advance_frame();
+            if (n >= first) tables.add(n, world);
+            monitor.update(n + 1 - begin);
+        }
+        tables.finish();
+    }
+    if (!command.quiet) say_run(command, scenes.first(), end - begin, wall_seconds() - start);
+}
+
+void simulate_clip(const SimulateCommand& command) {
+    const double start = wall_seconds();
+    const RenderCommand clip = clip_of(command);
+    const Shutter shutter = Shutter::of(clip.shutter, clip.blur_samples);
+    RenderScenes scenes(clip, shutter);
+    OutputPlan plan;
+    for (const auto& file : scenes.inputs) plan.add_input(file);
+    RunTables::plan(command, plan);
+    const SceneDescription& first = scenes.first();
+    const v0::Scene scene = v0::make_scene(first, scenes.inputs);
+    const std::int64_t frames = scenes.clip_frames;
+    std::size_t count = 0;
+    std::uintmax_t bytes = 0;
+    {
+        RunMonitor monitor(frames, command.quiet);
+        RunTables tables(command, scene);
+        CheckpointWriting checkpoints(*command.checkpoints, TUMBLE_VERSION, scenes.identity());
+        ClipRecording recording;
+        recording.shutter = shutter;
+        recording.every = std::max<std::int64_t>(1, std::llround(command.every * first.output.fps));
+        recording.threads = command.threads;
+        recording.records = tables.needs_records();
+        recording.motion = command.motion;
+        recording.each = [&](std::int64_t n, const World& world) {
+            tables.add(n, world);
+            monitor.update(n + 1);
+        };
+        record_clip(scenes, recording, checkpoints);
+        tables.finish();
+        count = checkpoints.count();
+        bytes = checkpoints.bytes();
+    }
+    if (command.quiet) return;
+    say("wrote {}: {} checkpoints, {:.1f} MB\n", safe_path(*command.checkpoints), count, double(bytes) / 1e6);
+    say_run(command, first, frames, wall_seconds() - start);
+}
+
 }  // namespace
 
 void run_simulate(const SimulateCommand& command) {
-    const double start = wall_seconds();
-    FileList inputs;
-    SceneDescription description = load_scene(command.scene, command.overrides, &inputs);
-    OutputPlan plan;
-    for (const auto& file : inputs) plan.add_input(file);
-    if (command.trajectory) plan.add("--trajectory", *command.trajectory);
-    if (command.energy) plan.add("--energy", *command.energy);
-    if (command.impacts) plan.add("--impacts", *command.impacts);
-    if (command.contacts) plan.add("--contacts", *command.contacts);
-    if (command.loads) plan.add("--loads", *command.loads);
-    const v0::Scene scene = v0::make_scene(std::move(description), std::move(inputs));
-    const std::int64_t frames = scene.frame_count();
-    const double fps = scene.output().fps;
-    {
-        RunMonitor monitor(frames, command.quiet);
-        v0::World world(scene, command.threads);
-        std::optional<v0::TrajectoryTable> trajectory;
-        if (command.trajectory) trajectory.emplace(*command.trajectory, scene);
-        std::optional<v0::EnergyTable> energy;
-        if (command.energy) energy.emplace(*command.energy);
-        std::optional<v0::ImpactTable> impacts;
-        if (command.impacts) impacts.emplace(*command.impacts, scene);
-        std::optional<v0::ContactTable> contacts;
-        if (command.contacts) contacts.emplace(*command.contacts, scene);
-        std::optional<v0::LoadTable> loads;
-        if (command.loads) loads.emplace(*command.loads, scene);
-        if (energy || impacts || contacts || loads) world.record_contacts();
-
-        for (std::int64_t n = 0; n < frames; ++n) {
-            if (n > 0) world.advance_frame();
-            if (trajectory) trajectory->add(world.snapshot());
-            if (energy) energy->add(n, double(n) / fps, world.energies());
-            if (impacts) impacts->add(world.contacts());
-            if (contacts) contacts->add(n, double(n) / fps, world.contacts());
-            if (loads) loads->add(n, double(n) / fps, world.contacts());
-            monitor.update(n + 1);
-        }
-        if (trajectory) trajectory->finish();
-        if (energy) energy->finish();
-        if (impacts) impacts->finish();
-        if (contacts) contacts->finish();
-        if (loads) loads->finish();
-    }
-    if (command.quiet) return;
-    const double seconds = wall_seconds() - start;
-    for (const auto& file : {command.trajectory, command.energy, command.impacts, command.contacts, command.loads})
-        if (file) say("wrote {}\n", safe_path(*file));
-    say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
-        (frames - 1) * scene.steps_per_frame(), scene.step(), seconds, double(frames - 1) / fps / seconds);
+    if (command.checkpoints) return simulate_clip(command);
+    if (command.from_checkpoints) return simulate_rest(command);
+    if (command.scenes.size() > 1) throw InputError("several scenes are simulated together only with --checkpoints");
+    simulate_tables(command);
 }
 
 }  // namespace tumble

@@ -1,6 +1,9 @@
 #include "app/cli/command_line.h"
 #include "app/plots/quantities.h"
 #include "core/error.h"
+#include "scene/toml/limits.h"
+
+#include <algorithm>
 
 namespace tumble {
 namespace {
@@ -19,12 +22,60 @@ void read_impacts(const std::string& text, SimulateCommand& c) {
             "--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}')", safe_text(text)));
 }
 
+/// The folders of checkpoints, and the settings of the clip that is drawn from them.
+void add_checkpoints(CLI::App& command, SimulateCommand& c) {
+    CLI::Option* const folder =
+        command
+            .add_option("--checkpoints", c.checkpoints,
+                        "Write the state of the simulation to DIR, from which parts of a clip are drawn:\n"
+                        "tumble render --from-checkpoints DIR (docs/how-to/long-renders.md)")
+            ->check(some_name())
+            ->type_name("DIR");
+    command.add_option("--every", c.every, "Seconds of the clip between two checkpoints")
+        ->check(number_within(1e-6, limits::duration.max))
+        ->needs(folder)
+        ->option_text("S [1]");
+    command
+        .add_flag_callback(
+            "--no-motion", [&c] { c.motion = false; },
+            "Leave the motion of the frames out: DIR is smaller, but each part simulates its\nframes once more")
+        ->needs(folder);
+    CLI::Option* const from =
+        command
+            .add_option("--from-checkpoints", c.from_checkpoints,
+                        "Go on from the last checkpoint before --start, in place of the start of the scene")
+            ->check(some_name())
+            ->excludes(folder)
+            ->type_name("DIR");
+    command.add_option("--start", c.start, "Seconds of the scene before the first rows of the tables")
+        ->check(number_within(limits::duration.min, limits::duration.max))
+        ->needs(from)
+        ->option_text("S [0]");
+    // Of the clip: the same as those of render.
+    const std::vector<CLI::Option*> before = command.get_options();
+    add_size(command, c.overrides.width, c.overrides.height, "Of the clip: picture size, in place of the scene's");
+    add_clip_times(command, c.clip);
+    add_panels(command, c.clip, "A panel");
+    add_text(command, c.overrides);
+    std::vector<CLI::Option*> of_clip = command.get_options();
+    std::erase_if(of_clip, [&](CLI::Option* o) { return std::find(before.begin(), before.end(), o) != before.end(); });
+    command.parse_complete_callback([of_clip, folder, from] {
+        for (const CLI::Option* const option : of_clip)
+            if (option->count() > 0 && folder->count() + from->count() == 0)
+                throw CLI::RequiresError(option->get_name(), "--checkpoints or --from-checkpoints");
+    });
+}
+
 }  // namespace
 
 CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     SimulateCommand& c = line.simulate;
     CLI::App* command = app.add_subcommand("simulate", "Simulate a scene without drawing, and write tables of numbers");
-    add_scene(*command, c.scene);
+    command
+        ->add_option("scene", c.scenes, "The scene file (TOML); several with --checkpoints of a clip that shows them")
+        ->check(some_name())
+        ->required()
+        ->type_name("SCENE");
     command
         ->add_option("--trajectory", c.trajectory,
                      "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
@@ -47,8 +98,8 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->type_name("N");
     command
         ->add_option("--integrator", c.overrides.integrator,
-                     "symplectic-euler, explicit-euler, splitting, rk4 or exact")
-        ->type_name("NAME");
+                     "Method that advances the bodies from step to step, in place of the scene's")
+        ->option_text("symplectic-euler|explicit-euler|splitting|rk4|exact");
     command
         ->add_option_function<std::string>(
             "--impacts", [&c](const std::string& text) { read_impacts(text, c); },
@@ -58,7 +109,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->take_all()
         ->allow_extra_args(false)
         ->trigger_on_parse()
-        ->type_name("MODE|I.csv");
+        ->option_text("stepped|exact|I.csv");
     command
         ->add_option("--contacts", c.contacts,
                      "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
@@ -72,15 +123,16 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->check(some_name())
         ->transform(or_standard_output())
         ->type_name("L.csv");
-    command
-        ->add_option("--impact-law", c.overrides.impact_law,
-                     "propagating or simultaneous: the rule for several contacts at once")
-        ->type_name("NAME");
+    command->add_option("--impact-law", c.overrides.impact_law, "Rule for several contacts at once")
+        ->option_text("propagating|simultaneous");
     add_frames_of_time(*command, c.overrides);
+    add_checkpoints(*command, c);
     c.threads = machine_threads();
     add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
     command->footer(
         "Examples:\n"
+        "  tumble simulate scene.toml --checkpoints states --every 10\n"
+        "  tumble simulate scene.toml --from-checkpoints states --start 50 --energy e.csv\n"
         "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
         "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row");
     return command;

@@ -14,7 +14,7 @@ namespace tumble {
 namespace {
 
 // In units of the picture.
-constexpr double width = 680.0, height = 400.0;
+constexpr double figure_width = 680.0, figure_height = 400.0;
 constexpr double left = 64.0, right = 500.0, top = 16.0, bottom = 348.0;
 constexpr double label_gap = 17.0;  // between the names of two lines
 /// Of the axis: smaller errors are rounding, and would take most of the picture. They are drawn on its lower edge.
@@ -116,7 +116,7 @@ std::string convergence_figure(const LessonConvergence& block, std::span<const C
     for (std::size_t i = 0; i < lines.size(); ++i) svg += line_svg(picture, lines[i], i, labels[i]);
     std::string html = fmt::format(
         "<figure class=\"convergence\">\n<svg viewBox=\"0 0 {:g} {:g}\" role=\"img\" aria-label=\"{}\">\n{}</svg>\n",
-        width, height, html_text(block.alt), svg);
+        figure_width, figure_height, html_text(block.alt), svg);
     html += fmt::format(
         "<div class=\"table\" role=\"group\" aria-label=\"Slopes\" tabindex=\"0\"><table>\n<thead><tr><th "
         "scope=\"col\">Integrator</th><th scope=\"col\">Order</th><th scope=\"col\">Fitted slope</th><th "

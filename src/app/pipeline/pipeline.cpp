@@ -2,8 +2,10 @@
 
 #include "app/threads/interrupt.h"
 #include "app/threads/task_group.h"
+#include "core/check.h"
 #include "core/error.h"
 #include "output/temporary_file.h"
+#include "sim/checkpoint/archive.h"
 
 #include <algorithm>
 #include <memory>
@@ -22,18 +24,24 @@ constexpr auto supervision_period = std::chrono::milliseconds(50);
 
 std::size_t poses_that_may_wait(std::span<const PanelSource> panels, const Shutter& shutter) {
     std::size_t bodies = 0;
-    for (const PanelSource& panel : panels) bodies += panel.world.snapshot().bodies.size();
+    for (const PanelSource& panel : panels) bodies += panel.bodies;
     const std::size_t bytes = std::max<std::size_t>(bodies, 1) * sizeof(BodyState) * std::size_t(shutter.blur_samples);
     return std::clamp<std::size_t>(waiting_pose_bytes / bytes, 1, waiting_poses);
 }
 
 template <class Work>
-auto timed(StageTime& time, const Work& work) {
-    const StageTimer timer(time);
+auto timed(StageTime& time, std::int64_t frame, const Work& work) {
+    const StageTimer timer(time, frame);
     return work();
 }
 
 }  // namespace
+
+void PipelineTimes::record(Trace& trace) {
+    for (StageTime* stage :
+         {&simulation, &drawing.drawing, &drawing.conversion, &drawing.png, &drawing.aovs, &files, &aov_files, &video})
+        stage->trace = &trace;
+}
 
 void supervise(TaskGroup& stages, Interrupt& interrupt, const std::function<void()>& report) {
     while (!stages.wait(supervision_period)) {
@@ -52,8 +60,17 @@ Pipeline::Pipeline(std::span<const PanelSource> panels, const PipelineFrames& fr
       for_png_(queued_frames),
       for_aovs_(queued_frames),
       for_video_(queued_frames) {
-    for (const PanelSource& panel : panels)
-        panels_.push_back({{panel.world, shutter}, panel.end, panel.overlay, panel.observer, {}, {}});
+    for (const PanelSource& panel : panels) panels_.emplace_back(panel, shutter);
+}
+
+void Pipeline::go_on_from(const ClipState& state) {
+    TUMBLE_CHECK_LE(state.frame, frames_.drawn.first());
+    if (state.panels.size() != panels_.size()) CheckpointReader::fail("has another number of panels");
+    for (std::size_t i = 0; i < panels_.size(); ++i) {
+        panels_[i].restore(state.panels[i], state.frame);
+        render_pool_.restore(i, state.panels[i].poses);
+    }
+    begin_ = state.frame;
 }
 
 void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report) {
@@ -96,7 +113,7 @@ void Pipeline::run(Interrupt& interrupt, const std::function<void(std::int64_t)>
 void Pipeline::simulate() {
     const bool ahead = outputs_.aovs != nullptr && outputs_.aovs->aovs().has(Aov::motion);
     std::optional<MotionBlurFrame> waiting;  // with motion AOVs, a frame waits for the poses of the next one
-    for (std::int64_t n = 0; n < end(); ++n) {
+    for (std::int64_t n = begin_; n < end(); ++n) {
         MotionBlurFrame frame_poses = simulate_frame(n);
         if (waiting) waiting->aovs->next = frame_poses.aovs->now;
         if (waiting && !poses_.push(std::move(*waiting))) return;
@@ -107,26 +124,20 @@ void Pipeline::simulate() {
             return;
     }
     if (waiting) {
-        waiting->aovs->next = timed(times_.simulation, [&] { return panels_.front().sequence.next_start(); });
+        waiting->aovs->next = timed(times_.simulation, end(), [&] { return panels_.front().next_start(); });
         if (!poses_.push(std::move(*waiting))) return;
     }
     poses_.close();
 }
 
 MotionBlurFrame Pipeline::simulate_frame(std::int64_t frame) {
-    const StageTimer timer(times_.simulation);
+    const StageTimer timer(times_.simulation, frame);
     MotionBlurFrame frame_poses;
     frame_poses.frame = frame;
-    for (Panel& panel : panels_) {
-        frame_poses.panels.push_back(frame < panel.end ? panel.sequence.next() : panel.last);
-        const PanelPoses& poses = frame_poses.panels.back();
-        if (frame + 1 == panel.end && panel.end < end()) panel.last.assign(1, poses.front());
-        if (frame < panel.end) frame_poses.time = poses.front().time;
-        if (panel.observer != nullptr && frame < panel.end)
-            panel.observer->see(poses.front(), {}, panel.sequence.records());
-        if (panel.overlay != nullptr && frame < panel.end)
-            write_bytes(panel.overlay->next(poses.front(), panel.sequence.records()), panel.shapes);
-        frame_poses.overlays.push_back(panel.shapes);
+    for (PanelRun& panel : panels_) {
+        frame_poses.panels.push_back(panel.next(frame));
+        if (panel.runs(frame)) frame_poses.time = frame_poses.panels.back().front().time;
+        frame_poses.overlays.push_back(panel.shapes());
     }
     if (outputs_.aovs != nullptr) frame_poses.aovs = AovPoses{frame_poses.panels.front().front(), std::nullopt};
     return frame_poses;
@@ -144,7 +155,8 @@ bool Pipeline::deliver(const Frame& frame) {
 // A frame's slot is free when its file is written; syncing to the disk may take longer than drawing the next frame.
 void Pipeline::write_frames() {
     while (std::optional<Frame> frame = for_png_.pop()) {
-        auto file = timed(times_.files, [&] { return outputs_.folder->write(frame->number, frame->png); });
+        auto file =
+            timed(times_.files, frame->number, [&] { return outputs_.folder->write(frame->number, frame->png); });
         frame.reset();
         if (!frame_files_.put(std::move(file))) return;
     }
@@ -153,7 +165,8 @@ void Pipeline::write_frames() {
 
 void Pipeline::write_aovs() {
     while (std::optional<Frame> frame = for_aovs_.pop()) {
-        auto file = timed(times_.aov_files, [&] { return outputs_.aovs->write(frame->number, frame->aovs); });
+        auto file =
+            timed(times_.aov_files, frame->number, [&] { return outputs_.aovs->write(frame->number, frame->aovs); });
         frame.reset();
         if (!aov_files_.put(std::move(file))) return;
     }
@@ -162,7 +175,7 @@ void Pipeline::write_aovs() {
 
 void Pipeline::write_video() {
     while (const std::optional<Frame> frame = for_video_.pop()) {
-        const StageTimer timer(times_.video);
+        const StageTimer timer(times_.video, frame->number);
         outputs_.video->write(frame->number, frame->video, frame->repeated);
         ++encoded_;
     }

@@ -9,12 +9,13 @@
 // of the clip. The first error of any stage stops all of them.
 #pragma once
 
+#include "app/checkpoints/clip_state.h"
 #include "app/files/aov_folder.h"
 #include "app/files/clip_sink.h"
 #include "app/files/frame_folder.h"
 #include "app/files/frame_set.h"
 #include "app/files/publish_queue.h"
-#include "app/survey/survey.h"
+#include "app/pipeline/panel_run.h"
 #include "app/threads/stage_timer.h"
 #include "app/workers/render_pool.h"
 #include "overlay/overlay_builder.h"
@@ -34,9 +35,12 @@ class TaskGroup;
 
 /// Work of the stages; they overlap, so the sum exceeds the time of the run.
 struct PipelineTimes {
-    StageTime simulation;
+    StageTime simulation{"simulation"};
     DrawingTimes drawing;
-    StageTime files, aov_files, video;
+    StageTime files{"PNG files"}, aov_files{"AOV files"}, video{"video"};
+
+    /// Every piece of work from now on goes into the trace, too.
+    void record(Trace& trace);
 };
 
 /// Destinations of the frames; null: not requested.
@@ -54,14 +58,6 @@ struct PipelineFrames {
     static PipelineFrames all(const FrameSet& frames) { return {frames, frames, frames, frames}; }
 };
 
-/// The simulation of a panel.
-struct PanelSource {
-    World& world;                        // its frames are the intervals of the shutter
-    std::int64_t end = 0;                // one after its last frame; later frames of the clip repeat that
-    OverlayBuilder* overlay = nullptr;   // of the shapes over it, or null
-    SurveyObserver* observer = nullptr;  // sees every simulated frame, or null
-};
-
 class Pipeline {
 public:
     /// Simulates the frames up to the last one that is drawn, and draws those in the set. All arguments must outlive run(); the
@@ -69,12 +65,18 @@ public:
     Pipeline(std::span<const PanelSource> panels, const PipelineFrames& frames, RenderPool& render_pool,
              const PipelineOutputs& outputs, Shutter shutter = {});
 
+    /// Simulates from this state on, in place of from the start. Preconditions: its frame is not after the first one of
+    /// the range; run() has not been called. Throws InputError where it is not a state of these panels.
+    void go_on_from(const ClipState& state);
+
     /// Runs to the end, calling `report` about twenty times per second with the number of finished frames. Throws the
     /// first error of any stage, or RunError after an interrupt. Frames that are published by then are complete and
     /// stay.
     void run(Interrupt& interrupt, const std::function<void(std::int64_t)>& report);
 
     const PipelineTimes& times() const { return times_; }
+    /// Call it before run(). The trace must outlive that.
+    void record(Trace& trace) { times_.record(trace); }
 
 private:
     void simulate();
@@ -86,15 +88,8 @@ private:
     std::int64_t end() const { return frames_.drawn.end(); }
     std::int64_t finished() const;
 
-    struct Panel {
-        FrameSequence sequence;
-        std::int64_t end;
-        OverlayBuilder* overlay;
-        SurveyObserver* observer;
-        PanelPoses last;                // a single sample, once the frames have ended
-        std::vector<std::byte> shapes;  // of the last frame: OverlayFrame as bytes
-    };
-    std::vector<Panel> panels_;
+    std::vector<PanelRun> panels_;
+    std::int64_t begin_ = 0;  // first simulated frame
     PipelineFrames frames_;
     RenderPool& render_pool_;
     PipelineOutputs outputs_;

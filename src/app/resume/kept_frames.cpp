@@ -32,16 +32,16 @@ fs::path manifest_path(const fs::path& folder, FrameFiles kind) {
     return folder / (kind == FrameFiles::pictures ? "frames.json" : "aovs.json");
 }
 
-void require_same_clip(const fs::path& folder, FrameFiles kind, const ClipIdentity& identity) {
+void require_same_clip(const fs::path& folder, FrameFiles kind, const FrameIdentity& identity) {
     const fs::path path = manifest_path(folder, kind);
-    const std::optional<ClipIdentity> there = read_manifest(path);
+    const std::optional<FrameIdentity> there = read_manifest(path);
     if (there && there->mark() != identity.mark())
         throw InputError({folder.string(), 0, 0},
                          fmt::format("the folder holds frames of another clip, which differs in {} ({}){}",
                                      differences(*there, identity), path.filename().string(), remedy));
 }
 
-FrameSet kept_frames(const fs::path& folder, FrameFiles kind, const ClipIdentity& identity, const FrameSet& wanted) {
+FrameSet kept_frames(const fs::path& folder, FrameFiles kind, const FrameIdentity& identity, const FrameSet& wanted) {
     const std::string mark = identity.mark();
     return wanted.where([&](std::int64_t n) {
         const fs::path path = kind == FrameFiles::pictures ? frame_path(folder, n) : aov_path(folder, n);

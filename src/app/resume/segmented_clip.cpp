@@ -50,8 +50,8 @@ const char* text_of(VideoQuality quality) {
     return "";
 }
 
-ClipIdentity identity_of_clip(ClipIdentity identity, const VideoFormat& format, const ClipOptions& options,
-                              const FrameSet& frames) {
+FrameIdentity identity_of_clip(FrameIdentity identity, const VideoFormat& format, const ClipOptions& options,
+                               const FrameSet& frames) {
     identity.settings.emplace_back("format", segment_ending(format).substr(1) + " in " + format.container);
     identity.settings.emplace_back("quality", text_of(options.quality));
     identity.settings.emplace_back("variable rate", options.times == FrameTimes::longer_frames ? "yes" : "no");
@@ -62,7 +62,7 @@ ClipIdentity identity_of_clip(ClipIdentity identity, const VideoFormat& format, 
 }  // namespace
 
 SegmentedClip::SegmentedClip(const fs::path& clip, const ClipPicture& picture, const ClipOptions& options,
-                             const ClipIdentity& identity, const FrameSet& frames)
+                             const FrameIdentity& identity, const FrameSet& frames)
     : clip_(clip),
       folder_(clip.string() + ".parts"),
       picture_(picture),
@@ -198,7 +198,7 @@ void SegmentedClip::finish() {
     remove_folder();
 }
 
-/// The clip has its name. What a killed run leaves of the folder, the next one removes.
+/// The clip has its name. The next run removes the rest of a folder that a killed run left.
 void SegmentedClip::remove_folder() {
     std::error_code ignored;
     for (std::int64_t i = 0; i < segment_count(); ++i) {

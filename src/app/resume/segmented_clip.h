@@ -7,7 +7,7 @@
 #include "app/files/clip_sink.h"
 #include "app/files/frame_folder.h"
 #include "app/files/frame_set.h"
-#include "app/resume/clip_identity.h"
+#include "app/resume/frame_identity.h"
 #include "output/segment_joiner.h"
 
 #include <atomic>
@@ -31,7 +31,7 @@ public:
     /// Looks for the segments of an earlier run, and writes nothing. `identity`: of the frames. `frames`: contiguous.
     /// Throws InputError if the folder of segments is of another clip, or if the clip is written in place.
     SegmentedClip(const std::filesystem::path& clip, const ClipPicture& picture, const ClipOptions& options,
-                  const ClipIdentity& identity, const FrameSet& frames);
+                  const FrameIdentity& identity, const FrameSet& frames);
     ~SegmentedClip() override;
 
     /// The frames that no segment has. If the clip itself is finished, there are none.
@@ -65,7 +65,7 @@ private:
     ClipPicture picture_;
     ClipOptions options_;
     VideoFormat format_;
-    ClipIdentity identity_;
+    FrameIdentity identity_;
     FrameSet frames_, missing_;
     std::int64_t segment_frames_;
     bool finished_ = false;

@@ -57,7 +57,7 @@ RenderMemory render_memory(const Composition& composition, const RenderWork& wor
             if (work.outputs.aovs.has(aov))
                 memory.worker += 2 * pixels * bytes_of_pixel(aov);  // values, and space for the file
     }
-    if (work.clip) memory.encoder = encoder_memory(*work.clip, width, height);
+    if (work.clip) memory.encoder = std::uint64_t(work.encoders) * encoder_memory(*work.clip, width, height);
     return memory;
 }
 

@@ -19,6 +19,7 @@ struct RenderWork {
     std::optional<VideoKind> clip;  // kind of the clip, for the encoder
     std::int64_t frames = 1;
     int blur_samples = 1;  // per frame: above 1 with motion blur
+    int encoders = 1;      // that run at once: 2 where a clip is written in segments
 };
 
 struct RenderMemory {

@@ -40,16 +40,17 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
     return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-/// "3 of 42 images differ".
+/// "3 of 42 pictures fail".
 std::string headline(const SetResult& set) {
     const auto all = static_cast<std::int64_t>(set.images.size());
     const std::int64_t bad = set.count(Verdict::different) + set.count(Verdict::missing) + set.count(Verdict::broken) +
                              (set.added_allowed ? 0 : set.count(Verdict::added));
-    if (all == 0) return "No images were compared";
-    if (bad > 0) return fmt::format("{} of {} {}", bad, counted(all, "image", "images"), bad == 1 ? "fails" : "fail");
+    if (all == 0) return "No pictures were compared";
+    if (bad > 0)
+        return fmt::format("{} of {} {}", bad, counted(all, "picture", "pictures"), bad == 1 ? "fails" : "fail");
     if (set.count(Verdict::same) == all)
-        return all == 1 ? "The image is the same" : fmt::format("All {} images are the same", all);
-    return all == 1 ? "The image is alike" : fmt::format("All {} images are alike", all);
+        return all == 1 ? "The picture is the same" : fmt::format("All {} pictures are the same", all);
+    return all == 1 ? "The picture is alike" : fmt::format("All {} pictures are alike", all);
 }
 
 std::string title_of(const Report& report) {
@@ -74,14 +75,14 @@ std::string counts_html(const SetResult& set) {
     }
     return fmt::format(
         "<svg class=\"shares\" viewBox=\"0 0 100 4\" preserveAspectRatio=\"none\" aria-hidden=\"true\" "
-        "focusable=\"false\">{}</svg>\n<ul class=\"counts\" aria-label=\"Images by verdict\">\n{}</ul>\n",
+        "focusable=\"false\">{}</svg>\n<ul class=\"counts\" aria-label=\"Pictures by verdict\">\n{}</ul>\n",
         segments, items);
 }
 
 std::string masthead_html(const Report& report) {
     const SetResult& set = report.set;
     return fmt::format(
-        "<header class=\"masthead {}\">\n<p class=\"eyebrow\">Image comparison</p>\n<h1>{}</h1>\n<p "
+        "<header class=\"masthead {}\">\n<p class=\"eyebrow\">Comparison of pictures</p>\n<h1>{}</h1>\n<p "
         "class=\"lead\"><code>{}</code> against the references <code>{}</code></p>\n{}</header>\n",
         set.exit_code() == 0 ? "good" : "bad", headline(set), html_text(set.image), html_text(set.reference),
         counts_html(set));
@@ -101,9 +102,9 @@ std::string browser_html(const Report& report) {
                                  : fmt::format(
                                        "<p class=\"note\">The page is limited to {} MiB of pictures: those of {} are "
                                        "left out, the least differences first.</p>\n",
-                                       report.options.most_picture_bytes >> 20, counted(left_out, "image", "images"));
+                                       report.options.most_picture_bytes >> 20, counted(left_out, "pair", "pairs"));
     return fmt::format(
-        "{}<div class=\"browser\">\n<nav class=\"list\" aria-label=\"Images, worst first\">\n<ol>\n{}</ol>\n</nav>\n"
+        "{}<div class=\"browser\">\n<nav class=\"list\" aria-label=\"Pictures, worst first\">\n<ol>\n{}</ol>\n</nav>\n"
         "<div class=\"details\">\n{}</div>\n</div>\n",
         note, list, details);
 }
@@ -115,7 +116,8 @@ std::string same_html(const SetResult& set) {
         if (image.verdict == Verdict::same) names += fmt::format("<li>{}</li>\n", html_text(image.name));
     return fmt::format(
         "<details class=\"same\"><summary>{} the same, pixel for pixel</summary>\n<ul>\n{}</ul></details>\n",
-        set.count(Verdict::same) == 1 ? "1 image is" : fmt::format("{} images are", set.count(Verdict::same)), names);
+        set.count(Verdict::same) == 1 ? "1 picture is" : fmt::format("{} pictures are", set.count(Verdict::same)),
+        names);
 }
 
 std::string facts_html(const Report& report) {
@@ -124,7 +126,7 @@ std::string facts_html(const Report& report) {
         if (!value.empty()) facts += fmt::format("<div><dt>{}</dt><dd>{}</dd></div>\n", name, html_text(value));
     };
     add("References", report.set.reference);
-    add("Images", report.set.image);
+    add("Pictures", report.set.image);
     add("Tolerances", report.options.tolerances.empty() ? "the defaults" : report.options.tolerances);
     add("Processor", report.options.platform);
     add("Program", report.options.generator);
@@ -143,7 +145,7 @@ std::string page_html(const Report& report) {
                "dark\">\n<meta name=\"generator\" content=\"{}\">\n<title>{}</title>\n<style>{}</style>\n</head>\n",
                policy_hash(script.sha256), policy_hash(style.sha256), generator, html_text(title_of(report)),
                style.text) +
-           "<body>\n<a class=\"skip\" href=\"#content\">Skip to the images</a>\n<main id=\"content\" "
+           "<body>\n<a class=\"skip\" href=\"#content\">Skip to the pictures</a>\n<main id=\"content\" "
            "tabindex=\"-1\">\n" +
            masthead_html(report) + browser_html(report) + same_html(report.set) + facts_html(report) + "</main>\n" +
            fmt::format(

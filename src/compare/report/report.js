@@ -79,7 +79,7 @@
       const zoom = element("div", { className: "zoom", role: "group", "aria-label": "Zoom" },
         button("−", "Zoom out", () => this.zoom_by(0.5)), this.zoom_text, button("+", "Zoom in", () => this.zoom_by(2)),
         button("Fit", "Fit the picture", () => this.fit()));
-      if (this.changed) zoom.append(button("Change", "Zoom to the changed region", () => this.zoom_to_change()));
+      if (this.changed) zoom.append(button("Change", "Change: zoom to the changed region", () => this.zoom_to_change()));
       this.options = element("div", { className: "options" });
       this.stage_row = element("div", { className: "stages" });
       this.readout = element("p", { className: "readout" });
@@ -440,7 +440,8 @@
     }
   }
 
-  function select(index, scroll) {
+  // The first image has no address of its own: while a page loads, the browser would scroll to it.
+  function select(index, scroll, address = true) {
     if (index === current || !articles[index]) return;
     viewer?.close();
     viewer = null;
@@ -452,7 +453,7 @@
     }
     const pictures = articles[index].querySelector(".pictures");
     if (pictures) viewer = new Viewer(pictures);
-    history.replaceState(null, "", links[index].getAttribute("href"));
+    if (address) history.replaceState(null, "", links[index].getAttribute("href"));
     show_item(items[index]);
     if (scroll) articles[index].scrollIntoView({ block: "nearest" });
   }
@@ -534,5 +535,5 @@
   about?.append(element("div", {}, element("dt", { textContent: "Keys" }), described));
 
   const linked = links.findIndex((link) => link.getAttribute("href") === location.hash);
-  select(Math.max(linked, 0), false);
+  select(Math.max(linked, 0), false, false);
 })();

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-/// What a metric measures.
+/// The meaning of a metric.
 struct MetricText {
     std::string_view name, meaning, unit;
 };
@@ -23,7 +23,7 @@ constexpr MetricText metric_texts[] = {
     {"cluster", "most of them in 8 × 8 pixels", "pixels"},
     {"window", "largest mean difference of 8 × 8 pixels", "levels"},
     {"shade", "most pixels of 8 × 8 that are all brighter, or all darker", "pixels"},
-    {"ssim", "structural similarity, 1 for equal pictures", ""},
+    {"ssim", "structural similarity: 1 for equal pictures", ""},
     {"flip", "mean perceived difference, from 0 to 1", ""},
 };
 
@@ -62,9 +62,9 @@ std::string differing_text(const ImageResult& result) {
 std::string image_summary(const ImageResult& result) {
     switch (result.verdict) {
         case Verdict::missing:
-            return "there is no image for this reference";
+            return "there is a reference, but no picture";
         case Verdict::added:
-            return "there is no reference for this image";
+            return "there is a picture, but no reference";
         case Verdict::broken:
             return "cannot be compared";
         default:
@@ -128,7 +128,7 @@ std::string causes_html(const ImageResult& result) {
 
 std::string reasons_html(const ImageResult& result) {
     if (result.reason.empty()) return "";
-    std::string html = "<ul class=\"reasons\">\n";
+    std::string html = fmt::format("<ul class=\"reasons {}\">\n", name_of(result.verdict));
     for (std::string_view rest = result.reason; !rest.empty();) {
         const std::size_t end = std::min(rest.find('\n'), rest.size());
         html += fmt::format("<li>{}</li>\n", html_text(rest.substr(0, end)));
@@ -229,12 +229,14 @@ std::string list_item_html(const ReportEntry& entry) {
 std::string details_html(const ReportEntry& entry) {
     const ImageResult& result = *entry.result;
     const std::string_view verdict = name_of(result.verdict);
+    const std::string reasons = reasons_html(result);
+    const bool compared = !result.figures.empty();  // else the reason is all that there is to say
     return fmt::format(
         "<article id=\"image-{0}\" data-verdict=\"{1}\" aria-labelledby=\"title-{0}\" tabindex=\"-1\">\n<header><h2 "
         "id=\"title-{0}\"><span class=\"name\">{2}</span> <span class=\"verdict {1}\">{1}</span></h2>\n{3}</header>\n"
-        "{4}{5}{6}{7}</article>\n",
-        entry.number, verdict, html_text(result.name), facts_html(entry), causes_html(result), pictures_html(entry),
-        figures_html(entry), reasons_html(result));
+        "{4}{5}{6}{7}{8}</article>\n",
+        entry.number, verdict, html_text(result.name), facts_html(entry), causes_html(result), compared ? "" : reasons,
+        pictures_html(entry), figures_html(entry), compared ? reasons : "");
 }
 
 }  // namespace tumble

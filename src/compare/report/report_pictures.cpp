@@ -50,7 +50,7 @@ std::optional<Image> image_of(const fs::path& file) {
     }
 }
 
-/// Bytes of both files, 0 for what is missing.
+/// Bytes of both files, 0 for a missing one.
 std::int64_t bytes_of_files(const ImageResult& result) {
     std::int64_t bytes = 0;
     for (const fs::path& file : {result.reference, result.image}) {

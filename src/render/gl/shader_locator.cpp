@@ -37,7 +37,9 @@ std::filesystem::path find_shader_folder() {
         if (const fs::path binary = own_binary(); !binary.empty())
             for (const char* up : {"..", "../.."})
                 places.push_back(binary.parent_path() / up / "share" / "tumble" / "shaders");
+#ifdef TUMBLE_SHADER_SOURCE_FOLDER  // absent in packages
         places.emplace_back(TUMBLE_SHADER_SOURCE_FOLDER);
+#endif
     }
     std::string tried;
     for (const fs::path& place : places) {

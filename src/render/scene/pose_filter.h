@@ -17,6 +17,7 @@
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
+#include <type_traits>
 #include <vector>
 
 namespace tumble {
@@ -32,11 +33,25 @@ public:
     /// the first call and when the camera has moved.
     bool follow(Snapshot& snapshot);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [path, camera, followed, view, radii, drawn, first] = self;
+        archive.rebuilt(path, followed, radii);
+        archive.keep(camera.eye, camera.target, camera.up, camera.vertical_fov, drawn, first);
+        if constexpr (!std::is_const_v<Self>) view = view.from(camera);
+    }
+
 private:
     struct Pose {
         Vec3 origin;
         Quat orientation;
         Vec3 center_of_mass;  // which a camera may follow
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [origin, orientation, center_of_mass] = self;
+            archive.keep(origin, orientation, center_of_mass);
+        }
     };
     bool may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const;
 

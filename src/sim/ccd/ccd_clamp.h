@@ -59,6 +59,15 @@ public:
     const std::vector<CcdFraction>& limits(const CcdStep& step, const FindPairs& find_pairs,
                                            const TouchDepth& touch_depth);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [search, limits, shortened, depth, arm, least_thin, paths, still, fast] = self;
+        archive.rebuilt(limits, shortened, depth, arm, least_thin);
+        archive.keep(search);
+        archive.scratch(paths, still, fast);
+    }
+
 private:
     struct FastPair {
         std::uint32_t a, b;

@@ -41,6 +41,14 @@ public:
     /// allowed overlap before an impact counts.
     TimeOfImpact find(const MovingBody& a, const MovingBody& b, double horizon, double overlap = 0.0);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [a, b, last_axis, normals, scratch, manifolds, candidates, part_pairs] = self;
+        archive.keep(last_axis, scratch);
+        archive.scratch(a, b, normals, manifolds, candidates, part_pairs);
+    }
+
 private:
     struct Pair;
     TimeOfImpact search(const Pair& pair, double from, double horizon);

@@ -28,11 +28,21 @@ struct UniformTurn {
     Quat from = Quat::Identity();
     Vec3 axis = Vec3::UnitY();
     double rate = 0.0;  // rad/s
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [from, axis, rate] = self;
+        archive.keep(from, axis, rate);
+    }
 };
 struct FreeTurn {
     FreeRotation rotation;
     Mat3 inverse_inertia = Mat3::Zero();   // body frame
     Vec3 angular_momentum = Vec3::Zero();  // world
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [rotation, inverse_inertia, angular_momentum] = self;
+        archive.keep(rotation, inverse_inertia, angular_momentum);
+    }
 };
 
 class Trajectory {
@@ -74,6 +84,13 @@ public:
     /// Upper bound of |omega|^2 + |alpha| (rad/s^2): times r it bounds the acceleration of a point at distance r from
     /// the center.
     double turning_bound() const { return turning_bound_; }
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [start, velocity, acceleration, jerk, turning, turned, spin_bound, turning_bound] = self;
+        archive.keep(start, velocity, acceleration, jerk, turning, turned, spin_bound, turning_bound);
+    }
 
 private:
     Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();

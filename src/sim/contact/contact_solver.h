@@ -30,6 +30,16 @@ public:
 
     void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [choice, effort, memory, gains, turns_fast, loads, soft, candidates, few, direct, softly, failed,
+               substep_multipliers, batched, batches, batches_used] = self;
+        archive.rebuilt(choice, effort, soft, batched, batches, batches_used);
+        archive.keep(memory, few);
+        archive.scratch(gains, turns_fast, loads, candidates, direct, softly, failed, substep_multipliers);
+    }
+
 private:
     struct Memory {  // state of an island, kept with its lowest body
         std::unique_ptr<DirectSolver> solver;
@@ -39,6 +49,12 @@ private:
         bool direct = false;         // solved directly in the last step
         LoadEstimate load;           // of the last evaluation
         int looked = 0;              // steps for which the estimate holds
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [solver, wait, failures, factorizations, work, direct, load, looked] = self;
+            archive.keep(wait, failures, factorizations, work, direct, load, looked);
+            archive.scratch(solver);
+        }
     };
     struct Candidate {
         std::size_t island;

@@ -37,6 +37,16 @@ public:
     /// Moving bodies that are awake or ballistic, ascending, as of the last update.
     const std::vector<std::uint32_t>& awake() const { return awake_; }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [kind, built, look_for_awake, fixed, half_spaces, awake, fixed_tree, active_tree, resting_tree, states,
+               moved, searches, fell_asleep, pairs, added, spare] = self;
+        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree);
+        archive.keep(look_for_awake, awake, active_tree, resting_tree, states, moved, fell_asleep, pairs);
+        archive.scratch(searches, added, spare);
+    }
+
 private:
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
@@ -66,6 +76,11 @@ private:
         Vec3 position = Vec3::Zero();
         Quat orientation = Quat::Identity();
         double room = -1.0;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [active, moved, displacement, position, orientation, room] = self;
+            archive.keep(active, moved, displacement, position, orientation, room);
+        }
     };
     std::vector<State> states_;  // by body
     std::vector<std::uint32_t> moved_;

@@ -37,6 +37,17 @@ public:
     /// Increases whenever that list changes.
     std::uint64_t changes() const { return changes_; }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [mode, remembers, found, entries, spare_entries, searches, free_searches, parked, new_first, new_count,
+               views, seen, share, seen_owners, moved, touching, changes, manifolds, spare_manifolds, persistent,
+               spare_persistent] = self;
+        archive.rebuilt(mode, remembers, seen, share, seen_owners);
+        archive.keep(entries, searches, free_searches, parked, views, moved, touching, changes, manifolds, persistent);
+        archive.scratch(found, spare_entries, new_first, new_count, spare_manifolds, spare_persistent);
+    }
+
 private:
     // Data of a body that its pairs need, close together: most pairs read only the first two cache lines.
     struct alignas(64) View {
@@ -54,11 +65,23 @@ private:
         bool awake = false, flying = false;
         Pose pose;
         Quat orientation = Quat::Identity();
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [bounds, travel, speculative, velocity, spin, radius, collider, kind, awake, flying, pose,
+                   orientation] = self;
+            archive.keep(travel, pose.position, orientation);
+            archive.scratch(bounds, speculative, velocity, spin, radius, collider, kind, awake, flying);
+        }
     };
     // Pose of a body in another one's frame; the rotation in single precision, which is enough for distances.
     struct Placement {
         Vec3 position = Vec3::Zero();
         float orientation[4] = {0.0f, 0.0f, 0.0f, 1.0f};  // x, y, z, w
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [position, orientation] = self;
+            archive.keep(position, orientation);
+        }
     };
     // Memory of a pair: the last search, and the pose of the smaller body relative to the larger, at the search or at a
     // later check, when it had moved by `spent` since. One cache line: there are many pairs, and each costs a fetch
@@ -70,6 +93,11 @@ private:
         float gap = 0.0f, spent = 0.0f;  // m, lower bound of the gap and upper bound of the motion
         double travel = 0.0;             // m, of both bodies until then
         Placement placement;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [outcome, sank, axis, gap, spent, travel, placement] = self;
+            archive.keep(outcome, sank, axis, gap, spent, travel, placement);
+        }
     };
     static_assert(sizeof(Search) == 64);
     struct Entry {
@@ -77,6 +105,11 @@ private:
         std::uint32_t search = 0;            // index in searches_
         std::uint32_t first = 0, count = 0;  // range in manifolds_ and in the persistent manifolds
         std::uint32_t mover = 0;             // index of the pair's body whose thread processes it
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [pair, search, first, count, mover] = self;
+            archive.keep(pair, search, first, count, mover);
+        }
     };
     // An entry of this call with new or moved manifolds, and where the new ones lie.
     struct Change {
@@ -93,6 +126,11 @@ private:
         Search search;
         std::vector<Manifold> manifolds;
         std::vector<PersistentManifold> persistent;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [search, manifolds, persistent] = self;
+            archive.keep(search, manifolds, persistent);
+        }
     };
 
     bool match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);

@@ -16,6 +16,11 @@ namespace tumble {
 /// Has a cache line of its own: threads write neighboring elements at the same time.
 struct alignas(64) BodyVelocity {
     Vec3 velocity = Vec3::Zero(), angular_velocity = Vec3::Zero();  // m/s, rad/s
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [velocity, angular_velocity] = self;
+        archive.keep(velocity, angular_velocity);
+    }
 };
 
 struct Body {
@@ -70,6 +75,18 @@ struct Body {
     void derive();
     /// The same after a change of the momenta alone.
     void derive_velocities();
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [type, integrator, spherical_top, asleep, flying, flew, mass, inverse_mass, radius, restitution, friction,
+               drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia, principal_axes,
+               center_of_mass, name, position, orientation, rotation, momentum, angular_momentum, velocity,
+               angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity] = self;
+        archive.rebuilt(type, integrator, spherical_top, mass, inverse_mass, radius, restitution, friction, drag_area,
+                        collider, track, inertia_body, inverse_inertia_body, principal_inertia, principal_axes,
+                        center_of_mass, name);
+        archive.keep(asleep, flying, flew, position, orientation, rotation, momentum, angular_momentum, velocity,
+                     angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity);
+    }
 };
 
 /// v = P / M, I^-1(t) = R I^-1 R^T, omega = I^-1(t) L.

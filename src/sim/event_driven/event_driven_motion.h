@@ -65,6 +65,19 @@ public:
     /// Moves all moving bodies to their poses at the start of a step.
     void place(std::vector<Body>& bodies, std::int64_t step) const;
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, cluster, log,
+               trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds, velocities_before,
+               impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
+        archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands);
+        archive.keep_each(balls);
+        archive.keep(events, neighbor_boxes, queue, search, cluster, ccd_clamp, contact_solver, velocities_before,
+                     impacts_in_frame, frame, until, taken_off, changed);
+        archive.scratch(trace, totals, alone, contact_manifolds, was_asleep, held);
+    }
+
 private:
     static constexpr double unknown = std::numeric_limits<double>::infinity();
     struct BodyEvent {
@@ -88,6 +101,15 @@ private:
         int meetings = 0;  // number of meetings in this step
         double spin =
             unknown;  // J, twice the energy: of a body in contact without impacts since the start of its trajectory
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [path, start, until, version, driven, pushed, turn_from, turn_to, boxed_until, box_displacement,
+                   event, partner, partner_version, last_impact, since_impact, impacts_in_row, met, meetings, spin] =
+                self;
+            archive.keep(path, start, until, version, driven, pushed, turn_from, turn_to, boxed_until, box_displacement,
+                         event, partner, partner_version, last_impact, since_impact, impacts_in_row, met, meetings,
+                         spin);
+        }
     };
 
     void start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until);
@@ -127,6 +149,12 @@ private:
         EventTime start;
         double radius = 0.0;
         bool valid = false;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [position, velocity, start, radius, valid] = self;
+            archive.rebuilt(radius);
+            archive.keep(position, velocity, start, valid);
+        }
     };
     /// The time between two event times without the last digit, for deciding whether to compute exactly.
     double roughly(const EventTime& from, const EventTime& to) const {

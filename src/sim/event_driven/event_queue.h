@@ -39,12 +39,24 @@ public:
         sink(rise(at));
     }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [heap, place] = self;
+        archive.keep(heap, place);
+    }
+
 private:
     static constexpr std::uint32_t none = UINT32_MAX;
     struct Entry {
         EventTime moment;
         std::uint32_t body;
         friend auto operator<=>(const Entry&, const Entry&) = default;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [moment, body] = self;
+            archive.keep(moment, body);
+        }
     };
 
     void put(std::uint32_t at, const Entry& entry) {

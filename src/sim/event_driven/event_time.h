@@ -13,6 +13,11 @@ struct EventTime {
     double offset = 0.0;  // s after the start of that step; may exceed the length of a step
 
     friend auto operator<=>(const EventTime&, const EventTime&) = default;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [step, offset] = self;
+        archive.keep(step, offset);
+    }
 };
 
 /// Later than the end of any clip.

@@ -19,12 +19,25 @@ public:
     /// step.
     void advance(std::size_t index, Body& body, const ForceField& forces, std::int64_t step, double share);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [gravity, clock, flights] = self;
+        archive.rebuilt(gravity, clock);
+        archive.keep(flights);
+    }
+
 private:
     struct Flight {
         Trajectory path;
         std::int64_t start = -1, reached = -1;  // steps
         // State at the end of the last advance: a body found in another state was touched, and starts a new flight.
         Vec3 position = Vec3::Zero(), momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [path, start, reached, position, momentum, angular_momentum] = self;
+            archive.keep(path, start, reached, position, momentum, angular_momentum);
+        }
     };
     Vec3 gravity_;
     StepClock clock_;

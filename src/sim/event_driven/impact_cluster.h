@@ -29,6 +29,15 @@ public:
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& impulse_receivers() const { return receivers_; }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach, scratch,
+               widening] = self;
+        archive.keep(scratch, widening);
+        archive.scratch(brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach);
+    }
+
 private:
     void expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes, const Bring& bring);
     void note_reach(const std::vector<Body>& bodies);

@@ -26,6 +26,15 @@ public:
     /// Whether a body could ever meet anything but half-spaces.
     bool crowded() const { return movers_ > 1 || !fixed_.empty(); }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [half_spaces, fixed, fixed_tree, tree, stack, movers, moving, standing, found] = self;
+        archive.rebuilt(half_spaces, fixed, fixed_tree, movers);
+        archive.keep(tree, moving, standing);
+        archive.scratch(stack, found);
+    }
+
 private:
     std::vector<std::uint32_t> half_spaces_, fixed_;
     BoundsTree fixed_tree_;

@@ -16,8 +16,12 @@ void FrameSequence::advance() {
     struck_.insert(struck_.end(), records.struck.begin(), records.struck.end());
 }
 
-Snapshot FrameSequence::next_start() {
+void FrameSequence::reach_next() {
     for (; intervals_to_start_ > 0; --intervals_to_start_) advance();
+}
+
+Snapshot FrameSequence::next_start() {
+    reach_next();
     intervals_to_start_ = shutter_.intervals;
     if (world_.records_contacts()) {
         records_ = world_.contact_records();

@@ -20,9 +20,20 @@ public:
     /// The first moment of the next frame.
     Snapshot next_start();
 
+    /// Brings the world to the start of the next frame, without taking it: the time of a checkpoint.
+    void reach_next();
+
     /// Of the world at the start of the last frame, if it records contacts, else null: the impacts since the frame
     /// before, and the contacts of the last interval of the shutter.
     const ContactRecords* records() const { return world_.records_contacts() ? &records_ : nullptr; }
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [world, shutter, intervals_to_start, records, impacts, struck] = self;
+        archive.rebuilt(world, shutter);
+        archive.keep(intervals_to_start, records, impacts, struck);
+    }
 
 private:
     void advance();

@@ -13,6 +13,11 @@ struct BodyPair {
     std::uint64_t key() const {
         return std::uint64_t(a) << 32 | b;
     }  // compared in one operation: lists of pairs are sorted by it
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [a, b] = self;
+        archive.keep(a, b);
+    }
 };
 
 }  // namespace tumble

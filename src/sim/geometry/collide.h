@@ -56,6 +56,16 @@ struct CollisionScratch {
     std::vector<std::uint32_t> used_vertices, used_edges;
     // indices of the near parts of the last and of the last but one compound that was split
     std::vector<std::uint32_t> near_parts[2];
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [choice, axis, gap, displacement, turning, on_ball, before, part, points, reduced, polygon, spare,
+               reference, incident, labels, vertices, edges_a, edges_b, hits, sides, at_edges, at_vertices,
+               used_vertices, used_edges, near_parts] = self;
+        archive.rebuilt(choice);
+        archive.keep(axis, gap, displacement, turning, on_ball, part);
+        archive.scratch(before, points, reduced, polygon, spare, reference, incident, labels, vertices, edges_a,
+                        edges_b, hits, sides, at_edges, at_vertices, used_vertices, used_edges, near_parts);
+    }
 };
 
 /// Poses of two shapes A and B, and the destination of their manifolds: points with a gap below `margin` (m).

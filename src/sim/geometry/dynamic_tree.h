@@ -46,6 +46,13 @@ public:
         }
     }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [nodes, free, items, root] = self;
+        archive.keep(nodes, free, items, root);
+    }
+
 private:
     struct Box {
         float min[3], max[3];
@@ -59,17 +66,32 @@ private:
                    (min[2] <= b.max[2]) & (b.min[2] <= max[2]);
         }
         float surface() const;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [min, max] = self;
+            archive.keep(min, max);
+        }
     };
     // A child is a node index, or an item index with the highest bit set.
     struct alignas(64) Node {
         Box box[2];
         std::uint32_t child[2] = {none, none};
         std::uint32_t parent = none;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [box, child, parent] = self;
+            archive.keep(box, child, parent);
+        }
     };
     struct Item {
         Bounds box;
         std::uint32_t parent = none;
         bool held = false;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [box, parent, held] = self;
+            archive.keep(box, parent, held);
+        }
     };
     static constexpr std::uint32_t leaf_bit = std::uint32_t(1) << 31;
     static bool leaf(std::uint32_t child) { return (child & leaf_bit) != 0; }

@@ -17,6 +17,11 @@ struct ContactPoint {
     std::uint64_t feature =
         0;                 // id of the features that meet (vertex and face, edge and edge); the same from step to step
     double impulse = 0.0;  // N s along the normal: of the last step, then of this step
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [position, separation, feature, impulse] = self;
+        archive.keep(position, separation, feature, impulse);
+    }
 };
 
 /// Body whose corners are the points of a manifold; the other body has the face below them. neither: crossing edges,
@@ -98,6 +103,13 @@ struct Manifold {
 
     /// For a manifold on a face: whether the normal is that of a face of B (feature_contact.cpp).
     bool on_b() const { return (points[0].feature >> 63) != 0; }
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [a, b, part, count, more, solved_directly, corners, kind, reduced, first_reduced, normal, points, share,
+               spread, tangent, friction, torsion] = self;
+        archive.keep(a, b, part, count, more, solved_directly, corners, kind, reduced, first_reduced, normal, points,
+                     share, spread, tangent, friction, torsion);
+    }
 };
 
 /// The body pairs of the manifolds, in their order.

@@ -23,6 +23,11 @@ struct PersistentManifold {
         void set(std::size_t i, const Vec3& p) {
             for (int k = 0; k < 3; ++k) coordinate[k][i] = p[k];
         }
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [coordinate] = self;
+            archive.keep(coordinate);
+        }
     };
     Ends feet, corners;          // feet: in the frame of the body that the normal belongs to
     Vec3 normal = Vec3::Zero();  // unit, in the frame of that body
@@ -36,10 +41,21 @@ struct PersistentManifold {
     struct ReducedPoint {
         float point[3];
         float face;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [point, face] = self;
+            archive.keep(point, face);
+        }
     };
     static constexpr std::size_t reduced_capacity = 4;  // with the manifold's four, all of two quadrilaterals
     int reduced_count = 0;
     std::array<ReducedPoint, reduced_capacity> reduced;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [feet, corners, normal, normal_of_b, reduced_count, reduced] = self;
+        archive.keep(feet, corners, normal, normal_of_b, reduced_count);
+        archive.keep_first(std::size_t(reduced_count), reduced);
+    }
 };
 
 /// `normal_of_b`: the normal is that of a face of B.

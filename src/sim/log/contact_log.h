@@ -59,11 +59,25 @@ public:
     ContactRecords finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
                                 const std::vector<Manifold>& touching, double duration);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [scene_index, origin, gravity, sums, asleep, accounts, struck, friction, records] = self;
+        archive.rebuilt(scene_index, origin, gravity, struck);
+        archive.keep(asleep, records.energy);
+        archive.scratch(sums, accounts, friction);
+    }
+
 private:
     struct Key {
         std::uint32_t a, b, part;
         std::uint64_t feature;
         auto operator<=>(const Key&) const = default;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [a, b, part, feature] = self;
+            archive.keep(a, b, part, feature);
+        }
     };
     struct Sum {
         ContactRecord last;        // place and features at the last step

@@ -34,6 +34,17 @@ public:
     /// Body to world, t s after the start (before it, if negative).
     Quat at(double t) const;
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [kind, start, to_principal, axis, rate, order, sign, pole_circulates, amplitude_cn, amplitude_sn,
+               amplitude_dn, phase_rate, phase_start, half_period, azimuth_factor, nu, modulus_squared,
+               complement_squared, integral_start, integral_half_period, levels, level, landen_scale] = self;
+        archive.keep(kind, start, to_principal, axis, rate, order, sign, pole_circulates, amplitude_cn, amplitude_sn,
+                     amplitude_dn, phase_rate, phase_start, half_period, azimuth_factor, nu, modulus_squared,
+                     complement_squared, integral_start, integral_half_period, levels, level, landen_scale);
+    }
+
 private:
     enum class Kind {
         rest,
@@ -83,6 +94,11 @@ private:
     // Landen's descending moduli, and the squares of their complements.
     struct Level {
         double modulus, complement_squared;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [modulus, complement_squared] = self;
+            archive.keep(modulus, complement_squared);
+        }
     };
     int levels_ = 0;
     std::array<Level, most_levels> level_{};

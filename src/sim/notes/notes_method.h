@@ -21,6 +21,14 @@ public:
 
     void step(const StepContext& step);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [broad_phase, narrow_phase, points, contacts] = self;
+        archive.keep(broad_phase, narrow_phase);
+        archive.scratch(points, contacts);
+    }
+
 private:
     struct Point {
         std::uint32_t manifold;

@@ -20,6 +20,11 @@ struct ImpactTime {
     double time = 0.0;       // s
     std::int64_t frame = 0;  // the last frame at or before it
     bool exact = false;      // whether it is the impact's own, else the end of the step that resolves it
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [time, frame, exact] = self;
+        archive.keep(time, frame, exact);
+    }
 };
 
 /// A body when an impact acts on it, or for an impact that a step resolves: at the start of that step.
@@ -28,6 +33,13 @@ struct StruckBody {
     Quat rotation = Quat::Identity();
     Vec3 velocity_before = Vec3::Zero(), velocity_after = Vec3::Zero();                  // m/s, of all its impulses
     Vec3 angular_velocity_before = Vec3::Zero(), angular_velocity_after = Vec3::Zero();  // rad/s
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [position, rotation, velocity_before, velocity_after, angular_velocity_before, angular_velocity_after] =
+            self;
+        archive.keep(position, rotation, velocity_before, velocity_after, angular_velocity_before,
+                     angular_velocity_after);
+    }
 };
 
 /// One impulse at a contact point: of one contact, in one pass of the impact law (notes eqs. 14 and 20).
@@ -44,6 +56,13 @@ struct ImpactRecord {
     int pass = 0;                                  // of the law, from 0
     Vec3 moment = Vec3::Zero();                    // N m s on B about the world origin, of both impulses
     std::size_t struck_a = 0, struck_b = 0;        // indices into ContactRecords::struck
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [when, a, b, point, normal, features, speed_before, speed_after, restitution, impulse, friction, pass,
+               moment, struck_a, struck_b] = self;
+        archive.keep(when, a, b, point, normal, features, speed_before, speed_after, restitution, impulse, friction,
+                     pass, moment, struck_a, struck_b);
+    }
 };
 
 /// One point of a resting or sliding contact. Forces are means over the frame.
@@ -63,6 +82,11 @@ struct ContactRecord {
     State state = State::open;
     Vec3 moment = Vec3::Zero();  // N m on B about the world origin: of both forces, at their points of each step
     static constexpr std::size_t nobody = SIZE_MAX;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [a, b, point, normal, features, gap, normal_force, tangential_force, torsion, slip, state, moment] = self;
+        archive.keep(a, b, point, normal, features, gap, normal_force, tangential_force, torsion, slip, state, moment);
+    }
 };
 
 /// Gravity, wind and the forces at points of a dynamic body: means over the frame.
@@ -70,6 +94,11 @@ struct ExternalLoad {
     std::size_t body = 0;
     Vec3 force = Vec3::Zero();   // N
     Vec3 moment = Vec3::Zero();  // N m about the world origin
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [body, force, moment] = self;
+        archive.keep(body, force, moment);
+    }
 };
 
 /// Energy from the start of the simulation on, J.
@@ -77,6 +106,11 @@ struct EnergyLedger {
     double work = 0.0;           // by wind, forces at points and kinematic bodies; gravity's is in the potential energy
     double impact_loss = 0.0;    // by impacts and by landings
     double friction_loss = 0.0;  // by friction of resting and sliding contacts
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [work, impact_loss, friction_loss] = self;
+        archive.keep(work, impact_loss, friction_loss);
+    }
 };
 
 struct ContactRecords {
@@ -85,6 +119,11 @@ struct ContactRecords {
     std::vector<ContactRecord> contacts;  // ascending by bodies
     std::vector<ExternalLoad> loads;      // of all dynamic bodies, ascending
     EnergyLedger energy;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [impacts, struck, contacts, loads, energy] = self;
+        archive.keep(impacts, struck, contacts, loads, energy);
+    }
 };
 
 }  // namespace tumble

@@ -19,12 +19,24 @@ struct BodyState {
     Vec3 momentum = Vec3::Zero();          // kg m/s
     Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s, about the center of mass
     bool asleep = false;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [origin, center_of_mass, orientation, velocity, angular_velocity, mass, momentum, angular_momentum,
+               asleep] = self;
+        archive.keep(origin, center_of_mass, orientation, velocity, angular_velocity, mass, momentum, angular_momentum,
+                     asleep);
+    }
 };
 
 struct Snapshot {
     std::int64_t frame = 0;
     double time = 0.0;              // s, frame / fps
     std::vector<BodyState> bodies;  // in scene order, fixed ones included
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [frame, time, bodies] = self;
+        archive.keep(frame, time, bodies);
+    }
 };
 
 }  // namespace tumble

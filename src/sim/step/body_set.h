@@ -29,6 +29,16 @@ struct BodySet {
     /// Places the kinematic bodies on their tracks at the start of a step, with the velocities of that step.
     void place_kinematic(const StepClock& clock, std::int64_t step);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [origin, bodies, scene_index, awake, moving, kinematic, old_velocities, motions, seen_sleep_changes] =
+            self;
+        archive.rebuilt(origin, scene_index, kinematic);
+        archive.keep(awake, moving, old_velocities, motions, seen_sleep_changes);
+        archive.keep_each(bodies);
+    }
+
 private:
     std::uint64_t seen_sleep_changes_ = UINT64_MAX;
 };

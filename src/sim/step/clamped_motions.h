@@ -38,6 +38,14 @@ public:
                              touch_depth(detection.manifolds(), step.set.bodies));
     }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [clamp, any_fast] = self;
+        archive.keep(clamp);
+        archive.scratch(any_fast);
+    }
+
 private:
     CcdClamp clamp_;
     std::atomic<bool> any_fast_{false};  // set by each body's own thread

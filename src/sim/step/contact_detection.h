@@ -30,6 +30,14 @@ public:
     /// The pairs that may meet in the step, at the bodies' present velocities.
     const std::vector<BroadPhase::Pair>& find_pairs(const StepContext& step);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [broad_phase, narrow_phase, manifolds, islands, seen_by_islands] = self;
+        archive.keep(broad_phase, narrow_phase, islands, seen_by_islands);
+        archive.scratch(manifolds);
+    }
+
 private:
     void find(const StepContext& step);
 

@@ -1,5 +1,6 @@
 #include "sim/step/event_driven_stage.h"
 
+#include "sim/checkpoint/archive.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 
 namespace tumble {
@@ -58,5 +59,8 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
     events_.begin_step(set.bodies, set.motions, limits, step.forces.field(), step.index);
     run_events(step, step.index + 1);
 }
+
+void EventDrivenStage::save(CheckpointWriter& writer) const { visit(writer, *this); }
+void EventDrivenStage::restore(CheckpointReader& reader) { visit(reader, *this); }
 
 }  // namespace tumble

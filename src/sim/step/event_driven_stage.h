@@ -23,6 +23,16 @@ public:
     double least_rebound(const StepContext&) const override { return 0.0; }
     void advance(const StepContext& step, ContactDetection& detection) override;
     void bodies_fell_asleep(const StepContext& step) override { events_.lay_down(step.set.bodies, step.index); }
+    void save(CheckpointWriter& writer) const override;
+    void restore(CheckpointReader& reader) override;
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [motions, events, contacts, stepped, pairs] = self;
+        archive.keep(motions, events);
+        archive.scratch(contacts, stepped, pairs);
+    }
 
 private:
     std::int64_t run_events(const StepContext& step, std::int64_t until);

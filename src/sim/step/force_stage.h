@@ -45,6 +45,14 @@ public:
     /// it moved. Forces at points that end at some time give all of their impulse.
     void lose_time(std::uint32_t i, Body& body, double share, bool in_contact) const;
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [field, effects, ending] = self;
+        archive.rebuilt(field);
+        archive.scratch(effects, ending);
+    }
+
 private:
     struct Momenta {
         Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();

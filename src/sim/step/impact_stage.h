@@ -31,6 +31,13 @@ public:
     /// Approach speed (m/s) below which a contact does not bounce.
     static double threshold(const StepContext& step);
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [contacts, colliding, struck, traces, impulses_before] = self;
+        archive.scratch(contacts, colliding, struck, traces, impulses_before);
+    }
+
 private:
     std::vector<Contact> contacts_;        // of the colliding islands, point by point
     std::vector<Island> colliding_;        // islands with impacts in this step

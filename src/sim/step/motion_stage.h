@@ -12,6 +12,9 @@
 
 namespace tumble {
 
+class CheckpointReader;
+class CheckpointWriter;
+
 class MotionStage {
 public:
     virtual ~MotionStage() = default;
@@ -35,6 +38,10 @@ public:
 
     /// Called after bodies have fallen asleep; the context is that of the coming step.
     virtual void bodies_fell_asleep(const StepContext& step) = 0;
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    virtual void save(CheckpointWriter& writer) const = 0;
+    virtual void restore(CheckpointReader& reader) = 0;
 };
 
 }  // namespace tumble

@@ -21,6 +21,13 @@ public:
     std::uint32_t found() const { return first_; }
     static constexpr std::uint32_t none = UINT32_MAX;
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [first] = self;
+        archive.rebuilt(first);
+    }
+
 private:
     std::atomic<std::uint32_t> first_{none};
 };

@@ -1,5 +1,6 @@
 #include "sim/step/stepped_motion.h"
 
+#include "sim/checkpoint/archive.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
@@ -98,5 +99,8 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
     }
     if (limit.carrier != CcdFraction::none) carry_along(body, step.set.bodies[limit.carrier], share, h);
 }
+
+void SteppedMotion::save(CheckpointWriter& writer) const { visit(writer, *this); }
+void SteppedMotion::restore(CheckpointReader& reader) { visit(reader, *this); }
 
 }  // namespace tumble

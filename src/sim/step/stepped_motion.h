@@ -20,6 +20,15 @@ public:
     double least_rebound(const StepContext& step) const override;
     void advance(const StepContext& step, ContactDetection& detection) override;
     void bodies_fell_asleep(const StepContext&) override {}
+    void save(CheckpointWriter& writer) const override;
+    void restore(CheckpointReader& reader) override;
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [motions, free_flights] = self;
+        archive.keep(motions, free_flights);
+    }
 
 private:
     BodyVelocity motion(std::uint32_t i, const Body& body, const StepContext& step) const;

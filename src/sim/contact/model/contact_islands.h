@@ -46,6 +46,14 @@ public:
     /// Whether the island touches only its own bodies.
     bool is_free(std::size_t island) const { return free_[island] != 0; }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [members, held, round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free] = self;
+        archive.keep(round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free);
+        archive.scratch(members, held);
+    }
+
 private:
     // still: not moved by contacts. aside: asleep or ballistic, not affected by the contacts of this step.
     enum class Role : std::uint8_t { still, takes_part, aside };

@@ -17,6 +17,11 @@ struct LoadEstimate {
     /// to its neighbors one level nearer.
     double ratio = 1.0;
     int levels = 1;  // number of bodies in the longest of the shortest chains to a fixed support, which does not count
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [ratio, levels] = self;
+        archive.keep(ratio, levels);
+    }
 };
 
 class LoadEstimates {

@@ -36,11 +36,23 @@ public:
     /// Increases whenever a body falls asleep or wakes.
     std::uint64_t changes() const { return changes_; }
 
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [watches, changes, sleepers] = self;
+        archive.keep(watches, changes, sleepers);
+    }
+
 private:
     struct Span {
         Vec3 position = Vec3::Constant(1e300);  // m, world, at the start of the span
         Quat orientation = Quat::Identity();
         double still = 0.0;  // s
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [position, orientation, still] = self;
+            archive.keep(position, orientation, still);
+        }
     };
     using Spans = std::array<Span, tuning::sleep_times.size()>;
     struct Trend {
@@ -49,11 +61,21 @@ private:
                  change = Velocity::Zero();  // at the last sample; change since the one before
         double since = 0.0;                  // s, since the last sample
         int steady = 0;                      // consecutive samples without rest
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [velocity, change, since, steady] = self;
+            archive.keep(velocity, change, since, steady);
+        }
     };
     struct Watch {
         Spans spans;
         Trend trend;
         std::shared_ptr<const std::vector<std::uint32_t>> group;  // bodies that fell asleep together; set while asleep
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [spans, trend, group] = self;
+            archive.keep(spans, trend, group);
+        }
     };
     static bool follow(Spans& spans, const Body& body, double h);
     static bool follow(Trend& trend, const Body& body, double h, double speed_change);

@@ -1,10 +1,12 @@
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 
 #include "app/plots/variants.h"
 #include "app/survey/survey.h"
 #include "core/check.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "scene/hash/scene_hash.h"
+#include "sim/checkpoint/archive.h"
 
 #include <fmt/format.h>
 
@@ -24,14 +26,12 @@ std::string name_of(const ClipScene& clip_scene) {
     return clip_scene.label.empty() ? file : fmt::format("{} ({})", file, safe_text(clip_scene.label));
 }
 
-/// The sizes of arrows over the clip.
-struct ScaleObserver : SurveyObserver {
-    explicit ScaleObserver(const SceneDescription& scene) : sizes(scene) {}
-    void see(const Snapshot& snapshot, const Measurement&, const ContactRecords* records) override {
-        sizes.add(snapshot, records);
-    }
-    ScaleSurvey sizes;
-};
+std::string names_of(const OverlaySet& shown) {
+    std::string names;
+    for (const OverlayName& overlay : overlay_names)
+        if (shown.has(overlay.overlay)) names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
+    return names.empty() ? "none" : names;
+}
 
 void require_same_rate(const std::vector<ClipScene>& scenes) {
     const ClipScene& first = scenes.front();
@@ -44,8 +44,10 @@ void require_same_rate(const std::vector<ClipScene>& scenes) {
 
 }  // namespace
 
-RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter) : shutter_(shutter) {
+RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
+    : request(command), shutter_(shutter), speed_(command.speed) {
     load(command);
+    for (const ClipScene& one : scenes) scales_.emplace_back(*one.scene);
     if (scenes.size() > 1 && !command.aovs.empty())
         throw InputError(fmt::format("--aov: needs a single scene ({} are shown side by side)", scenes.size()));
     require_same_rate(scenes);
@@ -70,7 +72,7 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
     add_overlays();
 }
 
-void RenderScenes::load(const RenderCommand& command) {
+void RenderScenes::load(const ClipRequest& command) {
     for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary)) {
         SceneDescription loaded = command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
                                                : load_scene(variant.scene, variant.overrides, &inputs);
@@ -83,7 +85,7 @@ void RenderScenes::load(const RenderCommand& command) {
 }
 
 /// The plot of the first scene that has one, of all scenes.
-void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& options) {
+void RenderScenes::read_plot(const ClipRequest& command, CompositionOptions& options) {
     const auto with_plot =
         std::ranges::find_if(scenes, [](const ClipScene& one) { return !one.scene->overlay.plot.empty(); });
     if (with_plot == scenes.end() && (!command.overrides.plot || command.overrides.plot == "none")) return;
@@ -117,26 +119,53 @@ void RenderScenes::add_overlays() {
     }
 }
 
+std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
+    std::vector<SurveyObserver*> observers;
+    if (!runs_.empty()) observers.push_back(&runs_[index]);
+    if (composition.panels[index].overlay && needs_survey(scenes[index].scene->overlay))
+        observers.push_back(&scales_[index]);
+    return observers;
+}
+
 void RenderScenes::survey_clip(int threads, Interrupt& interrupt) {
-    std::vector<ScaleObserver> scales;
-    for (const ClipScene& one : scenes) scales.emplace_back(*one.scene);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        std::vector<SurveyObserver*> observers;
-        if (!runs_.empty()) observers.push_back(&runs_[i]);
-        if (composition.panels[i].overlay && needs_survey(scenes[i].scene->overlay)) observers.push_back(&scales[i]);
-        if (observers.empty()) continue;
+        const std::vector<SurveyObserver*> seeing = observers(i);
+        if (seeing.empty()) continue;
         World simulated = world(i, threads);
-        survey(simulated, {ends[i], shutter_.intervals}, observers, interrupt);
+        survey(simulated, {ends[i], shutter_.intervals}, seeing, interrupt);
     }
+    use_survey();
+}
+
+void RenderScenes::use_survey() {
     // One scale for all panels, so that their arrows can be compared.
-    for (std::size_t i = 1; i < scales.size(); ++i) scales[0].sizes.add(scales[i].sizes);
+    for (std::size_t i = 1; i < scales_.size(); ++i) scales_[0].sizes.add(scales_[i].sizes);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (i > 0) scales[i].sizes.take(scales[0].sizes);
+        if (i > 0) scales_[i].sizes.take(scales_[0].sizes);
         std::optional<PanelOverlay>& overlay = composition.panels[i].overlay;
         if (!overlay) continue;
-        overlay->scales = scales[i].sizes.scales();
-        overlay->marks = scales[i].sizes.marks();
+        overlay->scales = scales_[i].sizes.scales();
+        overlay->marks = scales_[i].sizes.marks();
     }
+    fill_plots();
+}
+
+template <class Archive, class Self>
+void RenderScenes::visit_survey(Archive& archive, Self& self) {
+    for (auto& panel : self.composition.panels)
+        if (panel.overlay) archive.keep(panel.overlay->scales, panel.overlay->marks);
+    for (auto& run : self.runs_) archive.keep(run.times, run.values);
+}
+
+std::vector<std::byte> RenderScenes::survey_bytes() const {
+    CheckpointWriter writer;
+    visit_survey(writer, *this);
+    return {writer.bytes().begin(), writer.bytes().end()};
+}
+
+void RenderScenes::take_survey(std::span<const std::byte> bytes) {
+    CheckpointReader reader(bytes);
+    visit_survey(reader, *this);
     fill_plots();
 }
 
@@ -172,6 +201,33 @@ World RenderScenes::world(std::size_t index, int threads) const {
     World world(*scenes[index].scene, scenes[index].timing, threads);
     if (composition.panels[index].overlay && needs_records(scenes[index].scene->overlay)) world.record_contacts();
     return world;
+}
+
+CheckpointIdentity RenderScenes::identity() const {
+    CheckpointIdentity identity;
+    std::string of_panel;
+    const auto add = [&](const char* name, std::string value) {
+        identity.push_back({name + of_panel, std::move(value)});
+    };
+    add("the number of panels", fmt::format("{}", scenes.size()));
+    add("the size", fmt::format("{}x{}", composition.width, composition.height));
+    add("the frames per second", fmt::format("{:.17g}", first().output.fps));
+    add("--speed", fmt::format("{:.17g}", speed_));
+    add("--shutter and --blur-samples", fmt::format("{} of {} parts", shutter_.blur_samples, shutter_.intervals));
+    add("the number of frames", fmt::format("{}", clip_frames));
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const ClipScene& one = scenes[i];
+        const SceneDescription& drawn = *composition.panels[i].scene;
+        if (scenes.size() > 1) of_panel = fmt::format(" of panel {}", i + 1);
+        add("the step", fmt::format("{:.17g} s", 1.0 / (one.timing.fps * one.timing.steps_per_frame)));
+        add("the number of bodies", fmt::format("{}", one.scene->bodies.size()));
+        add("the drawn size", fmt::format("{}x{}", drawn.output.width, drawn.output.height));
+        add("the overlays", names_of(one.scene->overlay.show));
+        SceneDescription state_of = *one.scene;
+        state_of.output.samples = 1;  // of pixels alone
+        add("the values of the scene", scene_hash(state_of));
+    }
+    return identity;
 }
 
 }  // namespace tumble

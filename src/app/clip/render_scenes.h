@@ -1,17 +1,22 @@
-// The scenes of `tumble render`, their place in the frame, and the frames of the clip.
+// The scenes of a clip, their place in the frame, and the frames of the clip.
 #pragma once
 
-#include "app/cli/commands.h"
+#include "app/checkpoints/checkpoint_identity.h"
+#include "app/clip/clip_request.h"
 #include "app/composition/make_composition.h"
 #include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
+#include "app/survey/scale_observer.h"
 #include "app/threads/interrupt.h"
 #include "overlay/overlay_builder.h"
+#include "scene/load.h"
 #include "sim/frames/clip_timing.h"
 #include "sim/world.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -19,10 +24,22 @@ namespace tumble {
 class RenderScenes {
 public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
-    RenderScenes(const RenderCommand& command, const Shutter& shutter);
+    RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
     /// Simulates all scenes once, if a plot or the scale of arrows needs it, and fills them in. Leaves no thread behind.
     void survey_clip(int threads, Interrupt& interrupt);
+
+    // The same by another run of the simulation, and its result in a checkpoint.
+
+    /// Those of a scene that have to see all of its frames, in order.
+    std::vector<SurveyObserver*> observers(std::size_t index);
+    /// Fills in what the observers have seen.
+    void use_survey();
+    std::vector<std::byte> survey_bytes() const;
+    /// Throws InputError where the bytes are not of such a survey.
+    void take_survey(std::span<const std::byte> bytes);
+    /// The settings that the state of the clip depends on.
+    CheckpointIdentity identity() const;
 
     const SceneDescription& first() const { return *scenes.front().scene; }
     std::size_t bodies() const;
@@ -32,6 +49,7 @@ public:
     /// The maker of a panel's overlay; null without one. Valid after survey_clip().
     std::unique_ptr<OverlayBuilder> overlay(std::size_t index) const;
 
+    ClipRequest request;
     std::vector<ClipScene> scenes;   // the timing is that of the simulation, with the intervals of the shutter
     std::vector<std::int64_t> ends;  // one after the last frame of each scene
     FileList inputs;
@@ -40,13 +58,18 @@ public:
     Composition composition;
 
 private:
-    void load(const RenderCommand& command);
+    void load(const ClipRequest& command);
     void fill_plots();
     void add_overlays();
-    void read_plot(const RenderCommand& command, CompositionOptions& options);
+    void read_plot(const ClipRequest& command, CompositionOptions& options);
+
+    template <class Archive, class Self>
+    static void visit_survey(Archive& archive, Self& self);
 
     Shutter shutter_;
+    double speed_;
     std::vector<PlottedRun> runs_;  // one for each scene if there is a plot
+    std::vector<ScaleObserver> scales_;
 };
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "app/resume/clip_identity.h"
+#include "app/resume/frame_identity.h"
 
 #include "core/safe_text.h"
 #include "core/sha256.h"
@@ -67,7 +67,7 @@ NamedValues values_of(const Json& json) {
 
 }  // namespace
 
-std::string ClipIdentity::mark() const {
+std::string FrameIdentity::mark() const {
     Sha256 hash;
     add(hash, "tumble frame");
     add(hash, version);
@@ -79,12 +79,12 @@ std::string ClipIdentity::mark() const {
     return hash.finish();
 }
 
-ClipIdentity identity_of(std::span<const ClipScene> scenes, const NamedValues& settings) {
-    ClipIdentity identity;
+FrameIdentity identity_of(std::span<const ClipScene> scenes, const NamedValues& settings) {
+    FrameIdentity identity;
     identity.version = v0::version();
     for (const ClipScene& one : scenes) {
         const SceneDescription& scene = *one.scene;
-        ClipIdentity::Scene& entry = identity.scenes.emplace_back();
+        FrameIdentity::Scene& entry = identity.scenes.emplace_back();
         entry.file = std::filesystem::path(scene.file).filename().string();
         entry.label = one.label;
         entry.hash = scene_hash(scene);
@@ -100,7 +100,7 @@ ClipIdentity identity_of(std::span<const ClipScene> scenes, const NamedValues& s
     return identity;
 }
 
-std::string differences(const ClipIdentity& there, const ClipIdentity& here) {
+std::string differences(const FrameIdentity& there, const FrameIdentity& here) {
     std::vector<std::string> list;
     if (there.version != here.version)
         list.push_back(
@@ -109,7 +109,7 @@ std::string differences(const ClipIdentity& there, const ClipIdentity& here) {
         list.push_back(
             fmt::format("the number of scenes ({} there, {} here)", there.scenes.size(), here.scenes.size()));
     for (std::size_t i = 0; i < std::min(there.scenes.size(), here.scenes.size()); ++i) {
-        const ClipIdentity::Scene &a = there.scenes[i], &b = here.scenes[i];
+        const FrameIdentity::Scene &a = there.scenes[i], &b = here.scenes[i];
         if (a.label != b.label) list.push_back(fmt::format("the label of panel {}", i + 1));
         for (const auto& [name, value] : b.parts) {
             const std::string* other = find(a.parts, name);
@@ -123,9 +123,9 @@ std::string differences(const ClipIdentity& there, const ClipIdentity& here) {
     return list.empty() ? "unknown values" : fmt::format("{}", fmt::join(list, ", "));
 }
 
-std::string manifest_text(const ClipIdentity& identity) {
+std::string manifest_text(const FrameIdentity& identity) {
     Json scenes = Json::array();
-    for (const ClipIdentity::Scene& scene : identity.scenes)
+    for (const FrameIdentity::Scene& scene : identity.scenes)
         scenes.push_back(
             {{"file", scene.file}, {"label", scene.label}, {"hash", scene.hash}, {"parts", json_of(scene.parts)}});
     const Json json = {{"format", manifest_format},  {"version", identity.version},
@@ -135,13 +135,13 @@ std::string manifest_text(const ClipIdentity& identity) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-std::optional<ClipIdentity> read_manifest(const std::filesystem::path& path) {
+std::optional<FrameIdentity> read_manifest(const std::filesystem::path& path) {
     const std::optional<std::string> text = bytes_of_file(path);
     if (!text) return std::nullopt;
     try {
         const Json json = Json::parse(*text);
         if (json.at("format") != manifest_format) return std::nullopt;
-        ClipIdentity identity;
+        FrameIdentity identity;
         identity.version = json.at("version").get<std::string>();
         identity.frames = json.at("frames").get<std::int64_t>();
         identity.fps = json.at("fps").get<double>();

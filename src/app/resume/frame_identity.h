@@ -17,7 +17,7 @@ namespace tumble {
 
 using NamedValues = std::vector<std::pair<std::string, std::string>>;
 
-struct ClipIdentity {
+struct FrameIdentity {
     struct Scene {
         std::string file;   // its name, for messages
         std::string label;  // of its panel
@@ -36,15 +36,15 @@ struct ClipIdentity {
 };
 
 /// The identity of a clip of these scenes. `settings`: further ones than the scenes' own.
-ClipIdentity identity_of(std::span<const ClipScene> scenes, const NamedValues& settings);
+FrameIdentity identity_of(std::span<const ClipScene> scenes, const NamedValues& settings);
 
-/// What two clips differ in, as a list for a message: "the camera of drop.toml, samples (4 there, 1 here)".
-std::string differences(const ClipIdentity& there, const ClipIdentity& here);
+/// The differences of two clips, as a list for a message: "the camera of drop.toml, samples (4 there, 1 here)".
+std::string differences(const FrameIdentity& there, const FrameIdentity& here);
 
 /// As JSON, for a file beside the frames.
-std::string manifest_text(const ClipIdentity& identity);
+std::string manifest_text(const FrameIdentity& identity);
 
 /// Of such a file; empty if it is missing or damaged.
-std::optional<ClipIdentity> read_manifest(const std::filesystem::path& path);
+std::optional<FrameIdentity> read_manifest(const std::filesystem::path& path);
 
 }  // namespace tumble

@@ -1,0 +1,87 @@
+#include "app/checkpoints/checkpoint_file.h"
+
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/checksum.h"
+#include "sim/checkpoint/archive.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <system_error>
+
+namespace tumble {
+namespace {
+
+constexpr char magic[] = {'T', 'U', 'M', 'B', 'L', 'E', 'C', 'P'};
+constexpr std::size_t sum_size = sizeof(std::uint64_t);
+
+[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
+    throw InputError({safe_path(file), 0, 0}, why);
+}
+
+std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::uintmax_t size = std::filesystem::file_size(file, error);
+    std::vector<std::byte> bytes(error ? 0 : size);
+    std::ifstream stream(file, std::ios::binary);
+    if (error || !stream || !stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))
+        refuse(file, fmt::format("cannot read the checkpoint: {}",
+                                 error ? error.message() : std::generic_category().message(errno)));
+    return bytes;
+}
+
+}  // namespace
+
+std::vector<std::byte> checkpoint_bytes(const CheckpointHeader& header, std::span<const std::byte> content) {
+    CheckpointWriter writer;
+    writer.keep(magic, header, std::uint64_t(content.size()));
+    std::vector<std::byte> bytes;
+    bytes.reserve(writer.bytes().size() + content.size() + sum_size);
+    bytes.assign(writer.bytes().begin(), writer.bytes().end());
+    bytes.insert(bytes.end(), content.begin(), content.end());
+    const std::uint64_t sum = crc64(bytes);
+    bytes.resize(bytes.size() + sum_size);
+    std::memcpy(bytes.data() + bytes.size() - sum_size, &sum, sum_size);
+    return bytes;
+}
+
+std::vector<std::byte> checkpoint_content(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                                          const CheckpointHeader& expected) {
+    if (bytes.size() < sizeof magic + sum_size || std::memcmp(bytes.data(), magic, sizeof magic) != 0)
+        refuse(file, "is no checkpoint of tumble simulate --checkpoints");
+    const auto summed = bytes.first(bytes.size() - sum_size);
+    std::uint64_t sum = 0;
+    std::memcpy(&sum, bytes.data() + summed.size(), sum_size);
+    if (sum != crc64(summed)) refuse(file, "the checkpoint is damaged: its checksum is wrong; simulate again");
+
+    CheckpointReader reader(summed.subspan(sizeof magic));
+    std::uint32_t format = 0;
+    reader.keep(format);
+    if (format != expected.format)
+        refuse(file, fmt::format("the checkpoint has format {}, and this program reads format {}; simulate again",
+                                 format, expected.format));
+    reader = CheckpointReader(summed.subspan(sizeof magic));
+    CheckpointHeader header;
+    std::uint64_t size = 0;
+    reader.keep(header, size);
+    if (header.program != expected.program)
+        refuse(file, fmt::format("the checkpoint is of tumble {}, and this is tumble {}; simulate again",
+                                 safe_text(header.program), expected.program));
+    if (header.kind != expected.kind || header.frame != expected.frame)
+        refuse(file, fmt::format("holds the {} of frame {}, not the {} of frame {}: was the file renamed?",
+                                 safe_text(header.kind), header.frame, expected.kind, expected.frame));
+    if (const std::string differs = difference(header.identity, expected.identity); !differs.empty())
+        refuse(file, fmt::format("the checkpoint is of another clip. It differs in {}", differs));
+    if (size > summed.size()) refuse(file, "the checkpoint is damaged: it ends early");
+    const auto content = summed.last(size);
+    return {content.begin(), content.end()};
+}
+
+std::vector<std::byte> read_checkpoint(const std::filesystem::path& file, const CheckpointHeader& expected) {
+    return checkpoint_content(file, bytes_of(file), expected);
+}
+
+}  // namespace tumble

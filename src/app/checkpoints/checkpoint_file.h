@@ -1,0 +1,43 @@
+// A file of a checkpoint: the clip that it belongs to, its content, and a checksum over all bytes before it
+// (docs/reference/checkpoints.md).
+#pragma once
+
+#include "app/checkpoints/checkpoint_identity.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// Of the layout of all files and of the states in them: a new one reads no old file.
+inline constexpr std::uint32_t checkpoint_format = 1;
+
+struct CheckpointHeader {
+    std::uint32_t format = checkpoint_format;
+    std::string program;  // its version
+    std::string kind;     // "state" or "clip"
+    std::int64_t frame = 0;
+    CheckpointIdentity identity;
+
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [format, program, kind, frame, identity] = self;
+        archive.keep(format, program, kind, frame, identity);
+    }
+};
+
+std::vector<std::byte> checkpoint_bytes(const CheckpointHeader& header, std::span<const std::byte> content);
+
+/// The content of such bytes. Throws InputError, with the file's name, where the bytes are damaged or are no checkpoint,
+/// and where the header is not that of `expected`.
+std::vector<std::byte> checkpoint_content(const std::filesystem::path& file, std::span<const std::byte> bytes,
+                                          const CheckpointHeader& expected);
+
+/// The same of a file.
+std::vector<std::byte> read_checkpoint(const std::filesystem::path& file, const CheckpointHeader& expected);
+
+}  // namespace tumble

@@ -1,0 +1,130 @@
+#include "app/checkpoints/checkpoint_folder.h"
+
+#include "app/checkpoints/checkpoint_file.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/temporary_file.h"
+#include "sim/checkpoint/archive.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+namespace tumble {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+fs::path clip_path(const fs::path& folder) { return folder / "clip.tumble"; }
+
+fs::path motion_path(const fs::path& folder, std::int64_t frame, std::size_t panel) {
+    const std::string of_panel = panel == 0 ? "" : fmt::format("_panel_{}", panel + 1);
+    return folder / fmt::format("motion_{:06}{}.tumble", frame, of_panel);
+}
+
+std::string motion_kind(std::size_t panel) { return fmt::format("motion of panel {}", panel + 1); }
+
+/// The files of an earlier run.
+std::vector<fs::path> files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        const bool ours = name.starts_with("checkpoint_") || name.starts_with("motion_") || name == "clip.tumble";
+        if (ours && name.ends_with(".tumble")) files.push_back(entry.path());
+    }
+    return files;
+}
+
+CheckpointHeader header_of(const std::string& program, const std::string& kind, std::int64_t frame,
+                           const CheckpointIdentity& identity) {
+    CheckpointHeader header;
+    header.program = program;
+    header.kind = kind;
+    header.frame = frame;
+    header.identity = identity;
+    return header;
+}
+
+}  // namespace
+
+fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
+    return folder / fmt::format("checkpoint_{:06}.tumble", frame);
+}
+
+CheckpointWriting::CheckpointWriting(const fs::path& folder, std::string program, CheckpointIdentity identity)
+    : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
+    std::error_code missing;
+    fs::remove(clip_path(folder), missing);  // first: the others are of no use without
+    for (const fs::path& file : files_in(folder)) fs::remove(file, missing);
+}
+
+void CheckpointWriting::write(const fs::path& path, const std::string& kind, std::int64_t frame,
+                              std::span<const std::byte> content) {
+    const std::vector<std::byte> bytes = checkpoint_bytes(header_of(program_, kind, frame, identity_), content);
+    write_file(path, bytes);
+    bytes_ += bytes.size();
+}
+
+void CheckpointWriting::add(const ClipState& state) {
+    CheckpointWriter writer;
+    writer.keep(state);
+    write(checkpoint_path(folder_.path(), state.frame), "state", state.frame, writer.bytes());
+    frames_.push_back(state.frame);
+}
+
+void CheckpointWriting::add_motion(std::int64_t frame, std::size_t panel, std::span<const std::byte> motion) {
+    write(motion_path(folder_.path(), frame, panel), motion_kind(panel), frame, motion);
+    if (intervals_.empty() || intervals_.back() != frame) intervals_.push_back(frame);
+}
+
+void CheckpointWriting::finish(std::span<const std::byte> survey) {
+    CheckpointWriter writer;
+    writer.keep(frames_, intervals_, std::vector<std::byte>(survey.begin(), survey.end()));
+    write(clip_path(folder_.path()), "clip", 0, writer.bytes());
+}
+
+CheckpointReading::CheckpointReading(const fs::path& folder, std::string program, CheckpointIdentity identity)
+    : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
+    const fs::path path = clip_path(folder);
+    std::error_code error;
+    if (!fs::exists(path, error))
+        throw InputError(
+            fmt::format("--from-checkpoints: '{}' has no checkpoints of a whole clip: its clip.tumble is "
+                        "missing. Make them by tumble simulate --checkpoints",
+                        safe_path(folder)));
+    const std::vector<std::byte> content = read_checkpoint(path, header_of(program_, "clip", 0, identity_));
+    CheckpointReader reader(content);
+    reader.keep(frames_, intervals_, survey_);
+}
+
+std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
+    const auto after = std::upper_bound(frames_.begin(), frames_.end(), frame);
+    if (after == frames_.begin()) return std::nullopt;
+    const std::int64_t at = *std::prev(after);
+    const fs::path path = checkpoint_path(folder_, at);
+    const std::vector<std::byte> content = read_checkpoint(path, header_of(program_, "state", at, identity_));
+    CheckpointReader reader(content);
+    ClipState state;
+    reader.keep(state);
+    return state;
+}
+
+std::int64_t CheckpointReading::interval_of(std::int64_t frame) const {
+    const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), frame);
+    return after == intervals_.begin() ? 0 : *std::prev(after);
+}
+
+std::optional<std::int64_t> CheckpointReading::interval_after(std::int64_t interval) const {
+    const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), interval);
+    return after == intervals_.end() ? std::nullopt : std::optional(*after);
+}
+
+std::vector<std::byte> CheckpointReading::motion(std::int64_t interval, std::size_t panel) const {
+    return read_checkpoint(motion_path(folder_, interval, panel),
+                           header_of(program_, motion_kind(panel), interval, identity_));
+}
+
+}  // namespace tumble

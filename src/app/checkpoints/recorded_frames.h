@@ -1,0 +1,35 @@
+// The frames of a panel from the motion in a folder of checkpoints, in place of a simulation.
+#pragma once
+
+#include "app/checkpoints/checkpoint_folder.h"
+#include "app/checkpoints/motion_record.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+namespace tumble {
+
+class RecordedFrames {
+public:
+    /// From this frame on. The folder must outlive it. Throws InputError for a file that is damaged; the other members
+    /// throw RunError.
+    RecordedFrames(const CheckpointReading& folder, std::size_t panel, std::int64_t frame);
+
+    /// As of FrameSequence.
+    std::vector<Snapshot> next();
+    Snapshot next_start() { return take().samples.front(); }
+    const ContactRecords* records() const { return records_ ? &*records_ : nullptr; }
+
+private:
+    RecordedFrame take();
+
+    const CheckpointReading& folder_;
+    std::size_t panel_;
+    std::int64_t interval_;  // its first frame
+    FrameReader reader_;
+    std::optional<ContactRecords> records_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,27 @@
+// Job scripts for Slurm, in the job's folder: simulate.sh, frames.sh (an array of the parts), stitch.sh; settings.sh, which
+// these read; submit.sh, which submits them. Each can be run by hand with bash, on any machine that has the program.
+#pragma once
+
+#include "app/farm/farm_job.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+struct SlurmSettings {
+    std::string partition, time;  // empty: the cluster's default
+    int cpus_per_task = 1;
+    std::vector<std::string> more;  // options of sbatch, as in "--account=film"
+};
+
+/// Throws InputError for a folder or an option that Slurm's scripts cannot name.
+void check_slurm(const FarmJob& job, const SlurmSettings& settings);
+
+/// Makes the folder where it is missing, and writes the scripts. Precondition: check_slurm() has passed. Throws RunError.
+void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings);
+
+std::filesystem::path submit_script(const std::filesystem::path& job_folder);
+
+}  // namespace tumble

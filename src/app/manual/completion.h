@@ -1,0 +1,19 @@
+// Completions for shells: scripts that know the commands, the options and their values.
+#pragma once
+
+#include "app/manual/command_text.h"
+
+#include <string>
+
+namespace tumble::manual {
+
+/// For bash 4 and later. It needs no other script; the package bash-completion only loads it.
+std::string bash_completion(const CommandText& program);
+
+/// For zsh: a file "_tumble" in a folder of its fpath; it can be sourced as well.
+std::string zsh_completion(const CommandText& program);
+
+/// For fish 3.
+std::string fish_completion(const CommandText& program);
+
+}  // namespace tumble::manual

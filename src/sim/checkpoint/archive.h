@@ -1,0 +1,318 @@
+// Writes and reads the state of a simulation as bytes: numbers in little-endian order one after the other, without
+// padding, so that equal states have equal bytes on every machine.
+//
+// Each class with state has one function that names all of its fields, for both directions:
+//
+//   template <class Archive, class Self>
+//   static void visit(Archive& archive, Self& self) {
+//       auto& [mass, velocity, spare] = self;
+//       archive.rebuilt(mass);    // follows from the scene: right in every world of that scene that has not run yet
+//       archive.keep(velocity);   // written and read
+//       archive.scratch(spare);   // written before it is read in each step
+//   }
+//
+// A new field does not compile until the function names it. tests/sim/checkpoint_test.cpp compares the motion of
+// restored worlds with that of unbroken ones: a field in the wrong group shows there.
+#pragma once
+
+#include "core/check.h"
+#include "core/error.h"
+#include "core/vector.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+
+static_assert(std::endian::native == std::endian::little, "checkpoints copy numbers as they lie in memory");
+
+/// Bodies that fell asleep together share a list of their indices.
+using SharedIndices = std::shared_ptr<const std::vector<std::uint32_t>>;
+
+template <class T>
+concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+/// Lists of numbers that are copied in one piece.
+template <class List>
+concept contiguous_numbers =
+    PlainNumber<typename List::value_type> && !std::is_same_v<typename List::value_type, bool> && requires(List list) {
+    list.data();
+};
+
+class CheckpointWriter {
+public:
+    template <class... T>
+    void keep(const T&... values) {
+        (put(values), ...);
+    }
+    template <class... T>
+    void rebuilt(const T&...) {}
+    template <class... T>
+    void scratch(const T&...) {}
+    /// Elements that exist in the world that reads them, and have rebuilt fields: keep() would make them anew.
+    template <class T>
+    void keep_each(const std::vector<T>& values) {
+        put(values);
+    }
+    /// The first elements of an array.
+    template <class Array>
+    void keep_first(std::size_t count, const Array& values) {
+        for (std::size_t i = 0; i < count; ++i) put(values[i]);
+    }
+
+    std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
+
+private:
+    void raw(const void* from, std::size_t count) {
+        if (size_ + count > bytes_.size()) bytes_.resize(std::max(2 * bytes_.size(), size_ + count + 4096));
+        std::memcpy(bytes_.data() + size_, from, count);
+        size_ += count;
+    }
+    template <PlainNumber T>
+    void put(const T& value) {
+        raw(&value, sizeof value);
+    }
+    template <class T>
+    requires requires(CheckpointWriter& archive, const T& value) { T::visit(archive, value); }
+    void put(const T& value) { T::visit(*this, value); }
+    template <class T, int rows, int columns>
+    void put(const Eigen::Matrix<T, rows, columns>& value) {
+        static_assert(rows > 0 && columns > 0);
+        raw(value.data(), sizeof(T) * std::size_t(rows * columns));
+    }
+    void put(const Quat& value) { put(value.coeffs()); }
+    void put(const Bounds& value) { keep(value.min, value.max); }
+    void put(const std::string& value) { put_list(value); }
+    template <class T>
+    void put(const std::vector<T>& values) {
+        put_list(values);
+    }
+    template <class T>
+    void put(const std::deque<T>& values) {
+        put_list(values);
+    }
+    template <class Key, class T>
+    void put(const std::map<Key, T>& values) {
+        put_list(values);
+    }
+    template <class T, std::size_t count>
+    void put(const std::array<T, count>& values) {
+        keep_first(count, values);
+    }
+    template <class T, std::size_t count>
+    void put(const T (&values)[count]) {
+        keep_first(count, values);
+    }
+    template <class A, class B>
+    void put(const std::pair<A, B>& value) {
+        keep(value.first, value.second);
+    }
+    template <class T>
+    void put(const std::optional<T>& value) {
+        put_pointer(value.has_value() ? &*value : nullptr);
+    }
+    template <class T>
+    void put(const std::unique_ptr<T>& value) {
+        put_pointer(value.get());
+    }
+    template <class... T>
+    void put(const std::variant<T...>& value) {
+        put(std::uint8_t(value.index()));
+        std::visit([this](const auto& one) { put(one); }, value);
+    }
+    /// The list itself at its first owner, then its number.
+    void put(const SharedIndices& value) {
+        if (!value) return put(std::uint64_t(0));
+        const auto [known, added] = shared_.try_emplace(value.get(), shared_.size() + 1);
+        put(std::uint64_t(known->second));
+        if (added) put(*value);
+    }
+    template <class List>
+    void put_list(const List& values) {
+        put(std::uint64_t(values.size()));
+        if constexpr (contiguous_numbers<List>)
+            raw(values.data(), values.size() * sizeof(typename List::value_type));
+        else
+            for (const auto& value : values) put(value);
+    }
+    template <class T>
+    void put_pointer(const T* value) {
+        put(value != nullptr);
+        if (value != nullptr) put(*value);
+    }
+
+    std::vector<std::byte> bytes_;  // its size is the room for bytes
+    std::size_t size_ = 0;
+    std::unordered_map<const void*, std::uint64_t> shared_;  // looked up, never gone through
+};
+
+/// Throws InputError where the bytes are not those of such a state.
+class CheckpointReader {
+public:
+    explicit CheckpointReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
+
+    template <class... T>
+    void keep(T&... values) {
+        (get(values), ...);
+    }
+    template <class... T>
+    void rebuilt(const T&...) {
+        TUMBLE_CHECK_EQ(made_, false);  // else the element belongs to keep_each()
+    }
+    template <class... T>
+    void scratch(const T&...) {}
+    template <class T>
+    void keep_each(std::vector<T>& values) {
+        if (length() != values.size()) fail("has another number of bodies");
+        for (T& value : values) get(value);
+    }
+    template <class Array>
+    void keep_first(std::size_t count, Array& values) {
+        if (count > std::size(values)) fail("has a length beyond its place");
+        for (std::size_t i = 0; i < count; ++i) get(values[i]);
+    }
+
+    bool at_end() const { return bytes_.empty(); }
+    [[noreturn]] static void fail(const std::string& what) { throw InputError("the checkpoint " + what); }
+
+private:
+    void raw(void* to, std::size_t count) {
+        if (count > bytes_.size()) fail("ends early");
+        std::memcpy(to, bytes_.data(), count);
+        bytes_ = bytes_.subspan(count);
+    }
+    template <PlainNumber T>
+    void get(T& value) {
+        raw(&value, sizeof value);
+    }
+    void get(bool& value) {
+        std::uint8_t byte = 0;
+        get(byte);
+        if (byte > 1) fail("has a flag that is neither 0 nor 1");
+        value = byte != 0;
+    }
+    template <class T>
+    requires requires(CheckpointReader& archive, T& value) { T::visit(archive, value); }
+    void get(T& value) { T::visit(*this, value); }
+    template <class T, int rows, int columns>
+    void get(Eigen::Matrix<T, rows, columns>& value) {
+        raw(value.data(), sizeof(T) * std::size_t(rows * columns));
+    }
+    void get(Quat& value) { get(value.coeffs()); }
+    void get(Bounds& value) { keep(value.min, value.max); }
+    void get(std::string& value) { get_list(value); }
+    template <class T>
+    void get(std::vector<T>& values) {
+        get_list(values);
+    }
+    template <class T>
+    void get(std::deque<T>& values) {
+        get_list(values);
+    }
+    template <class Key, class T>
+    void get(std::map<Key, T>& values) {
+        values.clear();
+        for (std::size_t left = length(); left > 0; --left) {
+            Key key{};
+            make(key);
+            make(values[key]);
+        }
+    }
+    template <class T, std::size_t count>
+    void get(std::array<T, count>& values) {
+        keep_first(count, values);
+    }
+    template <class T, std::size_t count>
+    void get(T (&values)[count]) {
+        keep_first(count, values);
+    }
+    template <class A, class B>
+    void get(std::pair<A, B>& value) {
+        keep(value.first, value.second);
+    }
+    template <class T>
+    void get(std::optional<T>& value) {
+        value.reset();
+        if (has_value()) make(value.emplace());
+    }
+    template <class T>
+    void get(std::unique_ptr<T>& value) {
+        value.reset();
+        if (!has_value()) return;
+        value = std::make_unique<T>();
+        make(*value);
+    }
+    template <class... T>
+    void get(std::variant<T...>& value) {
+        std::uint8_t index = 0;
+        get(index);
+        std::uint8_t next = 0;
+        const auto take = [&]<class One>(std::type_identity<One>) {
+            if (next++ == index) make(value.template emplace<One>());
+        };
+        (take(std::type_identity<T>()), ...);
+        if (index >= sizeof...(T)) fail("has an unknown kind of motion");
+    }
+    void get(SharedIndices& value) {
+        std::uint64_t number = 0;
+        get(number);
+        if (number > shared_.size() + 1) fail("has an unknown group of sleeping bodies");
+        value.reset();
+        if (number == 0) return;
+        if (number > shared_.size()) {
+            std::vector<std::uint32_t> members;
+            get(members);
+            shared_.push_back(std::make_shared<const std::vector<std::uint32_t>>(std::move(members)));
+        }
+        value = shared_[number - 1];
+    }
+    template <class List>
+    void get_list(List& values) {
+        values.clear();
+        values.resize(length());
+        if constexpr (contiguous_numbers<List>)
+            raw(values.data(), values.size() * sizeof(typename List::value_type));
+        else
+            for (auto& value : values) make(value);
+    }
+    /// Of a value without a past.
+    template <class T>
+    void make(T& value) {
+        const bool outer = std::exchange(made_, true);
+        get(value);
+        made_ = outer;
+    }
+    bool has_value() {
+        bool there = false;
+        get(there);
+        return there;
+    }
+    /// Each element takes a byte at least: damaged bytes cannot ask for more memory than a multiple of their own.
+    std::size_t length() {
+        std::uint64_t count = 0;
+        get(count);
+        if (count > bytes_.size()) fail("ends early");
+        return std::size_t(count);
+    }
+
+    std::span<const std::byte> bytes_;  // those not read yet
+    bool made_ = false;                 // whether the value that is read was made for it
+    std::vector<SharedIndices> shared_;
+};
+
+}  // namespace tumble
