@@ -138,7 +138,7 @@ class Causes(Golden):
     def test_the_light(self):
         self.change("[-0.4, -1.0, -0.3]", "[-0.8, -1.0, -0.3]")
         for causes in self.causes().values():
-            self.assertEqual(causes, ["light (direction [-0.4, -1, -0.3] to [-0.8, -1, -0.3])"])
+            self.assertEqual(causes, ["light (direction [-0.3578, -0.8944, -0.2683] to [-0.6082, -0.7603, -0.2281])"])
 
     def test_a_lost_shadow(self):
         self.change("shadows = true", "shadows = false")
