@@ -265,7 +265,7 @@ class Outputs(Golden):
         self.write("golden.toml", """\
 format = 1
 [defaults]
-size = [320, 200]
+size = [640, 480]
 [[case]]
 name = "curve"
 scene = "scene.toml"
@@ -283,10 +283,10 @@ plot_place = "below"
         self.golden(0, "check")
         # The frame of a case is that of a render with the same options.
         self.check(0, "render", "scene.toml", "--vary", "body.ball.restitution=0.2,0.9", "--overlay", "velocity,clock",
-                   "--plot", "body.ball.y", "--plot-place", "below", "--size", "320x200", "--frames", "out", "--quiet")
+                   "--plot", "body.ball.y", "--plot-place", "below", "--size", "640x480", "--frames", "out", "--quiet")
         self.assertEqual(program.png_pixels(self.folder / "out/frame_000024.png"),
                          program.png_pixels(self.folder / "references/two_000024.png"))
-        self.check(0, "plot", "scene.toml", "--of", "energy,body.ball.y", "--size", "320x200", "-o", "p.png")
+        self.check(0, "plot", "scene.toml", "--of", "energy,body.ball.y", "--size", "640x480", "-o", "p.png")
         self.assertEqual((self.folder / "p.png").read_bytes(),
                          (self.folder / "references/curve_000000.png").read_bytes())
         self.change("restitution = 0.5", "restitution = 0.6")
