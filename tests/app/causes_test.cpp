@@ -108,7 +108,7 @@ TEST(Causes, AColor) {
 
 TEST(Causes, TheLightAndItsShadows) {
     EXPECT_EQ(causes_of(replaced(scene_text, "[-0.4, -1.0, -0.3]", "[-0.5, -1.0, -0.3]"), 30),
-              Texts{"light (direction [-0.4, -1, -0.3] to [-0.5, -1, -0.3])"});
+              Texts{"light (direction [-0.3578, -0.8944, -0.2683] to [-0.4319, -0.8639, -0.2592])"});
     EXPECT_EQ(causes_of(replaced(scene_text, "[light]", "[light]\nshadows = false"), 30),
               Texts{"shadow only (shadows are off, they were on)"});
 }

@@ -138,7 +138,7 @@ class Causes(Golden):
     def test_the_light(self):
         self.change("[-0.4, -1.0, -0.3]", "[-0.8, -1.0, -0.3]")
         for causes in self.causes().values():
-            self.assertEqual(causes, ["light (direction [-0.4, -1, -0.3] to [-0.8, -1, -0.3])"])
+            self.assertEqual(causes, ["light (direction [-0.3578, -0.8944, -0.2683] to [-0.6082, -0.7603, -0.2281])"])
 
     def test_a_lost_shadow(self):
         self.change("shadows = true", "shadows = false")
@@ -265,7 +265,7 @@ class Outputs(Golden):
         self.write("golden.toml", """\
 format = 1
 [defaults]
-size = [320, 200]
+size = [640, 480]
 [[case]]
 name = "curve"
 scene = "scene.toml"
@@ -283,10 +283,10 @@ plot_place = "below"
         self.golden(0, "check")
         # The frame of a case is that of a render with the same options.
         self.check(0, "render", "scene.toml", "--vary", "body.ball.restitution=0.2,0.9", "--overlay", "velocity,clock",
-                   "--plot", "body.ball.y", "--plot-place", "below", "--size", "320x200", "--frames", "out", "--quiet")
+                   "--plot", "body.ball.y", "--plot-place", "below", "--size", "640x480", "--frames", "out", "--quiet")
         self.assertEqual(program.png_pixels(self.folder / "out/frame_000024.png"),
                          program.png_pixels(self.folder / "references/two_000024.png"))
-        self.check(0, "plot", "scene.toml", "--of", "energy,body.ball.y", "--size", "320x200", "-o", "p.png")
+        self.check(0, "plot", "scene.toml", "--of", "energy,body.ball.y", "--size", "640x480", "-o", "p.png")
         self.assertEqual((self.folder / "p.png").read_bytes(),
                          (self.folder / "references/curve_000000.png").read_bytes())
         self.change("restitution = 0.5", "restitution = 0.6")

@@ -25,9 +25,9 @@ namespace fs = std::filesystem;
 constexpr std::int64_t farthest_neighbor = 3;  // frames
 constexpr std::size_t most_searched = 100;     // images of a set for which neighbors are read
 constexpr int least_difference = 4;            // levels, beyond the default tolerance
-constexpr double same_shade = 0.12;            // of the ratios of two channels: rounding of dark colors
-constexpr double shaded_share = 0.9;           // of the differing pixels
-constexpr double least_light = 0.01;           // linear: darker channels have no ratio
+constexpr double same_shade = 0.35;   // of the factors of two channels: measured up to 0.27 for the default sky
+constexpr double shaded_share = 0.9;  // of the differing pixels
+constexpr double least_light = 0.01;  // linear: darker channels have no ratio
 
 const std::array<double, 256>& linear_levels() {
     static const std::array<double, 256> table = [] {
@@ -38,7 +38,8 @@ const std::array<double, 256>& linear_levels() {
     return table;
 }
 
-/// True if the channels change by one factor, as by a shadow.
+/// True if all channels become darker, or all brighter, by similar factors, as by a shadow: the light of the sky in it is
+/// not that of the lamp.
 bool is_shaded(const std::uint8_t* before, const std::uint8_t* after) {
     double least = infinity, most = 0.0;
     for (int c = 0; c < 3; ++c) {
@@ -48,7 +49,7 @@ bool is_shaded(const std::uint8_t* before, const std::uint8_t* after) {
         least = std::min(least, ratio);
         most = std::max(most, ratio);
     }
-    return most - least <= same_shade * most;
+    return (most <= 1.0 || least >= 1.0) && most - least <= same_shade * most;
 }
 
 /// True if brightness alone differs.

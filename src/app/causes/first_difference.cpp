@@ -41,7 +41,7 @@ FirstDifferences::FirstDifferences(const PanelRecord& before, const PanelRecord&
 std::optional<std::int64_t> FirstDifferences::frame(std::size_t before, std::size_t after) const {
     const MotionTrace &a = before_.trace, &b = after_.trace;
     if (!before_.bodies[before].moves || !after_.bodies[after].moves) return 0;
-    if (a.every != b.every) return std::nullopt;
+    if (a.every != b.every || count_before_ == 0 || count_after_ == 0) return std::nullopt;
     const std::size_t blocks = std::min(a.blocks.size() / count_before_, b.blocks.size() / count_after_);
     for (std::size_t i = 0; i < blocks; ++i)
         if (a.blocks[i * count_before_ + moving_before_[before]] != b.blocks[i * count_after_ + moving_after_[after]])

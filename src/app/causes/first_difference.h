@@ -25,8 +25,8 @@ public:
 
 private:
     const PanelRecord &before_, &after_;
-    std::vector<std::size_t> moving_before_, moving_after_;  // by body: index among those that move
     std::size_t count_before_ = 0, count_after_ = 0;         // of bodies that move
+    std::vector<std::size_t> moving_before_, moving_after_;  // by body: index among those that move
 };
 
 /// The frame of `before` whose poses `after` has at `frame`, if that is another one: +1 is one frame late.

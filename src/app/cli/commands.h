@@ -19,12 +19,12 @@
 namespace tumble {
 
 struct RenderCommand : ClipRequest {
-    std::optional<std::filesystem::path> clip;        // without this, frames and AOVs: the first scene's name
-    std::optional<std::filesystem::path> frames;      // folder
-    std::optional<std::filesystem::path> report;      // .html
-    std::optional<std::filesystem::path> profile;     // .json
-    std::optional<std::filesystem::path> motion_record;  // .json (app/causes); not with checkpoints
-    std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
+    std::optional<std::filesystem::path> clip;           // without this, frames and AOVs: the first scene's name
+    std::optional<std::filesystem::path> frames;         // folder
+    std::optional<std::filesystem::path> report;         // .html
+    std::optional<std::filesystem::path> profile;        // .json
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
+    std::optional<std::filesystem::path> aov_folder;     // instead of the frames' folder
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
     bool resume = false;                                    // keeps finished frames of the same clip

@@ -24,6 +24,13 @@
 namespace tumble {
 namespace {
 
+/// Numbers of the frames of a set.
+std::vector<std::int64_t> numbers_of(const FrameSet& frames) {
+    std::vector<std::int64_t> numbers;
+    frames.for_each([&](std::int64_t frame) { numbers.push_back(frame); });
+    return numbers;
+}
+
 /// Takes the survey of the clip from the folder.
 CheckpointReading open_checkpoints(const std::filesystem::path& folder, RenderScenes& scenes) {
     if (scenes.shows_damage())
@@ -55,14 +62,14 @@ struct ClipMotion {
                               scenes.scenes[i].scene->bodies.size()});
         }
     }
+    /// Precondition: worlds, from the start of the clip.
+    void record(RunRecorder& recorder) {
+        for (std::size_t i = 0; i < panels.size(); ++i) {
+            worlds[i]->record_contacts();
+            panels[i].observer = &recorder.panel(i);
+        }
+    }
 };
-
-/// Numbers of the frames of a set.
-std::vector<std::int64_t> numbers_of(const FrameSet& frames) {
-    std::vector<std::int64_t> numbers;
-    frames.for_each([&](std::int64_t frame) { numbers.push_back(frame); });
-    return numbers;
-}
 
 StageSeconds cpu_seconds(const PipelineTimes& times, const PipelineOutputs& outputs) {
     StageSeconds cpu;
@@ -186,10 +193,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
     std::optional<RunRecorder> recorder;
     if (command.motion_record) {
         recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
-        for (std::size_t i = 0; i < motion.panels.size(); ++i) {
-            motion.panels[i].observer = &recorder->panel(i);
-            motion.worlds[i]->record_contacts();
-        }
+        motion.record(*recorder);
     }
     const double outputs_open = wall_seconds();
     Destinations destinations(command, plan, scenes);
@@ -206,11 +210,11 @@ RenderFigures render_to_files(const RenderCommand& command) {
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     destinations.complete();
+    if (recorder) write_record(*command.motion_record, recorder->finish());
     if (trace) {
         if (plan.clip) trace->add({"ffmpeg", outputs_open, wall_seconds()}, "ffmpeg");
         trace->write(*command.profile);
     }
-    if (recorder) write_record(*command.motion_record, recorder->finish());
     const ProcessEnd workers_end = render_pool.finish();
     figures.drawn = render_pool.drawn();
     destinations.describe(figures);
