@@ -37,6 +37,7 @@ public:
 
     const SourcePosition& origin() const { return origin_; }
     bool is_number() const { return node_->is_number(); }
+    bool is_text() const { return node_->is_string(); }
     bool is_table() const { return node_->is_table(); }
     bool is_array() const { return node_->is_array(); }
     const toml::node& node() const { return *node_; }
