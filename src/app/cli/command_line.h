@@ -29,6 +29,7 @@ struct CommandLine {
     EncodeCommand encode;
     CompareCommand compare;
     InfoCommand info;
+    SweepCommand sweep;
     FarmCommand farm;
     DoctorCommand doctor;
     CompletionCommand completion;
@@ -44,6 +45,7 @@ CLI::App* add_lesson(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
+CLI::App* add_sweep(CLI::App& app, CommandLine& line);
 CLI::App* add_farm(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
 CLI::App* add_completion(CLI::App& app, CommandLine& line);

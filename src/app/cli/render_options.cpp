@@ -125,6 +125,7 @@ void add_render_options(CLI::App& to, RenderCommand& c) {
             "A folder of tumble simulate --checkpoints: the frames before the first drawn one are\nnot simulated again "
             "(docs/how-to/long-renders.md)")
         ->check(some_name())
+        ->excludes("--report")  // which simulates the whole clip
         ->type_name("DIR");
     command
         ->add_option("--samples", c.overrides.samples,

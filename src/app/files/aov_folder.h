@@ -42,9 +42,10 @@ public:
     /// RunError naming the file.
     std::unique_ptr<TemporaryFile> write(std::int64_t frame, std::span<const std::byte> file);
 
-private:
+    /// Writes the table of the numbers of a segmentation.
     void write_table() const;
 
+private:
     std::filesystem::path folder_;
     const SceneDescription& scene_;
     AovSet aovs_;

@@ -43,7 +43,8 @@ const Rows& files() {
         {"PREFIX/share/tumble/shaders",
          "The shaders. PREFIX is the folder above that of the program: /usr in packages."},
         {"PREFIX/share/tumble/web", "The player of pages and the compiler of lessons, where they were built."},
-        {"PREFIX/share/tumble/assets/scenes", "Demo scenes; their meshes are beside them."},
+        {"PREFIX/share/tumble/assets",
+         "Demo scenes and meshes: here is assets/scenes/falling_boxes.toml of the examples."},
         {"PREFIX/share/doc/tumble/docs",
          "The documents: the format of scenes is in reference/scene-format.md. Names such "
          "as docs/reference/aovs.md in these pages are files of this folder."},
@@ -201,7 +202,8 @@ ManPage command_page(const CommandText& program, const CommandText& command, con
     if (!command.commands.empty()) commands = heading("COMMANDS");
     for (const CommandText& part : command.commands) commands += nested_command(path + ' ' + part.name, part);
     std::string text = title(name, version) + heading("NAME");
-    text += fmt::format("{} \\- {}\n", roff(name), one_line(command));
+    const std::string what = command.description.substr(0, command.description.find(": exit code"));
+    text += fmt::format("{} \\- {}\n", roff(name), roff(replaced(what, "\n", " ")));
     text += page_body(program, command, path, commands);
     text += heading("SEE ALSO") + reference(program.name);
     for (const CommandText& other : program.commands)
