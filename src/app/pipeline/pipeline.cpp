@@ -155,7 +155,8 @@ bool Pipeline::deliver(const Frame& frame) {
 // A frame's slot is free when its file is written; syncing to the disk may take longer than drawing the next frame.
 void Pipeline::write_frames() {
     while (std::optional<Frame> frame = for_png_.pop()) {
-        auto file = timed(times_.files, frame->number, [&] { return outputs_.folder->write(frame->number, frame->png); });
+        auto file =
+            timed(times_.files, frame->number, [&] { return outputs_.folder->write(frame->number, frame->png); });
         frame.reset();
         if (!frame_files_.put(std::move(file))) return;
     }
