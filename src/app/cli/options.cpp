@@ -20,7 +20,8 @@ void add_log(CLI::App& command, LogOptions& log) {
                      "Messages, progress and times as text, or as JSON: an object on each line\n"
                      "(docs/reference/log.md)")
         ->option_text("text|json [text]");
-    command.add_option("--log-fd", log.descriptor, "With --log json: the open descriptor to write to, as in 3>log.jsonl")
+    command
+        .add_option("--log-fd", log.descriptor, "With --log json: the open descriptor to write to, as in 3>log.jsonl")
         ->check(CLI::Range(1, 1 << 20))
         ->option_text("N [2]");
 }

@@ -14,8 +14,8 @@
 namespace tumble {
 namespace {
 
-constexpr double bar_period = 0.1;   // s between updates of the bar
-constexpr double line_period = 5.0;  // s between lines of a log
+constexpr double bar_period = 0.1;    // s between updates of the bar
+constexpr double line_period = 5.0;   // s between lines of a log
 constexpr double event_period = 1.0;  // s between events of a log in JSON
 
 int terminal_columns() {
