@@ -26,9 +26,9 @@ void add_log(CLI::App& command, LogOptions& log) {
         ->option_text("N [2]");
 }
 
-/// To all commands that run for long.
+/// To the commands that run for long. `plot` has another --log: its axes.
 void add_log_to_commands(CLI::App& app, LogOptions& log) {
-    for (const char* name : {"render", "simulate", "plot", "export", "page", "lesson", "encode", "compare", "sweep"})
+    for (const char* name : {"render", "simulate", "export", "page", "lesson", "encode", "compare", "sweep"})
         add_log(*app.get_subcommand(name), log);
     for (const char* name : {"check", "accept"}) add_log(*app.get_subcommand("golden")->get_subcommand(name), log);
 }
