@@ -100,6 +100,15 @@ def probe(path, entries):
     return out.stdout.split()
 
 
+def unmarked(path):
+    """The bytes of a frame or of its AOVs without the mark of scene and settings, to compare those of different ones."""
+    data = pathlib.Path(path).read_bytes()
+    if data.startswith(b"PK"):
+        return data[:data.index(b"Tumble-Scene ")]
+    at = data.index(b"tEXtTumble-Scene") - 4
+    return data[:at] + data[at + 12 + int.from_bytes(data[at:at + 4], "big"):]
+
+
 def chunk(kind, data):
     """Width and height of a PNG."""
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))

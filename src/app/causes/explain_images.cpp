@@ -136,7 +136,7 @@ private:
         std::error_code error;
         if (!fs::exists(file, error)) return nullptr;
         try {
-            return std::make_unique<MotionRecord>(read_record(file));
+            return std::make_unique<MotionRecord>(read_motion_record(file));
         } catch (const InputError&) {
             return nullptr;
         }

@@ -217,7 +217,7 @@ std::string record_text(const MotionRecord& record) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void write_record(const std::filesystem::path& file, const MotionRecord& record) {
+void write_motion_record(const std::filesystem::path& file, const MotionRecord& record) {
     const std::string text = record_text(record);
     write_file(file, std::as_bytes(std::span(text)));
 }
@@ -235,7 +235,7 @@ MotionRecord parse_record(const std::string& text, const std::filesystem::path& 
     }
 }
 
-MotionRecord read_record(const std::filesystem::path& file) {
+MotionRecord read_motion_record(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::error_code error;
     const auto size = std::filesystem::file_size(file, error);

@@ -14,10 +14,10 @@ inline constexpr const char* folder_record_name = "frames.motion.json";
 std::string record_text(const MotionRecord& record);
 
 /// Writes through a temporary file. Throws RunError naming the path.
-void write_record(const std::filesystem::path& file, const MotionRecord& record);
+void write_motion_record(const std::filesystem::path& file, const MotionRecord& record);
 
 /// Throws InputError naming the file if it is missing or no record of this format.
-MotionRecord read_record(const std::filesystem::path& file);
+MotionRecord read_motion_record(const std::filesystem::path& file);
 /// The same of a text.
 MotionRecord parse_record(const std::string& text, const std::filesystem::path& file);
 

@@ -84,7 +84,7 @@ void run_plot(const PlotCommand& command) {
     Canvas canvas(format, width, height);
     draw(figure, canvas, {0.0, 0.0, width, height});
     const std::string bytes = canvas.finish();
-    if (recorder) write_record(*command.motion_record, recorder->finish());
+    if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     write_file(command.output, std::as_bytes(std::span(bytes)));
     if (!command.quiet) say("wrote {}\n", safe_path(command.output));
 }

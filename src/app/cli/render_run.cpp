@@ -210,7 +210,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     destinations.complete();
-    if (recorder) write_record(*command.motion_record, recorder->finish());
+    if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     if (trace) {
         if (plan.clip) trace->add({"ffmpeg", outputs_open, wall_seconds()}, "ffmpeg");
         trace->write(*command.profile);

@@ -55,7 +55,7 @@ std::vector<std::string> texts(const TomlValue& value) {
 }
 
 /// "velocity,clock" or ["velocity", "clock"]; an empty array is "none".
-std::string joined(const TomlValue& value) {
+std::string joined_list(const TomlValue& value) {
     const std::vector<std::string> list = texts(value);
     return list.empty() ? "none" : fmt::format("{}", fmt::join(list, ","));
 }
@@ -107,8 +107,8 @@ void read_overrides(CaseTable& table, GoldenCase& golden) {
     table.read("duration", overrides.duration, [](const TomlValue& v) { return v.number(limits::duration); });
     table.read("samples", overrides.samples, [](const TomlValue& v) { return int(v.integer(1, 4)); });
     table.read("method", overrides.method, [](const TomlValue& v) { return v.text(); });
-    table.read("overlay", overrides.overlay, joined);
-    table.read("plot", overrides.plot, joined);
+    table.read("overlay", overrides.overlay, joined_list);
+    table.read("plot", overrides.plot, joined_list);
     table.read("plot_place", overrides.plot_place, [](const TomlValue& v) { return v.text(); });
     table.read("set", overrides.set, [](const TomlValue& v) { return texts(v); });
     if (const auto seed = table.find("seed"))
@@ -161,7 +161,7 @@ GoldenCase read_case(const TomlTable& own, const std::optional<TomlTable>& defau
     } else {
         golden.name = golden.scenes.front().stem().string();
     }
-    table.read("of", golden.of, joined);
+    table.read("of", golden.of, joined_list);
     if (const auto tolerances = own.find("tolerances"))
         golden.tolerances = read_tolerances(*tolerances, folder, suite.tolerances.of(golden.image_name(0)));
     read_overrides(table, golden);

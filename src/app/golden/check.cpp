@@ -67,7 +67,7 @@ void explain(const ImagePlace& place, ImageResult& result) {
     std::error_code error;
     if (!fs::exists(before, error)) return;
     try {
-        explain_image(read_record(before), read_record(place.drawn->folder / name), place.frame, result);
+        explain_image(read_motion_record(before), read_motion_record(place.drawn->folder / name), place.frame, result);
     } catch (const InputError&) {
         // Causes are an addition: the verdict stands without them.
     }
