@@ -21,7 +21,7 @@ class Panels(program.ProgramTest):
     def frames(self, folder, *arguments):
         """The bytes of all frames, by number."""
         self.check(0, "render", *arguments, "--frames", folder, "--quiet")
-        return {int(path.stem[6:]): path.read_bytes() for path in sorted((self.folder / folder).glob("*.png"))}
+        return {int(path.stem[6:]): program.unmarked(path) for path in sorted((self.folder / folder).glob("*.png"))}
 
     def refused(self, reason, *arguments):
         run = self.check(2, "render", *arguments)
