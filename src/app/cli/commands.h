@@ -19,11 +19,12 @@
 namespace tumble {
 
 struct RenderCommand : ClipRequest {
-    std::optional<std::filesystem::path> clip;        // without this, frames and AOVs: the first scene's name
-    std::optional<std::filesystem::path> frames;      // folder
-    std::optional<std::filesystem::path> report;      // .html
-    std::optional<std::filesystem::path> profile;     // .json
-    std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
+    std::optional<std::filesystem::path> clip;           // without this, frames and AOVs: the first scene's name
+    std::optional<std::filesystem::path> frames;         // folder
+    std::optional<std::filesystem::path> report;         // .html
+    std::optional<std::filesystem::path> profile;        // .json
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
+    std::optional<std::filesystem::path> aov_folder;     // instead of the frames' folder
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
     bool resume = false;                                    // keeps finished frames of the same clip
@@ -54,9 +55,10 @@ void run_simulate(const SimulateCommand& command);
 
 struct PlotCommand {
     std::vector<std::filesystem::path> scenes;
-    std::string quantities;         // names separated by commas (app/plots/quantities.h)
-    std::filesystem::path output;   // .svg, .png or .pdf
-    std::vector<std::string> vary;  // "PATH=VALUE,VALUE"
+    std::string quantities;                              // names separated by commas (app/plots/quantities.h)
+    std::filesystem::path output;                        // .svg, .png or .pdf
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
+    std::vector<std::string> vary;                       // "PATH=VALUE,VALUE"
     SceneOverrides overrides;
     std::optional<std::string> title;  // without this, the first scene's
     bool log = false;                  // logarithmic vertical axes

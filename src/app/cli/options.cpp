@@ -35,6 +35,7 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* lesson = add_lesson(app, line);
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
+    const CLI::App* golden = add_golden(app, line);
     const CLI::App* info = add_info(app, line);
     const CLI::App* sweep = add_sweep(app, line);
     const CLI::App* farm = add_farm(app, line);
@@ -67,6 +68,8 @@ int run_command_line(int argc, char** argv) {
         run_encode(line.encode);
     else if (compare->parsed())
         return run_compare(line.compare);
+    else if (golden->parsed())
+        return run_golden(*golden, line.golden);
     else if (info->parsed())
         run_info(line.info);
     else if (sweep->parsed())

@@ -32,6 +32,9 @@ std::optional<fs::path> folder_of_aovs(const RenderCommand& command) {
 void check_outputs(const RenderCommand& command, const RenderPlan& plan, const RenderScenes& scenes) {
     OutputPlan files;
     for (const fs::path& file : scenes.inputs) files.add_input(file);
+    if (command.motion_record && (command.resume || command.from_checkpoints))
+        throw InputError("--motion-record: is of a whole run, without --resume and --from-checkpoints");
+    if (command.motion_record) files.add("--motion-record", *command.motion_record);
     if (plan.clip) files.add("--output", *plan.clip);
     if (plan.aov_folder && command.aovs.has(Aov::segmentation))
         files.add("--aov", segmentation_table_path(*plan.aov_folder));

@@ -22,7 +22,7 @@ NamedValues drawing_settings(const ClipRequest& request, const DrawingChoices& c
     return settings;
 }
 
-ClipIdentity identity_of_aovs(ClipIdentity pictures, const AovSet& aovs) {
+FrameIdentity identity_of_aovs(FrameIdentity pictures, const AovSet& aovs) {
     pictures.settings.emplace_back("AOVs", names_of(aovs));
     return pictures;
 }

@@ -3,7 +3,7 @@
 
 #include "app/clip/clip_request.h"
 #include "app/composition/composition.h"
-#include "app/resume/clip_identity.h"
+#include "app/resume/frame_identity.h"
 #include "render/gl/gl_backend.h"
 
 namespace tumble {
@@ -19,6 +19,6 @@ struct DrawingChoices {
 NamedValues drawing_settings(const ClipRequest& request, const DrawingChoices& choices, const Composition& composition);
 
 /// The identity of the AOVs of a clip with that identity.
-ClipIdentity identity_of_aovs(ClipIdentity pictures, const AovSet& aovs);
+FrameIdentity identity_of_aovs(FrameIdentity pictures, const AovSet& aovs);
 
 }  // namespace tumble

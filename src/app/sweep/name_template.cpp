@@ -57,7 +57,7 @@ std::string filled(std::string_view text, const std::function<std::string(const 
 std::string number_with(std::int64_t number, int digits) { return fmt::format("{:0{}}", number, std::max(digits, 1)); }
 
 /// A value without what file systems, shells and this path may give another meaning.
-std::string plain(std::string_view value) {
+std::string plain_value(std::string_view value) {
     if (value.size() >= 2 && value.front() == '"') value = value.substr(1, value.size() - 2);
     std::string text;
     for (const char c : value) {
@@ -99,7 +99,7 @@ std::string name_of_sample(const SweepPlan& plan, const SweepSample& sample) {
         if (sample.pair && field.name == "pair") return number_with(sample.pair->pair, field.digits);
         if (sample.pair && field.name == "side") return {sample.pair->side};
         for (std::size_t i = 0; i < plan.axes.size(); ++i)
-            if (plan.axes[i].name == field.name) return plain(sample.values[i]);
+            if (plan.axes[i].name == field.name) return plain_value(sample.values[i]);
         return {};
     });
     try {

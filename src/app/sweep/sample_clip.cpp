@@ -127,7 +127,7 @@ Shutter shutter_of(const SampleDrawing& drawing) { return Shutter::of(drawing.sh
 
 FrameOutputs frame_outputs(const SweepPlan& plan, const RenderScenes& scenes) {
     const SampleDrawing& drawing = plan.drawing;
-    const ClipIdentity pictures = identity_of(
+    const FrameIdentity pictures = identity_of(
         scenes.scenes,
         drawing_settings(scenes.request, {drawing.shutter, drawing.blur_samples, drawing.transparent, drawing.backend},
                          scenes.composition));

@@ -48,7 +48,7 @@ bool SampleMaker::make(std::int64_t index, Known known) {
     record.identity = identity_of(plan_, sample, record.scene_hash);
     const fs::path place = folder_ / sample.name;
     if (known == Known::kept) {
-        const auto there = read_record(place);
+        const auto there = read_sample_record(place);
         if (there && there->identity == record.identity && files_are_whole(place, there->files)) return false;
     }
     SampleFolder folder(hidden_folder(folder_) / fmt::format("{}-{}", index, ::getpid()));

@@ -85,7 +85,7 @@ std::string failure_text(const SweepPlan& plan, const SweepSample& sample, const
     return text_of(json);
 }
 
-std::optional<KnownRecord> read_record(const std::filesystem::path& folder) {
+std::optional<KnownRecord> read_sample_record(const std::filesystem::path& folder) {
     std::ifstream file(folder / record_name, std::ios::binary);
     if (!file) return std::nullopt;
     KnownRecord known;

@@ -38,7 +38,7 @@ struct KnownRecord {
     std::string text, identity;
     std::vector<SampleFile> files;
 };
-std::optional<KnownRecord> read_record(const std::filesystem::path& folder);
+std::optional<KnownRecord> read_sample_record(const std::filesystem::path& folder);
 
 /// Differs where the files or the record of the sample would: by the version, the scene, the values and the settings.
 std::string identity_of(const SweepPlan& plan, const SweepSample& sample, const std::string& scene_hash);

@@ -110,7 +110,7 @@ private:
         std::string reason = reply.reason.data();
         std::string line;
         if (reply.outcome != SampleReply::Outcome::failed) {
-            const auto record = read_record(task_.folder / sample.name);
+            const auto record = read_sample_record(task_.folder / sample.name);
             if (record) line = record->text;
             if (!record) reason = "its files have disappeared";
         }

@@ -40,7 +40,6 @@ public:
     bool is_text() const { return node_->is_string(); }
     bool is_table() const { return node_->is_table(); }
     bool is_array() const { return node_->is_array(); }
-    bool is_text() const { return node_->is_string(); }
     const toml::node& node() const { return *node_; }
 
     double number(const Range& range) const;  // integers are accepted
