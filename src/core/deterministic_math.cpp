@@ -118,6 +118,21 @@ double exponential(double x) {
     return std::ldexp(1.0 + (r * p + tail), static_cast<int>(k));
 }
 
+double logarithm(double x) {
+    constexpr double ln2_1 = 0x1.62e42feep-1, ln2_2 = 0x1.a39ef35793c76p-33;  // k * ln2_1 is exact for |k| < 2^21
+    if (!(x > 0.0)) return x == 0.0 ? -HUGE_VAL : std::nan("");
+    if (x == HUGE_VAL) return x;
+    int k = 0;
+    double m = std::frexp(x, &k);                 // exact
+    if (m < 0x1.6a09e667f3bcdp-1) m *= 2.0, --k;  // sqrt(1/2) <= m < sqrt(2)
+    // ln m = 2 atanh s, s = (m - 1) / (m + 1), as a series to s^23; the remainder is below 1e-19.
+    const double f = m - 1.0, s = f / (2.0 + f), square = s * s;
+    double series = 0.0;
+    for (int n = 23; n >= 3; n -= 2) series = (series + 1.0 / n) * square;
+    // 2 s = f - s f, so that f, which is exact, carries the digits.
+    return k * ln2_1 + (f - (s * (f - 2.0 * series) - k * ln2_2));
+}
+
 TanhSech tanh_sech(double x) {
     const double e = exponential(-std::fabs(x)), square = e * e;
     const double t = (1.0 - square) / (1.0 + square);

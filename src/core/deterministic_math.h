@@ -1,4 +1,4 @@
-// Sine, cosine, arc tangent and exponential with the same bytes on every x86-64. glibc selects variants with fused
+// Sine, cosine, arc tangent, exponential and logarithm with the same bytes on every x86-64. glibc selects variants with fused
 // operations at run time, which differ in the last bit between machines, so the trajectory must depend on these
 // functions only. They use only + - * / and sqrt.
 #pragma once
@@ -21,6 +21,9 @@ double atan2_stable(double y, double x);
 
 /// e^x; relative error below 4e-16. Overflows to infinity and underflows to 0.
 double exponential(double x);
+
+/// The natural logarithm of x > 0; relative error below 4e-16, near 1 absolute.
+double logarithm(double x);
 
 struct TanhSech {
     double tanh, sech;

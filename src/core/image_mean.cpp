@@ -14,7 +14,10 @@ constexpr double white = 65535.0;  // scale of linear light: the darkest two sRG
 
 }  // namespace
 
-ImageMean::ImageMean(bool transparent) : srgb_(std::size_t(white) + 1), transparent_(transparent) {
+ImageMean::ImageMean(bool transparent) : transparent_(transparent) {}
+
+void ImageMean::make_tables() {
+    srgb_.resize(std::size_t(white) + 1);
     for (std::size_t i = 0; i < linear_.size(); ++i)
         linear_[i] = static_cast<std::uint16_t>(std::lround(white * srgb_to_linear(double(i) / 255.0)));
     for (std::size_t i = 0; i < srgb_.size(); ++i)
@@ -22,6 +25,7 @@ ImageMean::ImageMean(bool transparent) : srgb_(std::size_t(white) + 1), transpar
 }
 
 void ImageMean::add(const Image& image) {
+    if (srgb_.empty()) make_tables();
     if (count_ == 0) {
         width_ = image.width;
         height_ = image.height;

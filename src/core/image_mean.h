@@ -25,8 +25,10 @@ public:
     void take(Image& mean);
 
 private:
-    std::array<std::uint16_t, 256> linear_;  // linear value of each sRGB value; 65535 is white
-    std::vector<std::uint8_t> srgb_;         // nearest sRGB value of each linear value
+    void make_tables();
+
+    std::array<std::uint16_t, 256> linear_{};  // linear value of each sRGB value; 65535 is white
+    std::vector<std::uint8_t> srgb_;           // nearest sRGB value of each linear value; empty until the first image
     bool transparent_;
     std::vector<std::uint32_t> sums_;  // R, G, B of each pixel; with alpha, R, G, B times alpha, and alpha
     int width_ = 0, height_ = 0;

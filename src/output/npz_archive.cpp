@@ -1,11 +1,12 @@
 #include "output/npz_archive.h"
 
 #include "core/error.h"
+#include "output/checksum.h"
 #include "output/npz_check.h"
 
 #include <fmt/format.h>
-#include <isa-l/crc.h>
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <limits>
@@ -16,8 +17,9 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little);  // the byte order in the arrays' types
 
-constexpr std::size_t npy_alignment = 64;    // bytes: the values of an .npy file start at a multiple of it
-constexpr std::size_t most_of_names = 1024;  // bytes of all headers of one array: below 300
+constexpr std::size_t npy_alignment = 64;          // bytes: the values of an .npy file start at a multiple of it
+constexpr std::size_t most_of_names = 1024;        // bytes of all headers of one array: below 300
+constexpr std::size_t most_of_small_array = 1024;  // bytes of values: a camera has 128
 constexpr std::uint16_t deflated = 8, version = 20;
 constexpr std::uint16_t first_day = 1 << 5 | 1;  // 1980-01-01, the first date of the zip format
 
@@ -62,10 +64,6 @@ void copy_to(std::vector<std::byte>& file, std::size_t& used, std::span<const st
     used += bytes.size();
 }
 
-std::uint32_t checksum_of(std::uint32_t before, std::span<const std::byte> bytes) {
-    return crc32_gzip_refl(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
-}
-
 }  // namespace
 
 void NpzArchive::add(std::string_view name, const ArrayShape& shape, std::span<const float> values) {
@@ -89,6 +87,28 @@ std::uint32_t NpzArchive::compress(std::span<const std::byte> head, std::span<co
         deflater_.compress({head, values}, Deflater::End::last, std::span(file_).subspan(used_, room)));
 }
 
+/// The same; the compressed bytes of the previous file's array are taken if its content is the same.
+std::uint32_t NpzArchive::compress_small(std::span<const std::byte> head, std::span<const std::byte> values) {
+    small_.resize(std::max(small_.size(), members_.size() + 1));
+    SmallArray& before = small_[members_.size()];
+    const auto same = [&] {
+        return before.content.size() == head.size() + values.size() &&
+               std::equal(head.begin(), head.end(), before.content.begin()) &&
+               std::equal(values.begin(), values.end(), before.content.begin() + std::ptrdiff_t(head.size()));
+    };
+    if (!before.packed.empty() && same()) {
+        std::size_t end = used_;
+        copy_to(file_, end, before.packed);
+        return std::uint32_t(before.packed.size());
+    }
+    const std::uint32_t packed = compress(head, values);
+    const auto bytes = std::span(file_).subspan(used_, packed);
+    before.packed.assign(bytes.begin(), bytes.end());
+    before.content.assign(head.begin(), head.end());
+    before.content.insert(before.content.end(), values.begin(), values.end());
+    return packed;
+}
+
 void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const ArrayShape& shape,
                            std::span<const std::byte> values) {
     const std::string text = npy_head(kind, shape);
@@ -100,10 +120,10 @@ void NpzArchive::add_bytes(std::string_view name, const std::string& kind, const
     member.name = fmt::format("{}.npy", name);
     member.offset = static_cast<std::uint32_t>(used_);
     member.size = static_cast<std::uint32_t>(head.size() + values.size());
-    member.checksum = checksum_of(checksum_of(0, head), values);
+    member.checksum = crc32_of(crc32_of(0, head), values);
     const std::size_t local = 30 + member.name.size();
     used_ += local;  // written below, when the compressed size is known
-    member.packed = compress(head, values);
+    member.packed = values.size() <= most_of_small_array ? compress_small(head, values) : compress(head, values);
     const std::size_t end = used_ + member.packed;
     used_ = member.offset;
     copy_to(file_, used_,
@@ -162,7 +182,7 @@ std::span<const std::byte> NpzArchive::finish(std::string_view mark) {
                 .u16(mark.empty() ? 0 : npz_comment_size)
                 .all());
     if (!mark.empty()) {
-        const std::string comment = npz_comment(mark, checksum_of(0, std::span<const std::byte>(file_).first(used_)));
+        const std::string comment = npz_comment(mark, crc32_of(0, std::span<const std::byte>(file_).first(used_)));
         copy_to(file_, used_, std::as_bytes(std::span(comment)));
     }
     const std::size_t all = std::exchange(used_, 0);

@@ -40,7 +40,13 @@ private:
     void add_bytes(std::string_view name, const std::string& kind, const ArrayShape& shape,
                    std::span<const std::byte> values);
     std::uint32_t compress(std::span<const std::byte> head, std::span<const std::byte> values);
+    std::uint32_t compress_small(std::span<const std::byte> head, std::span<const std::byte> values);
 
+    /// A small array of the previous file. Most of its time is that of a code, and it seldom changes.
+    struct SmallArray {
+        std::vector<std::byte> content, packed;
+    };
+    std::vector<SmallArray> small_;  // by the number of the array in the file
     Deflater deflater_;
     std::vector<std::byte> file_;
     std::size_t used_ = 0;  // written bytes of file_

@@ -6,7 +6,7 @@
 #include "render/antialiasing/antialiasing.h"
 #include "render/antialiasing/surface_ids.h"
 #include "render/frame/frame_context.h"
-#include "render/gl/gl_context.h"
+#include "render/gl/gl_device.h"
 #include "render/gl/shader_locator.h"
 #include "render/passes/draw_list.h"
 #include "render/passes/frame_passes.h"
@@ -60,16 +60,6 @@ PassOptions pass_options(const SceneDescription& description, const RenderSwitch
 }  // namespace
 
 struct Renderer::State {
-    /// An OpenGL context, and its functions.
-    struct Gpu {
-        explicit Gpu(GlBackend backend)
-            : context(make_gl_context(backend)),
-              gl(load_gl_functions([this](const char* name) { return context->get_proc_address(name); })) {}
-
-        std::unique_ptr<GlContext> context;
-        GlFunctions gl;
-    };
-
     /// `description`: without compounds; only needed during the call.
     State(const SceneDescription& description, PartPoses parts, const RenderSwitches& options)
         : switches(options),
@@ -78,8 +68,9 @@ struct Renderer::State {
           ambient_occlusion(scene, setup.camera().eye()),
           damage_tracker({options.full_redraw, options.draw_hidden}),
           lods(scene),
-          gpu(options.backend),
-          passes(gpu.gl, scene, setup.shadow_filter(), pass_options(description, options)),
+          own_device(options.device == nullptr ? std::make_unique<GlDevice>(options.backend) : nullptr),
+          device(own_device ? *own_device : current(*options.device)),
+          passes(device, scene, setup.shadow_filter(), pass_options(description, options)),
           antialiasing(lods, description.output.width, description.output.height,
                        {is_analytic(description, options), options.transparent}),
           image(description.output.width, description.output.height) {
@@ -89,9 +80,14 @@ struct Renderer::State {
     // The context of another renderer may be current; objects must be deleted in this one.
     ~State() {
         try {
-            gpu.context->make_current();
+            device.make_current();
         } catch (const RunError&) {
         }
+    }
+
+    static GlDevice& current(GlDevice& device) {
+        device.make_current();
+        return device;
     }
 
     RenderSwitches switches;
@@ -100,7 +96,8 @@ struct Renderer::State {
     AmbientOcclusion ambient_occlusion;
     DamageTracker damage_tracker;
     MeshLods lods;
-    Gpu gpu;
+    std::unique_ptr<GlDevice> own_device;  // null: it is another one's
+    GlDevice& device;
     FramePasses passes;
     Antialiasing antialiasing;
     Image image;
@@ -118,8 +115,8 @@ Renderer::~Renderer() = default;
 
 const Image& Renderer::render(const Snapshot& snapshot) {
     State& s = *state_;
-    s.gpu.context->make_current();  // another renderer may have been used in this thread
-    PassTimer timer(s.gpu.gl, s.switches.times);
+    s.device.make_current();  // another renderer may have been used in this thread
+    PassTimer timer(s.device.gl(), s.switches.times);
     s.changed.clear();
 
     FrameContext frame = s.setup.prepare(snapshot, s.passes.one_sample(), s.switches.full_redraw);
@@ -148,7 +145,7 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     timer.ends(Pass::read);
     s.antialiasing.apply(frame, damage, visible, s.image);
     timer.ends(Pass::edges);
-    TUMBLE_CHECK_EQ(s.gpu.gl.GetError(), GLenum(GL_NO_ERROR));
+    TUMBLE_CHECK_EQ(s.device.gl().GetError(), GLenum(GL_NO_ERROR));
 
     s.changed = std::move(damage.changed);
     s.setup.finish();
@@ -165,7 +162,7 @@ const DepthImage& Renderer::depths() const {
 const Camera& Renderer::camera() const { return state_->setup.camera(); }
 
 std::string Renderer::driver() const {
-    const GlFunctions& gl = state_->gpu.gl;
+    const GlFunctions& gl = state_->device.gl();
     std::string text = fmt::format("{}, OpenGL {}", driver_string(gl, GL_RENDERER), driver_string(gl, GL_VERSION));
     if (text.find("softpipe") != std::string::npos) text += " (softpipe has no multisampling: edges will be jagged)";
     return text;

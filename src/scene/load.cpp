@@ -9,13 +9,12 @@
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"
 #include "scene/toml/set_values.h"
+#include "scene/toml/toml_file.h"
 #include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <limits>
 
 namespace tumble {
 namespace {
@@ -27,25 +26,6 @@ void check_format(const TomlTable& root) {
     const std::int64_t number =
         format->integer(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
     if (number != readable) format->fail(fmt::format("must be {}, the only one there is", readable));
-}
-
-std::string read_text(const std::filesystem::path& file) {
-    const SourceLocation whole{file.string(), 0, 0};
-    const auto fail = [&](const std::string& problem) { throw InputError(whole, "the scene " + problem); };
-    std::error_code error;
-    if (std::filesystem::is_directory(file, error)) fail("is a folder, not a file");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    std::string text;
-    char block[1 << 16];
-    while (stream.read(block, sizeof block), stream.gcount() > 0) {
-        text.append(block, static_cast<std::size_t>(stream.gcount()));
-        if (text.size() > static_cast<std::size_t>(limits::scene_bytes)) {
-            fail(fmt::format("is larger than {} MiB", limits::scene_bytes >> 20));
-        }
-    }
-    if (stream.bad()) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    return text;
 }
 
 }  // namespace
@@ -81,9 +61,13 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     return scene;
 }
 
+std::string read_scene_text(const std::filesystem::path& file) {
+    return read_toml_file(file, "scene", limits::scene_bytes);
+}
+
 SceneDescription load_scene(const std::filesystem::path& file, const SceneOverrides& overrides, FileList* read,
                             MeshImports imports) {
-    return parse_scene(read_text(file), file, overrides, read, imports);
+    return parse_scene(read_scene_text(file), file, overrides, read, imports);
 }
 
 }  // namespace tumble

@@ -79,7 +79,7 @@ class Aovs(program.ProgramTest):
     def test_values_against_closed_form(self):
         run = self.check(0, "render", "scene.toml", "--frames", "out", "--aov", ",".join(ALL))
         self.assertEqual(sorted(p.name for p in (self.folder / "out").iterdir()),
-                         sorted(program.frame_names(4) + aov_names(4) + ["segmentation.csv"]))
+                         sorted(program.frame_names(4) + aov_names(4) + ["aovs.json", "frames.json", "segmentation.csv"]))
         self.assertIn("wrote out/aov_000000.npz to aov_000003.npz: depth, normal, segmentation, motion, albedo\n", run.stderr)
         focal = 24 / math.tan(math.radians(30))
         for frame in range(4):
@@ -179,8 +179,9 @@ class Aovs(program.ProgramTest):
         self.write("file", "")
         run = self.check(1, "render", "scene.toml", "--aov", "depth", "--aov-folder", "file/out")
         self.assertIn("error: cannot make the folder 'file/out'", run.stderr)
-        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (900, 900))
-        run = self.check(1, "render", "scene.toml", "--aov", "depth,normal", "--aov-folder", "out", preexec_fn=limit)
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
+        run = self.check(1, "render", "scene.toml", "--aov", "depth,normal", "--aov-folder", "out", "--size", "96x64",
+                         preexec_fn=limit)
         self.assertEqual(run.stderr, "error: cannot write 'out/aov_000000.npz': File too large\n")
         self.assertEqual(self.names(), ["file"])
 

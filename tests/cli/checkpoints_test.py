@@ -108,13 +108,26 @@ class Checkpoints(program.ProgramTest):
     def test_parts_of_variants(self):
         self.goes_on("--vary", "simulation.integrator=explicit-euler,exact", "--size", "256x160", starts=(0.6,))
 
+    def test_parts_fill_one_folder(self):
+        self.check(0, "render", "scene.toml", "--frames", "whole", "--aov", "motion", "--quiet")
+        for motion in ((), ("--no-motion",)):
+            self.simulate(*motion)
+            for frames in ("20-24", "0-6", "7-13:2,18-19", "8-14:2,15-17"):
+                self.check(0, "render", "scene.toml", "--frames", "parts", "--aov", "motion", "--frames-range", frames,
+                           "--from-checkpoints", "states", "--quiet")
+            files = [path.name for path in (self.folder / "whole").iterdir() if path.suffix != ".json"]
+            self.assertEqual(len(files), 50)
+            for name in files:
+                self.assertEqual((self.folder / "parts" / name).read_bytes(), (self.folder / "whole" / name).read_bytes(), name)
+            shutil.rmtree(self.folder / "parts")
+
     def test_aovs_of_a_part(self):
         aovs = ("--aov", "depth,motion", "--quiet")
         self.check(0, "render", "scene.toml", "--aov-folder", "whole", *aovs)
         for motion in ((), ("--no-motion",)):
             self.simulate(*motion)
             self.check(0, "render", "scene.toml", "--aov-folder", "part", *aovs, "--start", 0.8, "--from-checkpoints", "states")
-            part = sorted(path.name for path in (self.folder / "part").iterdir())
+            part = sorted(path.name for path in (self.folder / "part").glob("*.npz"))
             self.assertEqual((part[0], len(part)), ("aov_000016.npz", 9))
             for name in part:
                 self.assertEqual((self.folder / "part" / name).read_bytes(), (self.folder / "whole" / name).read_bytes())
@@ -185,6 +198,10 @@ class Checkpoints(program.ProgramTest):
             file.write_bytes(good)
         shutil.copy(self.folder / "states/checkpoint_000005.tumble", self.folder / "states/checkpoint_000010.tumble")
         self.refused("holds the state of frame 5, not the state of frame 10: was the file renamed?")
+
+    def test_a_report_is_of_a_whole_clip(self):
+        self.simulate()
+        self.refused("excludes", "--report", "r.html")
 
     def test_misuse_of_simulate(self):
         for reason, options in {

@@ -82,7 +82,7 @@ class Package(unittest.TestCase):
         scene = self.tree / "usr/share/tumble/assets/scenes/bouncing_balls.toml"
         out = self.folder / "frames"
         self.program("render", scene, "--frames", out, "--duration", "0", "--size", "64x36", "--quiet", env=environment)
-        self.assertEqual([path.name for path in out.iterdir()], ["frame_000000.png"])
+        self.assertEqual([path.name for path in out.glob("frame_*")], ["frame_000000.png"])
 
     def test_files(self):
         pages = [name for name in self.files if name.startswith("usr/share/man/man1/tumble")]

@@ -83,8 +83,9 @@ class ProgramTest(unittest.TestCase):
         return run
 
     def names(self):
-        """All files and folders except the scene."""
-        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*") if p.name != "scene.toml")
+        """All files and folders except the scene and the manifests beside frames."""
+        return sorted(str(p.relative_to(self.folder)) for p in self.folder.rglob("*")
+                      if p.name not in ("scene.toml", "frames.json", "aovs.json"))
 
     def rows(self, name):
         with open(self.folder / name, newline="") as file:
@@ -97,6 +98,15 @@ def probe(path, entries):
                           "stream=" + entries, "-of", "default=nw=1:nk=1", path],
                          stdout=subprocess.PIPE, text=True, check=True)
     return out.stdout.split()
+
+
+def unmarked(path):
+    """The bytes of a frame or of its AOVs without the mark of scene and settings, to compare those of different ones."""
+    data = pathlib.Path(path).read_bytes()
+    if data.startswith(b"PK"):
+        return data[:data.index(b"Tumble-Scene ")]
+    at = data.index(b"tEXtTumble-Scene") - 4
+    return data[:at] + data[at + 12 + int.from_bytes(data[at:at + 4], "big"):]
 
 
 def chunk(kind, data):

@@ -16,7 +16,7 @@ import zipfile
 import program
 from program import ProgramTest
 
-KILLS = int(os.environ.get("TUMBLE_KILLS", "4"))
+KILLS = int(os.environ.get("TUMBLE_KILLS", "3"))
 CLIP = ("--size", "96x64", "--fps", "30", "--duration", "4")
 
 
@@ -117,7 +117,7 @@ class Resume(ProgramTest):
         whole = contents(self.folder / "out")
         places = random.Random(1)
         for name in ("frame_000000.png", "aov_000000.npz"):
-            for _ in range(8):
+            for _ in range(3):
                 file = self.folder / "out" / name
                 at = places.randrange(len(whole[name]))
                 damaged = bytearray(whole[name])
@@ -289,7 +289,7 @@ class Segments(ProgramTest):
                                        ("b.webm", "30", ("--transparent",)), ("b.mov", "30", ("--transparent",)),
                                        ("a.gif", "100", ())):
             with self.subTest(name):
-                options = ("--duration", "2.5", "--fps", fps, "--quiet", *transparent)
+                options = ("--duration", "1.7", "--fps", fps, "--quiet", *transparent)
                 self.check(0, "render", "scene.toml", "-o", "plain-" + name, *options)
                 self.check(0, "render", "scene.toml", "-o", name, "--resume", *options)
                 entries = "width,height,pix_fmt,r_frame_rate,nb_read_frames,start_time"

@@ -135,6 +135,21 @@ TEST(DeterministicMath, Exponential) {
     EXPECT_NEAR(exponential(-745.0) / 5e-324, 1.0, 0.5);  // near the smallest number
 }
 
+TEST(DeterministicMath, Logarithm) {
+    std::mt19937_64 random(6);
+    for (int i = 0; i < 20000; ++i) {
+        for (const double x : {std::exp(1400.0 * (unit(random) - 0.5)), 0.5 + unit(random)}) {
+            const long double truth = std::log(static_cast<long double>(x));
+            EXPECT_LE(std::fabs(logarithm(x) - truth), 4e-16L * std::max(std::fabs(truth), 1e-3L)) << x;
+        }
+    }
+    EXPECT_EQ(logarithm(1.0), 0.0);
+    EXPECT_EQ(logarithm(0.0), -HUGE_VAL);
+    EXPECT_EQ(logarithm(HUGE_VAL), HUGE_VAL);
+    EXPECT_TRUE(std::isnan(logarithm(-1.0)));
+    EXPECT_NEAR(logarithm(5e-324), -744.4400719213812, 1e-12);  // the smallest number
+}
+
 TEST(DeterministicMath, HyperbolicTangentAndSecant) {
     std::mt19937_64 random(5);
     for (int i = 0; i < 20000; ++i) {

@@ -60,9 +60,9 @@ class ByHand(FarmTest):
     def test_other_clips(self):
         """Panels, motion blur, slow motion, plots, alpha, frames per second: each option reaches the commands that need it."""
         (self.folder / "other.toml").write_text(SCENE.replace("restitution", "friction").replace("0.6, 0.0]", "0.9, 0.0]"))
-        for clip, scenes, options in (("a.mp4", (self.scene, "other.toml"), ("--plot", "energy", "--layout", "row", "--size", "240x320")),
-                                      ("b.webm", (self.scene,), ("--transparent", "--shutter", "180", "--blur-samples", "3")),
-                                      ("c.gif", (self.scene,), ("--vary", "body.first.restitution=0,0.9", "--size", "120x60", "--speed", "0.5", "--fps", "5", "--samples", "4"))):
+        for clip, scenes, options in (("a.mp4", (self.scene, "other.toml"), ("--plot", "energy", "--size", "240x320", "--duration", "0.5")),
+                                      ("b.webm", (self.scene,), ("--transparent", "--shutter", "180", "--blur-samples", "3", "--duration", "0.5")),
+                                      ("c.gif", (self.scene,), ("--vary", "body.first.restitution=0,0.9", "--size", "120x60", "--duration", "0.5", "--speed", "0.5", "--fps", "5", "--samples", "4"))):
             self.farm("slurm", *scenes, "--parts", 3, "-o", clip, "--program", TUMBLE, "--write-only", *options)
             folder = self.folder / (clip + ".farm")
             self.bash(folder / "simulate.sh")

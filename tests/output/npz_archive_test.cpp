@@ -106,6 +106,25 @@ TEST(NpzArchive, FilesAreIndependent) {
     EXPECT_EQ(members(b).size(), 1u);
 }
 
+TEST(NpzArchive, ASmallArrayOfTheFileBeforeIsTakenOnlyIfItIsTheSame) {
+    NpzArchive used;
+    const auto file = [&](NpzArchive& archive, double second, std::uint8_t fill) {
+        archive.add("first", {2}, std::vector<double>{1.0, second});
+        archive.add("middle", {5000}, std::vector<std::uint8_t>(5000, fill));
+        archive.add("last", {1}, std::vector<double>{second});
+        const auto bytes = archive.finish();
+        return std::vector<std::byte>(bytes.begin(), bytes.end());
+    };
+    for (const double second : {2.0, 2.0, 3.0, 2.0}) {
+        NpzArchive fresh;
+        EXPECT_EQ(file(used, second, std::uint8_t(second)), file(fresh, second, std::uint8_t(second)));
+    }
+    NpzArchive fresh;
+    for (NpzArchive* archive : {&fresh, &used}) archive->add("other", {2}, std::vector<float>{1.0f, 2.0f});
+    const auto a = fresh.finish(), b = used.finish();
+    EXPECT_TRUE(std::equal(a.begin(), a.end(), b.begin(), b.end()));
+}
+
 TEST(NpzArchive, TheBoundHoldsForIncompressibleData) {
     std::uint32_t state = 1;
     for (const std::size_t size : {1u, 1000u, 300000u}) {

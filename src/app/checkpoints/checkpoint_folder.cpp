@@ -77,12 +77,12 @@ void CheckpointWriting::add(const ClipState& state) {
 
 void CheckpointWriting::add_motion(std::int64_t frame, std::size_t panel, std::span<const std::byte> motion) {
     write(motion_path(folder_.path(), frame, panel), motion_kind(panel), frame, motion);
-    motion_ = true;
+    if (intervals_.empty() || intervals_.back() != frame) intervals_.push_back(frame);
 }
 
 void CheckpointWriting::finish(std::span<const std::byte> survey) {
     CheckpointWriter writer;
-    writer.keep(frames_, motion_, std::vector<std::byte>(survey.begin(), survey.end()));
+    writer.keep(frames_, intervals_, std::vector<std::byte>(survey.begin(), survey.end()));
     write(clip_path(folder_.path()), "clip", 0, writer.bytes());
 }
 
@@ -97,7 +97,7 @@ CheckpointReading::CheckpointReading(const fs::path& folder, std::string program
                         safe_path(folder)));
     const std::vector<std::byte> content = read_checkpoint(path, header_of(program_, "clip", 0, identity_));
     CheckpointReader reader(content);
-    reader.keep(frames_, motion_, survey_);
+    reader.keep(frames_, intervals_, survey_);
 }
 
 std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
@@ -113,13 +113,13 @@ std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
 }
 
 std::int64_t CheckpointReading::interval_of(std::int64_t frame) const {
-    const auto after = std::upper_bound(frames_.begin(), frames_.end(), frame);
-    return after == frames_.begin() ? 0 : *std::prev(after);
+    const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), frame);
+    return after == intervals_.begin() ? 0 : *std::prev(after);
 }
 
 std::optional<std::int64_t> CheckpointReading::interval_after(std::int64_t interval) const {
-    const auto after = std::upper_bound(frames_.begin(), frames_.end(), interval);
-    return after == frames_.end() ? std::nullopt : std::optional(*after);
+    const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), interval);
+    return after == intervals_.end() ? std::nullopt : std::optional(*after);
 }
 
 std::vector<std::byte> CheckpointReading::motion(std::int64_t interval, std::size_t panel) const {

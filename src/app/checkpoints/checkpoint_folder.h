@@ -1,5 +1,5 @@
 // A folder of checkpoints: checkpoint_000060.tumble holds the state just before frame 60 is made; motion_000060.tumble
-// the motion from there to the next checkpoint; clip.tumble, written last, the values of the whole clip that drawing
+// the motion from there to the next such file; clip.tumble, written last, the values of the whole clip that drawing
 // needs.
 #pragma once
 
@@ -26,8 +26,8 @@ public:
     CheckpointWriting(const std::filesystem::path& folder, std::string program, CheckpointIdentity identity);
 
     void add(const ClipState& state);
-    /// The motion of a panel (FrameRecorder) from a frame, the first one or that of a checkpoint, to the next
-    /// checkpoint or the end.
+    /// The motion of a panel (FrameRecorder) from a frame to the next one that is given, or to the end. All panels that
+    /// run are given the same frames, in order.
     void add_motion(std::int64_t frame, std::size_t panel, std::span<const std::byte> motion);
     /// `survey`: the values of the whole clip that drawing needs.
     void finish(std::span<const std::byte> survey);
@@ -43,7 +43,7 @@ private:
     std::string program_;
     CheckpointIdentity identity_;
     std::vector<std::int64_t> frames_;
-    bool motion_ = false;
+    std::vector<std::int64_t> intervals_;  // of the motion: their first frames
     std::uintmax_t bytes_ = 0;
 };
 
@@ -56,8 +56,8 @@ public:
     /// The last state at or before a frame; none: there the clip starts anew. Throws InputError for a damaged file.
     std::optional<ClipState> before(std::int64_t frame) const;
 
-    /// True if the motion is in the folder too. It is in intervals, from the start and from each checkpoint on.
-    bool has_motion() const { return motion_; }
+    /// True if the motion is in the folder too. It is in intervals, of which the first begins at the start.
+    bool has_motion() const { return !intervals_.empty(); }
     /// The first frame of the interval of a frame, and of the next interval.
     std::int64_t interval_of(std::int64_t frame) const;
     std::optional<std::int64_t> interval_after(std::int64_t interval) const;
@@ -67,8 +67,8 @@ private:
     std::filesystem::path folder_;
     std::string program_;
     CheckpointIdentity identity_;
-    std::vector<std::int64_t> frames_;  // of the states, ascending
-    bool motion_ = false;
+    std::vector<std::int64_t> frames_;     // of the states, ascending
+    std::vector<std::int64_t> intervals_;  // of the motion: their first frames, ascending
     std::vector<std::byte> survey_;
 };
 

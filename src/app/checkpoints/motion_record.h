@@ -27,6 +27,8 @@ public:
 
     /// `records`: of the frame, or null.
     void add(const std::vector<Snapshot>& samples, const ContactRecords* records);
+    /// Bytes of the frames since the last take().
+    std::size_t size() const { return writer_.bytes().size(); }
     /// The frames since the last call, complete in themselves.
     std::vector<std::byte> take();
 

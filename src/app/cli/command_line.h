@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/cli/commands.h"
+#include "app/cli/golden_command.h"
 #include "app/threads/thread_budget.h"
 #include "core/safe_text.h"
 
@@ -28,7 +29,9 @@ struct CommandLine {
     LessonCommand lesson;
     EncodeCommand encode;
     CompareCommand compare;
+    GoldenCommand golden;
     InfoCommand info;
+    SweepCommand sweep;
     FarmCommand farm;
     DoctorCommand doctor;
     CompletionCommand completion;
@@ -43,7 +46,10 @@ CLI::App* add_page(CLI::App& app, CommandLine& line);
 CLI::App* add_lesson(CLI::App& app, CommandLine& line);
 CLI::App* add_encode(CLI::App& app, CommandLine& line);
 CLI::App* add_compare(CLI::App& app, CommandLine& line);
+CLI::App* add_golden(CLI::App& app, CommandLine& line);
+int run_golden(const CLI::App& command, const GoldenCommand& golden);
 CLI::App* add_info(CLI::App& app, CommandLine& line);
+CLI::App* add_sweep(CLI::App& app, CommandLine& line);
 CLI::App* add_farm(CLI::App& app, CommandLine& line);
 void add_doctor(CLI::App& app, CommandLine& line);
 CLI::App* add_completion(CLI::App& app, CommandLine& line);

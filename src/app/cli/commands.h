@@ -2,45 +2,38 @@
 // errors leave it as InputError (exit code 2) or RunError (1).
 #pragma once
 
-#include "app/composition/frame_layout.h"
+#include "app/clip/clip_request.h"
 #include "app/farm/slurm_scripts.h"
 #include "gltf/key_track.h"
 #include "output/video_format.h"
-#include "render/aov/aov_kind.h"
 #include "render/renderer.h"
 #include "scene/load.h"
 #include "tumble/output.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace tumble {
 
-struct RenderCommand {
-    std::vector<std::filesystem::path> scenes;     // a panel for each
-    std::optional<std::string> text;               // of the only scene, in place of its file's
-    std::vector<std::string> vary;                 // "PATH=VALUE,VALUE": a panel for each
-    std::optional<std::filesystem::path> clip;     // without this, frames and AOVs: the first scene's name
-    std::optional<std::filesystem::path> frames;   // folder
-    std::optional<std::filesystem::path> report;   // .html
-    std::optional<std::filesystem::path> profile;  // .json
-    AovSet aovs;
-    std::optional<std::filesystem::path> aov_folder;  // instead of the frames' folder
-    SceneOverrides overrides;
-    PanelArrangement arrangement = PanelArrangement::automatic;
+struct RenderCommand : ClipRequest {
+    std::optional<std::filesystem::path> clip;           // without this, frames and AOVs: the first scene's name
+    std::optional<std::filesystem::path> frames;         // folder
+    std::optional<std::filesystem::path> report;         // .html
+    std::optional<std::filesystem::path> profile;        // .json
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
+    std::optional<std::filesystem::path> aov_folder;     // instead of the frames' folder
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    std::optional<std::string> frames_range;                // "1-10,30-40:2": frames that are drawn; else all
     bool resume = false;                                    // keeps finished frames of the same clip
     std::string call;                                       // the command as it was typed, for messages
-    double start = 0.0;                                     // s, scene time; earlier frames are not drawn
     std::optional<std::filesystem::path> from_checkpoints;  // folder; else the frames before the first are simulated
-    double speed = 1.0;                                     // of the motion in the clip: 0.25 is slow motion
-    int frame_step = 1;          // of the scene's frames one in so many is in the clip; the motion is the same
-    double shutter = 0.0;        // degrees: 360 is always open, 0 a single moment
-    int blur_samples = 8;        // images per frame while the shutter is open
-    std::optional<int> threads;  // of the simulation; see thread_budget.h
-    int workers = 1;             // render processes
+    double shutter = 0.0;                                   // degrees: 360 is always open, 0 a single moment
+    int blur_samples = 8;                                   // images per frame while the shutter is open
+    std::optional<int> threads;                             // of the simulation; see thread_budget.h
+    int workers = 1;                                        // render processes
     bool quiet = false;
 };
 void run_render(const RenderCommand& command);
@@ -62,9 +55,10 @@ void run_simulate(const SimulateCommand& command);
 
 struct PlotCommand {
     std::vector<std::filesystem::path> scenes;
-    std::string quantities;         // names separated by commas (app/plots/quantities.h)
-    std::filesystem::path output;   // .svg, .png or .pdf
-    std::vector<std::string> vary;  // "PATH=VALUE,VALUE"
+    std::string quantities;                              // names separated by commas (app/plots/quantities.h)
+    std::filesystem::path output;                        // .svg, .png or .pdf
+    std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
+    std::vector<std::string> vary;                       // "PATH=VALUE,VALUE"
     SceneOverrides overrides;
     std::optional<std::string> title;  // without this, the first scene's
     bool log = false;                  // logarithmic vertical axes
@@ -171,6 +165,19 @@ struct InfoCommand {
     std::optional<std::filesystem::path> bodies;
 };
 void run_info(const InfoCommand& command);
+
+struct SweepCommand {
+    std::filesystem::path plan;
+    std::optional<std::filesystem::path> folder;
+    std::vector<std::string> set;    // "PATH=VALUE", for all samples
+    std::vector<std::int64_t> only;  // samples to make again
+    int workers = 1;                 // processes
+    bool dry_run = false;            // prints the plan's size and first samples
+    bool stop = false;               // at the first sample that fails
+    bool quiet = false;
+};
+/// Returns 0, or 1 if a sample failed.
+int run_sweep(const SweepCommand& command);
 
 struct DoctorCommand {
     double time_limit = 30.0;  // s for each program and driver: a driver without caches takes seconds on a busy machine

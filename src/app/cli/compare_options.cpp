@@ -29,8 +29,8 @@ void add_sets(CLI::App& command, CompareCommand& c) {
     command.add_flag("--allow-added", c.allow_added, "A picture without a reference is no difference");
     command
         .add_option("--fps", c.overrides.fps,
-                    "Frames per second of a scene, in place of its own; of clips whose pictures are shown\nlonger "
-                    "(--variable-rate), which without this have as many frames as are stored")
+                    "Frames per second of a scene, in place of its own; of clips whose pictures are\nshown longer "
+                    "(--variable-rate), which without this have as many frames as are\nstored")
         ->check(number_within(limits::fps.min, limits::fps.max))
         ->type_name("N");
     add_values(command, c.overrides);
@@ -51,12 +51,13 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
                            "1 different, 2 cannot compare, 3 missing");
     command->add_option("a", c.a, "The references: a picture (PNG), a folder or a clip")->required()->type_name("A");
     command
-        ->add_option("b", c.b, "The pictures to test: the same, or a scene (TOML) that is drawn for a folder of frames")
+        ->add_option("b", c.b,
+                     "The pictures to test: the same, or a scene (TOML) that is drawn for a folder of\nframes")
         ->required()
         ->type_name("B");
     command
         ->add_option("--diff", c.difference,
-                     "Write a picture of the differences: red beyond the tolerance, blue within; of folders and\nclips "
+                     "Write a picture of the differences: red beyond the tolerance, blue within; of\nfolders and clips "
                      "a folder of them")
         ->check(some_name())
         ->type_name("D.png|DIR");

@@ -1,5 +1,6 @@
 #include "app/cli/compare_scene.h"
 
+#include "app/causes/record_file.h"
 #include "app/cli/render_run.h"
 #include "app/files/frame_folder.h"
 #include "app/files/frame_set.h"
@@ -62,6 +63,7 @@ void draw_frames_of(const CompareCommand& command, const std::filesystem::path& 
     render.overrides.height = size.height;
     render.workers = command.workers;
     render.quiet = command.quiet;
+    render.motion_record = to / folder_record_name;
     render_to_files(render);
 }
 

@@ -1,5 +1,6 @@
 #include "app/cli/compare_sets.h"
 
+#include "app/causes/explain_images.h"
 #include "app/cli/compare_scene.h"
 #include "app/cli/compare_summary.h"
 #include "app/cli/say.h"
@@ -191,7 +192,8 @@ bool compares_sets(const CompareCommand& command) {
 
 int compare_sets(const CompareCommand& command) {
     SetComparisonRun run(command);
-    const SetResult result = run.compare();
+    SetResult result = run.compare();
+    explain_frames(result);
     if (command.json) write_text(*command.json, to_json(result));
     if (command.junit) write_text(*command.junit, to_junit(result));
     if (command.report) run.write_report(result);

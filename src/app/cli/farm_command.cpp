@@ -1,7 +1,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/render_plan.h"
-#include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
+#include "app/clip/render_scenes.h"
 #include "app/farm/farm_status.h"
 #include "app/farm/openjd_template.h"
 #include "app/files/output_plan.h"

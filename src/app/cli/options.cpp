@@ -35,7 +35,9 @@ int run_command_line(int argc, char** argv) {
     const CLI::App* lesson = add_lesson(app, line);
     const CLI::App* encode = add_encode(app, line);
     const CLI::App* compare = add_compare(app, line);
+    const CLI::App* golden = add_golden(app, line);
     const CLI::App* info = add_info(app, line);
+    const CLI::App* sweep = add_sweep(app, line);
     const CLI::App* farm = add_farm(app, line);
     add_doctor(app, line);
     const CLI::App* completion = add_completion(app, line);
@@ -66,8 +68,12 @@ int run_command_line(int argc, char** argv) {
         run_encode(line.encode);
     else if (compare->parsed())
         return run_compare(line.compare);
+    else if (golden->parsed())
+        return run_golden(*golden, line.golden);
     else if (info->parsed())
         run_info(line.info);
+    else if (sweep->parsed())
+        return run_sweep(line.sweep);
     else if (completion->parsed())
         run_completion(line.completion, read_command(app));
     else if (man_pages->parsed())

@@ -1,3 +1,5 @@
+#include "app/causes/record_file.h"
+#include "app/causes/run_recorder.h"
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
@@ -15,6 +17,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,11 +54,17 @@ void run_plot(const PlotCommand& command) {
         runs.emplace_back(variant.label, parse_quantities(command.quantities, scenes.back()));
     }
     plan.add("-o", command.output);
+    std::optional<RunRecorder> recorder;
+    if (command.motion_record) recorder.emplace(scenes);
     {
         Interrupt interrupt;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             World world(scenes[i], command.threads);
-            SurveyObserver* const observers[] = {&runs[i]};
+            std::vector<SurveyObserver*> observers{&runs[i]};
+            if (command.motion_record) {
+                world.record_contacts();
+                observers.push_back(&recorder->panel(i));
+            }
             survey(world, {scenes[i].frame_count(), 1}, observers, interrupt);
         }
     }
@@ -75,6 +84,7 @@ void run_plot(const PlotCommand& command) {
     Canvas canvas(format, width, height);
     draw(figure, canvas, {0.0, 0.0, width, height});
     const std::string bytes = canvas.finish();
+    if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     write_file(command.output, std::as_bytes(std::span(bytes)));
     if (!command.quiet) say("wrote {}\n", safe_path(command.output));
 }

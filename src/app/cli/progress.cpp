@@ -31,8 +31,9 @@ std::string clock_text(double seconds) {
     return fmt::format("{}:{:02}:{:02}", s / 3600, s / 60 % 60, s % 60);
 }
 
-Progress::Progress(std::int64_t total, bool quiet)
+Progress::Progress(std::int64_t total, bool quiet, const char* things)
     : total_(total),
+      things_(things),
       quiet_(quiet),
       terminal_(isatty(STDERR_FILENO) == 1),
       start_(wall_seconds()),
@@ -55,7 +56,7 @@ void Progress::update(std::int64_t done) {
 
 std::string Progress::figures(std::int64_t done, double now) const {
     const double rate = double(done) / (now - start_);
-    std::string text = fmt::format("{} of {} frames, {:.1f} frames/s", done, total_, rate);
+    std::string text = fmt::format("{} of {} {}, {:.1f} {}/s", done, total_, things_, rate, things_);
     if (done > 0) text += fmt::format(", {} left", clock_text(double(total_ - done) / rate));
     return text;
 }

@@ -8,8 +8,8 @@ namespace tumble {
 
 class Progress {
 public:
-    /// Of `total` frames; `quiet` disables all output.
-    Progress(std::int64_t total, bool quiet);
+    /// Of `total` frames, or other `things`; `quiet` disables all output.
+    Progress(std::int64_t total, bool quiet, const char* things = "frames");
     /// Erases the bar, so that the next message begins on a clean line.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -25,6 +25,7 @@ private:
     std::string figures(std::int64_t done, double now) const;
 
     std::int64_t total_;
+    const char* things_;
     bool quiet_, terminal_;
     double start_, last_shown_;
     bool bar_shown_ = false;

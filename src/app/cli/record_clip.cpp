@@ -14,6 +14,8 @@
 namespace tumble {
 namespace {
 
+constexpr std::size_t most_motion = std::size_t(64) << 20;  // bytes of a panel that are kept until they are written
+
 /// A panel, and the memory of drawing from frame to frame.
 struct RecordedPanel {
     RecordedPanel(RenderScenes& scenes, std::size_t index, const ClipRecording& recording)
@@ -82,8 +84,11 @@ void record_clip(RenderScenes& scenes, const ClipRecording& recording, Checkpoin
             ClipState state{n, {}};
             for (const auto& panel : panels) state.panels.push_back(panel->state());
             checkpoints.add(state);
-            if (recording.motion) add_motion(std::exchange(first, n), panels, checkpoints);
         }
+        const bool full =
+            std::ranges::any_of(panels, [](const auto& p) { return p->motion && p->motion->size() > most_motion; });
+        if (recording.motion && n > 0 && (n % recording.every == 0 || full))
+            add_motion(std::exchange(first, n), panels, checkpoints);
         recording.each(n, panels.front()->world);
         for (const auto& panel : panels) panel->take(n, end);
     }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/checkpoints/checkpoint_folder.h"
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 #include "sim/frames/clip_timing.h"
 
 #include <cstdint>

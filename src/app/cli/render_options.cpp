@@ -101,6 +101,12 @@ void add_render_options(CLI::App& to, RenderCommand& c) {
     command->add_option("--aov-folder", c.aov_folder, "Folder of the AOVs, in place of that of --frames")
         ->check(some_name())
         ->type_name("DIR");
+    command
+        ->add_option("--motion-record", c.motion_record,
+                     "Write what the frames show (poses, first contacts, camera, light) as a small file, by\n"
+                     "which tumble compare names the causes of differences: DIR/frames.motion.json")
+        ->check(some_name())
+        ->type_name("R.json");
     add_size(*command, c.overrides.width, c.overrides.height, "Picture size, in place of the scene's");
     add_frames_of_time(*command, c.overrides);
     command
@@ -125,6 +131,7 @@ void add_render_options(CLI::App& to, RenderCommand& c) {
             "A folder of tumble simulate --checkpoints: the frames before the first drawn one are\nnot simulated again "
             "(docs/how-to/long-renders.md)")
         ->check(some_name())
+        ->excludes("--report")  // which simulates the whole clip
         ->type_name("DIR");
     command
         ->add_option("--samples", c.overrides.samples,

@@ -1,5 +1,6 @@
 #include "app/cli/render_plan.h"
 
+#include "app/clip/drawing_settings.h"
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
 #include "app/files/output_plan.h"
@@ -31,6 +32,9 @@ std::optional<fs::path> folder_of_aovs(const RenderCommand& command) {
 void check_outputs(const RenderCommand& command, const RenderPlan& plan, const RenderScenes& scenes) {
     OutputPlan files;
     for (const fs::path& file : scenes.inputs) files.add_input(file);
+    if (command.motion_record && (command.resume || command.from_checkpoints))
+        throw InputError("--motion-record: is of a whole run, without --resume and --from-checkpoints");
+    if (command.motion_record) files.add("--motion-record", *command.motion_record);
     if (plan.clip) files.add("--output", *plan.clip);
     if (plan.aov_folder && command.aovs.has(Aov::segmentation))
         files.add("--aov", segmentation_table_path(*plan.aov_folder));
@@ -46,19 +50,8 @@ void check_outputs(const RenderCommand& command, const RenderPlan& plan, const R
     if (plan.aov_folder) add_series("--aov", *plan.aov_folder, FrameFiles::aovs);
 }
 
-NamedValues drawing_settings(const RenderCommand& command, const Composition& composition) {
-    const auto yes = [](bool value) { return std::string(value ? "yes" : "no"); };
-    NamedValues settings{{"size", fmt::format("{}x{}", composition.width, composition.height)},
-                         {"speed", fmt::format("{}", command.speed)},
-                         {"shutter", fmt::format("{}", command.shutter)},
-                         {"transparent", yes(command.drawing.transparent)},
-                         {"gl", command.drawing.backend == GlBackend::egl ? "egl" : "osmesa"}};
-    if (command.shutter > 0.0) settings.emplace_back("blur samples", fmt::format("{}", command.blur_samples));
-    if (command.scenes.size() > 1 || !command.vary.empty())
-        settings.emplace_back("layout", command.arrangement == PanelArrangement::row    ? "row"
-                                        : command.arrangement == PanelArrangement::grid ? "grid"
-                                                                                        : "automatic");
-    return settings;
+DrawingChoices choices_of(const RenderCommand& command) {
+    return {command.shutter, command.blur_samples, command.drawing.transparent, command.drawing.backend};
 }
 
 /// The frames of a folder that are to be drawn.
@@ -98,11 +91,10 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
     }
     check_outputs(command, plan, scenes);
 
-    plan.pictures = identity_of(scenes.scenes, drawing_settings(command, scenes.composition));
+    plan.pictures = identity_of(scenes.scenes, drawing_settings(command, choices_of(command), scenes.composition));
     plan.pictures.frames = scenes.clip_frames;
     plan.pictures.fps = fps;
-    plan.aovs = plan.pictures;
-    plan.aovs.settings.emplace_back("AOVs", names_of(command.aovs));
+    plan.aovs = identity_of_aovs(plan.pictures, command.aovs);
     if (plan.folder)
         plan.frames.folder = missing_in(command, *plan.folder, FrameFiles::pictures, plan.pictures, scenes.frames);
     if (plan.aov_folder)

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/cli/commands.h"
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 #include "app/pipeline/pipeline.h"
 #include "app/resume/frame_identity.h"
 #include "app/resume/segmented_clip.h"

@@ -1,10 +1,12 @@
 #include "app/cli/render_run.h"
 
+#include "app/causes/record_file.h"
+#include "app/causes/run_recorder.h"
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_plan.h"
-#include "app/cli/render_scenes.h"
 #include "app/cli/say.h"
+#include "app/clip/render_scenes.h"
 #include "app/pipeline/pipeline.h"
 #include "app/resume/kept_frames.h"
 #include "app/threads/interrupt.h"
@@ -21,6 +23,13 @@
 
 namespace tumble {
 namespace {
+
+/// Numbers of the frames of a set.
+std::vector<std::int64_t> numbers_of(const FrameSet& frames) {
+    std::vector<std::int64_t> numbers;
+    frames.for_each([&](std::int64_t frame) { numbers.push_back(frame); });
+    return numbers;
+}
 
 /// Takes the survey of the clip from the folder.
 CheckpointReading open_checkpoints(const std::filesystem::path& folder, RenderScenes& scenes) {
@@ -51,6 +60,13 @@ struct ClipMotion {
             overlays.push_back(image ? scenes.overlay(i) : nullptr);
             panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(),
                               scenes.scenes[i].scene->bodies.size()});
+        }
+    }
+    /// Precondition: worlds, from the start of the clip.
+    void record(RunRecorder& recorder) {
+        for (std::size_t i = 0; i < panels.size(); ++i) {
+            worlds[i]->record_contacts();
+            panels[i].observer = &recorder.panel(i);
         }
     }
 };
@@ -174,6 +190,11 @@ RenderFigures render_to_files(const RenderCommand& command) {
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);
+    std::optional<RunRecorder> recorder;
+    if (command.motion_record) {
+        recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
+        motion.record(*recorder);
+    }
     const double outputs_open = wall_seconds();
     Destinations destinations(command, plan, scenes);
     Pipeline pipeline(motion.panels, plan.frames, render_pool, destinations.outputs(), shutter);
@@ -189,6 +210,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     destinations.complete();
+    if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     if (trace) {
         if (plan.clip) trace->add({"ffmpeg", outputs_open, wall_seconds()}, "ffmpeg");
         trace->write(*command.profile);

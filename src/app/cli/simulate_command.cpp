@@ -97,7 +97,7 @@ void simulate_rest(const SimulateCommand& command) {
     for (const auto& file : scenes.inputs) plan.add_input(file);
     RunTables::plan(command, plan);
     const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
-    const std::int64_t first = scenes.frames.first, end = scenes.ends.front();
+    const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
     const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);

@@ -33,18 +33,19 @@ public:
     const std::filesystem::path& path() const { return folder_; }
     const AovSet& aovs() const { return aovs_; }
 
-    /// Describes the AOVs: the file is written before the first one.
+    /// Describes the AOVs: the file is there before the first one has its name.
     void set_manifest(const std::filesystem::path& path, std::string text);
     /// Writes it and the table, if they are not there. Throws RunError.
     void write_manifest();
 
-    /// Writes the file of one frame, without publishing it; table and manifest are written before the first one. Throws
+    /// Writes the file of one frame, without publishing it; table and manifest are there before the first one is published. Throws
     /// RunError naming the file.
     std::unique_ptr<TemporaryFile> write(std::int64_t frame, std::span<const std::byte> file);
 
-private:
+    /// Writes the table of the numbers of a segmentation.
     void write_table() const;
 
+private:
     std::filesystem::path folder_;
     const SceneDescription& scene_;
     AovSet aovs_;

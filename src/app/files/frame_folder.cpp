@@ -131,9 +131,9 @@ void FrameFolder::write_manifest() {
 }
 
 std::unique_ptr<TemporaryFile> FrameFolder::write(std::int64_t frame, std::span<const std::byte> file) {
-    write_manifest();
     auto part = std::make_unique<TemporaryFile>(frame_path(folder_, frame), LeftParts::kept);
     part->write(file);
+    write_manifest();  // after that: a full disk leaves an empty folder
     return part;
 }
 

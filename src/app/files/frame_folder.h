@@ -58,7 +58,7 @@ public:
 
     const std::filesystem::path& path() const { return folder_; }
 
-    /// Describes the frames: the file is written before the first frame.
+    /// Describes the frames: the file is there before the first frame has its name.
     void set_manifest(const std::filesystem::path& path, std::string text);
     /// Writes it, if there is one to write, and if the file does not have that text. Throws RunError.
     void write_manifest();

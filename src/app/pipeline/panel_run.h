@@ -3,6 +3,7 @@
 
 #include "app/checkpoints/clip_state.h"
 #include "app/checkpoints/recorded_frames.h"
+#include "app/survey/survey.h"
 #include "app/workers/motion_blur_frame.h"
 #include "overlay/overlay_builder.h"
 #include "sim/frames/frame_sequence.h"
@@ -22,6 +23,7 @@ struct PanelSource {
     OverlayBuilder* overlay = nullptr;   // of the shapes over it, or null
     RecordedFrames* recorded = nullptr;  // in place of a world
     std::size_t bodies = 0;              // of the scene
+    SurveyObserver* observer = nullptr;  // sees every simulated frame, or null
 };
 
 class PanelRun {

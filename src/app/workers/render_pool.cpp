@@ -1,12 +1,10 @@
 #include "app/workers/render_pool.h"
 
 #include "app/workers/reorder_buffer.h"
-#include "core/check.h"
 #include "core/error.h"
 #include "core/start_thread.h"
 #include "render/gl/shader_compile_schedule.h"
 #include "render/render_switches.h"
-#include "sim/checkpoint/archive.h"
 
 #include <sys/mman.h>
 
@@ -76,11 +74,7 @@ private:
 
 RenderPool::RenderPool(const Composition& composition, const RenderOptions& options, const FrameOutputs& outputs,
                        int workers, int max_blur_samples)
-    : compile_schedule_(make_compile_schedule(workers)),
-      composition_(composition),
-      aov_changes_(*composition.aov_scene),
-      outputs_(outputs) {
-    for (const ClipPanel& panel : composition.panels) pose_filters_.emplace_back(*panel.scene);
+    : compile_schedule_(make_compile_schedule(workers)), composition_(composition), filter_(composition, outputs) {
     RenderSwitches with_schedule{options};
     with_schedule.compile_schedule = compile_schedule_.get();
     std::vector<int> sockets;
@@ -123,40 +117,6 @@ void RenderPool::run(BoundedQueue<MotionBlurFrame>& poses, const std::function<b
     stop();
 }
 
-/// Selects the poses to draw; false: the frame equals the previous one, which is not allowed where that was not drawn
-/// (`anew`).
-bool RenderPool::filter(MotionBlurFrame& frame_poses, bool anew) {
-    if (!outputs_.image() || (!filter_image(frame_poses) && !anew)) frame_poses.panels.clear();
-    if (frame_poses.aovs && !aov_changes_.follow(*frame_poses.aovs) && !anew) frame_poses.aovs.reset();
-    return !frame_poses.panels.empty() || frame_poses.aovs;
-}
-
-/// Selects the poses to draw of all panels; false: the image equals that of the previous frame.
-bool RenderPool::filter_image(MotionBlurFrame& frame_poses) {
-    TUMBLE_CHECK_EQ(frame_poses.panels.size(), pose_filters_.size());
-    bool changed = composition_.changes(last_time_, frame_poses.time);
-    last_time_ = frame_poses.time;
-    for (std::size_t i = 0; i < pose_filters_.size(); ++i)
-        if (pose_filters_[i].follow(frame_poses.panels[i])) changed = true;
-    for (std::size_t i = 0; i < frame_poses.overlays.size(); ++i)
-        if (pose_filters_[i].overlay != frame_poses.overlays[i]) {
-            pose_filters_[i].overlay = frame_poses.overlays[i];
-            changed = true;
-        }
-    return changed;
-}
-
-/// Replaces the samples by those to draw; false: the image of the panel equals that of the previous frame. If nothing
-/// moves while the shutter is open, one sample is left.
-bool RenderPool::PanelFilter::follow(PanelPoses& samples) {
-    bool first = false, later = false;
-    for (std::size_t i = 0; i < samples.size(); ++i)
-        if (poses.follow(samples[i])) (i == 0 ? first : later) = true;
-    if (!later) samples.resize(1);
-    const bool moved_before = std::exchange(moves, later);
-    return first || later || moved_before;
-}
-
 /// Main function of the thread that serves one worker.
 void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order,
                        DrawingTimes& times, const FrameSet& frames) {
@@ -164,7 +124,7 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
     const auto next_pose = [&]() -> std::optional<MotionBlurFrame> {
         const std::lock_guard lock(pose_mutex_);
         while (std::optional<MotionBlurFrame> pose = poses.pop()) {
-            const bool wanted = filter(*pose, !frames.contains(pose->frame - 1));
+            const bool wanted = filter_.follow(*pose, !frames.contains(pose->frame - 1));
             if (!frames.contains(pose->frame)) continue;
             if (wanted) {
                 if (!pose->panels.empty()) ++drawn_;
@@ -200,10 +160,7 @@ void RenderPool::serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses,
     }
 }
 
-void RenderPool::restore(std::size_t panel, std::span<const std::byte> poses) {
-    CheckpointReader reader(poses);
-    reader.keep(pose_filters_.at(panel).poses);
-}
+void RenderPool::restore(std::size_t panel, std::span<const std::byte> poses) { filter_.restore(panel, poses); }
 
 void RenderPool::abandon() {
     for (const auto& worker : workers_) worker->kill();

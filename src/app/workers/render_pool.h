@@ -10,9 +10,9 @@
 #include "app/files/frame_set.h"
 #include "app/threads/bounded_queue.h"
 #include "app/threads/stage_timer.h"
+#include "app/workers/frame_filter.h"
 #include "app/workers/motion_blur_frame.h"
 #include "app/workers/render_process.h"
-#include "render/scene/pose_filter.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <atomic>
@@ -71,8 +71,6 @@ public:
 
 private:
     class Slots;
-    bool filter(MotionBlurFrame& frame_poses, bool anew);
-    bool filter_image(MotionBlurFrame& frame_poses);
     void serve(std::size_t worker, BoundedQueue<MotionBlurFrame>& poses, ReorderBuffer& order, DrawingTimes& times,
                const FrameSet& frames);
 
@@ -80,19 +78,8 @@ private:
     std::vector<std::unique_ptr<RenderProcess>> workers_;
     std::vector<std::shared_ptr<Slots>> slots_;  // of each worker
     std::mutex pose_mutex_;                      // serializes taking the next pose
-    /// The filtered poses of one panel.
-    struct PanelFilter {
-        explicit PanelFilter(const SceneDescription& scene) : poses(scene) {}
-        bool follow(PanelPoses& samples);
-        PoseFilter poses;
-        std::vector<std::byte> overlay;  // of the previous frame
-        bool moves = false;              // whether bodies moved while the shutter was open for the previous frame
-    };
     Composition composition_;
-    std::vector<PanelFilter> pose_filters_;
-    AovChanges aov_changes_;
-    FrameOutputs outputs_;
-    double last_time_ = 0.0;  // s, of the last filtered frame
+    FrameFilter filter_;
     std::int64_t drawn_ = 0;
 };
 

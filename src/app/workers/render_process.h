@@ -4,7 +4,7 @@
 #pragma once
 
 #include "app/composition/composition.h"
-#include "app/threads/stage_timer.h"
+#include "app/workers/frame_maker.h"
 #include "app/workers/motion_blur_frame.h"
 #include "app/workers/shared_frames.h"
 #include "output/process.h"
@@ -18,15 +18,6 @@
 #include <span>
 
 namespace tumble {
-
-/// Report of a worker about a frame that it has drawn.
-struct DrawnFrame {
-    std::int64_t frame = 0;
-    bool failed = false;                       // the reason is in the shared memory
-    bool unchanged = false;                    // the same image as the previous frame of this worker
-    std::size_t png_bytes = 0, aov_bytes = 0;  // of the files in the slot
-    WorkTime drawing, conversion, png, aovs;
-};
 
 class RenderProcess {
 public:

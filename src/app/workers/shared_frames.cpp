@@ -140,6 +140,14 @@ void SharedFrames::read_aov_poses(AovPoses& poses) const {
     if (motion_) read(*aov_poses_, 1, poses.next.emplace());
 }
 
+void SharedFrames::write_frame(const MotionBlurFrame& frame_poses) {
+    for (std::size_t i = 0; i < frame_poses.panels.size(); ++i) write_poses(i, frame_poses.panels[i]);
+    if (!frame_poses.panels.empty())
+        for (std::size_t i = 0; i < frame_poses.overlays.size(); ++i)
+            if (!frame_poses.overlays[i].empty()) write_overlay(i, frame_poses.overlays[i]);
+    if (frame_poses.aovs) write_aov_poses(*frame_poses.aovs);
+}
+
 void SharedFrames::write_error(const std::string& text) {
     const std::size_t size = std::min(text.size(), error_text_size - 1);
     std::memcpy(memory_, text.data(), size);

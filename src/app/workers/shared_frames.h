@@ -43,6 +43,9 @@ public:
     std::size_t samples(std::size_t panel) const;
     void read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const;
 
+    /// All that the next frame is made from.
+    void write_frame(const MotionBlurFrame& frame_poses);
+
     /// The shapes over a panel of the next frame (OverlayFrame), if it has an overlay. Throws RunError if they do not
     /// fit.
     void write_overlay(std::size_t panel, std::span<const std::byte> shapes);

@@ -15,6 +15,7 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <thread>
 
 namespace tumble {
@@ -42,7 +43,8 @@ PngBytes bytes_of(const fs::path& file) {
 
 /// Empty where there is no image, or none that can be read.
 std::optional<Image> image_of(const fs::path& file) {
-    if (file.empty()) return std::nullopt;
+    std::error_code error;
+    if (!fs::is_regular_file(file, error)) return std::nullopt;  // opening a pipe would wait
     try {
         return read_png(file);
     } catch (const InputError&) {

@@ -10,12 +10,34 @@
 namespace tumble {
 namespace {
 
-/// Calls visit(index, column, row) for every pixel.
+/// Adjacent pixels of a row that show one surface.
+struct PixelRun {
+    std::uint32_t surface;
+    std::size_t pixel;  // index of the first one
+    int column, row;    // of the first one
+    int count;
+};
+
+/// Calls visit(run) for all pixels, from the top left.
 template <class Visit>
-void for_each_pixel(const VisibilityBuffer& map, const Visit& visit) {
-    std::size_t pixel = 0;
-    for (int row = 0; row < map.height; ++row)
-        for (int column = 0; column < map.width; ++column, ++pixel) visit(pixel, column, row);
+void for_each_run(const VisibilityBuffer& map, const Visit& visit) {
+    const std::uint32_t* surface = map.surface.data();
+    for (int row = 0; row < map.height; ++row, surface += map.width)
+        for (int column = 0, end = 0; column < map.width; column = end) {
+            end = column + 1;
+            while (end < map.width && surface[end] == surface[column]) ++end;
+            visit(PixelRun{surface[column], map.at(column, row), column, row, end - column});
+        }
+}
+
+/// Repeats the value of a pixel of three channels.
+template <class Value>
+void fill_three(Value* to, const Value* value, int count) {
+    for (int i = 0; i < count; ++i, to += 3) {
+        to[0] = value[0];
+        to[1] = value[1];
+        to[2] = value[2];
+    }
 }
 
 void fill_depth(const VisibilityBuffer& map, std::vector<float>& values) {
@@ -27,8 +49,10 @@ template <class Value>
 void fill_by_surface(const VisibilityBuffer& map, const std::vector<Value>& of_surface, const Value& of_nothing,
                      std::vector<Value>& values) {
     values.resize(map.surface.size());
-    for (std::size_t i = 0; i < values.size(); ++i)
-        values[i] = map.surface[i] == VisibilityBuffer::nothing ? of_nothing : of_surface[map.surface[i]];
+    for_each_run(map, [&](const PixelRun& run) {
+        std::fill_n(values.data() + run.pixel, run.count,
+                    run.surface == VisibilityBuffer::nothing ? of_nothing : of_surface[run.surface]);
+    });
 }
 
 std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vector<ShapeInstance>& parts) {
@@ -44,13 +68,11 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
     for (const ShapeInstance& part : parts) colors.push_back(part.color);
     for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
     values.resize(3 * map.surface.size());
-    std::uint8_t* to = values.data();
-    for (const std::uint32_t surface : map.surface) {
-        const Color color = surface == VisibilityBuffer::nothing ? Color{} : colors[surface];
-        *to++ = color.r;
-        *to++ = color.g;
-        *to++ = color.b;
-    }
+    for_each_run(map, [&](const PixelRun& run) {
+        const Color color = run.surface == VisibilityBuffer::nothing ? Color{} : colors[run.surface];
+        const std::array<std::uint8_t, 3> bytes{color.r, color.g, color.b};
+        fill_three(values.data() + 3 * run.pixel, bytes.data(), run.count);
+    });
 }
 
 void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& parts, const ScenePlaces& places,
@@ -67,42 +89,44 @@ void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& 
     }
     const std::array<float, 3> zero{};
     values.resize(3 * map.surface.size());
-    float* to = values.data();
-    for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
-        const std::uint32_t surface = map.surface[pixel];
-        const float* known = surface == VisibilityBuffer::nothing ? zero.data()
-                             : surface < parts.size()             ? everywhere[surface]
-                                                                  : nullptr;
-        if (known != nullptr) {
-            for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = known[k];
-            return;
-        }
-        const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
+    const auto normal_at = [&](std::uint32_t surface, std::size_t pixel, const Vec3& ray) -> Vec3 {
         const double depth = map.depth[pixel];
-        const Vec3 normal = surface < parts.size()
-                                ? Vec3(rotations[surface] * part_normal(parts[surface], places.parts[surface],
-                                                                        map.triangle[pixel], ray, depth))
-                                : Vec3(camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray));
-        for (std::size_t k = 0; k < 3; ++k) to[3 * pixel + k] = float(normal[Eigen::Index(k)]);
+        if (surface >= parts.size())
+            return camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray);
+        return rotations[surface] * part_normal(parts[surface], places.parts[surface], map.triangle[pixel], ray, depth);
+    };
+    for_each_run(map, [&](const PixelRun& run) {
+        const float* known = run.surface == VisibilityBuffer::nothing ? zero.data()
+                             : run.surface < parts.size()             ? everywhere[run.surface]
+                                                                      : nullptr;
+        float* to = values.data() + 3 * run.pixel;
+        if (known != nullptr) return fill_three(to, known, run.count);
+        for (int i = 0; i < run.count; ++i, to += 3) {
+            const Vec3 ray(camera.ray_x(run.column + i), camera.ray_y(run.row), 1.0);
+            const Vec3 normal = normal_at(run.surface, run.pixel + std::size_t(i), ray);
+            for (std::size_t k = 0; k < 3; ++k) to[k] = float(normal[Eigen::Index(k)]);
+        }
     });
 }
 
 void fill_motion(const VisibilityBuffer& map, const SurfaceMotion& motion, const PinholeCamera& camera,
                  std::vector<float>& values) {
     values.resize(2 * map.surface.size());
-    float* to = values.data();
-    for_each_pixel(map, [&, to](std::size_t pixel, int column, int row) {
-        const std::uint32_t surface = map.surface[pixel];
-        if (surface == VisibilityBuffer::nothing ? motion.background_rests() : motion.rests(surface)) {
-            to[2 * pixel] = to[2 * pixel + 1] = 0.0f;
+    for_each_run(map, [&](const PixelRun& run) {
+        const bool background = run.surface == VisibilityBuffer::nothing;
+        float* to = values.data() + 2 * run.pixel;
+        if (background ? motion.background_rests() : motion.rests(run.surface)) {
+            std::fill_n(to, 2 * run.count, 0.0f);
             return;
         }
-        const Vec3 ray(camera.ray_x(column), camera.ray_y(row), 1.0);
-        const Eigen::Vector2d way = surface == VisibilityBuffer::nothing
-                                        ? motion.of_nothing(ray, column, row)
-                                        : motion.of_surface(surface, map.depth[pixel] * ray, column, row);
-        to[2 * pixel] = float(way.x());
-        to[2 * pixel + 1] = float(way.y());
+        for (int column = run.column; column < run.column + run.count; ++column, to += 2) {
+            const Vec3 ray(camera.ray_x(column), camera.ray_y(run.row), 1.0);
+            const Eigen::Vector2d way =
+                background ? motion.of_nothing(ray, column, run.row)
+                           : motion.of_surface(run.surface, map.depth[map.at(column, run.row)] * ray, column, run.row);
+            to[0] = float(way.x());
+            to[1] = float(way.y());
+        }
     });
 }
 

@@ -23,9 +23,9 @@ void connect(const ShaderProgram& program) {
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
 }
 
-BodyPass::BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
                    const ShadowFilter& filter)
-    : gl_(&gl), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter) {
+    : device_(&device), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& proxy : scene.bodies)
@@ -52,8 +52,8 @@ std::size_t BodyPass::index_of(const Variant& variant) {
 }
 
 const ShaderProgram& BodyPass::program(const Variant& variant) {
-    auto& made = programs_[index_of(variant)];
-    if (made) return *made;
+    const ShaderProgram*& made = programs_[index_of(variant)];
+    if (made != nullptr) return *made;
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
     if (variant.kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
     if (variant.kind == DrawKind::ball) files = {"body.vert", "ball.frag", {"BALL"}};
@@ -66,7 +66,7 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     if (variant.patterned) files.defines.emplace_back("PATTERNED");
     if (variant.spans_cascades) files.defines.emplace_back("SPANS_CASCADES");
     if (variant.charted) files.defines.emplace_back("CHARTED");
-    made.emplace(*gl_, shaders_, files);
+    made = &device_->program(shaders_, files);
     connect(*made);
     return *made;
 }

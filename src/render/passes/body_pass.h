@@ -1,14 +1,13 @@
 // Shaders of bodies by kind of mesh, and the bindings that all shaders share.
 #pragma once
 
-#include "render/gl/shader_program.h"
+#include "render/gl/gl_device.h"
 #include "render/mesh/gpu_mesh_cache.h"
 #include "render/shadow/shadow_cascades.h"
 
 #include <array>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,7 +26,7 @@ void connect(const ShaderProgram& program);
 class BodyPass {
 public:
     /// Compiles the shaders that the scene's bodies need; those for bodies that span cascades on first use.
-    BodyPass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+    BodyPass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
              const ShadowFilter& filter);
 
     void draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
@@ -45,12 +44,12 @@ private:
     static std::size_t index_of(const Variant& variant);
     const ShaderProgram& program(const Variant& variant);
 
-    const GlFunctions* gl_;
+    GlDevice* device_;
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
-    bool metal_boxes_ = false;                               // highlights on their bevels flicker without filtering
-    std::array<std::optional<ShaderProgram>, 20> programs_;  // by kind, pattern, light and cascade span
+    bool metal_boxes_ = false;                         // highlights on their bevels flicker without filtering
+    std::array<const ShaderProgram*, 20> programs_{};  // by kind, pattern, light and cascade span; null: not yet used
 };
 
 }  // namespace tumble

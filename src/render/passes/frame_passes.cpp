@@ -9,24 +9,24 @@
 
 namespace tumble {
 
-FramePasses::FramePasses(const GlFunctions& gl, const RenderScene& scene, const ShadowFilter& filter,
+FramePasses::FramePasses(GlDevice& device, const RenderScene& scene, const ShadowFilter& filter,
                          const PassOptions& options)
-    : gl_(&gl),
+    : gl_(&device.gl()),
       scene_(&scene),
-      framebuffer_(gl, options.width, options.height, options.samples),
-      uniforms_(gl, GlKind::buffer),
-      meshes_(gl, scene),
-      occlusion_texture_(gl),
-      shadow_map_(gl, options.shaders, frame_block),
-      bodies_(gl, options.shaders, scene, filter),
-      planes_(gl, options.shaders, scene, filter),
+      framebuffer_(*gl_, options.width, options.height, options.samples),
+      uniforms_(*gl_, GlKind::buffer),
+      meshes_(*gl_, scene),
+      occlusion_texture_(*gl_),
+      shadow_map_(device, options.shaders, frame_block),
+      bodies_(device, options.shaders, scene, filter),
+      planes_(device, options.shaders, scene, filter),
       widen_rods_(options.widen_rods),
       plain_background_(options.plain_background),
       schedule_(options.schedule) {
-    gl.FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
-    gl.Enable(GL_DEPTH_TEST);
-    gl.Enable(GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
-    gl.DepthFunc(GL_LEQUAL);
+    gl_->FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
+    gl_->Enable(GL_DEPTH_TEST);
+    gl_->Enable(GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
+    gl_->DepthFunc(GL_LEQUAL);
 }
 
 void FramePasses::upload(const FrameContext& frame, const DrawList& list, const AmbientOcclusion& occlusion,

@@ -31,9 +31,8 @@ struct PassOptions {
 
 class FramePasses {
 public:
-    /// `scene` must outlive it.
-    FramePasses(const GlFunctions& gl, const RenderScene& scene, const ShadowFilter& filter,
-                const PassOptions& options);
+    /// `device` and `scene` must outlive it.
+    FramePasses(GlDevice& device, const RenderScene& scene, const ShadowFilter& filter, const PassOptions& options);
 
     bool one_sample() const { return framebuffer_.samples() <= 1; }
     bool plain_background() const { return plain_background_.has_value(); }

@@ -39,33 +39,35 @@ std::vector<std::string> with(std::vector<std::string> all, const std::vector<st
 
 }  // namespace
 
-PlanePass::PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
                      const ShadowFilter& filter)
-    : gl_(&gl),
+    : device_(&device),
+      gl_(&device.gl()),
       shaders_(shaders),
       shadows_(scene.light.shadows),
       filter_(filter),
       other_planes_(other_planes(scene)),
-      sky_(gl, shaders, {"sky.vert", "sky.frag", {}}),
-      array_(gl, GlKind::vertex_array),
-      corners_(gl, GlKind::buffer) {
+      sky_(device.program(shaders, {"sky.vert", "sky.frag", {}})),
+      array_(*gl_, GlKind::vertex_array),
+      corners_(*gl_, GlKind::buffer) {
     connect(sky_);
     for (const RenderBody& proxy : scene.bodies) {
         auto& programs = planes_[std::size_t(proxy.pattern)];
         if (proxy.kind != DrawKind::plane || programs) continue;
-        programs.emplace(Programs{make(proxy.pattern, {}), make(proxy.pattern, occluded()), std::nullopt});
+        programs.emplace(Programs{make(proxy.pattern, {}), make(proxy.pattern, occluded()), nullptr});
     }
-    gl.BindVertexArray(array_.name());
-    gl.BindBuffer(GL_ARRAY_BUFFER, corners_.name());
-    gl.EnableVertexAttribArray(0);
-    gl.VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
-    gl.BindVertexArray(0);
+    gl_->BindVertexArray(array_.name());
+    gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.name());
+    gl_->EnableVertexAttribArray(0);
+    gl_->VertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+    gl_->BindVertexArray(0);
 }
 
-ShaderProgram PlanePass::make(Pattern pattern, const std::vector<std::string>& more) const {
-    ShaderProgram made(*gl_, shaders_, {"plane.vert", "plane.frag", with(defines(pattern, other_planes_), more)});
+const ShaderProgram* PlanePass::make(Pattern pattern, const std::vector<std::string>& more) const {
+    const ShaderProgram& made =
+        device_->program(shaders_, {"plane.vert", "plane.frag", with(defines(pattern, other_planes_), more)});
     connect(made);
-    return made;
+    return &made;
 }
 
 std::vector<std::string> PlanePass::occluded() const {
@@ -85,9 +87,9 @@ std::vector<std::function<void()>> PlanePass::compilations() const {
         });
     };
     for (const auto& programs : planes_)
-        if (programs) add(programs->occluded, GL_LEQUAL);
+        if (programs) add(*programs->occluded, GL_LEQUAL);
     for (const auto& programs : planes_)
-        if (programs) add(programs->background, GL_LESS);
+        if (programs) add(*programs->background, GL_LESS);
     add(sky_, GL_LEQUAL);
     return all;
 }
@@ -104,7 +106,7 @@ void PlanePass::draw_background(const FrameContext& frame) const {
     gl_->DepthFunc(GL_LESS);
     for (std::size_t i = frame.planes.size(); i-- > 0;) {
         const PlanePatch& plane = frame.planes[i];
-        set_uniforms(planes_[std::size_t(frame.scene.bodies[plane.body].pattern)]->background, plane, frame);
+        set_uniforms(*planes_[std::size_t(frame.scene.bodies[plane.body].pattern)]->background, plane, frame);
         draw_polygon(plane.corners);
     }
     gl_->DepthFunc(GL_LEQUAL);
@@ -121,9 +123,9 @@ void PlanePass::draw_regions(const FrameContext& frame, const std::vector<std::v
         const PlanePatch& plane = frame.planes[i];
         const Pattern pattern = frame.scene.bodies[plane.body].pattern;
         Programs& programs = *planes_[std::size_t(pattern)];
-        if (far_shadows && !programs.occluded_far)
-            programs.occluded_far.emplace(make(pattern, with(occluded(), {"FAR_MAP"})));
-        const ShaderProgram& program = far_shadows ? *programs.occluded_far : programs.occluded;
+        if (far_shadows && programs.occluded_far == nullptr)
+            programs.occluded_far = make(pattern, with(occluded(), {"FAR_MAP"}));
+        const ShaderProgram& program = far_shadows ? *programs.occluded_far : *programs.occluded;
         upload_polygon(plane.corners);
         set_uniforms(program, plane, frame);
         set_tile(program, plane, atlas, frame);

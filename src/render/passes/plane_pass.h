@@ -4,8 +4,8 @@
 #include "core/rectangle.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/frame/frame_context.h"
+#include "render/gl/gl_device.h"
 #include "render/gl/gl_object.h"
-#include "render/gl/shader_program.h"
 
 #include <array>
 #include <filesystem>
@@ -18,7 +18,7 @@ namespace tumble {
 
 class PlanePass {
 public:
-    PlanePass(const GlFunctions& gl, const std::filesystem::path& shaders, const RenderScene& scene,
+    PlanePass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
               const ShadowFilter& filter);
 
     /// Draws the sky outside the planes. Call it first: at the horizon, the depth of a plane rounds to that of the sky.
@@ -37,10 +37,10 @@ public:
 
 private:
     struct Programs {
-        ShaderProgram background, occluded;
-        std::optional<ShaderProgram> occluded_far;  // once the far shadow map is in use
+        const ShaderProgram *background, *occluded;
+        const ShaderProgram* occluded_far;  // null until the far shadow map is in use
     };
-    ShaderProgram make(Pattern pattern, const std::vector<std::string>& more) const;
+    const ShaderProgram* make(Pattern pattern, const std::vector<std::string>& more) const;
     std::vector<std::string> occluded() const;
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const FrameContext& frame) const;
     void set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
@@ -48,13 +48,14 @@ private:
     void upload_polygon(const std::vector<glm::vec3>& corners) const;
     void draw_polygon(const std::vector<glm::vec3>& corners) const;
 
+    GlDevice* device_;
     const GlFunctions* gl_;
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
     std::array<std::optional<Programs>, 3> planes_;  // by pattern, as far as the scene uses it
     int other_planes_;
-    ShaderProgram sky_;
+    const ShaderProgram& sky_;
     GlObject array_, corners_;
 };
 

@@ -12,13 +12,14 @@ constexpr int farthest_strip_rows =
 
 }  // namespace
 
-ShadowMap::ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block)
-    : gl_(&gl),
-      program_(gl, shaders, {"shadow.vert", "", {}}),
-      texture_(gl, GlKind::texture),
-      framebuffer_(gl, GlKind::framebuffer),
-      empty_texture_(gl, GlKind::texture),
-      empty_framebuffer_(gl, GlKind::framebuffer) {
+ShadowMap::ShadowMap(GlDevice& device, const std::filesystem::path& shaders, GLuint frame_block)
+    : gl_(&device.gl()),
+      program_(device.program(shaders, {"shadow.vert", "", {}})),
+      texture_(*gl_, GlKind::texture),
+      framebuffer_(*gl_, GlKind::framebuffer),
+      empty_texture_(*gl_, GlKind::texture),
+      empty_framebuffer_(*gl_, GlKind::framebuffer) {
+    const GlFunctions& gl = *gl_;
     program_.set_block("Frame", frame_block);
     attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels, farthest_strip_rows);
     gl.ClearDepth(1.0);

@@ -2,7 +2,8 @@
 #pragma once
 
 #include "core/rectangle.h"
-#include "render/gl/shader_program.h"
+#include "render/gl/gl_device.h"
+#include "render/gl/gl_object.h"
 #include "render/mesh/gpu_mesh_cache.h"
 #include "render/shadow/shadow_cascades.h"
 
@@ -12,7 +13,7 @@ namespace tumble {
 
 class ShadowMap {
 public:
-    ShadowMap(const GlFunctions& gl, const std::filesystem::path& shaders, GLuint frame_block);
+    ShadowMap(GlDevice& device, const std::filesystem::path& shaders, GLuint frame_block);
 
     /// Clears these parts of the texture and draws the casters, which must be all that touch them, into the near map
     /// and the far one, if there is one.
@@ -29,7 +30,7 @@ private:
     void empty(const std::vector<Rectangle>& parts) const;
 
     const GlFunctions* gl_;
-    ShaderProgram program_;
+    const ShaderProgram& program_;
     GlObject texture_, framebuffer_;
     GlObject empty_texture_,
         empty_framebuffer_;  // a strip of farthest depths, copied over the parts of a map to redraw

@@ -39,6 +39,8 @@ public:
     bool is_number() const { return node_->is_number(); }
     bool is_text() const { return node_->is_string(); }
     bool is_table() const { return node_->is_table(); }
+    bool is_array() const { return node_->is_array(); }
+    const toml::node& node() const { return *node_; }
 
     double number(const Range& range) const;  // integers are accepted
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
@@ -79,6 +81,7 @@ public:
     /// Throws at the first key (in file order) that is not among these, with the nearest known key.
     void expect_keys(std::initializer_list<std::string_view> known) const;
 
+    const toml::table& table() const { return *table_; }
     bool has(std::string_view key) const { return table_->contains(key); }
     std::optional<TomlValue> find(std::string_view key) const;
     TomlValue require(std::string_view key) const;

@@ -1,4 +1,4 @@
-#include "app/cli/render_scenes.h"
+#include "app/clip/render_scenes.h"
 
 #include "app/plots/variants.h"
 #include "app/survey/survey.h"
@@ -44,8 +44,8 @@ void require_same_rate(const std::vector<ClipScene>& scenes) {
 
 }  // namespace
 
-RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
-    : shutter_(shutter), speed_(command.speed) {
+RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
+    : request(command), shutter_(shutter), speed_(command.speed) {
     load(command);
     for (const ClipScene& one : scenes) scales_.emplace_back(*one.scene);
     if (scenes.size() > 1 && !command.aovs.empty())
@@ -72,7 +72,7 @@ RenderScenes::RenderScenes(const RenderCommand& command, const Shutter& shutter)
     add_overlays();
 }
 
-void RenderScenes::load(const RenderCommand& command) {
+void RenderScenes::load(const ClipRequest& command) {
     for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary)) {
         SceneDescription loaded = command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
                                                : load_scene(variant.scene, variant.overrides, &inputs);
@@ -85,7 +85,7 @@ void RenderScenes::load(const RenderCommand& command) {
 }
 
 /// The plot of the first scene that has one, of all scenes.
-void RenderScenes::read_plot(const RenderCommand& command, CompositionOptions& options) {
+void RenderScenes::read_plot(const ClipRequest& command, CompositionOptions& options) {
     const auto with_plot =
         std::ranges::find_if(scenes, [](const ClipScene& one) { return !one.scene->overlay.plot.empty(); });
     if (with_plot == scenes.end() && (!command.overrides.plot || command.overrides.plot == "none")) return;

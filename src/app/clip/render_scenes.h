@@ -1,14 +1,15 @@
-// The scenes of `tumble render`, their place in the frame, and the frames of the clip.
+// The scenes of a clip, their place in the frame, and the frames of the clip.
 #pragma once
 
 #include "app/checkpoints/checkpoint_identity.h"
-#include "app/cli/commands.h"
+#include "app/clip/clip_request.h"
 #include "app/composition/make_composition.h"
 #include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
 #include "app/survey/scale_observer.h"
 #include "app/threads/interrupt.h"
 #include "overlay/overlay_builder.h"
+#include "scene/load.h"
 #include "sim/frames/clip_timing.h"
 #include "sim/world.h"
 
@@ -23,7 +24,7 @@ namespace tumble {
 class RenderScenes {
 public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
-    RenderScenes(const RenderCommand& command, const Shutter& shutter);
+    RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
     /// Simulates all scenes once, if a plot or the scale of arrows needs it, and fills them in. Leaves no thread behind.
     void survey_clip(int threads, Interrupt& interrupt);
@@ -48,6 +49,7 @@ public:
     /// The maker of a panel's overlay; null without one. Valid after survey_clip().
     std::unique_ptr<OverlayBuilder> overlay(std::size_t index) const;
 
+    ClipRequest request;
     std::vector<ClipScene> scenes;   // the timing is that of the simulation, with the intervals of the shutter
     std::vector<std::int64_t> ends;  // one after the last frame of each scene
     FileList inputs;
@@ -56,10 +58,10 @@ public:
     Composition composition;
 
 private:
-    void load(const RenderCommand& command);
+    void load(const ClipRequest& command);
     void fill_plots();
     void add_overlays();
-    void read_plot(const RenderCommand& command, CompositionOptions& options);
+    void read_plot(const ClipRequest& command, CompositionOptions& options);
 
     template <class Archive, class Self>
     static void visit_survey(Archive& archive, Self& self);

@@ -1,0 +1,31 @@
+// Differences between the bodies of two records of a panel.
+#pragma once
+
+#include "app/causes/cause.h"
+#include "app/causes/panel_view.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+
+/// The bodies of two panels, by name.
+struct BodyPairs {
+    BodyPairs(const PanelRecord& before, const PanelRecord& after);
+    std::vector<std::pair<std::size_t, std::size_t>> both;  // indices before and after
+    std::vector<std::size_t> removed, added;
+};
+
+/// Bodies that are added or removed, and differences of shape, color, ...
+std::vector<Cause> look_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
+
+/// Differences of mass, restitution, friction, velocities of the start, ...: they have an effect only by the motion.
+std::vector<Cause> matter_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
+
+/// "crate.17 moved by 3 px (first differing frame 41, first differing contact at 0.68 s)", of each body that moved.
+std::vector<Cause> motion_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
+
+}  // namespace tumble

@@ -1,0 +1,202 @@
+#include "app/causes/described_values.h"
+
+#include "scene/description/shape_bounds.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
+std::string text_of(const Quat& q) { return fmt::format("[{}, {}, {}, {}]", q.w(), q.x(), q.y(), q.z()); }
+
+/// Text that is too long to be shown: two of them are the same or not.
+std::string digest_text(const std::string& text) {
+    return fmt::format("#{:016x}", digest(std::as_bytes(std::span(text))));
+}
+
+std::string shape_text(const Shape& shape);
+
+struct ShapeText {
+    std::string operator()(const PlaneShape& s) const {
+        return fmt::format("plane {} at {}", text_of(s.normal), s.offset);
+    }
+    std::string operator()(const BoxShape& s) const { return "box " + text_of(s.size); }
+    std::string operator()(const SphereShape& s) const { return fmt::format("sphere of radius {}", s.radius); }
+    std::string operator()(const MeshShape& s) const {
+        const MeshAsset& asset = *s.asset;
+        std::uint64_t sum = digest(std::as_bytes(std::span(asset.vertices)));
+        sum = digest(std::as_bytes(std::span(asset.indices)), sum);
+        return fmt::format("mesh of {} triangles #{:016x}", asset.indices.size() / 3, sum);
+    }
+    std::string operator()(const CompoundShape& s) const {
+        std::string all;
+        for (const CompoundPart& part : *s.parts)
+            all +=
+                fmt::format("{} {} {} {} {};", shape_text(part.shape), text_of(part.position), text_of(part.rotation),
+                            part.density.value_or(-1.0), part.color ? to_string(*part.color) : "");
+        return fmt::format("compound of {} {}", s.parts->size(), digest_text(all));
+    }
+};
+
+std::string shape_text(const Shape& shape) { return std::visit(ShapeText(), shape); }
+
+const char* pattern_text(Pattern pattern) {
+    switch (pattern) {
+        case Pattern::plain:
+            return "plain";
+        case Pattern::grid:
+            return "grid";
+        case Pattern::checker:
+            return "checker";
+    }
+    return "";
+}
+
+const char* type_text(BodyType type) {
+    switch (type) {
+        case BodyType::dynamic:
+            return "dynamic";
+        case BodyType::fixed:
+            return "fixed";
+        case BodyType::kinematic:
+            return "kinematic";
+    }
+    return "";
+}
+
+std::string keyframes_text(const BodyDescription& body) {
+    std::string all = fmt::format("{}:", int(body.interpolation));
+    for (const Keyframe& key : body.keyframes)
+        all += fmt::format("{} {} {};", key.time, text_of(key.position), text_of(key.rotation));
+    return fmt::format("{} {}", body.keyframes.size(), digest_text(all));
+}
+
+std::string forces_text(const SceneDescription& scene) {
+    std::string all;
+    for (const ForceDescription& f : scene.forces)
+        all += fmt::format("{} {} {} {} {} {};", scene.bodies[f.body].name, text_of(f.point), text_of(f.force),
+                           f.body_frame, f.start, f.end);
+    return fmt::format("{} {}", scene.forces.size(), digest_text(all));
+}
+
+std::string cords_text(const SceneDescription& scene) {
+    std::string all;
+    for (const CordDescription& c : scene.cords)
+        all += fmt::format("{} {} {} {} {};", scene.bodies[c.body].name, text_of(c.point), text_of(c.anchor), c.radius,
+                           to_string(c.color));
+    return fmt::format("{} {}", scene.cords.size(), digest_text(all));
+}
+
+std::string shown_text(const OverlayDescription& overlay) {
+    std::vector<std::string_view> names;
+    for (const OverlayName& one : overlay_names)
+        if (overlay.show.has(one.overlay) && one.overlay != Overlay::title && one.overlay != Overlay::clock &&
+            one.overlay != Overlay::mode)
+            names.push_back(one.name);
+    return fmt::format("{}", fmt::join(names, ","));
+}
+
+/// How overlays are drawn, apart from their names.
+std::string overlay_style_text(const OverlayDescription& o) {
+    std::string all = fmt::format("{} {} {} {} {} {};{};", o.start, o.end, o.impulse_time, o.trail_time, o.ghost_every,
+                                  o.legend, fmt::join(o.bodies, " "));
+    for (const TrailPoint& p : o.trail_points)
+        all += fmt::format("{} {} {};", p.body, text_of(p.point), p.color ? to_string(*p.color) : "");
+    for (const auto& scale : o.scale) all += fmt::format("{} ", scale.value_or(-1.0));
+    for (const auto& color : o.color) all += color ? to_string(*color) : "-";
+    return digest_text(all);
+}
+
+void add_simulation(const SimulationSettings& s, ValueMap& values) {
+    values["gravity"] = text_of(s.gravity);
+    values["method"] = s.method == SimulationMethod::notes ? "notes" : "tumble";
+    values["push_out"] = s.push_out ? "true" : "false";
+    values["integrator"] = fmt::format("{}", int(s.integrator));
+    values["impacts"] = s.impacts == ImpactMode::exact ? "exact" : "stepped";
+    values["impact_law"] = s.impact_law == ImpactLaw::simultaneous ? "simultaneous" : "propagating";
+    values["contact_solver"] = fmt::format("{}", int(s.contact_solver));
+    values["rotation form"] = s.rotation == RotationForm::matrix ? "matrix" : "quaternion";
+    values["sleep"] = s.sleep ? "true" : "false";
+    values["seed"] = fmt::format("{}", s.seed);
+    values["steps_per_frame"] = fmt::format("{}", s.steps_per_frame);
+}
+
+}  // namespace
+
+std::uint64_t digest(std::span<const std::byte> bytes, std::uint64_t start) {
+    std::uint64_t sum = start;
+    for (const std::byte b : bytes) sum = (sum ^ std::uint64_t(b)) * 0x100000001b3u;
+    return sum;
+}
+
+BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
+    BodyKind kind;
+    const Appearance& look = body.appearance;
+    kind.look["shape"] = shape_text(body.shape);
+    kind.look["color"] = to_string(look.color);
+    kind.look["roughness"] = fmt::format("{}", look.roughness);
+    kind.look["metallic"] = fmt::format("{}", look.metallic);
+    kind.look["pattern"] = pattern_text(look.pattern);
+    kind.look["visible"] = look.visible ? "true" : "false";
+    kind.matter["type"] = type_text(body.type);
+    kind.matter["restitution"] = fmt::format("{}", body.restitution);
+    kind.matter["friction"] = fmt::format("{}", body.friction);
+    if (body.type == BodyType::dynamic) {
+        kind.matter[body.mass ? "mass" : "density"] = fmt::format("{}", body.mass.value_or(body.density));
+        kind.matter["velocity"] = text_of(body.velocity);
+        kind.matter["angular_velocity"] = text_of(body.angular_velocity);
+        if (body.integrator && *body.integrator != scene.simulation.integrator)
+            kind.matter["integrator"] = fmt::format("{}", int(*body.integrator));
+    }
+    if (!body.keyframes.empty()) kind.matter["keyframes"] = keyframes_text(body);
+    if (!std::holds_alternative<PlaneShape>(body.shape)) kind.bounds = local_bounds(body.shape);
+    kind.round = std::holds_alternative<SphereShape>(body.shape) && look.pattern == Pattern::plain;
+    return kind;
+}
+
+ValueMap values_of(const SceneDescription& scene) {
+    ValueMap values;
+    add_simulation(scene.simulation, values);
+    values["light.direction"] = text_of(scene.light.direction);
+    values["light.shadows"] = scene.light.shadows ? "true" : "false";
+    if (scene.wind)
+        values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
+    if (!scene.forces.empty()) values["forces"] = forces_text(scene);
+    if (!scene.cords.empty()) values["cords"] = cords_text(scene);
+    values["overlay"] = shown_text(scene.overlay);
+    if (!values["overlay"].empty()) values["overlay style"] = overlay_style_text(scene.overlay);
+    return values;
+}
+
+ValueMap values_of(const Composition& composition) {
+    const SceneDescription& first = *composition.panels.front().scene;
+    ValueMap values;
+    values["size"] = fmt::format("{} x {}", composition.width, composition.height);
+    values["samples"] = fmt::format("{}", first.output.samples);
+    values["fps"] = fmt::format("{}", first.output.fps);
+    const ClipText& text = composition.text;
+    values["text.title"] = text.title;
+    values["text.mode"] = text.mode;
+    values["text.clock"] = text.clock ? "true" : "false";
+    std::string captions;
+    for (const Caption& c : text.captions) captions += fmt::format("{} from {} to {}; ", c.text, c.start, c.end);
+    values["text.captions"] = captions;
+    std::string labels;
+    for (const ClipLabel& label : composition.labels) labels += label.text + "; ";
+    values["text.labels"] = labels;
+    std::string plots;
+    for (const ClipPlot& plot : composition.plots) {
+        plots += fmt::format("[{} {} {} {}]", plot.place.x, plot.place.y, plot.place.width, plot.place.height);
+        for (const Panel& panel : plot.figure.panels) plots += panel.title + ";";
+    }
+    values["plot"] = plots;
+    return values;
+}
+
+}  // namespace tumble

@@ -1,0 +1,15 @@
+// Draws golden cases as `tumble render` and `tumble plot` do.
+#pragma once
+
+#include "app/golden/drawer.h"
+
+namespace tumble {
+
+class SceneDrawer : public CaseDrawer {
+public:
+    std::string identity(const GoldenCase& golden) const override;
+    void draw(const GoldenCase& golden, const std::vector<std::int64_t>& frames, const std::filesystem::path& folder,
+              const DrawingWork& work) const override;
+};
+
+}  // namespace tumble

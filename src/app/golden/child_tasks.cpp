@@ -1,0 +1,137 @@
+#include "app/golden/child_tasks.h"
+
+#include "core/check.h"
+#include "core/error.h"
+#include "core/safe_text.h"
+#include "output/process.h"
+
+#include <fmt/format.h>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <exception>
+#include <memory>
+#include <new>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+constexpr int poll_period = 50;  // ms between checks for an interrupt
+
+void write_all(int file, std::string_view text) {
+    while (!text.empty()) {
+        const ssize_t n = ::write(file, text.data(), text.size());
+        if (n < 0 && errno == EINTR) continue;
+        if (n <= 0) return;  // no parent is left to read it
+        text.remove_prefix(std::size_t(n));
+    }
+}
+
+TaskEnd end_of(const std::function<std::string()>& task) {
+    using Kind = TaskEnd::Kind;
+    try {
+        return {Kind::done, task()};
+    } catch (const InputError& error) {
+        return {Kind::input_error, error.what()};
+    } catch (const RunError& error) {
+        return {Kind::run_error, error.what()};
+    } catch (const std::bad_alloc&) {
+        return {Kind::run_error, "error: out of memory"};
+    } catch (const std::exception& error) {
+        return {Kind::run_error, fmt::format("error: {}", safe_lines(error.what()))};
+    }
+}
+
+/// A running child. Its destructor ends and reaps it.
+class Child {
+public:
+    Child(std::size_t index, const std::function<std::string(std::size_t)>& task) : index_(index) {
+        int ends[2];
+        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe");
+        const pid_t parent = ::getpid();
+        id_ = ::fork();
+        if (id_ < 0) {
+            ::close(ends[0]);
+            ::close(ends[1]);
+            fail("cannot start a process");
+        }
+        if (id_ == 0) {
+            ::prctl(PR_SET_PDEATHSIG, SIGTERM);
+            if (::getppid() != parent) ::_exit(1);
+            ::close(ends[0]);
+            const TaskEnd end = end_of([&] { return task(index); });
+            write_all(ends[1], std::string(1, char(end.kind)) + end.text);
+            ::_exit(0);
+        }
+        ::close(ends[1]);
+        pipe_ = ends[0];
+    }
+    ~Child() {
+        if (pipe_ >= 0) ::close(pipe_);
+        if (id_ <= 0) return;
+        ::kill(id_, SIGTERM);
+        wait_for_process(id_);
+    }
+    Child(const Child&) = delete;
+    Child& operator=(const Child&) = delete;
+
+    std::size_t index() const { return index_; }
+    int pipe() const { return pipe_; }
+
+    /// Reads the waiting bytes; false at the end.
+    bool read() {
+        char block[4096];
+        const ssize_t n = ::read(pipe_, block, sizeof block);
+        if (n < 0) return errno == EINTR;
+        text_.append(block, std::size_t(n));
+        return n > 0;
+    }
+    TaskEnd finish() {
+        const ProcessEnd end = wait_for_process(std::exchange(id_, -1));
+        if (text_.empty())
+            return {TaskEnd::Kind::died, fmt::format("error: its process ended without a result: {}", end.describe())};
+        return {TaskEnd::Kind(text_.front()), text_.substr(1)};
+    }
+
+private:
+    [[noreturn]] static void fail(const char* problem) {
+        throw RunError(fmt::format("{}: {}", problem, std::generic_category().message(errno)));
+    }
+
+    std::size_t index_;
+    pid_t id_ = -1;
+    int pipe_ = -1;
+    std::string text_;
+};
+
+}  // namespace
+
+void run_in_children(std::size_t count, std::size_t at_once, const std::function<std::string(std::size_t)>& task,
+                     const std::function<void(std::size_t, const TaskEnd&)>& ended, Interrupt& interrupt) {
+    TUMBLE_CHECK_LT(std::size_t(0), at_once);
+    std::vector<std::unique_ptr<Child>> children;
+    for (std::size_t next = 0; next < count || !children.empty();) {
+        while (next < count && children.size() < at_once) children.push_back(std::make_unique<Child>(next++, task));
+        std::vector<pollfd> pipes;
+        for (const auto& child : children) pipes.push_back({child->pipe(), POLLIN, 0});
+        ::poll(pipes.data(), pipes.size(), poll_period);
+        if (interrupt.pending()) throw RunError("interrupted");
+        for (std::size_t i = pipes.size(); i-- > 0;) {
+            if (pipes[i].revents == 0 || children[i]->read()) continue;
+            const std::size_t index = children[i]->index();
+            const TaskEnd end = children[i]->finish();
+            children.erase(children.begin() + std::ptrdiff_t(i));
+            ended(index, end);
+        }
+    }
+}
+
+}  // namespace tumble

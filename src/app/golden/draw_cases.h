@@ -1,0 +1,38 @@
+// Draws the images of cases, several at a time, and only those that are not in the cache.
+#pragma once
+
+#include "app/golden/child_tasks.h"
+#include "app/golden/drawer.h"
+#include "app/golden/image_cache.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+struct DrawnCase {
+    const GoldenCase* golden = nullptr;
+    std::filesystem::path folder;  // of the images and the record
+    std::size_t drawn = 0;         // images; the others were in the cache
+    std::string error;             // of a case that cannot be drawn
+};
+
+struct DrawCasesOptions {
+    bool force = false;                            // ignores images of the cache
+    int jobs = 1;                                  // cases at a time
+    std::optional<DrawingWork> work;               // of each case; empty: by the jobs
+    std::string identity;                          // of the program (program_identity.h)
+    std::function<void(const DrawnCase&)> report;  // at the end of each case, in any order; may be empty
+};
+
+/// Draws all cases, in the order of the list. An error of a case ends that case only. Throws RunError after an
+/// interrupt, or if the cache cannot be written.
+std::vector<DrawnCase> draw_cases(std::span<const GoldenCase* const> cases, const CaseDrawer& drawer,
+                                  const ImageCache& cache, const DrawCasesOptions& options, Interrupt& interrupt);
+
+}  // namespace tumble

@@ -1,0 +1,44 @@
+// Drawn images of earlier runs, by what they depend on. A folder for each case and key:
+//   CASE-0123456789abcdef/   CASE_000000.png, ..., CASE.motion.json
+// Images are renamed into it when they are whole, so that several runs may share a cache. All images of one key are the
+// same bytes, whoever drew them.
+#pragma once
+
+#include "app/golden/suite.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+class ImageCache {
+public:
+    /// The folder is made when an image is stored.
+    explicit ImageCache(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+    /// The folder of a case. `key`: a hash of all that its images depend on.
+    std::filesystem::path entry(const GoldenCase& golden, const std::string& key) const;
+
+    /// The frames that are not in the entry; all of them if its record is missing or of other frames.
+    static std::vector<std::int64_t> missing(const GoldenCase& golden, const std::filesystem::path& entry);
+
+    /// A new folder in the cache for drawing; the caller removes it. Throws RunError.
+    std::filesystem::path make_work_folder() const;
+
+    /// Moves the drawn files of a folder into the entry, and removes entries of other keys of the case. Throws RunError.
+    void store(const GoldenCase& golden, const std::filesystem::path& drawn, const std::filesystem::path& entry) const;
+
+private:
+    void remove_older(const GoldenCase& golden, const std::filesystem::path& entry) const;
+
+    std::filesystem::path folder_;
+};
+
+/// The folder NAME-HASH of the suite in `base`. Without it: in tumble/golden of $XDG_CACHE_HOME or of ~/.cache, or of the
+/// temporary folder without a home.
+std::filesystem::path cache_folder(const GoldenSuite& suite, const std::optional<std::filesystem::path>& base);
+
+}  // namespace tumble

@@ -1,0 +1,62 @@
+// A suite of golden images as plain values: the cases of a golden.toml, checked, with the place of each key for errors.
+#pragma once
+
+#include "app/composition/frame_layout.h"
+#include "compare/tolerances.h"
+#include "core/error.h"
+#include "scene/keys/overrides.h"
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tumble {
+
+/// A clip of which a few frames are kept, or a plot.
+struct GoldenCase {
+    std::string name;  // files of its references begin with it; no '/'
+    SourceLocation where;
+    std::map<std::string, SourceLocation, std::less<>> places;  // of its keys, of [defaults] as well
+
+    std::vector<std::filesystem::path> scenes;  // a panel for each
+    std::vector<std::int64_t> frames{0};        // ascending; of a plot: 0
+    SceneOverrides overrides;
+    std::vector<std::string> vary;  // "PATH=VALUE,VALUE"
+    PanelArrangement arrangement = PanelArrangement::automatic;
+    bool transparent = false;
+    double speed = 1.0;                    // of the motion in the clip
+    double shutter = 0.0;                  // degrees
+    int blur_samples = 8;                  // images per frame while the shutter is open
+    std::optional<std::string> of;         // quantities: the case is a plot of them
+    std::optional<Tolerances> tolerances;  // in place of the suite's
+
+    /// The place of a key, else of the case.
+    const SourceLocation& place_of(std::string_view key) const;
+    /// "NAME_000045.png".
+    std::string image_name(std::int64_t frame) const;
+    /// "NAME.motion.json".
+    std::string record_name() const { return name + ".motion.json"; }
+};
+
+struct GoldenSuite {
+    std::filesystem::path file;
+    std::filesystem::path references;  // folder
+    Tolerances tolerances;
+    std::vector<GoldenCase> cases;  // in the order of the file
+
+    const GoldenCase* find(std::string_view name) const;
+};
+
+/// Throws InputError with file, line and column for any mistake. Scenes are not read.
+GoldenSuite load_suite(const std::filesystem::path& file);
+GoldenSuite parse_suite(const std::string& text, const std::filesystem::path& file);
+
+/// Calls `action`, and gives its InputErrors without a place ("--fps: ...") that of the case's key.
+void with_place_of(const GoldenCase& golden, const std::function<void()>& action);
+
+}  // namespace tumble

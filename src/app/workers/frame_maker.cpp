@@ -1,0 +1,76 @@
+#include "app/workers/frame_maker.h"
+
+#include "app/threads/wall_clock.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+template <typename Work>
+WorkTime timed(const Work& work) {
+    const double wall = wall_seconds(), cpu = thread_seconds();
+    work();
+    return {wall, wall_seconds() - wall, thread_seconds() - cpu};
+}
+
+}  // namespace
+
+FrameMaker::FrameMaker(const Composition& composition, const RenderSwitches& options, const FrameOutputs& outputs,
+                       SharedFrames& memory)
+    : memory_(memory) {
+    if (outputs.image()) open_panels(composition, options);
+    if (outputs.image() && !composition.plain()) composer_.emplace(composition, outputs.transparent);
+    if (!outputs.aovs.empty()) aovs_.emplace(*composition.aov_scene, outputs.aovs, outputs.aov_mark);
+    if (outputs.video) video_.emplace(*outputs.video, composition.width, composition.height);
+    if (outputs.png) png_.emplace(outputs.transparent ? PngAlpha::kept : PngAlpha::dropped, outputs.png_mark);
+}
+
+DrawnFrame FrameMaker::make(const FrameJob& job) {
+    DrawnFrame drawn;
+    drawn.frame = job.frame;
+    if (job.image) make_image(job, drawn);
+    if (job.aovs)
+        drawn.aovs = timed([&] {
+            memory_.read_aov_poses(aov_poses_);
+            const std::span<const std::byte> file = aovs_->make(aov_poses_);
+            std::ranges::copy(file, memory_.aovs(job.slot).data());
+            drawn.aov_bytes = file.size();
+        });
+    return drawn;
+}
+
+void FrameMaker::open_panels(const Composition& composition, RenderSwitches options) {
+    for (const ClipPanel& panel : composition.panels) {
+        panels_.push_back(std::make_unique<PanelDrawing>(panel, options));
+        options.compile_schedule = nullptr;  // it distributes the shaders of one renderer of each process
+    }
+}
+
+void FrameMaker::make_image(const FrameJob& job, DrawnFrame& drawn) {
+    drawn.drawing = timed([&] { draw(job); });
+    const Image& image = composer_ ? composer_->image() : panels_.front()->image();
+    const std::vector<Rectangle>& changed = composer_ ? composer_->changed() : panels_.front()->changed();
+    drawn.unchanged = changed.empty();
+    if (video_)
+        drawn.conversion = timed([&] {
+            video_->update(image, changed);
+            std::ranges::copy(video_->bytes(), memory_.video(job.slot).data());
+        });
+    if (png_)
+        drawn.png = timed([&] {
+            if (!changed.empty()) file_ = png_->encode(image, changed);
+            std::ranges::copy(file_, memory_.png(job.slot).data());
+        });
+    drawn.png_bytes = file_.size();
+}
+
+void FrameMaker::draw(const FrameJob& job) {
+    for (std::size_t i = 0; i < panels_.size(); ++i) panels_[i]->draw(memory_, i, job.frame);
+    if (!composer_) return;
+    std::vector<PanelImage> images;
+    for (const auto& panel : panels_) images.push_back({panel->image(), panel->changed()});
+    composer_->compose(images, job.time);
+}
+
+}  // namespace tumble
