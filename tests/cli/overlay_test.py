@@ -48,7 +48,7 @@ class Overlays(program.ProgramTest):
         self.write("scene.toml", SCENE)
 
     def frames(self, folder):
-        return {path.name: path.read_bytes() for path in sorted((self.folder / folder).glob("*.png"))}
+        return {path.name: program.unmarked(path) for path in sorted((self.folder / folder).glob("*.png"))}
 
     def render(self, folder, *options):
         self.check(0, "render", "scene.toml", "--frames", folder, "--quiet", *options)
