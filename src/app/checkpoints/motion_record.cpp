@@ -9,19 +9,19 @@ namespace {
 
 /// To the bit: zeros of both signs differ.
 template <class Vector>
-bool same(const Vector& a, const Vector& b) {
+bool same_bits(const Vector& a, const Vector& b) {
     return std::memcmp(a.data(), b.data(), sizeof(double) * std::size_t(a.size())) == 0;
 }
 
-bool same_pose(const BodyState& a, const BodyState& b) {
-    return same(a.origin, b.origin) && same(a.center_of_mass, b.center_of_mass) &&
-           same(a.orientation.coeffs(), b.orientation.coeffs());
+bool same_pose_bits(const BodyState& a, const BodyState& b) {
+    return same_bits(a.origin, b.origin) && same_bits(a.center_of_mass, b.center_of_mass) &&
+           same_bits(a.orientation.coeffs(), b.orientation.coeffs());
 }
 
 /// The pose of a body; its center of mass is often its origin.
 template <class Archive, class State>
 void visit_pose(Archive& archive, State& state) {
-    bool at_origin = same(state.origin, state.center_of_mass);
+    bool at_origin = same_bits(state.origin, state.center_of_mass);
     archive.keep(at_origin, state.origin, state.orientation);
     if (!at_origin)
         archive.keep(state.center_of_mass);
@@ -40,10 +40,10 @@ void visit_body(Archive& archive, State& state, MotionDetail detail) {
 }  // namespace
 
 bool FrameRecorder::differs(const BodyState& a, const BodyState& b) const {
-    if (!same_pose(a, b)) return true;
+    if (!same_pose_bits(a, b)) return true;
     return detail_ == MotionDetail::states &&
-           !(same(a.velocity, b.velocity) && same(a.angular_velocity, b.angular_velocity) &&
-             same(a.momentum, b.momentum) && same(a.angular_momentum, b.angular_momentum) && a.mass == b.mass &&
+           !(same_bits(a.velocity, b.velocity) && same_bits(a.angular_velocity, b.angular_velocity) &&
+             same_bits(a.momentum, b.momentum) && same_bits(a.angular_momentum, b.angular_momentum) && a.mass == b.mass &&
              a.asleep == b.asleep);
 }
 

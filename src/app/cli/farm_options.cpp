@@ -166,6 +166,10 @@ CLI::App* add_farm(CLI::App& app, CommandLine& line) {
     add_slurm(*command, line.farm);
     add_openjd(*command, line.farm);
     add_status(*command, line.farm);
+    command->footer(
+        "Examples:\n"
+        "  tumble farm slurm scene.toml --parts 20 -o clip.mp4\n"
+        "  tumble farm openjd scene.toml -o job.json");
     return command;
 }
 

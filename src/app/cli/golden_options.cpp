@@ -133,6 +133,10 @@ CLI::App* add_golden(CLI::App& app, CommandLine& line) {
     add_check(*command, c);
     add_accept(*command, c);
     add_add(*command, c);
+    command->footer(
+        "Examples:\n"
+        "  tumble golden add golden.toml scene.toml --frames 0,45\n"
+        "  tumble golden check golden.toml --report report.html");
     return command;
 }
 

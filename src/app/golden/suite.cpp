@@ -110,7 +110,8 @@ void with_place_of(const GoldenCase& golden, const std::function<void()>& action
         if (!error.where().file.empty()) throw;
         const std::string& text = error.message();
         if (!text.starts_with("--")) throw InputError(golden.where, text);
-        throw InputError(golden.place_of(key_of_option(text)), text.substr(2));
+        const std::string key = key_of_option(text);
+        throw InputError(golden.place_of(key), key + text.substr(text.find_first_of(" :=")));
     }
 }
 

@@ -178,6 +178,9 @@ void SegmentedClip::finish() {
     wait_for_end();
     if (finished_) {
         stored_ = frames_in_clip();
+        // A run that was killed after the clip had its name has left the folder.
+        std::error_code missing;
+        if (fs::is_directory(folder_, missing)) held_.emplace(folder_);
         return remove_folder();
     }
     ClipSegments segments{folder_, {}, {}, 0};
