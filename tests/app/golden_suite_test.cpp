@@ -100,7 +100,8 @@ TEST(GoldenSuite, NamesThePlaceOfEachMistake) {
               "4:8: error: size must be an array of 2 whole numbers, width and height (given [160])");
     EXPECT_TRUE(mistake(one + "name = \"a/b\"\n").starts_with("4:8: error: name must have "));
     EXPECT_TRUE(mistake(one + "scenes = [\"b.toml\"]\n").starts_with("4:10: error: scenes and scene exclude ea"));
-    EXPECT_TRUE(mistake(one + "of = \"energy\"\nframes = [1]\n").starts_with("5:10: error: frames has no meaning in a p"));
+    EXPECT_TRUE(
+        mistake(one + "of = \"energy\"\nframes = [1]\n").starts_with("5:10: error: frames has no meaning in a p"));
     EXPECT_EQ(mistake(one + "layout = \"ring\"\n"),
               "4:10: error: layout must be one of \"row\", \"grid\" (given \"ring\")");
     EXPECT_TRUE(mistake(one + "[defaults]\nname = \"x\"\n").starts_with("5:1: error: unknown key \"name\" in ["));

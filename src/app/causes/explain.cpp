@@ -144,7 +144,8 @@ std::vector<std::string> causes_between(const MotionRecord& before, const Motion
         return sentences(std::move(causes));
     }
     for (std::size_t i = 0; i < before.panels.size(); ++i) {
-        for (Cause& cause : panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed, before.values.empty()})) {
+        for (Cause& cause :
+             panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed, before.values.empty()})) {
             if (before.panels.size() > 1) cause.text += fmt::format(" in panel {}", i + 1);
             causes.push_back(std::move(cause));
         }

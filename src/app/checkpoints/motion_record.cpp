@@ -43,8 +43,8 @@ bool FrameRecorder::differs(const BodyState& a, const BodyState& b) const {
     if (!same_pose_bits(a, b)) return true;
     return detail_ == MotionDetail::states &&
            !(same_bits(a.velocity, b.velocity) && same_bits(a.angular_velocity, b.angular_velocity) &&
-             same_bits(a.momentum, b.momentum) && same_bits(a.angular_momentum, b.angular_momentum) && a.mass == b.mass &&
-             a.asleep == b.asleep);
+             same_bits(a.momentum, b.momentum) && same_bits(a.angular_momentum, b.angular_momentum) &&
+             a.mass == b.mass && a.asleep == b.asleep);
 }
 
 void FrameRecorder::add(const std::vector<Snapshot>& samples, const ContactRecords* records) {
