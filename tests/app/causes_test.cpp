@@ -176,7 +176,7 @@ TEST(Causes, OnlyThoseInTheChangedPart) {
     const MotionRecord before = record_of(scene_text), after = record_of(both);
     EXPECT_EQ(causes_between(before, after, 0, {0, 0, 160, 90}).size(), 2u);
     EXPECT_EQ(causes_between(before, after, 0, {0, 0, 80, 90}), Texts{"crate moved by 3 px (first differing frame 0)"});
-    EXPECT_EQ(causes_between(before, after, 0, {80, 0, 80, 90}), Texts{"color of ball (#c8c8c8 to #ff0000)"});
+    EXPECT_EQ(causes_between(before, after, 0, {80, 0, 80, 90}), Texts{"color of ball (#cf9a5b to #ff0000)"});
 }
 
 // 40 spheres in a row that all move: three are named, the others counted.

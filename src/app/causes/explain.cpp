@@ -70,14 +70,16 @@ std::string late_text(std::int64_t late, std::int64_t frame) {
 struct FramePlace {
     std::int64_t frame;
     std::size_t before, after;
-    Rectangle changed;  // of the image
+    Rectangle changed;       // of the image
+    bool whole_run = false;  // the image shows all of the motion
 };
 
 void add_motion(const PanelView& before, const PanelView& after, const BodyPairs& pairs, const FramePlace& place,
                 std::vector<Cause>& causes) {
-    std::vector<Cause> moves = motion_changes(before, after, pairs);
+    std::vector<Cause> moves =
+        place.whole_run ? run_changes(before, after, pairs) : motion_changes(before, after, pairs);
     if (moves.empty()) return;
-    if (const auto late = frames_late(before.panel(), after.panel(), place.frame)) {
+    if (const auto late = place.whole_run ? std::nullopt : frames_late(before.panel(), after.panel(), place.frame)) {
         causes.push_back({late_text(*late, place.frame), root_cause});
         return;
     }
@@ -142,7 +144,8 @@ std::vector<std::string> causes_between(const MotionRecord& before, const Motion
         return sentences(std::move(causes));
     }
     for (std::size_t i = 0; i < before.panels.size(); ++i) {
-        for (Cause& cause : panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed})) {
+        for (Cause& cause :
+             panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed, before.whole_run})) {
             if (before.panels.size() > 1) cause.text += fmt::format(" in panel {}", i + 1);
             causes.push_back(std::move(cause));
         }
