@@ -207,6 +207,8 @@ void SegmentedClip::remove_folder() {
     }
     fs::remove(folder_ / "join.txt", ignored);
     fs::remove(folder_ / "clip.json", ignored);
+    // The ffmpeg of a killed run may have made its file again, after open() removed it.
+    remove_left_parts(folder_, [](std::string_view) { return true; });
     held_.reset();
     fs::remove(folder_, ignored);  // if it is empty
 }
