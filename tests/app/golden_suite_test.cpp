@@ -98,14 +98,14 @@ TEST(GoldenSuite, NamesThePlaceOfEachMistake) {
               "4:14: error: frames must be larger than the number before it (given 3)");
     EXPECT_EQ(mistake(one + "size = [160]\n"),
               "4:8: error: size must be an array of 2 whole numbers, width and height (given [160])");
-    EXPECT_TRUE(mistake(one + "name = \"a/b\"\n").starts_with("4:8: error: name must have "));
-    EXPECT_TRUE(mistake(one + "scenes = [\"b.toml\"]\n").starts_with("4:10: error: scenes and scene exclude ea"));
-    EXPECT_TRUE(
-        mistake(one + "of = \"energy\"\nframes = [1]\n").starts_with("5:10: error: frames has no meaning in a p"));
+    EXPECT_EQ(mistake(one + "name = \"a/b\"\n").substr(0, 27), "4:8: error: name must have ");
+    EXPECT_EQ(mistake(one + "scenes = [\"b.toml\"]\n").substr(0, 40), "4:10: error: scenes and scene exclude ea");
+    EXPECT_EQ(mistake(one + "of = \"energy\"\nframes = [1]\n").substr(0, 40),
+              "5:10: error: frames has no meaning in a ");
     EXPECT_EQ(mistake(one + "layout = \"ring\"\n"),
               "4:10: error: layout must be one of \"row\", \"grid\" (given \"ring\")");
-    EXPECT_TRUE(mistake(one + "[defaults]\nname = \"x\"\n").starts_with("5:1: error: unknown key \"name\" in ["));
-    EXPECT_TRUE(mistake(one + "tolerances = { level = 3 }\n").starts_with("4:16: error: unknown key \"level\" in"));
+    EXPECT_EQ(mistake(one + "[defaults]\nname = \"x\"\n").substr(0, 34), "5:1: error: unknown key \"name\" in ");
+    EXPECT_EQ(mistake(one + "tolerances = { level = 3 }\n").substr(0, 34), "4:16: error: unknown key \"level\" i");
     EXPECT_EQ(mistake(one + "[[case]]\nscene = \"b/A.toml\"\n"),
               "4:1: error: there is another case \"A\"; give each a name of its own");
 }
@@ -120,7 +120,7 @@ TEST(GoldenSuite, AnOptionOfACaseHasThePlaceOfItsKey) {
         }
         return std::string();
     };
-    EXPECT_EQ(place("--plot-place: is wrong"), "suites/golden.toml:4:14: error: plot-place: is wrong");
+    EXPECT_EQ(place("--plot-place: is wrong"), "suites/golden.toml:4:14: error: plot_place: is wrong");
     EXPECT_EQ(place("--set x=1: is wrong"), "suites/golden.toml:2:1: error: set x=1: is wrong");
     EXPECT_EQ(place("no rate"), "suites/golden.toml:2:1: error: no rate");
 }
@@ -129,7 +129,7 @@ TEST(GoldenSuite, ANewCaseLeavesTheRestOfTheFile) {
     const TestFolder folder;
     const std::filesystem::path file = folder.path() / "golden.toml";
     NewCase added;
-    added.scene = folder.path() / "scenes" / "a \"b\".toml";
+    added.scene = "/scenes/a \"b\".toml";
     added.frames = {0, 30};
     added.overrides.set = {"body.x.mass=2"};
     added.overrides.width = 64;
@@ -137,7 +137,7 @@ TEST(GoldenSuite, ANewCaseLeavesTheRestOfTheFile) {
     const std::string first = suite_text_with(file, added);
     EXPECT_EQ(first,
               "format = 1\nreferences = \"references\"   # folder of the accepted images\n\n[[case]]\n"
-              "scene = \"scenes/a \\\"b\\\".toml\"\nframes = [0, 30]\nsize = [64, 48]\nset = [\"body.x.mass=2\"]\n");
+              "scene = \"/scenes/a \\\"b\\\".toml\"\nframes = [0, 30]\nsize = [64, 48]\nset = [\"body.x.mass=2\"]\n");
 }
 
 }  // namespace

@@ -130,4 +130,15 @@ std::vector<Cause> motion_changes(const PanelView& before, const PanelView& afte
     return causes;
 }
 
+std::vector<Cause> run_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs) {
+    std::vector<Cause> causes;
+    const FirstDifferences first(before.panel(), after.panel());
+    for (const auto& [a, b] : pairs.both) {
+        const RecordedBody &from = before.panel().bodies[a], &to = after.panel().bodies[b];
+        if (from.moves && to.moves && first.frame(a, b))
+            causes.push_back({fmt::format("{} moves differently{}", from.name, first.text(a, b, infinity)), 1.0});
+    }
+    return causes;
+}
+
 }  // namespace tumble

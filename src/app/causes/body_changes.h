@@ -28,4 +28,7 @@ std::vector<Cause> matter_changes(const PanelView& before, const PanelView& afte
 /// "crate.17 moved by 3 px (first differing frame 41, first differing contact at 0.68 s)", of each body that moved.
 std::vector<Cause> motion_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
 
+/// The same of bodies whose motion differs anywhere: "crate.17 moves differently (...)".
+std::vector<Cause> run_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
+
 }  // namespace tumble

@@ -17,14 +17,14 @@ constexpr std::size_t most_causes = 4;
 constexpr double whole_image = 1e12, root_cause = 1e13;  // pixels, for the order: beyond what a body covers
 constexpr double least_turn = 1e-9;                      // part of a length: rounding of a camera's place
 
-bool alike(const Vec3& a, const Vec3& b) { return (a - b).norm() <= least_turn * (1.0 + a.norm()); }
+bool same(const Vec3& a, const Vec3& b) { return (a - b).norm() <= least_turn * (1.0 + a.norm()); }
 
 std::string camera_text(const RecordedView& a, const RecordedView& b) {
     std::string parts;
     const auto add = [&](const std::string& part) { parts += (parts.empty() ? "" : ", ") + part; };
-    if (!alike(a.eye, b.eye)) add(fmt::format("eye moved by {:.2g} m", (a.eye - b.eye).norm()));
-    if (!alike(a.target, b.target)) add(fmt::format("target moved by {:.2g} m", (a.target - b.target).norm()));
-    if (!alike(a.up, b.up)) add("up turned");
+    if (!same(a.eye, b.eye)) add(fmt::format("eye moved by {:.2g} m", (a.eye - b.eye).norm()));
+    if (!same(a.target, b.target)) add(fmt::format("target moved by {:.2g} m", (a.target - b.target).norm()));
+    if (!same(a.up, b.up)) add("up turned");
     if (std::abs(a.vertical_fov - b.vertical_fov) > least_turn)
         add(fmt::format("vertical_fov {} to {}", a.vertical_fov, b.vertical_fov));
     return parts;
@@ -70,16 +70,16 @@ std::string late_text(std::int64_t late, std::int64_t frame) {
 struct FramePlace {
     std::int64_t frame;
     std::size_t before, after;
-    Rectangle changed;  // of the image
-    bool plot;          // the image has no picture of the bodies, and shows their whole motion
+    Rectangle changed;       // of the image
+    bool whole_run = false;  // the image shows all of the motion
 };
 
 void add_motion(const PanelView& before, const PanelView& after, const BodyPairs& pairs, const FramePlace& place,
                 std::vector<Cause>& causes) {
-    std::vector<Cause> moves = motion_changes(before, after, pairs);
-    const bool plot = place.plot;
-    if (plot ? before.panel().trace.frames == after.panel().trace.frames : moves.empty()) return;
-    if (const auto late = plot ? std::nullopt : frames_late(before.panel(), after.panel(), place.frame)) {
+    std::vector<Cause> moves =
+        place.whole_run ? run_changes(before, after, pairs) : motion_changes(before, after, pairs);
+    if (moves.empty()) return;
+    if (const auto late = place.whole_run ? std::nullopt : frames_late(before.panel(), after.panel(), place.frame)) {
         causes.push_back({late_text(*late, place.frame), root_cause});
         return;
     }
@@ -87,7 +87,7 @@ void add_motion(const PanelView& before, const PanelView& after, const BodyPairs
     for (Cause& root : roots) root.pixels = root_cause;
     add_motion_values(value_differences(before.panel().values, after.panel().values), roots);
     std::ranges::move(roots, std::back_inserter(causes));
-    if (!plot) std::ranges::move(moves, std::back_inserter(causes));
+    std::ranges::move(moves, std::back_inserter(causes));
 }
 
 std::vector<Cause> panel_causes(const PanelRecord& a, const PanelRecord& b, const FramePlace& place) {
@@ -145,7 +145,7 @@ std::vector<std::string> causes_between(const MotionRecord& before, const Motion
     }
     for (std::size_t i = 0; i < before.panels.size(); ++i) {
         for (Cause& cause :
-             panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed, before.values.empty()})) {
+             panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed, before.whole_run})) {
             if (before.panels.size() > 1) cause.text += fmt::format(" in panel {}", i + 1);
             causes.push_back(std::move(cause));
         }

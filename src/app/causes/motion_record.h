@@ -77,6 +77,7 @@ struct MotionRecord {
     ValueMap values;                   // of the whole image: size, samples, text, ...
     std::vector<std::int64_t> frames;  // recorded ones, ascending
     std::vector<PanelRecord> panels;
+    bool whole_run = false;  // an image shows all of the motion: a plot
 };
 
 }  // namespace tumble

@@ -204,6 +204,7 @@ MotionRecord record_of(const Json& json) {
     MotionRecord record;
     record.values = values_of(json.at("values"));
     record.frames = json.at("frames").get<std::vector<std::int64_t>>();
+    record.whole_run = json.at("whole_run").get<bool>();
     for (const Json& panel : json.at("panels")) record.panels.push_back(panel_of(panel, record.frames.size()));
     return record;
 }
@@ -212,6 +213,7 @@ MotionRecord record_of(const Json& json) {
 
 std::string record_text(const MotionRecord& record) {
     Json json{{"motion_record", record_format}, {"values", json_of(record.values)}, {"frames", record.frames}};
+    json["whole_run"] = record.whole_run;
     json["panels"] = Json::array();
     for (const PanelRecord& panel : record.panels) json["panels"].push_back(json_of(panel));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";

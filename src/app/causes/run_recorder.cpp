@@ -119,6 +119,7 @@ RunRecorder::RunRecorder(const Composition& composition, std::vector<std::int64_
 
 RunRecorder::RunRecorder(const std::vector<SceneDescription>& runs) {
     record_.frames = {0};
+    record_.whole_run = true;
     for (const SceneDescription& run : runs)
         panels_.emplace_back(Composition(run).panels.front(), record_.frames, run.frame_count());
 }

@@ -62,7 +62,8 @@ std::string range_of(const std::vector<std::int64_t>& frames, bool with_neighbor
     std::int64_t end = 0;  // one after the last frame in it
     for (const std::int64_t frame : frames) {
         const std::int64_t first = std::max(with_neighbors ? frame - 1 : frame, end);
-        range += fmt::format("{}{}-{}", range.empty() ? "" : ",", first, frame);
+        const char* const comma = range.empty() ? "" : ",";
+        range += first < frame ? fmt::format("{}{}-{}", comma, first, frame) : fmt::format("{}{}", comma, frame);
         end = frame + 1;
     }
     return range;

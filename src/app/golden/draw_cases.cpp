@@ -1,5 +1,6 @@
 #include "app/golden/draw_cases.h"
 
+#include "app/files/frame_folder.h"
 #include "core/error.h"
 #include "core/sha256.h"
 
@@ -13,10 +14,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder that is removed with all its files.
+/// A folder of the cache for the drawings of this run, removed with all its files.
 class WorkFolder {
 public:
-    explicit WorkFolder(fs::path path) : path_(std::move(path)) {}
+    explicit WorkFolder(const ImageCache& cache) : path_(cache.make_work_folder()), lock_(path_, LockKind::alone) {}
     ~WorkFolder() {
         std::error_code ignored;
         fs::remove_all(path_, ignored);
@@ -27,20 +28,29 @@ public:
 
 private:
     fs::path path_;
+    FolderLock lock_;
+};
+
+/// The drawing of a case.
+struct CaseWork {
+    const CaseDrawer& drawer;
+    const ImageCache& cache;
+    const DrawCasesOptions& options;
+    fs::path folder;  // for its drawings
+    DrawingWork division;
 };
 
 /// In a child: draws the missing images; returns their number and the folder.
-std::string draw_case(const GoldenCase& golden, const CaseDrawer& drawer, const ImageCache& cache,
-                      const DrawCasesOptions& options, const DrawingWork& work) {
+std::string draw_case(const GoldenCase& golden, const CaseWork& work) {
     std::string identity;
-    with_place_of(golden, [&] { identity = drawer.identity(golden); });
-    const fs::path entry = cache.entry(golden, sha256(options.identity + identity));
-    const std::vector<std::int64_t> missing = options.force ? golden.frames : ImageCache::missing(golden, entry);
+    with_place_of(golden, [&] { identity = work.drawer.identity(golden); });
+    const fs::path entry = work.cache.entry(golden, sha256(work.options.identity + identity));
+    const std::vector<std::int64_t> missing = work.options.force ? golden.frames : ImageCache::missing(golden, entry);
     if (!missing.empty()) {
-        const WorkFolder folder(cache.make_work_folder());
-        // The record is of all frames of the case.
-        with_place_of(golden, [&] { drawer.draw(golden, golden.frames, folder.path(), work); });
-        cache.store(golden, folder.path(), entry);
+        fs::create_directory(work.folder);
+        // All frames: the record is of the whole case.
+        with_place_of(golden, [&] { work.drawer.draw(golden, golden.frames, work.folder, work.division); });
+        work.cache.store(golden, work.folder, entry);
     }
     return fmt::format("{} {}", missing.size(), entry.string());
 }
@@ -53,8 +63,11 @@ std::vector<DrawnCase> draw_cases(std::span<const GoldenCase* const> cases, cons
     for (std::size_t i = 0; i < cases.size(); ++i) drawn[i].golden = cases[i];
     const int jobs = std::max(1, std::min(options.jobs, int(cases.size())));
     const int share = std::max(1, options.jobs / jobs);  // of a few cases
+    cache.remove_left_work();
+    const WorkFolder work(cache);
+    const DrawingWork division = options.work.value_or(DrawingWork{share, share, false});
     const auto draw = [&](std::size_t i) {
-        return draw_case(*cases[i], drawer, cache, options, options.work.value_or(DrawingWork{share, share, false}));
+        return draw_case(*cases[i], {drawer, cache, options, work.path() / cases[i]->name, division});
     };
     const auto ended = [&](std::size_t i, const TaskEnd& end) {
         if (end.ok()) {

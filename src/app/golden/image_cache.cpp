@@ -1,5 +1,6 @@
 #include "app/golden/image_cache.h"
 
+#include "app/files/frame_folder.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "core/sha256.h"
@@ -19,7 +20,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t key_digits = 16;  // hexadecimal: of a hash, enough to tell the versions of a case apart
+constexpr const char* work_prefix = ".work-";  // of folders of drawings
+constexpr std::size_t key_digits = 16;         // hexadecimal: of a hash, enough to tell the versions of a case apart
 
 void make_folders(const fs::path& folder) {
     std::error_code error;
@@ -59,11 +61,26 @@ std::vector<std::int64_t> ImageCache::missing(const GoldenCase& golden, const fs
 
 fs::path ImageCache::make_work_folder() const {
     make_folders(folder_);
-    std::string name = (folder_ / ".work-XXXXXX").string();
+    std::string name = (folder_ / (std::string(work_prefix) + "XXXXXX")).string();
     if (::mkdtemp(name.data()) == nullptr)
         throw RunError(fmt::format("cannot make a folder in the cache '{}': {} (--cache names another one)",
                                    safe_path(folder_), std::strerror(errno)));
     return name;
+}
+
+void ImageCache::remove_left_work() const {
+    std::error_code error;
+    std::vector<fs::path> folders;
+    for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error))
+        if (it->path().filename().string().starts_with(work_prefix)) folders.push_back(it->path());
+    for (const fs::path& folder : folders) {
+        try {
+            const FolderLock lock(folder, LockKind::alone);
+            fs::remove_all(folder, error);
+        } catch (const RunError&) {
+            // A run draws in it.
+        }
+    }
 }
 
 void ImageCache::store(const GoldenCase& golden, const fs::path& drawn, const fs::path& entry) const {

@@ -25,8 +25,10 @@ public:
     /// The frames that are not in the entry; all of them if its record is missing or of other frames.
     static std::vector<std::int64_t> missing(const GoldenCase& golden, const std::filesystem::path& entry);
 
-    /// A new folder in the cache for drawing; the caller removes it. Throws RunError.
+    /// A new folder in the cache for the drawings of a run, which locks it (FolderLock) and removes it. Throws RunError.
     std::filesystem::path make_work_folder() const;
+    /// Removes those of runs that were killed.
+    void remove_left_work() const;
 
     /// Moves the drawn files of a folder into the entry, and removes entries of other keys of the case. Throws RunError.
     void store(const GoldenCase& golden, const std::filesystem::path& drawn, const std::filesystem::path& entry) const;

@@ -56,8 +56,8 @@ void check_names(const std::vector<GoldenCase>& cases) {
 }
 
 /// The key of a case that an option of the command line stands for: "--plot-place" is "plot_place".
-std::string key_of_option(std::string_view text) {
-    std::string key(text.substr(2, text.find_first_of(" :=") - 2));
+std::string key_of_option(std::string_view option) {
+    std::string key(option);
     std::ranges::replace(key, '-', '_');
     return key == "frames_range" ? "frames" : key;
 }
@@ -110,8 +110,9 @@ void with_place_of(const GoldenCase& golden, const std::function<void()>& action
         if (!error.where().file.empty()) throw;
         const std::string& text = error.message();
         if (!text.starts_with("--")) throw InputError(golden.where, text);
-        const std::string key = key_of_option(text);
-        throw InputError(golden.place_of(key), key + text.substr(text.find_first_of(" :=")));
+        const std::size_t end = std::min(text.find_first_of(" :="), text.size());
+        const std::string key = key_of_option(text.substr(2, end - 2));
+        throw InputError(golden.place_of(key), key + text.substr(end));
     }
 }
 
