@@ -25,6 +25,7 @@ printf '%s\n' "${COMPREPLY[@]}"
 # A zsh with completion whose compadd prints the offers as well. It ends after the first completion.
 ZSH_START = r"""
 PROMPT=
+LISTMAX=10000   # does not ask whether to show a long list
 unsetopt zle_bracketed_paste prompt_sp 2>/dev/null
 autoload -U compinit && compinit -u -D
 source ./tumble.zsh

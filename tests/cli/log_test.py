@@ -21,7 +21,7 @@ position = [0.0, 1.0, 0.0]
 """
 
 
-class LogTest(program.TestCase):
+class LogTest(program.ProgramTest):
     def setUp(self):
         super().setUp()
         self.write("drop.toml", SCENE)

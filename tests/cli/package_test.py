@@ -119,7 +119,8 @@ class Package(unittest.TestCase):
         paragraphs = text.strip().split("\n\n")
         self.assertTrue(paragraphs[0].startswith("Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/"))
         used = set(re.findall(r"^License: (.*)", "\n".join(p for p in paragraphs if p.startswith("Files:")), re.M))
-        explained = {p.splitlines()[0][len("License: "):] for p in paragraphs if p.startswith("License:")}
+        # By a paragraph of its own, or where it stands, as in those of the player of pages.
+        explained = set(re.findall(r"^License: (.*)\n ", text, re.M))
         self.assertEqual(used, explained)
         license_text = " ".join((ROOT / "LICENSE").read_text().split("\n\n", 2)[2].split())
         self.assertIn(license_text, " ".join(re.sub(r"^ \.?", "", text, flags=re.M).split()))
