@@ -266,7 +266,8 @@ class Kills(ProgramTest):
 
         def check():
             self.assertEqual((self.folder / name).read_bytes(), (self.folder / ("whole" + name)).read_bytes())
-            self.assertEqual(self.names(), [name, "whole" + name])
+            # The ffmpeg of a killed run may hold its hidden file for a moment; a later run removes it.
+            self.assertEqual([n for n in self.names() if not n.startswith(".")], [name, "whole" + name])
             (self.folder / name).unlink()
         self.kill_and_continue(("render", "scene.toml", "-o", name, "--resume", *options), 2 * KILLS, done, check)
 
