@@ -169,6 +169,16 @@ TEST(Causes, TextAndSize) {
     EXPECT_EQ(causes_of(replaced(scene_text, "[160, 90]", "[320, 180]"), 0), Texts{"size (160 x 90 to 320 x 180)"});
 }
 
+// The crate is left of the middle, the ball right of it: two changes, of which the image shows one.
+TEST(Causes, OnlyThoseInTheChangedPart) {
+    const std::string both = replaced(replaced(scene_text, "[-1.2, 0.25, 0.0]", "[-1.05, 0.25, 0.0]"),
+                                      "position = [0.6, 1.2, 0.0]", "position = [0.6, 1.2, 0.0]\ncolor = \"#ff0000\"");
+    const MotionRecord before = record_of(scene_text), after = record_of(both);
+    EXPECT_EQ(causes_between(before, after, 0, {0, 0, 160, 90}).size(), 2u);
+    EXPECT_EQ(causes_between(before, after, 0, {0, 0, 80, 90}), Texts{"crate moved by 3 px (first differing frame 0)"});
+    EXPECT_EQ(causes_between(before, after, 0, {80, 0, 80, 90}), Texts{"color of ball (#c8c8c8 to #ff0000)"});
+}
+
 // 40 spheres in a row that all move: three are named, the others counted.
 TEST(Causes, FewOfMany) {
     std::string row = scene_text;

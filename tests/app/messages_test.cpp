@@ -50,7 +50,7 @@ TEST(Messages, AsJsonAreAnObjectALine) {
     EXPECT_EQ(lines[1]["text"], "and 2");
     EXPECT_EQ(lines[2]["event"], "progress");
     EXPECT_EQ(lines[2]["done"], 30);
-    EXPECT_EQ(lines[2]["frames_per_second"], 15.0);
+    EXPECT_EQ(lines[2]["per_second"], 15.0);
     EXPECT_EQ(lines[2]["seconds_left"], 6.0);
     for (const auto& line : lines) EXPECT_GE(line["t"].get<double>(), 0.0);
 }

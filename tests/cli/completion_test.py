@@ -70,7 +70,7 @@ def listed_commands(text):
 class Completion(program.ProgramTest):
     def setUp(self):
         super().setUp()
-        for name in (".hidden.toml", "clip.mp4", "other.gif", "frame.png", "note.txt", "table.csv"):
+        for name in (".hidden.toml", "clip.mp4", "other.gif", "frame.png", "model.glb", "note.txt", "table.csv"):
             self.write(name, "")
         (self.folder / "out").mkdir()
 
@@ -104,7 +104,7 @@ class Completion(program.ProgramTest):
         self.assertEqual(self.offers("tumble render "), {"scene.toml", "out"})
         self.assertEqual(self.offers("tumble render scene.toml "), {"scene.toml", "out"})   # several may be given
         self.assertEqual(self.offers("tumble render -o "), {"clip.mp4", "other.gif", "out"})
-        self.assertEqual(self.offers("tumble compare a.png b.png --diff "), {"frame.png", "out"})
+        self.assertEqual(self.offers("tumble export scene.toml -o "), {"model.glb", "out"})
         self.assertEqual(self.offers("tumble encode "), {"out"})
         self.assertEqual(self.offers("tumble simulate --trajectory ta"), {"table.csv"})
 
@@ -173,6 +173,8 @@ class Bash(Completion):
                     self.assertLessEqual(set(choices.split("|")), self.offers(f"tumble {command} {option} "))
                     inputs = {"encode": ["out", "-o", "x.mp4"], "export": ["scene.toml", "-o", "x.glb"]}
                     run = self.check(2, command, *inputs.get(command, ["scene.toml"]), option, "nonsense")
+                    if " requires " in run.stderr:   # of another option
+                        continue
                     for word in choices.split("|"):
                         self.assertIn(word, run.stderr)
                     checked += 1

@@ -125,10 +125,14 @@ class Causes(Golden):
         self.golden(0, "accept", "--all")
 
     def test_a_moved_body(self):
-        self.change("[-0.9, 0.4, 0.0]", "[-0.75, 0.4, 0.0]")
-        for causes in self.causes().values():
-            self.assertEqual(len(causes), 1)
-            self.assertRegex(causes[0], r"^crate moved by [23] px \(first differing frame 0\)$")
+        # A pixel is 0.07 m at the crate: 6 m away, 64 rows over 40 degrees.
+        for x, pixels in ((-0.83, "1"), (-0.75, "[23]")):
+            self.change("[-0.9, 0.4, 0.0]", f"[{x}, 0.4, 0.0]")
+            causes = self.causes()
+            self.assertEqual(list(causes), ["fall_000000.png", "fall_000024.png"])
+            for sentences in causes.values():
+                self.assertEqual(len(sentences), 1)
+                self.assertRegex(sentences[0], rf"^crate moved by {pixels} px \(first differing frame 0\)$")
 
     def test_a_color(self):
         self.change("#808080", "#888888")

@@ -19,8 +19,6 @@ constexpr std::size_t named_bodies = 3;  // of a group with one change
 constexpr double least_move = 0.05;      // pixels: less is not seen, even on an edge
 constexpr double turn_share = 0.3;       // a body whose center moved by a smaller part than its corners has turned
 
-double area(const Rectangle& r) { return double(r.width) * double(r.height); }
-
 /// "crate.3", or "crate.3, crate.4, crate.5 and 7 others".
 std::string names_text(const std::vector<std::string>& names) {
     if (names.size() <= named_bodies) return fmt::format("{}", fmt::join(names, ", "));
@@ -49,7 +47,7 @@ std::vector<Cause> value_changes(const PanelView& before, const PanelView& after
         for (const ValueDifference& one : value_differences(from.*values, to.*values)) {
             ChangedBodies& group = groups[{one.key, one.before, one.after}];
             group.names.push_back(before.panel().bodies[a].name);
-            group.pixels += std::max(area(before.bounds(a)), area(after.bounds(b)));
+            group.pixels += std::max(before.changed_pixels(a), after.changed_pixels(b));
         }
     }
     std::vector<Cause> causes;
@@ -64,7 +62,7 @@ void add_group(const PanelView& view, const std::vector<std::size_t>& bodies, co
     double pixels = 0.0;
     for (const std::size_t body : bodies) {
         names.push_back(view.panel().bodies[body].name);
-        pixels += area(view.bounds(body));
+        pixels += view.changed_pixels(body);
     }
     causes.push_back({fmt::format("{} {}", names_text(names), what), pixels});
 }
@@ -123,7 +121,7 @@ std::vector<Cause> motion_changes(const PanelView& before, const PanelView& afte
         const double moved = before.distance(a, then, now);
         if (!(moved > least_move)) continue;
         const Rectangle from = before.bounds(a), to = after.bounds(b);
-        const double visible = std::max(area(from), area(to));
+        const double visible = std::max(before.changed_pixels(a), after.changed_pixels(b));
         const double sides = std::max(from.width + from.height, to.width + to.height);
         causes.push_back({fmt::format("{} {}{}", before.panel().bodies[a].name, move_text(before, a, now),
                                       first.text(a, b, after.time())),

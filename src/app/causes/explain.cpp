@@ -70,6 +70,7 @@ std::string late_text(std::int64_t late, std::int64_t frame) {
 struct FramePlace {
     std::int64_t frame;
     std::size_t before, after;
+    Rectangle changed;  // of the image
 };
 
 void add_motion(const PanelView& before, const PanelView& after, const BodyPairs& pairs, const FramePlace& place,
@@ -88,7 +89,7 @@ void add_motion(const PanelView& before, const PanelView& after, const BodyPairs
 }
 
 std::vector<Cause> panel_causes(const PanelRecord& a, const PanelRecord& b, const FramePlace& place) {
-    const PanelView before(a, place.before), after(b, place.after);
+    const PanelView before(a, place.before, place.changed), after(b, place.after, place.changed);
     const BodyPairs pairs(a, b);
     std::vector<Cause> causes;
     add_camera(before, after, causes);
@@ -131,7 +132,7 @@ std::vector<std::string> sentences(std::vector<Cause> causes) {
 }  // namespace
 
 std::vector<std::string> causes_between(const MotionRecord& before, const MotionRecord& after, std::int64_t frame,
-                                        const Rectangle&) {
+                                        const Rectangle& changed) {
     const auto a = recorded_index(before, frame), b = recorded_index(after, frame);
     if (!a || !b) return {};
     std::vector<Cause> causes;
@@ -141,7 +142,7 @@ std::vector<std::string> causes_between(const MotionRecord& before, const Motion
         return sentences(std::move(causes));
     }
     for (std::size_t i = 0; i < before.panels.size(); ++i) {
-        for (Cause& cause : panel_causes(before.panels[i], after.panels[i], {frame, *a, *b})) {
+        for (Cause& cause : panel_causes(before.panels[i], after.panels[i], {frame, *a, *b, changed})) {
             if (before.panels.size() > 1) cause.text += fmt::format(" in panel {}", i + 1);
             causes.push_back(std::move(cause));
         }

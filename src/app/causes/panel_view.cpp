@@ -29,9 +29,10 @@ Vec3 world(const RecordedPose& pose, const Vec3& point) { return pose.origin + p
 
 }  // namespace
 
-PanelView::PanelView(const PanelRecord& panel, std::size_t recorded)
+PanelView::PanelView(const PanelRecord& panel, std::size_t recorded, const Rectangle& changed)
     : panel_(panel),
       recorded_(recorded),
+      changed_(changed),
       camera_(description_of(panel.views[recorded]), std::max(panel.place.width, 1), std::max(panel.place.height, 1)) {
     std::size_t moving = 0;
     for (const RecordedBody& body : panel.bodies) moving_index_.push_back(body.moves ? moving++ : 0);
@@ -68,6 +69,14 @@ Rectangle PanelView::bounds(std::size_t body) const {
     const double bottom = std::clamp(std::ceil(max.y()), 0.0, double(place.height));
     if (!(left < right && top < bottom)) return {};
     return {place.x + int(left), place.y + int(top), int(right - left), int(bottom - top)};
+}
+
+double PanelView::changed_pixels(std::size_t body) const {
+    const Rectangle r = bounds(body);
+    if (changed_.width == 0) return double(r.width) * r.height;
+    const int width = std::min(r.x + r.width, changed_.x + changed_.width) - std::max(r.x, changed_.x);
+    const int height = std::min(r.y + r.height, changed_.y + changed_.height) - std::max(r.y, changed_.y);
+    return width > 0 && height > 0 ? double(width) * height : 0.0;
 }
 
 double PanelView::distance(std::size_t body, const RecordedPose& a, const RecordedPose& b) const {

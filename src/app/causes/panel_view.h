@@ -13,7 +13,8 @@ namespace tumble {
 /// A panel at one of its recorded frames.
 class PanelView {
 public:
-    PanelView(const PanelRecord& panel, std::size_t recorded);
+    /// `changed`: the part of the image that counts; all of it if empty.
+    PanelView(const PanelRecord& panel, std::size_t recorded, const Rectangle& changed = {});
 
     const PanelRecord& panel() const { return panel_; }
     const RecordedView& view() const { return panel_.views[recorded_]; }
@@ -23,6 +24,9 @@ public:
     /// Bounds of a body on the screen, in pixels of the image, cut at the panel; empty without a part in view. The whole
     /// panel for a body without bounds, and for one that reaches behind the eye.
     Rectangle bounds(std::size_t body) const;
+
+    /// Pixels of these bounds in the part of the image that counts.
+    double changed_pixels(std::size_t body) const;
 
     /// Largest distance between the places of a point of the body in two poses, pixels; infinity if a point is behind
     /// the eye.
@@ -35,6 +39,7 @@ private:
 
     const PanelRecord& panel_;
     std::size_t recorded_;
+    Rectangle changed_;
     Camera camera_;
     std::vector<std::size_t> moving_index_;  // by body: index into the poses of a frame, if it moves
 };

@@ -19,8 +19,15 @@ namespace tumble {
 inline constexpr int enough_workers =
     8;  // render processes, 65 MiB each; the simulation and the encoder keep no more busy
 
+/// Form of the messages of a run.
+struct LogOptions {
+    bool json = false;
+    int descriptor = 2;
+};
+
 /// All options of the command line; each command uses those that it declares.
 struct CommandLine {
+    LogOptions log;
     RenderCommand render;
     SimulateCommand simulate;
     PlotCommand plot;

@@ -21,9 +21,11 @@ std::string value_of(const CLI::Option& option) {
     std::string text = option.get_option_text();
     if (text.empty()) {
         text = option.get_type_name();
+        text.resize(std::min(text.find(':'), text.size()));  // after it CLI11 names the checks
         if (const std::string usual = option.get_default_str(); !usual.empty()) text += fmt::format(" [{}]", usual);
     }
-    const bool by_cores = option.check_lname("threads") || option.check_lname("workers");
+    if (const std::size_t at = text.find(" REQUIRED"); at != std::string::npos) text.resize(at);  // said elsewhere
+    const bool by_cores = option.check_lname("threads") || option.check_lname("workers") || option.check_lname("jobs");
     const std::size_t bracket = text.find('[');
     if (by_cores && bracket != std::string::npos &&
         has_digits_only(text.substr(bracket + 1, text.find(']') - bracket - 1)))
@@ -57,7 +59,9 @@ manual::CommandText read_command(CLI::App& command) {
     text.name = command.get_name();
     text.description = command.get_description();
     if (text.description.ends_with('.')) text.description.pop_back();
-    text.footer = command.get_footer();
+    // CLI11 gives commands the footer of the program, unless they have one.
+    const CLI::App* const parent = command.get_parent();
+    if (parent == nullptr || parent->get_footer() != command.get_footer()) text.footer = command.get_footer();
     for (const CLI::Option* option : command.get_options()) {
         if (option->get_group().empty()) continue;
         (option->nonpositional() ? text.options : text.arguments).push_back(read_option(*option));

@@ -60,7 +60,7 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
                      "Write a picture of the differences: red beyond the tolerance, blue within; of\nfolders and clips "
                      "a folder of them")
         ->check(some_name())
-        ->type_name("D");
+        ->type_name("D.png|DIR");
     command
         ->add_option("--tolerance", c.options.tolerance,
                      "Levels (of 255) that a pixel may differ in each channel without counting")

@@ -1,7 +1,6 @@
 #include "app/cli/options.h"
 #include "app/cli/say.h"
 #include "core/error.h"
-#include "core/safe_text.h"
 #include "tumble/error.h"
 
 #include <fcntl.h>
@@ -11,7 +10,6 @@
 #include <cerrno>
 #include <csignal>
 #include <exception>
-#include <new>
 
 namespace {
 
@@ -29,6 +27,17 @@ void open_missing_standard_streams() {
     }
 }
 
+/// Tells it, and returns the exit code.
+int fail(const std::exception& error) {
+    tumble::messages().fail(error);
+    const auto* const from_library = dynamic_cast<const tumble::v0::Error*>(&error);
+    const bool input = from_library != nullptr ? from_library->kind() == tumble::v0::ErrorKind::input
+                                               : dynamic_cast<const tumble::InputError*>(&error) != nullptr;
+    const int code = input ? 2 : 1;
+    tumble::messages().end(code);
+    return code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,21 +49,9 @@ int main(int argc, char** argv) {
     try {
         const int code = tumble::run_command_line(argc, argv);
         tumble::finish_standard_output();
+        tumble::messages().end(code);
         return code;
-    } catch (const tumble::InputError& error) {
-        tumble::say("{}\n", error.what());
-        return 2;
-    } catch (const tumble::RunError& error) {
-        tumble::say("{}\n", error.what());
-        return 1;
-    } catch (const tumble::v0::Error& error) {
-        tumble::say("{}\n", error.what());
-        return error.kind() == tumble::v0::ErrorKind::input ? 2 : 1;
-    } catch (const std::bad_alloc&) {
-        tumble::say_text("error: out of memory\n");
-        return 1;
     } catch (const std::exception& error) {
-        tumble::say("error: {}\n", tumble::safe_lines(error.what()));
-        return 1;
+        return fail(error);
     }
 }

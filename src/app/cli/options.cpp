@@ -6,9 +6,41 @@
 #include "app/cli/shell_text.h"
 #include "core/safe_text.h"
 
+#include <nlohmann/json.hpp>
+
 #include <sstream>
+#include <string>
+#include <vector>
 
 namespace tumble {
+namespace {
+
+void add_log(CLI::App& command, LogOptions& log) {
+    add_choice<bool>(command, "--log", log.json, {{"text", false}, {"json", true}},
+                     "Messages, progress and times as text, or as JSON: an object on each line\n"
+                     "(docs/reference/log.md)")
+        ->option_text("text|json [text]");
+    command
+        .add_option("--log-fd", log.descriptor, "With --log json: the open descriptor to write to, as in 3>log.jsonl")
+        ->check(CLI::Range(1, 1 << 20))
+        ->option_text("N [2]");
+}
+
+/// To all commands that run for long.
+void add_log_to_commands(CLI::App& app, LogOptions& log) {
+    for (const char* name : {"render", "simulate", "plot", "export", "page", "lesson", "encode", "compare", "sweep"})
+        add_log(*app.get_subcommand(name), log);
+    for (const char* name : {"check", "accept"}) add_log(*app.get_subcommand("golden")->get_subcommand(name), log);
+}
+
+void begin_log(const LogOptions& log, int argc, char** argv) {
+    if (!log.json) return;
+    messages().write_json_to(log.descriptor);
+    messages().event("start", {{"version", TUMBLE_VERSION}, {"command", std::vector<std::string>(argv, argv + argc)}});
+}
+
+}  // namespace
+
 int run_command_line(int argc, char** argv) {
     CommandLine line;
     CLI::App app("Tumble: clips of rigid bodies that fall, bounce and come to rest, drawn without a screen.", "tumble");
@@ -42,6 +74,7 @@ int run_command_line(int argc, char** argv) {
     add_doctor(app, line);
     const CLI::App* completion = add_completion(app, line);
     const CLI::App* man_pages = add_man_pages(app, line);
+    add_log_to_commands(app, line.log);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& error) {
@@ -51,6 +84,7 @@ int run_command_line(int argc, char** argv) {
         say_text(wrong.str());
         return code == 0 ? 0 : 2;
     }
+    begin_log(line.log, argc, argv);
     line.render.call = shell_text({argv, std::size_t(argc)});
     if (render->parsed())
         run_render(line.render);

@@ -14,8 +14,9 @@
 namespace tumble {
 namespace {
 
-constexpr double bar_period = 0.1;   // s between updates of the bar
-constexpr double line_period = 5.0;  // s between lines of a log
+constexpr double bar_period = 0.1;    // s between updates of the bar
+constexpr double line_period = 5.0;   // s between lines of a log
+constexpr double event_period = 1.0;  // s between events of a log in JSON
 
 int terminal_columns() {
     winsize size{};
@@ -46,9 +47,12 @@ Progress::~Progress() {
 void Progress::update(std::int64_t done) {
     if (quiet_) return;
     const double now = wall_seconds();
-    if (now - last_shown_ < (terminal_ ? bar_period : line_period)) return;
+    const bool json = messages().json();
+    if (now - last_shown_ < (json ? event_period : terminal_ ? bar_period : line_period)) return;
     last_shown_ = now;
-    if (terminal_)
+    if (json)
+        messages().progress({done, total_, things_, now - start_});
+    else if (terminal_)
         draw_bar(done, now);
     else
         print_line(done, now);

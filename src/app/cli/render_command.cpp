@@ -8,6 +8,7 @@
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <optional>
@@ -48,7 +49,30 @@ void print_older(const RenderFigures& done, const char* what, const std::vector<
             safe_path(path(where, *older)));
 }
 
+/// The same for programs.
+void log_summary(const RenderFigures& done) {
+    nlohmann::ordered_json wrote = nlohmann::ordered_json::object();
+    if (done.clip) wrote["clip"] = done.clip->string();
+    if (done.folder) wrote["frames"] = done.folder->string();
+    if (done.aov_folder) wrote["aovs"] = done.aov_folder->string();
+    wrote.update({{"width", done.width}, {"height", done.height}, {"fps", done.fps}, {"count", done.frames.count()}});
+    messages().event("wrote", wrote);
+    messages().event("times", {{"seconds", done.seconds},
+                               {"cpu",
+                                {{"simulation", done.cpu.simulation},
+                                 {"drawing", done.cpu.drawing},
+                                 {"png", done.cpu.png},
+                                 {"aovs", done.cpu.aovs},
+                                 {"conversion", done.cpu.conversion},
+                                 {"video", done.cpu.video}}},
+                               {"peak_memory", done.peak_memory},
+                               {"drawn", done.drawn},
+                               {"workers", done.workers},
+                               {"threads", done.threads}});
+}
+
 void print_summary(const RenderFigures& done, const AovSet& aovs) {
+    if (messages().json()) return log_summary(done);
     const std::int64_t first = done.frames.first(), last = done.frames.last();
     if (done.clip)
         say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*done.clip), done.frames_in_clip, done.width, done.height,

@@ -15,10 +15,12 @@ namespace {
 
 }  // namespace
 
-void say_text(std::string_view text) {
-    std::fwrite(text.data(), 1, text.size(), stderr);
-    std::fflush(stderr);
+Messages& messages() {
+    static Messages of_the_process;
+    return of_the_process;
 }
+
+void say_text(std::string_view text) { messages().say_text(text); }
 
 void put_text(std::string_view text) {
     if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) fail(errno);

@@ -1,5 +1,8 @@
-// Text for the user. Standard error carries messages about the run; standard output carries requested results.
+// Text for the user. Standard error carries messages about the run, as text or with --log json as JSON (messages.h);
+// standard output carries requested results.
 #pragma once
+
+#include "app/log/messages.h"
 
 #include <fmt/format.h>
 
@@ -8,7 +11,10 @@
 
 namespace tumble {
 
-/// Prints to standard error. A failure of the write has no effect.
+/// Those of the process: like standard error, there is one stream of them.
+Messages& messages();
+
+/// Prints to standard error, or an event of the log for each line. A failure of the write has no effect.
 void say_text(std::string_view text);
 
 template <class... Values>

@@ -111,12 +111,17 @@ void Messages::event(std::string_view name, const Json& members) {
     write_line(json_to_, line.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 
+void Messages::end(int exit_code) { event("end", {{"exit_code", exit_code}}); }
+
 void Messages::progress(const ProgressFigures& figures) {
     if (!json()) return;
     const double rate = figures.seconds > 0.0 ? double(figures.done) / figures.seconds : 0.0;
-    Json members{{"done", figures.done}, {"total", figures.total}, {"seconds", rounded(figures.seconds)}};
+    Json members{{"done", figures.done},
+                 {"total", figures.total},
+                 {"of", figures.things},
+                 {"seconds", rounded(figures.seconds)}};
     if (rate > 0.0) {
-        members["frames_per_second"] = rounded(rate);
+        members["per_second"] = rounded(rate);
         members["seconds_left"] = rounded(double(figures.total - figures.done) / rate);
     }
     event("progress", members);

@@ -12,8 +12,9 @@
 namespace tumble {
 
 struct ProgressFigures {
-    std::int64_t done = 0, total = 0;  // frames
-    double seconds = 0.0;              // wall clock, since the first frame was begun
+    std::int64_t done = 0, total = 0;
+    const char* things = "frames";
+    double seconds = 0.0;  // wall clock, since the first one was begun
 };
 
 class Messages {
@@ -39,6 +40,7 @@ public:
     /// Only as JSON: `members` follow the name of the event and its time.
     void event(std::string_view name, const nlohmann::ordered_json& members);
     void progress(const ProgressFigures& figures);
+    void end(int exit_code);
 
 private:
     int json_to_ = -1;
