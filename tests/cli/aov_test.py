@@ -180,7 +180,7 @@ class Aovs(program.ProgramTest):
         run = self.check(1, "render", "scene.toml", "--aov", "depth", "--aov-folder", "file/out")
         self.assertIn("error: cannot make the folder 'file/out'", run.stderr)
         limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))
-        run = self.check(1, "render", "scene.toml", "--aov", "depth,normal", "--aov-folder", "out", "--size", "320x180",
+        run = self.check(1, "render", "scene.toml", "--aov", "depth,normal", "--aov-folder", "out", "--size", "640x400",
                          preexec_fn=limit)
         self.assertEqual(run.stderr, "error: cannot write 'out/aov_000000.npz': File too large\n")
         self.assertEqual(self.names(), ["file"])

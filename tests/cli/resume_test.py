@@ -36,6 +36,31 @@ class FramesRange(ProgramTest):
             self.check(0, "render", "scene.toml", "--frames", "parts", "--quiet", "--frames-range", part, *CLIP)
         self.assertEqual(contents(self.folder / "parts"), whole)
 
+    def test_frames_after_a_gap(self):
+        # The paddle stands still from 1 to 2 s: frame 15 equals the one before it, and not the last one that was drawn.
+        self.write("scene.toml", """format = 1
+            [simulation]
+            duration = 3
+            [output]
+            size = [48, 32]
+            fps = 10
+            [camera]
+            eye = [0, 1, 6]
+            target = [0, 1, 0]
+            [[body]]
+            type = "kinematic"
+            shape = { type = "box", size = [1, 1, 1] }
+            keyframes = [{ time = 0 }, { time = 1, position = [1, 1, 0] }, { time = 2, position = [1, 1, 0] },
+                         { time = 3, position = [0, 2, 0] }]
+            """)
+        whole = self.whole()
+        self.assertEqual(whole["frame_000014.png"], whole["frame_000015.png"])
+        self.assertNotEqual(whole["frame_000005.png"], whole["frame_000015.png"])
+        self.check(0, "render", "scene.toml", "--frames", "parts", "--frames-range", "5,15,17-18,24", "--workers", "1")
+        parts = contents(self.folder / "parts")
+        self.assertEqual(len(parts), 6)
+        self.assertEqual(parts, {name: whole[name] for name in parts})
+
     def test_overlays_plots_and_aovs(self):
         options = ("--size", "640x400", "--fps", "10", "--duration", "1.5", "--aov", "depth,segmentation,motion", "--overlay",
                    "trails,ghosts,velocity,contacts,clock,sleep", "--plot", "energy")
