@@ -71,9 +71,10 @@ std::string plain_value(std::string_view value) {
 void check_path(const std::string& name) {
     const std::filesystem::path path(name);
     if (name.empty() || path.is_absolute() || name.back() == '/') fail("must be a relative path of a folder");
+    if (name.find("//") != std::string::npos) fail("must have no empty part");
     for (const auto& part : path) {
         const std::string text = part.string();
-        if (text.empty() || text.front() == '.') fail("must have no empty part, and none that begins with a dot");
+        if (text.front() == '.') fail("must have no part that begins with a dot");
         if (text.size() > longest_part) fail(fmt::format("gives a name of more than {} bytes", longest_part));
         if (text.find('\0') != std::string::npos) fail("must not have a zero byte");
     }
