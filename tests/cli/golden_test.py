@@ -196,6 +196,8 @@ class Cache(Golden):
         self.golden(0, "check")
         shutil.copy(self.folder / "references/fall_000000.png", self.folder / "references/fall_000024.png")
         self.golden(1, "check")
+        self.golden(0, "accept", "--all")
+        self.golden(0, "check")
         self.change("#808080", "#888888")
         self.golden(1, "check")
 

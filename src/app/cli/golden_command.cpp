@@ -172,7 +172,7 @@ int run_golden_check(const GoldenCommand& command) {
     std::vector<DrawnCase> drawn;
     {
         std::int64_t done = 0;
-        Progress progress(std::int64_t(cases.size()), command.quiet);
+        Progress progress(std::int64_t(cases.size()), command.quiet, "cases");
         drawing.report = [&](const DrawnCase&) { progress.update(++done); };
         drawn = draw_cases(cases, drawer, cache, drawing, interrupt);
     }

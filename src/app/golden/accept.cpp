@@ -118,10 +118,11 @@ private:
         }
         const fs::path record = drawn.folder / golden.record_name(), old_record = folder_ / golden.record_name();
         std::error_code error;
-        const bool changed = !fs::exists(old_record, error) || content(old_record) != content(record);
+        const bool none = !fs::exists(old_record, error);
+        const bool changed = none || content(old_record) != content(record);
         const bool any_new = std::ranges::any_of(
             images, [](const AcceptedImage& i) { return i.what == What::made || i.what == What::replaced; });
-        if (changed && (all_new || any_new)) files.add(record, old_record);
+        if (changed && (none || all_new || any_new)) files.add(record, old_record);
         files.commit();
     }
 
