@@ -6,6 +6,7 @@
 #include "core/color.h"
 #include "core/triangle_mesh.h"
 #include "core/vector.h"
+#include "scene/description/joint.h"
 #include "scene/description/overlay.h"
 
 #include <cstdint>
@@ -177,9 +178,11 @@ struct BodyDescription {
     Interpolation interpolation = Interpolation::smooth;
 };
 
-/// A thin cord without effect on the simulation: from a fixed point to a point of a body.
+/// A thin cord: from a fixed point to a point of a body, without effect on the simulation; or between the anchors of a
+/// joint.
 struct CordDescription {
     std::size_t body = 0;
+    std::optional<std::size_t> joint;  // index into joints; the other values of place are not used then
     Vec3 point = Vec3::Zero();   // body frame, from the body's origin
     Vec3 anchor = Vec3::Zero();  // world frame
     double radius = 0.01;        // m
@@ -206,6 +209,7 @@ struct SceneDescription {
     std::optional<WindDescription> wind;
     std::vector<ForceDescription> forces;
     std::vector<BodyDescription> bodies;  // with grids and scatters expanded
+    std::vector<JointDescription> joints;
     std::vector<CordDescription> cords;
     OverlayDescription overlay;
 
