@@ -7,6 +7,7 @@
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
 #include "sim/dynamics/kinematic_body.h"
+#include "sim/joints/joint_set.h"
 #include "sim/log/contact_log.h"
 #include "sim/notes/notes_method.h"
 #include "sim/snapshot/measurement.h"
@@ -43,6 +44,8 @@ struct World::State {
     StepClock clock;
     std::int64_t steps = 0;  // number of steps done; time is computed from it, never accumulated
     BodySet set;
+    JointSet joints;
+    std::vector<std::uint32_t> woken;  // by joints, in this step
     ForceStage forces;
     ContactDetection detection;
     ImpactStage impacts;
@@ -65,6 +68,7 @@ struct World::State {
         : settings(with_timing(scene.simulation, timing)),
           clock{timing.fps, timing.steps_per_frame},
           set(scene),
+          joints(scene, set.bodies, set.scene_index, set.origin),
           forces(scene, set),
           detection(scene.bodies.size(), threads,
                     exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
@@ -73,6 +77,8 @@ struct World::State {
           sleep(scene.bodies.size()),
           pool(threads) {
         set.place_kinematic(clock, steps);
+        joints.mark(set.bodies);
+        detection.keep_apart(joints.apart());
         motion = make_motion_stage(scene, settings, set, clock);
         if (settings.method == SimulationMethod::notes) notes = std::make_unique<NotesMethod>(threads);
     }
@@ -87,23 +93,25 @@ struct World::State {
                 .clock = clock,
                 .index = steps,
                 .h = clock.seconds(1),
-                .log = log.get()};
+                .log = log.get(),
+                .joints = joints};
     }
 
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, forces, detection, impacts, contact_solver, motion, sleep, check, log,
+        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep, check, log,
                totals, records, notes, asleep, pool] = self;
         archive.rebuilt(settings, clock);
-        archive.keep(steps, set, forces, detection, impacts, contact_solver, sleep, check);
+        archive.keep(steps, set, joints, forces, detection, impacts, contact_solver, sleep, check);
         if (notes) archive.keep(*notes);
-        archive.scratch(motion, log, totals, records, asleep, pool);
+        archive.scratch(woken, motion, log, totals, records, asleep, pool);
     }
 
     void advance(std::int64_t to);
     void step();
     void run_stages(const StepContext& step);
+    void begin_joints(const StepContext& step);
     void apply_forces(const StepContext& step);
     void solve_contacts(const StepContext& step);
     void list_asleep();
@@ -116,11 +124,24 @@ struct World::State {
 
 void World::State::run_stages(const StepContext& step) {
     forces.wake(step);
+    begin_joints(step);
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces(step);                // F and tau at t_n change P and L
     solve_contacts(step);              // non-penetration and friction
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
+}
+
+// Joints that begin or end to hold in this step, or are driven in it, wake their bodies.
+void World::State::begin_joints(const StepContext& step) {
+    if (joints.empty()) return;
+    const std::uint64_t changes = joints.changes();
+    woken.clear();
+    joints.begin_step(step.start(), step.end(), set.bodies, woken);
+    for (const std::uint32_t i : woken) sleep.wake(i, set.bodies);
+    if (joints.changes() == changes) return;
+    joints.mark(set.bodies);
+    detection.keep_apart(joints.apart());
 }
 
 void World::State::step() {
@@ -176,7 +197,8 @@ void World::State::solve_contacts(const StepContext& step) {
                                  detection.manifolds(),
                                  set.old_velocities,
                                  {step.h, threshold, least_rebound},
-                                 log ? &totals : nullptr};
+                                 log ? &totals : nullptr,
+                                 joints.empty() ? nullptr : &joints};
     if (log) totals.assign(problem.manifolds.size(), {});
     contact_solver.solve(problem, detection.islands(), pool);
     if (log)
@@ -189,7 +211,7 @@ void World::State::fall_asleep() {
     if (!settings.sleep || notes) return;
     const StepContext next = context();
     const std::uint64_t changes = sleep.changes();
-    sleep.observe(detection.islands(), detection.manifolds(), set.bodies, next.h, next.gravity_speed());
+    sleep.observe(detection.islands(), detection.manifolds(), set.bodies, next.h, next.gravity_speed(), &joints);
     if (sleep.changes() != changes) motion->bodies_fell_asleep(next);
 }
 
@@ -198,6 +220,7 @@ template <class Use>
 void World::State::with_present_contacts(Use&& use) const {
     ThreadPool alone(1);
     BroadPhase broad_phase(BroadPhase::Pairs::all);
+    broad_phase.keep_apart(joints.apart());
     NarrowPhase narrow_phase(alone.size(), NarrowPhase::Mode::measure);
     const double h = clock.seconds(1);
     use(narrow_phase.find(broad_phase.update(set.bodies, h), set.bodies, h, alone));
@@ -259,6 +282,8 @@ Snapshot World::snapshot() const {
     }
     return snapshot;
 }
+
+std::vector<JointState> World::joint_states() const { return state_->joints.states(state_->set.bodies); }
 
 Measurement World::measure() const {
     const State& s = *state_;

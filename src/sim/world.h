@@ -3,11 +3,13 @@
 
 #include "scene/description/description.h"
 #include "sim/snapshot/contact_records.h"
+#include "sim/snapshot/joint_state.h"
 #include "sim/snapshot/report.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <cstdint>
 #include <memory>
+#include <vector>
 
 namespace tumble {
 
@@ -35,6 +37,8 @@ public:
     bool records_contacts() const;
 
     Snapshot snapshot() const;
+    /// Of all joints, in the scene's order, at the present time.
+    std::vector<JointState> joint_states() const;
     Measurement measure() const;
     BodyReport report(std::size_t body) const;
 

@@ -76,6 +76,10 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
         const bool precise = effort_ == Effort::precisely && bodies.size() <= tuning::direct_most_bodies;
+        if (!islands.joints(k).empty()) {  // the soft solver knows no joints
+            direct_.push_back(k);
+            continue;
+        }
         if (choice_ != Choice::by_island || precise) {
             (choice_ == Choice::soft ? softly_ : direct_).push_back(k);
             continue;
@@ -186,7 +190,7 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         const auto bodies = islands.bodies(direct_[k]);
         Memory& memory = memory_[bodies[0]];
         if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
-        failed_[k] = !memory.solver->solve(problem, bodies, islands.manifolds(direct_[k]));
+        failed_[k] = !memory.solver->solve(problem, bodies, islands.manifolds(direct_[k]), islands.joints(direct_[k]));
         memory.factorizations = memory.solver->factorizations();
     });
     for (const std::size_t k : softly_) memory_[islands.bodies(k)[0]].direct = false;
@@ -213,7 +217,7 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         soft_.solve(problem, std::span(batches_).first(batches_used_), same, pool);
     }
     for (std::size_t k = 0; k < islands.size(); ++k)
-        if (islands.is_free(k) && islands.bodies(k).size() > 1)
+        if (islands.is_free(k) && islands.bodies(k).size() > 1 && islands.joints(k).empty())
             keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h);
 }
 

@@ -50,6 +50,7 @@ const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>&
     if (moved_.empty() && !fell_asleep_) return pairs_;
 
     find_added(bodies, pool);
+    if (!apart_.empty()) std::erase_if(added_, [&](const Pair& pair) { return kept_apart(pair); });
     spare_.clear();
     std::erase_if(pairs_, [&](const Pair& pair) {
         const State &a = states_[pair.a], &b = states_[pair.b];
@@ -61,6 +62,19 @@ const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>&
     moved_.clear();
     fell_asleep_ = false;
     return pairs_;
+}
+
+void BroadPhase::keep_apart(std::vector<Pair> pairs) {
+    if (pairs == apart_) return;
+    apart_.swap(pairs);
+    std::erase_if(pairs_, [&](const Pair& pair) { return kept_apart(pair); });
+    if (!built_) return;
+    // Whether the released pairs overlap is found when one of the two bodies leaves its bounds.
+    for (const Pair& pair : pairs) {
+        if (kept_apart(pair) || (!states_[pair.a].active && !states_[pair.b].active)) continue;
+        const auto place = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
+        if (place == pairs_.end() || *place != pair) pairs_.insert(place, pair);
+    }
 }
 
 void BroadPhase::build(const std::vector<Body>& bodies) {

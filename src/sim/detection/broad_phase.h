@@ -14,6 +14,7 @@
 #include "sim/geometry/dynamic_tree.h"
 #include "sim/threads/thread_pool.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -31,6 +32,9 @@ public:
     /// Precondition: the same bodies in every call. `pool`: visits the bodies and searches with all its threads.
     const std::vector<Pair>& update(const std::vector<Body>& bodies, double h, ThreadPool* pool = nullptr);
 
+    /// Pairs that are never found, ascending. Those of the last call are found again.
+    void keep_apart(std::vector<Pair> pairs);
+
     /// Must be called when any body's `asleep` has been cleared: the next update then finds all awake bodies.
     void bodies_woke() { look_for_awake_ = true; }
 
@@ -41,13 +45,14 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [kind, built, look_for_awake, fixed, half_spaces, awake, fixed_tree, active_tree, resting_tree, states,
-               moved, searches, fell_asleep, pairs, added, spare] = self;
+               moved, searches, fell_asleep, pairs, added, spare, apart] = self;
         archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree);
-        archive.keep(look_for_awake, awake, active_tree, resting_tree, states, moved, fell_asleep, pairs);
+        archive.keep(look_for_awake, awake, active_tree, resting_tree, states, moved, fell_asleep, pairs, apart);
         archive.scratch(searches, added, spare);
     }
 
 private:
+    bool kept_apart(const Pair& pair) const { return std::binary_search(apart_.begin(), apart_.end(), pair); }
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
     bool stays(std::uint32_t i, const Body& body, double h);
@@ -87,6 +92,7 @@ private:
     std::vector<Search> searches_;  // by thread
     bool fell_asleep_ = false;
     std::vector<Pair> pairs_, added_, spare_;
+    std::vector<Pair> apart_;  // ascending: not found
 };
 
 /// Bounds of the body in a step of h seconds at its present velocities, grown by a fraction of its size.

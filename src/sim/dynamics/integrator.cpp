@@ -1,5 +1,7 @@
 #include "sim/dynamics/integrator.h"
 
+#include "sim/math/keyframe_track.h"
+
 namespace tumble {
 
 void advance_momenta(Body& body, const Vec3& force, const Vec3& torque, double h) {
@@ -27,6 +29,13 @@ void advance_pose(Body& body, const Vec3& velocity, const Vec3& angular_velocity
         body.rotation = nearest_rotation(advanced);
         body.orientation = quaternion_of(body.rotation);
     }
+}
+
+void turn_exactly(Body& body, const Vec3& velocity, const Vec3& angular_velocity, double h) {
+    body.position += h * velocity;
+    if (angular_velocity.isZero(0.0)) return;
+    body.orientation = (from_rotation_vector(h * angular_velocity) * body.orientation).normalized();
+    body.rotation = body.orientation.toRotationMatrix();
 }
 
 Mat3 nearest_rotation(const Mat3& matrix) {

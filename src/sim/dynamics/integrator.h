@@ -20,6 +20,9 @@ void advance_momenta(Body& body, const Impulse& impulse);
 /// the cheaper one to bring back to a rotation.
 void advance_pose(Body& body, const Vec3& velocity, const Vec3& angular_velocity, double h, RotationForm form);
 
+/// x += h v, and a rotation about the axis of `angular_velocity` by exactly h |omega|.
+void turn_exactly(Body& body, const Vec3& velocity, const Vec3& angular_velocity, double h);
+
 /// The rotation nearest to a matrix near one: the polar factor, by Newton's iteration R <- (R + R^-T)/2 (Higham 1986,
 /// "Computing the polar decomposition"). Precondition: det > 0, which R + h omega* R always has.
 Mat3 nearest_rotation(const Mat3& matrix);

@@ -26,7 +26,7 @@ bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vect
     mark_held(contacts, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
     bool any = false;
     for (const std::uint32_t i : movers_) {
-        if (!held(bodies[i]) || held_[i]) continue;
+        if (!held(bodies[i]) || held_[i] || bodies[i].jointed) continue;
         events_[i].pushed = false;
         fly(i, bodies, forces, {step, 0.0});
         taken_off_.push_back(i);
@@ -93,7 +93,7 @@ void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const Event
     for (const std::uint32_t k : receivers) held_[k] = false;
     mark_held(cluster_.contacts(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_, held_);
     for (const std::uint32_t k : receivers) {
-        if (!held(bodies[k]) || held_[k]) continue;
+        if (!held(bodies[k]) || held_[k] || bodies[k].jointed) continue;
         bodies[k].flying = true;
         // Gravity of the whole step has acted already; the flight adds that of its rest once more.
         if (log_) log_->add_gravity(k, bodies[k], -clock_.between(now, {now.step + 1, 0.0}), bodies[k].position);

@@ -4,6 +4,7 @@
 #include "sim/impact/settings.h"
 
 #include <algorithm>
+#include <span>
 #include <cmath>
 
 namespace tumble {

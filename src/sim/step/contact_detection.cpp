@@ -1,5 +1,6 @@
 #include "sim/step/contact_detection.h"
 
+#include "sim/joints/joint_set.h"
 #include "sim/step/motion_stage.h"
 #include "sim/step/step_context.h"
 
@@ -21,10 +22,10 @@ void ContactDetection::update(const StepContext& step, MotionStage& motion) {
     const std::span<const std::uint32_t> stepped = motion.choose_stepped(step, *manifolds_);
     // The same pairs and the same stepped bodies give the same islands. Ballistic bodies may be stepped again at any
     // time.
-    const std::pair now(narrow_phase_.changes(), step.sleep.changes());
+    const std::array now{narrow_phase_.changes(), step.sleep.changes(), step.joints.changes()};
     if (!motion.has_ballistic_bodies() && now == seen_by_islands_) return;
     seen_by_islands_ = now;
-    islands_.find(narrow_phase_.touching(), step.set.bodies, stepped);
+    islands_.find(narrow_phase_.touching(), step.set.bodies, stepped, step.joints.pairs());
 }
 
 }  // namespace tumble

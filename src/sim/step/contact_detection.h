@@ -5,6 +5,7 @@
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
 
+#include <array>
 #include <cstdint>
 #include <utility>
 #include <vector>
@@ -27,6 +28,9 @@ public:
     std::vector<Manifold>& manifolds() { return *manifolds_; }
     const ContactIslands& islands() const { return islands_; }
 
+    /// Pairs of bodies that do not collide, ascending.
+    void keep_apart(std::vector<BodyPair> pairs) { broad_phase_.keep_apart(std::move(pairs)); }
+
     /// The pairs that may meet in the step, at the bodies' present velocities.
     const std::vector<BroadPhase::Pair>& find_pairs(const StepContext& step);
 
@@ -45,8 +49,8 @@ private:
     NarrowPhase narrow_phase_;
     std::vector<Manifold>* manifolds_ = nullptr;  // owned by the narrow phase
     ContactIslands islands_;                      // of the stepped bodies
-    // Change counters of the manifolds and of sleep at which the islands were found.
-    std::pair<std::uint64_t, std::uint64_t> seen_by_islands_{UINT64_MAX, UINT64_MAX};
+    // Change counters of the manifolds, of sleep and of joints at which the islands were found.
+    std::array<std::uint64_t, 3> seen_by_islands_{UINT64_MAX, UINT64_MAX, UINT64_MAX};
 };
 
 }  // namespace tumble

@@ -16,7 +16,7 @@ namespace {
 // rotation is that of free rotation, which keeps the energy all along.
 bool turns_freely(std::uint32_t i, const StepContext& step) {
     const Body& body = step.set.bodies[i];
-    return body.dynamic() && body.integrator != IntegratorKind::explicit_euler && !step.forces.touched(i, body) &&
+    return body.dynamic() && !body.jointed && body.integrator != IntegratorKind::explicit_euler && !step.forces.touched(i, body) &&
            (!body.gyration.isZero(0.0) || turns_too_far(body, step.h));
 }
 
@@ -37,7 +37,9 @@ BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const Step
     BodyVelocity motion;
     motion.velocity = (before ? old.velocity : body.velocity) + body.push_velocity;
     motion.angular_velocity = before ? old.angular_velocity : body.angular_velocity;
-    if (!before && body.dynamic()) {
+    if (!before && body.jointed) {
+        motion.angular_velocity += gyration(body, step.h);
+    } else if (!before && body.dynamic()) {
         const Vec3 mean = step.forces.touched(i, body)
                               ? mean_angular_velocity_in_contact(body, step.h, step.settings.rotation)
                               : mean_angular_velocity(body, step.h, step.settings.rotation);
@@ -64,7 +66,7 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
     const ForceStage& forces = step.forces;
     const double share = limit.share, h = step.h;
     // Contact is solved for the velocities at the step's end: bodies in contact move by those, as in symplectic Euler.
-    const bool in_contact = forces.touched(i, body);
+    const bool in_contact = body.jointed || forces.touched(i, body);
     const bool flies = advances_whole_state(body.integrator) && !in_contact;
     if (body.flew != flies) body.flew = flies;  // all threads read the neighboring data: written only where it changes
     if (body.flew) {
@@ -86,7 +88,10 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         const double spin_before = spin(body);
         const Quat orientation = body.orientation;
         const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i, step);
-        advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);
+        if (body.jointed)
+            turn_exactly(body, motion.velocity, motion.angular_velocity, share * h);
+        else
+            advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);
         body.push_velocity.setZero();
         body.push_angular_velocity.setZero();
         if (!in_contact && share < 1.0) forces.lose_time(i, body, share, false);

@@ -3,9 +3,11 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/contact/model/settings.h"
 #include "sim/contact/model/spin_friction.h"
+#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 
@@ -45,6 +47,7 @@ void DirectSolver::set_limits(ConstraintRows& constraint) {
 void DirectSolver::evaluate_speeds() {
     for (ConstraintRows& constraint : constraints_)
         each_row(constraint, [&](Row& row) { row.speed = row.offset + dot(constraint, row, velocity_); });
+    joints_.evaluate_speeds(velocity_);
 }
 
 // Impulses for velocities at a fraction of the Newton step, and the weights of the rows in the second derivatives.
@@ -97,6 +100,8 @@ double DirectSolver::gradient(std::vector<double>& g) {
             if (row.impulse != 0.0) add(constraint, row, -row.impulse, g);
         });
     }
+    joints_.evaluate(0.0);
+    joints_.add_impulses(-1.0, g);
     double sum = 0.0;
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         double square = 0.0;
@@ -165,6 +170,10 @@ bool DirectSolver::factor(bool pushing) {
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
     }
+    if (pushing)
+        joints_.add_push_to(joint_push_stiffness(), matrix_);
+    else
+        joints_.add_to(matrix_);
     return matrix_.factor();
 }
 
@@ -175,7 +184,9 @@ double DirectSolver::slope(double along, double mass_slope, double mass_curvatur
         evaluate(constraint, along, nullptr);
         each_row(constraint, [&](Row& row) { sum -= row.impulse * row.change; });
     }
-    return sum;
+    if (joints_.empty()) return sum;
+    joints_.evaluate(along);
+    return sum - joints_.slope();
 }
 
 // Finds where the slope is a tenth of its initial value: regula falsi with the Illinois rule, kept off the ends.
@@ -206,10 +217,16 @@ bool DirectSolver::minimize(int most_steps) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
     const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
     const double tolerance = total_mass_ * speed * speed;
+    const double rounding = total_mass_ * std::pow(tuning::joint_stall * fastest_, 2);
+    double last = infinity;
     for (int k = 0; k <= most_steps; ++k) {
         evaluate_speeds();
-        if (gradient(gradient_) <= tolerance) return true;
-        if (k == most_steps || !factor(false)) return false;
+        const double now = gradient(gradient_);
+        if (now <= tolerance) return true;
+        // Joints are stiffer than contacts: where a full step no longer helps, the rest is rounding.
+        if (!joints_.empty() && k > 0 && now > 0.1 * last && now <= rounding) return true;
+        last = now;
+        if (k == most_steps || !factored()) return false;
         for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
         matrix_.solve(step_);
         double slope_0 = 0.0, mass_slope = 0.0, mass_curvature = 0.0;
@@ -221,6 +238,7 @@ bool DirectSolver::minimize(int most_steps) {
         }
         for (ConstraintRows& constraint : constraints_)
             each_row(constraint, [&](Row& row) { row.change = dot(constraint, row, step_); });
+        joints_.evaluate_changes(step_);
         const double along = line_search(slope_0, mass_slope, mass_curvature);
         for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
         for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.change = 0.0; });
@@ -241,7 +259,7 @@ double DirectSolver::objective(const std::vector<double>& u) {
         }
         // Friction matters for the choice only where it is small compared with the normal terms.
     }
-    return sum;
+    return joints_.empty() ? sum : sum + joints_.objective(u);
 }
 
 // Starts from the last step's impulses where they are better than none.
@@ -253,12 +271,27 @@ void DirectSolver::start() {
             if (row.estimate != 0.0) add(constraint, row, row.estimate, gradient_);
         });
     }
+    joints_.add_estimates(gradient_);
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         const Vec3 linear = three(gradient_, 6 * i), angular = three(gradient_, 6 * i + 3);
         three(velocity_, 6 * i) = three(free_, 6 * i) + linear / masses_[i].mass;
         three(velocity_, 6 * i + 3) = three(free_, 6 * i + 3) + masses_[i].inverse_inertia * angular;
     }
     if (!(objective(velocity_) <= objective(free_))) velocity_ = free_;
+}
+
+// Takes the impulses as the next estimates. Returns the largest change and the largest impulse, N s.
+std::pair<double, double> DirectSolver::next_round() {
+    auto [change, largest] = joints_.next_round();
+    for (ConstraintRows& constraint : constraints_) {
+        each_row(constraint, [&](Row& row) {
+            change = std::max(change, std::abs(row.impulse - row.estimate));
+            largest = std::max(largest, std::abs(row.impulse));
+            row.estimate = row.impulse;
+        });
+        set_limits(constraint);
+    }
+    return {change, largest};
 }
 
 // From free_ and the rows' targets to velocity_ and their impulses.
@@ -278,15 +311,7 @@ bool DirectSolver::solve_rounds() {
             break;
         }
         found = true;
-        double change = 0.0, largest = 0.0;
-        for (ConstraintRows& constraint : constraints_) {
-            each_row(constraint, [&](Row& row) {
-                change = std::max(change, std::abs(row.impulse - row.estimate));
-                largest = std::max(largest, std::abs(row.impulse));
-                row.estimate = row.impulse;
-            });
-            set_limits(constraint);
-        }
+        const auto [change, largest] = next_round();
         if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
                                         tuning::direct_friction_stiff * compliance_);

@@ -3,6 +3,7 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/contact/model/predicted_gap.h"
 #include "sim/contact/model/settings.h"
+#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -106,11 +107,13 @@ void DirectSolver::structure(const ContactProblem& problem, std::span<const std:
         const int a = place_of(bodies, m.a), b = place_of(bodies, m.b);
         if (a != none && b != none) pairs_.push_back({std::uint32_t(a), std::uint32_t(b)});
     }
+    joints_.add_pairs(pairs_);
     matrix_.analyze(bodies.size(), pairs_);
 }
 
 std::size_t DirectSolver::factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                       std::span<const std::uint32_t> manifolds) {
+    joints_.clear();
     structure(problem, bodies, manifolds);
     return matrix_.work();
 }
@@ -152,7 +155,9 @@ bool DirectSolver::admissible() const {
     return true;
 }
 
-void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
+void DirectSolver::store(const JointIsland& island, bool pushed) {
+    const ContactProblem& problem = island.problem;
+    const std::span<const std::uint32_t> bodies = island.bodies;
     std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
     for (const ConstraintRows& constraint : constraints_) {
         Manifold& m = problem.manifolds[constraint.manifold];
@@ -186,6 +191,7 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
             b.angular_momentum += moment + (a.position - b.position).cross(force);
         }
     }
+    if (!joints_.empty()) joints_.store(island, reached);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         if (!reached[k]) continue;
         Body& body = problem.bodies[bodies[k]];
@@ -256,28 +262,37 @@ bool DirectSolver::solve_in_substeps(const ContactProblem& problem, std::uint32_
 }
 
 bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                         std::span<const std::uint32_t> manifolds) {
+                         std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     factorizations_ = 0;
     displacement_.clear();
     load_bodies(problem, bodies);
     load_constraints(problem, bodies, manifolds);
-    if (constraints_.empty()) return true;
+    joints_.clear();
+    const JointIsland island{problem, bodies, joints, length_};
+    if (!joints.empty()) {
+        joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
+        speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
+        driven_ = true;
+    }
+    if (constraints_.empty() && joints_.empty()) return true;
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
     // nothing approaches, without gravity: overlaps are pushed apart all the same
     if (speed_scale_ <= tuning::direct_rounding * fastest_) {
         velocity_ = free_;
-        store(problem, bodies, push_out(problem.settings.h));
+        store(island, push_out(problem.settings.h));
         return true;
     }
 
-    if (const int substeps = landing_substeps(problem, bodies); substeps > 1) {
+    if (!joints_.empty()) {
+        if (!solve_with_joints(island)) return false;
+    } else if (const int substeps = landing_substeps(problem, bodies); substeps > 1) {
         if (!solve_in_substeps(problem, bodies[0], substeps)) return false;
     } else {
         if (!solve_rounds() || !admissible()) return false;
     }
     const bool pushed = push_out(problem.settings.h);
-    store(problem, bodies, pushed);
+    store(island, pushed);
     return true;
 }
 
@@ -302,7 +317,8 @@ bool DirectSolver::push_out(double h) {
             add(constraint, constraint.normal[i], stiffness * speed, push_);
         }
     }
-    if (!any || !factor(true)) return false;
+    const bool joints_apart = joints_.add_push(joint_push_stiffness(), tuning::joint_push_share / h, push_);
+    if (!(any || joints_apart) || !factor(true)) return false;
     matrix_.solve(push_);
     return true;
 }

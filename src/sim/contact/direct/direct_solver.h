@@ -11,11 +11,16 @@
 // search (semismooth; its matrix M + J^T J/R over the active rows is factored by block_cholesky.h). The estimates of
 // the last step make most solves of a resting island one evaluation.
 //
+// Joints add rows of their own (joint_rows.h). Their errors at the end of the step are closed to rounding: in each
+// round the poses there are predicted, and the targets of the rows moved by the errors (constrained symplectic Euler:
+// Hairer, Lubich and Wanner, Geometric Numerical Integration, section VII.1).
+//
 // Lengths are measured in the island's mean radius, so that rotation and translation have equal weight.
 #pragma once
 
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
+#include "sim/joints/joint_rows.h"
 
 #include <cstdint>
 #include <span>
@@ -25,10 +30,11 @@ namespace tumble {
 
 class DirectSolver {
 public:
-    /// Solves the island and changes bodies and manifolds as ContactProblem specifies. Returns false, and changes
-    /// nothing, when no solution was found.
+    /// Solves the island and changes bodies, manifolds and joints as ContactProblem specifies. `joints`: indices into
+    /// JointSet::active(). Returns false, and changes nothing, when no solution was found; an island with joints takes
+    /// the nearest velocities then.
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-               std::span<const std::uint32_t> manifolds);
+               std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints = {});
 
     /// Block operations of a factorization for this island.
     std::size_t factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
@@ -59,6 +65,11 @@ private:
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
     bool solve_rounds();
+    bool solve_with_joints(const JointIsland& island);
+    void close_joints(const JointIsland& island);
+    void predict_ends(const JointIsland& island);
+    std::pair<double, double> next_round();
+    bool factored();
     int landing_substeps(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const;
     bool solve_in_substeps(const ContactProblem& problem, std::uint32_t body, int substeps);
     double objective(const std::vector<double>& u);
@@ -66,7 +77,8 @@ private:
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
     bool admissible() const;
     bool push_out(double h);
-    void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
+    void store(const JointIsland& island, bool pushed);
+    double joint_push_stiffness() const;
 
     struct Mass {
         double mass = 0.0;                                            // kg
@@ -81,6 +93,8 @@ private:
         kept_;                          // u*, u, du, ...; six numbers per body
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
+    JointRows joints_;
+    std::vector<JointSide> ends_;  // poses at the end of the step
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };

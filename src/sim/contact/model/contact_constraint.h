@@ -51,12 +51,15 @@ struct ManifoldImpulse {
 /// mean of the step; the velocities of the step's start are beside them. A solver changes the momenta, derives the
 /// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
 /// body's displacement in the step. Bodies that no impulse has reached stay unchanged.
+class JointSet;
+
 struct ContactProblem {
     std::vector<Body>& bodies;
     std::vector<Manifold>& manifolds;
     const std::vector<BodyVelocity>& before;  // by body
     ConstraintSettings settings;
     std::vector<ManifoldImpulse>* totals = nullptr;  // by manifold, set by the solvers; null: not asked for
+    JointSet* joints = nullptr;  // null: a scene without joints
 };
 
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the

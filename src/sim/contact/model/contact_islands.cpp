@@ -1,6 +1,7 @@
 #include "sim/contact/model/contact_islands.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -24,25 +25,34 @@ std::uint32_t ContactIslands::root(std::uint32_t i) {
     return i;
 }
 
+// Returns one of the two bodies that takes part, or `no_island`.
+std::uint32_t ContactIslands::connect(std::uint32_t a, std::uint32_t b, const std::vector<Body>& bodies) {
+    const auto role = [&](std::uint32_t i) { return i == UINT32_MAX ? Role::still : look(i, bodies); };
+    const Role role_a = role(a), role_b = role(b);
+    if (role_a == Role::aside || role_b == Role::aside) return no_island;
+    std::uint32_t held = no_island;
+    for (const auto& [i, its_role] : {std::pair(a, role_a), std::pair(b, role_b)}) {
+        if (its_role != Role::takes_part) continue;
+        members_[i].touched = true;
+        held = i;
+    }
+    if (role_a != Role::takes_part || role_b != Role::takes_part) return held;
+    const std::uint32_t i = root(a), j = root(b);
+    members_[std::max(i, j)].parent = std::min(i, j);
+    return held;
+}
+
 void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
-                          std::span<const std::uint32_t> awake) {
+                          std::span<const std::uint32_t> awake, std::span<const BodyPair> joined) {
     ++round_;
     for (const std::uint32_t i : awake)
         members_[i] = {.round = round_, .parent = i, .island = no_island, .role = Role::takes_part};
     held_.assign(touching.size(), no_island);
     for (std::size_t k = 0; k < touching.size(); ++k) {
-        const auto [a, b] = touching[k];
-        const Role role_a = look(a, bodies), role_b = look(b, bodies);
-        if (role_a == Role::aside || role_b == Role::aside) continue;
-        for (const std::uint32_t i : {a, b}) {
-            if (members_[i].role != Role::takes_part) continue;
-            members_[i].touched = true;
-            held_[k] = i;
-        }
-        if (role_a != Role::takes_part || role_b != Role::takes_part) continue;
-        const std::uint32_t i = root(a), j = root(b);
-        members_[std::max(i, j)].parent = std::min(i, j);
+        held_[k] = connect(touching[k].a, touching[k].b, bodies);
     }
+    held_joints_.assign(joined.size(), no_island);
+    for (std::size_t k = 0; k < joined.size(); ++k) held_joints_[k] = connect(joined[k].a, joined[k].b, bodies);
     // Numbers the islands by their lowest body, counts, then fills the lists.
     first_body_.assign(1, 0);
     first_manifold_.assign(1, 0);
@@ -81,6 +91,28 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
         if (place == first_manifold_[number] || pairs_[place - 1] != touching[k]) ++touching_pairs_[number];
         if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still)
             free_[number] = 0;
+    }
+    list_joints(joined);
+}
+
+void ContactIslands::list_joints(std::span<const BodyPair> joined) {
+    joints_.clear();
+    if (joined.empty()) return;
+    const auto island_of = [&](std::size_t k) {
+        return held_joints_[k] == no_island ? no_island : members_[held_joints_[k]].island;
+    };
+    first_joint_.assign(first_body_.size(), 0);
+    for (std::size_t k = 0; k < joined.size(); ++k)
+        if (const std::uint32_t number = island_of(k); number != no_island) ++first_joint_[number + 1];
+    for (std::size_t k = 1; k < first_joint_.size(); ++k) first_joint_[k] += first_joint_[k - 1];
+    joints_.resize(first_joint_.back());
+    std::vector<std::uint32_t> next = first_joint_;
+    for (std::uint32_t k = 0; k < joined.size(); ++k) {
+        const std::uint32_t number = island_of(k);
+        if (number == no_island) continue;
+        joints_[next[number]++] = k;
+        for (const std::uint32_t i : {joined[k].a, joined[k].b})
+            if (i == UINT32_MAX || members_[i].role == Role::still) free_[number] = 0;
     }
 }
 

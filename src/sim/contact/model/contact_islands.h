@@ -20,8 +20,9 @@ public:
     /// - `awake`: the bodies that take part, ascending: dynamic, not asleep, not ballistic.
     /// Other bodies belong to no island and connect none. Manifolds without a body that takes part, and bodies without
     /// manifolds, are skipped. The same pairs and the same awake bodies give the same islands.
+    /// - `joined`: the bodies of the joints that hold; UINT32_MAX for the world. They connect as manifolds do.
     void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
-              std::span<const std::uint32_t> awake);
+              std::span<const std::uint32_t> awake, std::span<const BodyPair> joined = {});
 
     /// Number of times the islands were rebuilt: equal numbers mean the same islands.
     std::uint64_t changes() const { return round_; }
@@ -36,6 +37,11 @@ public:
         return std::span(manifolds_)
             .subspan(first_manifold_[island], first_manifold_[island + 1] - first_manifold_[island]);
     }
+    /// The island's joints, ascending: indices into `joined`.
+    std::span<const std::uint32_t> joints(std::size_t island) const {
+        if (joints_.empty()) return {};
+        return std::span(joints_).subspan(first_joint_[island], first_joint_[island + 1] - first_joint_[island]);
+    }
     /// Body pairs of the island's manifolds, in the same order.
     std::span<const BodyPair> pairs(std::size_t island) const {
         return std::span(pairs_).subspan(first_manifold_[island],
@@ -49,9 +55,10 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [members, held, round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free] = self;
-        archive.keep(round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free);
-        archive.scratch(members, held);
+        auto& [members, held, held_joints, round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free,
+               joints, first_joint] = self;
+        archive.keep(round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free, joints, first_joint);
+        archive.scratch(members, held, held_joints);
     }
 
 private:
@@ -59,6 +66,8 @@ private:
     enum class Role : std::uint8_t { still, takes_part, aside };
     Role look(std::uint32_t i, const std::vector<Body>& bodies);
     std::uint32_t root(std::uint32_t i);
+    std::uint32_t connect(std::uint32_t a, std::uint32_t b, const std::vector<Body>& bodies);
+    void list_joints(std::span<const BodyPair> joined);
 
     // Per body; valid where `round` is the present one.
     struct Member {
@@ -69,11 +78,13 @@ private:
     };
     std::vector<Member> members_;
     std::vector<std::uint32_t> held_;  // by manifold: index of one of its bodies that takes part
+    std::vector<std::uint32_t> held_joints_;  // by joint: the same
     std::uint64_t round_ = 0;
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
     std::vector<BodyPair> pairs_;                // in the order of manifolds_
     std::vector<std::uint32_t> touching_pairs_;  // by island
     std::vector<std::uint8_t> free_;
+    std::vector<std::uint32_t> joints_, first_joint_;  // empty without joints
 };
 
 }  // namespace tumble

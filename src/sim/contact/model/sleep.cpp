@@ -3,6 +3,7 @@
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
+#include "sim/joints/joint_set.h"
 
 #include <algorithm>
 
@@ -94,7 +95,7 @@ bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed
 }
 
 void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds,
-                           std::vector<Body>& bodies, double h, double speed_change) {
+                           std::vector<Body>& bodies, double h, double speed_change, const JointSet* joints) {
     for (std::size_t island = 0; island < islands.size(); ++island) {
         bool still = true, supported = false;
         for (const std::uint32_t i : islands.bodies(island)) {
@@ -109,7 +110,13 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
             if (!stands(bodies[m.a]) && !stands(bodies[m.b])) continue;
             for (int i = 0; i < m.count; ++i) supported = supported || m.points[std::size_t(i)].impulse > 0.0;
         }
-        if (!supported) continue;
+        for (const std::uint32_t k : islands.joints(island)) {
+            const Joint& joint = joints->joints()[joints->active()[k]];
+            still = still && !JointSet::driven(joint, joints->from(), joints->to() + h);
+            for (const std::uint32_t i : {joint.a, joint.b})
+                supported = supported || i == Joint::world || stands(bodies[i]);
+        }
+        if (!still || !supported) continue;
         ++changes_;
         sleepers_ += islands.bodies(island).size();
         const auto members = islands.bodies(island);

@@ -16,6 +16,8 @@
 
 namespace tumble {
 
+class JointSet;
+
 class SleepMonitor {
 public:
     explicit SleepMonitor(std::size_t bodies) : watches_(bodies) {}
@@ -31,7 +33,7 @@ public:
     /// Observes the awake bodies over a step of h seconds and puts islands at rest to sleep. `speed_change` (m/s): by
     /// gravity in the step.
     void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
-                 double h, double speed_change = 0.0);
+                 double h, double speed_change = 0.0, const JointSet* joints = nullptr);
 
     /// Increases whenever a body falls asleep or wakes.
     std::uint64_t changes() const { return changes_; }

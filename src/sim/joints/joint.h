@@ -1,0 +1,85 @@
+// A joint in motion: its two frames, the laws of its coordinates, and the impulses of the last step.
+//
+// The six coordinates are those of the second frame in the first: displacements along its x, y and z, then angles about
+// them. A distance joint has the first alone, the distance of its anchors.
+#pragma once
+
+#include "scene/description/joint.h"
+#include "sim/dynamics/body.h"
+
+#include <array>
+#include <cstdint>
+
+namespace tumble {
+
+struct Joint {
+    static constexpr std::uint32_t world = UINT32_MAX;  // in place of a body
+    static constexpr std::size_t coordinates = 6;
+    /// Laws of a coordinate, each a row of the solver; `cone`: swing of a ball.
+    enum Law : std::uint8_t { lock, lower, upper, spring, motor, friction, cone };
+    static constexpr std::size_t laws = 7;
+
+    std::uint32_t a = world, b = world;  // indices of the bodies
+    JointDescription description;
+    // Frames in the body frame, from the center of mass; in world coordinates for the world.
+    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();          // m
+    Quat frame_a = Quat::Identity(), frame_b = Quat::Identity();    // joint frame to body frame
+    double size = 0.0;                                              // m, of its smaller body: unit of tolerances
+    std::array<JointSpring, coordinates> springs;                   // with stiffness and damping in physical units
+    bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
+
+    // State.
+    bool active = true;                           // holds in this step
+    bool broken = false;
+    double broken_at = 0.0;                       // s
+    std::array<double, coordinates> value{};      // m and rad, with whole turns counted; at the end of the last step
+    std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
+    Vec3 point = Vec3::Zero();                         // m, world: where the force acts
+    double gap = 0.0;                                  // m, largest error of the locked coordinates (angles times size)
+    bool at_limit = false;
+
+    bool distance() const { return description.type == JointType::distance; }
+    const JointAxis& axis(std::size_t coordinate) const {
+        return coordinate < 3 ? description.move[coordinate] : description.turn[coordinate - 3];
+    }
+    bool locked(std::size_t coordinate) const { return axis(coordinate).motion == JointAxis::Motion::locked; }
+    /// Number of coordinates: the others do not exist.
+    std::size_t count() const { return distance() ? 1 : coordinates; }
+
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, active, broken, broken_at,
+               value, impulse, force, torque, point, gap, at_limit] = self;
+        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
+        archive.keep(active, broken, broken_at, value, impulse, force, torque, point, gap, at_limit);
+    }
+};
+
+/// Pose of one side: center of mass and orientation of a body; the world has the identity.
+struct JointSide {
+    Vec3 position = Vec3::Zero();
+    Quat orientation = Quat::Identity();
+};
+
+/// A coordinate at one pose, and its rate as a form of the velocities: direction . (velocity of B relative to A), of
+/// the points of both bodies at JointGeometry::point, or of the angular velocities.
+struct JointCoordinate {
+    Vec3 direction = Vec3::Zero();  // world
+    double value = 0.0;             // m, or rad; of a locked coordinate: its error
+};
+
+struct JointGeometry {
+    Vec3 point = Vec3::Zero();  // m, world: B's anchor, where both bodies get the forces
+    std::array<JointCoordinate, Joint::coordinates> coordinates;
+    // Of a ball: axes of A's frame, the rotation vector (rad) of B's frame along them, and the swing out of the cone.
+    Mat3 axes = Mat3::Identity();
+    Vec3 rotation = Vec3::Zero();
+    JointCoordinate swing;
+    double swing_limit = 0.0;  // rad, half angle of the cone in the direction of the swing
+};
+
+/// Whole turns are counted from Joint::value.
+JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b);
+
+}  // namespace tumble

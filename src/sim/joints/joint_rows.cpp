@@ -1,0 +1,524 @@
+#include "sim/joints/joint_rows.h"
+
+#include "sim/joints/settings.h"
+#include "sim/math/keyframe_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+int place_in(std::span<const std::uint32_t> bodies, std::uint32_t body) {
+    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
+    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : JointRows::none;
+}
+
+double six_dot(const double* row, const std::vector<double>& u, int body) {
+    double sum = 0.0;
+    for (int k = 0; k < 6; ++k) sum += row[k] * u[std::size_t(6 * body + k)];
+    return sum;
+}
+void six_add(const double* row, double amount, std::vector<double>& to, int body) {
+    for (int k = 0; k < 6; ++k) to[std::size_t(6 * body + k)] += amount * row[k];
+}
+double row_dot(const JointRows::Block& block, const JointRows::Row& row, const std::vector<double>& u) {
+    return (block.a != JointRows::none ? six_dot(row.on_a, u, block.a) : 0.0) +
+           (block.b != JointRows::none ? six_dot(row.on_b, u, block.b) : 0.0);
+}
+void row_add(const JointRows::Block& block, const JointRows::Row& row, double amount, std::vector<double>& to) {
+    if (block.a != JointRows::none) six_add(row.on_a, amount, to, block.a);
+    if (block.b != JointRows::none) six_add(row.on_b, amount, to, block.b);
+}
+void put_six(double* six, const Vec3& linear, const Vec3& angular) {
+    for (int k = 0; k < 3; ++k) {
+        six[k] = linear[k];
+        six[3 + k] = angular[k];
+    }
+}
+
+// H += weight row row^T, in the blocks of both bodies.
+void add_square(BlockCholesky& matrix, const JointRows::Block& block, const JointRows::Row& row, double weight) {
+    using Eight = BlockCholesky::Row;
+    const auto add_outer_of = [](BlockCholesky::Block& to, const double* left, const Eight& right) {
+        for (int k = 0; k < 6; ++k) to.row[k] += left[k] * right;
+    };
+    const double *p = row.on_a, *q = row.on_b;
+    const Eight a = weight * Eight{p[0], p[1], p[2], p[3], p[4], p[5], 0.0, 0.0};
+    const Eight b = weight * Eight{q[0], q[1], q[2], q[3], q[4], q[5], 0.0, 0.0};
+    if (block.a != JointRows::none) add_outer_of(matrix.diagonal(std::size_t(block.a)), row.on_a, a);
+    if (block.b != JointRows::none) add_outer_of(matrix.diagonal(std::size_t(block.b)), row.on_b, b);
+    if (block.a == JointRows::none || block.b == JointRows::none) return;
+    if (matrix.transposed(block.pair))
+        add_outer_of(matrix.coupling(block.pair), row.on_b, a);
+    else
+        add_outer_of(matrix.coupling(block.pair), row.on_a, b);
+}
+
+struct Target {
+    double value = 0.0, speed = 0.0;  // at the end of the step; mean over it
+};
+
+double target_at(const std::vector<JointTarget>& targets, double time) {
+    const auto next = std::upper_bound(targets.begin(), targets.end(), time,
+                                       [](double t, const JointTarget& target) { return t < target.time; });
+    if (next == targets.begin()) return next->value;
+    const JointTarget& last = next[-1];
+    if (next == targets.end()) return last.value;
+    return last.value + (next->value - last.value) * ((time - last.time) / (next->time - last.time));
+}
+
+Target target_of(const JointMotor& motor, double from, double to) {
+    const double end = target_at(motor.targets, to);
+    return {end, (end - target_at(motor.targets, from)) / (to - from)};
+}
+
+}  // namespace
+
+JointRows::Row JointRows::make_row(const JointIsland& island, const Block& block, const Vec3& direction,
+                                   std::size_t coordinate) const {
+    Row row;
+    row.direction = direction;
+    row.coordinate = std::uint8_t(coordinate);
+    row.compliance = compliance_;
+    row.least = -infinity;
+    row.most = infinity;
+    const Joint& j = joint(block);
+    const auto side = [&](std::uint32_t body, int place, double sign, double* six) {
+        if (body == Joint::world) return;
+        const Body& b = island.problem.bodies[body];
+        const Vec3 arm = block.point - b.position;
+        if (place != none) {
+            if (row.turns())
+                put_six(six, Vec3::Zero(), sign * direction);
+            else
+                put_six(six, sign * direction, sign / length_ * arm.cross(direction));
+        } else if (b.moves()) {
+            row.offset += sign * (row.turns() ? length_ * direction.dot(b.angular_velocity)
+                                              : direction.dot(b.point_velocity(arm)));
+        }
+    };
+    side(j.a, block.a, -1.0, row.on_a);
+    side(j.b, block.b, 1.0, row.on_b);
+    return row;
+}
+
+void JointRows::push_row(const Row& row) {
+    const Block& block = blocks_.back();
+    rows_.push_back(row);
+    Row& added = rows_.back();
+    const double last = joint(block).impulse[row.coordinate][row.law];
+    if (!row.soft) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
+}
+
+void JointRows::add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law) {
+    Row r = row;
+    const Joint& j = joint(blocks_.back());
+    const bool above = law == Joint::lower;  // the coordinate must stay above the limit
+    const double unit = row.turns() ? length_ : 1.0, tolerance = tuning::joint_rounding * (row.turns() ? 1.0 : j.size);
+    const double room = above ? value - limit : limit - value;  // negative: violated
+    r.law = law;
+    (above ? r.least : r.most) = 0.0;
+    r.closes = true;
+    // A limit violated at the start is not left by speed: see add_push().
+    r.reference = room < -tolerance ? value : limit;
+    r.target = unit * (r.reference - value) / h_;
+    const double e = law == Joint::cone ? 0.0 : j.axis(row.coordinate).restitution;
+    if (e > 0.0) {
+        const Body* a = j.a == Joint::world ? nullptr : &island.problem.bodies[j.a];
+        const Body* b = j.b == Joint::world ? nullptr : &island.problem.bodies[j.b];
+        const Vec3& p = blocks_.back().point;
+        const auto rate = [&](const Body* body) {
+            if (!body) return 0.0;
+            return row.direction.dot(row.turns() ? body->angular_velocity : body->point_velocity(p - body->position));
+        };
+        const double speed = rate(b) - rate(a), approach = above ? -speed : speed;
+        const double threshold = island.problem.settings.bounce_threshold / (row.turns() ? j.size : 1.0);
+        if (approach > threshold && approach * h_ > room) {
+            r.target = -e * unit * speed;
+            r.closes = false;
+        }
+    }
+    push_row(r);
+}
+
+void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std::size_t k, const Row& row) {
+    const Joint& j = joint(blocks_.back());
+    const JointAxis& axis = j.axis(k);
+    const double value = g.coordinates[k].value, unit = row.turns() ? length_ : 1.0, h = h_;
+    if (axis.motion == JointAxis::Motion::locked) {
+        Row r = row;
+        r.law = Joint::lock;
+        r.closes = true;
+        r.reference = std::abs(value) <= tuning::joint_rounding * (row.turns() ? 1.0 : j.size) ? 0.0 : value;
+        r.target = unit * (r.reference - value) / h;
+        push_row(r);
+        return;
+    }
+    if (axis.motion == JointAxis::Motion::limited) {
+        if (axis.lower > -infinity) add_limit(island, row, value, axis.lower, Joint::lower);
+        if (axis.upper < infinity) add_limit(island, row, value, axis.upper, Joint::upper);
+    }
+    const auto add_soft = [&](Joint::Law law, double stiffness, double damping, const Target& target, double most) {
+        const double gain = h * stiffness + damping;
+        if (!(gain > 0.0)) return;
+        Row r = row;
+        r.law = law;
+        r.soft = true;
+        r.compliance = unit * unit / (h * gain);
+        r.target = unit * (stiffness * (target.value - value) + damping * target.speed) / gain;
+        r.most = most * h / unit;
+        r.least = -r.most;
+        push_row(r);
+    };
+    if (axis.spring) {
+        const JointSpring& s = j.springs[k];
+        add_soft(Joint::spring, s.stiffness, s.damping, {s.rest, 0.0}, infinity);
+    }
+    if (axis.motor && axis.motor->speed) {
+        Row r = row;
+        r.law = Joint::motor;
+        r.target = unit * *axis.motor->speed;
+        r.most = axis.motor->max_force * h / unit;
+        r.least = -r.most;
+        push_row(r);
+    } else if (axis.motor) {
+        add_soft(Joint::motor, axis.motor->stiffness, axis.motor->damping, target_of(*axis.motor, from_, to_),
+                 axis.motor->max_force);
+    }
+    if (axis.friction > 0.0 || j.description.friction_coefficient > 0.0) {
+        Row r = row;
+        r.law = Joint::friction;
+        r.most = axis.friction * h / unit;
+        r.least = -r.most;
+        push_row(r);
+    }
+}
+
+// Spring and friction of a ball act about all axes alike: the spring along the rotation vector, friction against the
+// angular velocity.
+void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block) {
+    const Joint& j = joint(block);
+    const JointAxis& axis = j.description.turn[0];
+    const bool rubs = axis.friction > 0.0 || j.description.friction_coefficient > 0.0;
+    if (!axis.spring && !rubs) return;
+    const auto spin = [&](std::uint32_t body) -> Vec3 {
+        return body == Joint::world ? Vec3(Vec3::Zero()) : island.problem.bodies[body].angular_velocity;
+    };
+    const Vec3 relative = spin(j.b) - spin(j.a);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (axis.spring) {
+            const JointSpring& s = j.springs[3];
+            const double gain = h_ * s.stiffness + s.damping;
+            Row r = make_row(island, block, g.axes.col(Eigen::Index(i)), 3 + i);
+            r.law = Joint::spring;
+            r.soft = true;
+            r.compliance = length_ * length_ / (h_ * gain);
+            r.target = -length_ * s.stiffness * g.rotation[Eigen::Index(i)] / gain;
+            if (gain > 0.0) push_row(r);
+        }
+        if (!rubs) continue;
+        const Vec3 along = relative.norm() > 0.0 ? relative.normalized() : Vec3(g.axes.col(0));
+        const Vec3 across = along.unitOrthogonal();
+        const Vec3 basis[3] = {along, across, along.cross(across)};
+        Row r = make_row(island, block, basis[i], 3 + i);
+        r.law = Joint::friction;
+        r.most = axis.friction * h_ / length_;
+        r.least = -r.most;
+        push_row(r);
+    }
+}
+
+void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double compliance) {
+    Joint& j = (*joints_)[index];
+    const JointGeometry g =
+        measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
+    Block& block = blocks_.emplace_back();
+    block.joint = index;
+    block.a = j.a == Joint::world ? none : place_in(island.bodies, j.a);
+    block.b = j.b == Joint::world ? none : place_in(island.bodies, j.b);
+    block.point = g.point;
+    block.first = rows_.size();
+    compliance_ = compliance;
+    const bool ball = !j.distance() && !j.locked(3) && !j.locked(4) && !j.locked(5);
+    const bool isotropic = ball && j.description.type == JointType::ball;
+    for (std::size_t k = 0; k < j.count(); ++k) {
+        const Row row = make_row(island, block, g.coordinates[k].direction, k);
+        if (isotropic && k >= 3) {
+            const JointAxis& axis = j.axis(k);
+            if (axis.motion != JointAxis::Motion::limited) continue;
+            if (axis.lower > -infinity) add_limit(island, row, g.coordinates[k].value, axis.lower, Joint::lower);
+            if (axis.upper < infinity) add_limit(island, row, g.coordinates[k].value, axis.upper, Joint::upper);
+        } else {
+            add_laws(island, g, k, row);
+        }
+    }
+    if (isotropic) add_ball_laws(island, g, block);
+    if (ball && j.description.swing)
+        add_limit(island, make_row(island, block, g.swing.direction, 4), g.swing.value, g.swing_limit, Joint::cone);
+    block.count = rows_.size() - block.first;
+    follow_load(block);
+}
+
+void JointRows::load(const JointIsland& island, double compliance) {
+    clear();
+    JointSet& set = *island.problem.joints;
+    joints_ = &set.joints();
+    h_ = island.problem.settings.h;
+    from_ = set.from();
+    to_ = set.to();
+    length_ = island.length;
+    total_mass_ = 0.0;
+    for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
+    weights_changed_ = true;
+    for (const std::uint32_t k : island.joints) add_joint(island, set.active()[k], compliance);
+}
+
+void JointRows::add_pairs(std::vector<BlockCholesky::Pair>& pairs) {
+    for (Block& block : blocks_) {
+        block.pair = std::uint32_t(pairs.size());
+        if (block.a != none && block.b != none) pairs.push_back({std::uint32_t(block.a), std::uint32_t(block.b)});
+    }
+}
+
+void JointRows::evaluate_speeds(const std::vector<double>& u) {
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            rows_[k].speed = rows_[k].offset + row_dot(block, rows_[k], u);
+            rows_[k].change = 0.0;
+        }
+}
+
+void JointRows::evaluate_changes(const std::vector<double>& du) {
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            rows_[k].change = row_dot(block, rows_[k], du);
+}
+
+void JointRows::evaluate(double along) {
+    for (Row& row : rows_) {
+        const double y = row.estimate + (row.target - row.speed - along * row.change) / row.compliance;
+        row.impulse = std::clamp(y, row.least, row.most);
+    }
+}
+
+void JointRows::evaluate_with_weights() {
+    weights_changed_ = false;
+    for (Row& row : rows_) {
+        const double y = row.estimate + (row.target - row.speed) / row.compliance;
+        row.impulse = std::clamp(y, row.least, row.most);
+        const double weight = y >= row.least && y <= row.most && row.least < row.most ? 1.0 / row.compliance : 0.0;
+        weights_changed_ = weights_changed_ || weight != row.weight;
+        row.weight = weight;
+    }
+}
+
+double JointRows::slope() const {
+    double sum = 0.0;
+    for (const Row& row : rows_) sum += row.impulse * row.change;
+    return sum;
+}
+
+double JointRows::objective(const std::vector<double>& u) const {
+    double sum = 0.0;
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            const double y = row.estimate + (row.target - row.offset - row_dot(block, row, u)) / row.compliance;
+            const double f = std::clamp(y, row.least, row.most);
+            sum += row.compliance * f * (y - 0.5 * f);  // Huber's function
+        }
+    return sum;
+}
+
+void JointRows::add_impulses(double factor, std::vector<double>& g) const {
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            if (rows_[k].impulse != 0.0) row_add(block, rows_[k], factor * rows_[k].impulse, g);
+}
+
+void JointRows::add_estimates(std::vector<double>& g) const {
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            if (rows_[k].estimate != 0.0) row_add(block, rows_[k], rows_[k].estimate, g);
+}
+
+void JointRows::add_to(BlockCholesky& matrix) const {
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            if (rows_[k].weight != 0.0) add_square(matrix, block, rows_[k], rows_[k].weight);
+}
+
+double JointRows::demand(const std::vector<double>& u) const {
+    double most = 0.0;
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            const double missing = row.target - row.offset - row_dot(block, row, u);
+            if (row.law == Joint::lock) most = std::max(most, std::abs(missing));
+            if (row.least == 0.0) most = std::max(most, missing);
+            if (row.most == 0.0) most = std::max(most, -missing);
+            // A drive changes the speed by no more than its force allows.
+            if (row.law == Joint::motor || row.law == Joint::spring)
+                most = std::max(most, std::min(std::abs(missing), row.most / total_mass_));
+        }
+    return most;
+}
+
+void JointRows::follow_load(const Block& block) {
+    const Joint& j = joint(block);
+    const double coefficient = j.description.friction_coefficient;
+    if (!(coefficient > 0.0)) return;
+    double square = 0.0;
+    for (std::size_t k = block.first; k < block.first + block.count; ++k)
+        if (rows_[k].law == Joint::lock && !rows_[k].turns()) square += rows_[k].estimate * rows_[k].estimate;
+    for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+        Row& row = rows_[k];
+        if (row.law != Joint::friction) continue;
+        const double lever = row.turns() ? j.description.bearing_radius / length_ : 1.0;
+        row.most = j.axis(row.coordinate).friction * h_ / (row.turns() ? length_ : 1.0) +
+                   coefficient * lever * std::sqrt(square);
+        row.least = -row.most;
+    }
+}
+
+std::pair<double, double> JointRows::next_round() {
+    double change = 0.0, largest = 0.0;
+    for (Row& row : rows_) {
+        largest = std::max(largest, std::abs(row.impulse));
+        if (row.soft) continue;
+        change = std::max(change, std::abs(row.impulse - row.estimate));
+        row.estimate = row.impulse;
+    }
+    for (const Block& block : blocks_)
+        if (!block.breaks) follow_load(block);
+    return {change, largest};
+}
+
+void JointRows::keep_estimates() {
+    for (Row& row : rows_)
+        if (!row.soft) row.impulse = row.estimate;
+}
+
+double JointRows::close(const JointIsland& island, std::span<const JointSide> ends) {
+    double worst = 0.0;
+    const auto end_of = [&](std::uint32_t body, int place) -> JointSide {
+        if (body == Joint::world) return {};
+        if (place != none) return ends[std::size_t(place)];
+        const Body& b = island.problem.bodies[body];
+        JointSide side{b.position + h_ * b.velocity, b.orientation};
+        if (!b.angular_velocity.isZero(0.0))
+            side.orientation = (from_rotation_vector(h_ * b.angular_velocity) * b.orientation).normalized();
+        return side;
+    };
+    for (const Block& block : blocks_) {
+        if (block.breaks) continue;
+        const Joint& j = joint(block);
+        const JointGeometry g = measure(j, end_of(j.a, block.a), end_of(j.b, block.b));
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            if (!row.closes) continue;
+            const bool cone = row.law == Joint::cone;
+            const double value = cone ? g.swing.value : g.coordinates[row.coordinate].value;
+            const double reference = cone ? std::max(g.swing_limit, row.reference) : row.reference;
+            const double unit = row.turns() ? length_ : 1.0, size = row.turns() ? 1.0 : j.size;
+            const double error = value - reference;
+            const bool held = row.law == Joint::lock || row.impulse != 0.0 ||
+                              (row.law == Joint::lower ? error < 0.0 : error > 0.0);
+            if (held) worst = std::max(worst, std::abs(error) / size);
+            row.target = row.speed - unit * error / h_;
+        }
+    }
+    return worst;
+}
+
+bool JointRows::give_way() {
+    bool any = false;
+    for (Block& block : blocks_) {
+        Joint& j = joint(block);
+        if (block.breaks || !j.description.ever_breaks()) continue;
+        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            (rows_[k].turns() ? torque : force) += rows_[k].impulse / h_ * rows_[k].direction;
+        torque *= length_;
+        const double over = std::max(force.norm() / j.description.break_force, torque.norm() / j.description.break_torque);
+        if (!(over > 1.0)) continue;
+        any = block.breaks = true;
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            row.least = row.most = row.estimate = row.impulse / over;
+            row.closes = row.soft = false;
+        }
+    }
+    return any;
+}
+
+bool JointRows::add_push(double stiffness, double rate, std::vector<double>& push) const {
+    bool any = false;
+    for (const Block& block : blocks_) {
+        const Joint& j = joint(block);
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            double goal = row.reference;  // errors that the velocities did not close stand in the reference
+            if (row.law == Joint::lock) goal = 0.0;
+            else if (row.law == Joint::lower) goal = std::max(row.reference, j.axis(row.coordinate).lower);
+            else if (row.law == Joint::upper) goal = std::min(row.reference, j.axis(row.coordinate).upper);
+            else continue;
+            const double wanted = (row.turns() ? length_ : 1.0) * rate * (goal - row.reference);
+            if (wanted == 0.0) continue;
+            any = true;
+            row_add(block, row, stiffness * wanted, push);
+        }
+    }
+    return any;
+}
+
+void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
+    for (const Block& block : blocks_)
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
+            if (row.law == Joint::lock || (limit && row.impulse != 0.0)) add_square(matrix, block, row, stiffness);
+        }
+}
+
+void JointRows::store(const JointIsland& island, std::vector<bool>& reached) {
+    std::vector<Body>& bodies = island.problem.bodies;
+    for (const Block& block : blocks_) {
+        Joint& j = joint(block);
+        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
+        j.impulse = {};
+        j.at_limit = false;
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            const double amount = row.turns() ? length_ * row.impulse : row.impulse;
+            j.impulse[row.coordinate][row.law] = amount;
+            (row.turns() ? torque : force) += amount * row.direction;
+            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
+            j.at_limit = j.at_limit || (limit && row.impulse != 0.0);
+        }
+        j.force = force / h_;
+        j.torque = torque / h_;
+        j.point = block.point;
+        if (block.breaks) {
+            j.broken = true;
+            j.broken_at = to_;
+        }
+        if (force.isZero(0.0) && torque.isZero(0.0)) continue;
+        // Equal and opposite, about one point: momentum and angular momentum are kept to the last bit.
+        if (block.a != none) {
+            Body& a = bodies[j.a];
+            a.momentum -= force;
+            a.angular_momentum -= (block.point - a.position).cross(force) + torque;
+            reached[std::size_t(block.a)] = true;
+        }
+        if (block.b != none) {
+            Body& b = bodies[j.b];
+            b.momentum += force;
+            b.angular_momentum += (block.point - b.position).cross(force) + torque;
+            reached[std::size_t(block.b)] = true;
+        }
+    }
+}
+
+}  // namespace tumble

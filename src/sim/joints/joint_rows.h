@@ -1,0 +1,123 @@
+// The joints of one island as rows of the Jacobian J over its velocities, for the direct solver (docs: joints.md).
+//
+// Each row is one law of one coordinate: its impulse is
+//   f = clamp(e + (b - J u) / R, least, most)
+// with the estimate e of the last round. The laws differ in these numbers only:
+//   lock    no bounds; b closes the coordinate's error at the end of the step
+//   limit   f >= 0 (lower) or f <= 0 (upper); b = -distance / h
+//   spring  R = 1 / (h (h K + C)), b = (K (rest - value) + C v) / (h K + C), e = 0: implicit, stable for any K and C
+//   motor   as a spring to its target, or b = speed; bounds: its largest force times h
+//   friction b = 0; bounds: its force times h
+// Rows of angles are scaled by the island's length, as the angular velocities are: all rows are in m/s and N s.
+#pragma once
+
+#include "sim/contact/direct/block_cholesky.h"
+#include "sim/contact/model/contact_constraint.h"
+#include "sim/joints/joint_set.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// The island that the rows belong to.
+struct JointIsland {
+    const ContactProblem& problem;
+    std::span<const std::uint32_t> bodies;  // ascending
+    std::span<const std::uint32_t> joints;  // indices into JointSet::active()
+    double length;                          // m, that scales angular velocities
+};
+
+class JointRows {
+public:
+    static constexpr int none = -1;
+    struct Row {
+        double on_a[6] = {}, on_b[6] = {};
+        double offset = 0.0;                   // m/s, of bodies with prescribed velocity
+        double target = 0.0;                   // m/s: b
+        double estimate = 0.0, impulse = 0.0;  // N s: e and f
+        double speed = 0.0, change = 0.0;      // m/s: J u + offset, J du
+        double compliance = 0.0;               // 1/kg: R
+        double least = 0.0, most = 0.0;        // N s
+        double reference = 0.0;  // m or rad: value of the coordinate at the end of the step, of locks and limits
+        double weight = 0.0;     // kg: 1 / R where f is not at a bound
+        Vec3 direction = Vec3::Zero();
+        std::uint8_t coordinate = 0;
+        Joint::Law law = Joint::lock;
+        bool closes = false;  // takes part in close()
+        bool soft = false;    // a spring: its estimate stays 0
+        bool turns() const { return coordinate >= 3; }
+    };
+    struct Block {
+        std::uint32_t joint = 0;
+        int a = none, b = none;
+        std::uint32_t pair = 0;  // index in the matrix
+        std::size_t first = 0, count = 0;
+        Vec3 point = Vec3::Zero();
+        bool breaks = false;  // gives way in this step: its impulses stay as they are
+    };
+
+    bool empty() const { return blocks_.empty(); }
+    std::span<Block> blocks() { return blocks_; }
+    void clear() {
+        blocks_.clear();
+        rows_.clear();
+    }
+
+    /// Rows for the present poses. `compliance` (1/kg) of the rigid rows.
+    void load(const JointIsland& island, double compliance);
+    /// Pairs of island bodies coupled by joints, appended to those of the contacts.
+    void add_pairs(std::vector<BlockCholesky::Pair>& pairs);
+
+    void evaluate_speeds(const std::vector<double>& u);
+    void evaluate_changes(const std::vector<double>& du);
+    /// Impulses along the Newton step, without and with their derivatives.
+    void evaluate(double along);
+    void evaluate_with_weights();
+    /// Whether the last evaluate_with_weights() has changed a weight.
+    bool weights_changed() const { return weights_changed_; }
+    double slope() const;                                      // sum of f J du
+    double objective(const std::vector<double>& u) const;      // J
+    void add_impulses(double factor, std::vector<double>& g) const;   // g += factor J^T f
+    void add_estimates(std::vector<double>& g) const;          // g += J^T e
+    void add_to(BlockCholesky& matrix) const;                  // H += J^T J / R
+    /// Fastest speed (m/s) that the rigid rows demand of velocities u.
+    double demand(const std::vector<double>& u) const;
+
+    /// Takes the impulses as the next estimates, and follows the load of bearings. Returns the largest change and the
+    /// largest impulse, N s.
+    std::pair<double, double> next_round();
+    void keep_estimates();
+    /// Moves the targets such that the errors at the end of the step vanish, given the poses there. Returns the largest
+    /// error, in sizes of the joint.
+    double close(const JointIsland& island, std::span<const JointSide> ends);
+
+    /// Joints whose load is above their strength: their impulses are set to the strength. Returns whether any is new.
+    bool give_way();
+
+    /// For the position correction: J^T J and J^T of the errors at the start, times `share` / h.
+    bool add_push(double stiffness, double rate, std::vector<double>& push) const;
+    void add_push_to(double stiffness, BlockCholesky& matrix) const;
+
+    /// Gives the impulses to the bodies; `reached` marks those by index in the island.
+    void store(const JointIsland& island, std::vector<bool>& reached);
+
+private:
+    void add_joint(const JointIsland& island, std::uint32_t index, double compliance);
+    Row make_row(const JointIsland& island, const Block& block, const Vec3& direction, std::size_t coordinate) const;
+    void add_laws(const JointIsland& island, const JointGeometry& g, std::size_t coordinate, const Row& row);
+    void add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law);
+    void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
+    void follow_load(const Block& block);
+    void push_row(const Row& row);
+    Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
+
+    std::vector<Joint>* joints_ = nullptr;
+    std::vector<Block> blocks_;
+    std::vector<Row> rows_;
+    double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
+    bool weights_changed_ = true;
+};
+
+}  // namespace tumble

@@ -1,0 +1,174 @@
+#include "sim/joints/joint_set.h"
+
+#include "core/deterministic_math.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// 1 / (J M^-1 J^T) of one coordinate: the mass (kg, or kg m^2) that moves along it.
+double effective_mass(const std::vector<Body>& bodies, const Joint& joint, const JointGeometry& g, std::size_t k) {
+    const Vec3 n = g.coordinates[k].direction;
+    double gives = 0.0;
+    for (const std::uint32_t i : {joint.a, joint.b}) {
+        if (i == Joint::world || !bodies[i].dynamic()) continue;
+        const Body& body = bodies[i];
+        const Vec3 turn = k < 3 ? Vec3((g.point - body.position).cross(n)) : n;
+        gives += (k < 3 ? body.inverse_mass : 0.0) + turn.dot(body.inverse_inertia * turn);
+    }
+    return gives > 0.0 ? 1.0 / gives : 0.0;
+}
+
+bool has_laws(const JointAxis& axis) {
+    return axis.motion == JointAxis::Motion::limited || axis.spring || axis.motor || axis.friction > 0.0;
+}
+
+}  // namespace
+
+JointSide side_of(const std::vector<Body>& bodies, std::uint32_t body) {
+    if (body == Joint::world) return {};
+    return {bodies[body].position, bodies[body].orientation};
+}
+
+JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodies,
+                   std::span<const std::uint32_t> scene_index, const Vec3& origin) {
+    if (scene.joints.empty()) return;
+    std::vector<std::uint32_t> place(scene_index.size());
+    for (std::uint32_t i = 0; i < scene_index.size(); ++i) place[scene_index[i]] = i;
+    const auto side = [&](const std::optional<std::size_t>& body, const Vec3& anchor, std::uint32_t& index,
+                          Vec3& from_center) {
+        if (!body) {
+            from_center = anchor - origin;
+            return;
+        }
+        index = place[*body];
+        from_center = anchor - bodies[index].center_of_mass;
+    };
+    for (const JointDescription& description : scene.joints) {
+        Joint& joint = joints_.emplace_back();
+        joint.description = description;
+        side(description.first, description.anchor_first, joint.a, joint.anchor_a);
+        side(description.second, description.anchor_second, joint.b, joint.anchor_b);
+        joint.frame_a = description.frame_first;
+        joint.frame_b = description.frame_second;
+        joint.size = infinity;
+        for (const std::uint32_t i : {joint.a, joint.b})
+            if (i != Joint::world && bodies[i].dynamic()) joint.size = std::min(joint.size, bodies[i].radius);
+        const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
+        joint.soft = description.swing || description.friction_coefficient > 0.0;
+        for (std::size_t k = 0; k < joint.count(); ++k) {
+            joint.value[k] = joint.locked(k) ? 0.0 : g.coordinates[k].value;
+            const JointAxis& axis = joint.axis(k);
+            joint.soft = joint.soft || has_laws(axis);
+            if (!axis.spring) continue;
+            JointSpring& spring = joint.springs[k] = *axis.spring;
+            if (!(spring.frequency > 0.0)) continue;
+            // K = m w^2 and C = 2 zeta m w, with the mass at the start: else the spring would change with the pose.
+            const double mass = effective_mass(bodies, joint, g, k), rate = 2.0 * pi * spring.frequency;
+            spring.stiffness = mass * rate * rate;
+            spring.damping = 2.0 * spring.damping_ratio * mass * rate;
+        }
+    }
+    for (Joint& joint : joints_) joint.active = joint.description.start <= 0.0 && joint.description.end > 0.0;
+    list();
+}
+
+void JointSet::list() {
+    active_.clear();
+    pairs_.clear();
+    ++changes_;
+    for (std::uint32_t k = 0; k < joints_.size(); ++k) {
+        if (!joints_[k].active) continue;
+        active_.push_back(k);
+        pairs_.push_back({joints_[k].a, joints_[k].b});
+    }
+}
+
+bool JointSet::driven(const Joint& joint, double from, double to) {
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        const auto& motor = joint.axis(k).motor;
+        if (!motor || motor->targets.size() < 2) continue;
+        if (from < motor->targets.back().time && to > motor->targets.front().time) return true;
+    }
+    return false;
+}
+
+void JointSet::begin_step(double from, double to, const std::vector<Body>& bodies, std::vector<std::uint32_t>& woken) {
+    if (joints_.empty()) return;
+    from_ = from;
+    to_ = to;
+    bool changed = false;
+    for (Joint& joint : joints_) {
+        const bool active = !joint.broken && from >= joint.description.start && from < joint.description.end;
+        bool wakes = active != joint.active || (active && driven(joint, from, to));
+        for (const std::uint32_t i : {joint.a, joint.b})
+            if (active && i != Joint::world && !bodies[i].dynamic())
+                wakes = wakes || !bodies[i].velocity.isZero(0.0) || !bodies[i].angular_velocity.isZero(0.0);
+        if (active && joint.a != Joint::world && joint.b != Joint::world)
+            wakes = wakes || (bodies[joint.a].dynamic() && bodies[joint.b].dynamic() &&
+                              bodies[joint.a].asleep != bodies[joint.b].asleep);
+        if (active != joint.active) {
+            changed = true;
+            joint.active = active;
+            joint.impulse = {};
+            joint.force.setZero();
+            joint.torque.setZero();
+        }
+        if (!wakes) continue;
+        for (const std::uint32_t i : {joint.a, joint.b})
+            if (i != Joint::world && bodies[i].asleep) woken.push_back(i);
+    }
+    if (changed) list();
+}
+
+void JointSet::mark(std::vector<Body>& bodies) const {
+    for (Body& body : bodies) body.jointed = false;
+    for (const BodyPair& pair : pairs_)
+        for (const std::uint32_t i : {pair.a, pair.b})
+            if (i != Joint::world) bodies[i].jointed = true;
+}
+
+std::vector<BodyPair> JointSet::apart() const {
+    std::vector<BodyPair> pairs;
+    for (const std::uint32_t k : active_) {
+        const Joint& joint = joints_[k];
+        if (joint.description.collide || joint.a == Joint::world || joint.b == Joint::world) continue;
+        pairs.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+std::vector<JointState> JointSet::states(const std::vector<Body>& bodies) const {
+    std::vector<JointState> result;
+    for (const Joint& joint : joints_) {
+        JointState& state = result.emplace_back();
+        const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
+        state.point = g.point;
+        const auto velocity = [&](std::uint32_t i, bool turns) -> Vec3 {
+            if (i == Joint::world) return Vec3::Zero();
+            return turns ? bodies[i].angular_velocity : bodies[i].point_velocity(g.point - bodies[i].position);
+        };
+        for (std::size_t k = 0; k < joint.count(); ++k) {
+            const auto& [direction, value] = g.coordinates[k];
+            const double unit = k < 3 ? 1.0 : joint.size;
+            if (joint.locked(k)) {
+                state.gap = std::max(state.gap, unit * std::abs(value));
+                continue;
+            }
+            state.position[k] = value;
+            state.speed[k] = direction.dot(velocity(joint.b, k >= 3) - velocity(joint.a, k >= 3));
+        }
+        state.force = joint.force;
+        state.torque = joint.torque;
+        state.at_limit = joint.at_limit;
+        state.active = joint.active;
+        if (joint.broken) state.broken_at = joint.broken_at;
+    }
+    return result;
+}
+
+}  // namespace tumble

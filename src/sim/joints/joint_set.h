@@ -1,0 +1,69 @@
+// All joints of a world: built from the scene, switched on and off by time, broken by load.
+#pragma once
+
+#include "sim/geometry/body_pair.h"
+#include "sim/joints/joint.h"
+#include "sim/snapshot/joint_state.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+class JointSet {
+public:
+    /// `scene_index`: by body, its index in the scene; `origin` (m, world): of the bodies' coordinates.
+    JointSet(const SceneDescription& scene, const std::vector<Body>& bodies,
+             std::span<const std::uint32_t> scene_index, const Vec3& origin);
+
+    bool empty() const { return joints_.empty(); }
+    std::vector<Joint>& joints() { return joints_; }
+    const std::vector<Joint>& joints() const { return joints_; }
+    /// The bodies of each joint that holds in this step, in the order of active().
+    const std::vector<BodyPair>& pairs() const { return pairs_; }
+    /// Indices of the joints that hold, ascending.
+    const std::vector<std::uint32_t>& active() const { return active_; }
+    /// Increases whenever a joint begins or ends to hold.
+    std::uint64_t changes() const { return changes_; }
+
+    /// Which joints hold in the step [from, to), s. Bodies whose joint has begun or ended to hold, or is driven, must
+    /// be awake: they are appended to `woken`.
+    void begin_step(double from, double to, const std::vector<Body>& bodies, std::vector<std::uint32_t>& woken);
+
+    double from() const { return from_; }  // s, of this step
+    double to() const { return to_; }
+    /// Sets Body::jointed of all bodies.
+    void mark(std::vector<Body>& bodies) const;
+
+    /// Pairs of bodies that do not collide, ascending: of active joints without `collide`.
+    std::vector<BodyPair> apart() const;
+
+    /// Whether the joint's motor follows a path in the step: its bodies must not sleep.
+    static bool driven(const Joint& joint, double from, double to);
+
+    /// States for the output: of the present poses and velocities, with the loads of the last step.
+    std::vector<JointState> states(const std::vector<Body>& bodies) const;
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [joints, active, pairs, changes, from, to] = self;
+        archive.keep_each(joints);
+        archive.keep(active, pairs, changes, from, to);
+    }
+
+private:
+    void list();
+
+    std::vector<Joint> joints_;  // in the order of the scene
+    std::vector<std::uint32_t> active_;
+    std::vector<BodyPair> pairs_;
+    std::uint64_t changes_ = 0;
+    double from_ = 0.0, to_ = 0.0;  // s, of this step
+};
+
+/// Pose of a joint's side.
+JointSide side_of(const std::vector<Body>& bodies, std::uint32_t body);
+
+}  // namespace tumble
