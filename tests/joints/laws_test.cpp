@@ -1,0 +1,201 @@
+// Limits, motors, springs, friction and breaking against their closed forms.
+#include "joint_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble::laws_test {
+using namespace tumble::testing;
+
+namespace {
+
+/// A door of 0.9 m x 2 m x 0.04 m and 20 kg, hinged on its vertical edge; I = 5.40266... kg m^2.
+SceneDescription door_scene(int steps_per_frame) {
+    SceneDescription scene;
+    scene.simulation.steps_per_frame = steps_per_frame;
+    add_box(scene, {0.9, 2.0, 0.04}, {0.45, 0.0, 0.0}, 20.0);
+    JointDescription& hinge =
+        add_joint(scene, JointType::hinge, std::nullopt, 0, Vec3::Zero(), Vec3::UnitY());
+    hinge.turn[0].motion = JointAxis::Motion::limited;
+    hinge.turn[0].lower = -1.0;
+    hinge.turn[0].upper = 0.5 * std::numbers::pi;
+    return scene;
+}
+
+TEST(JointLaws, AMotorOpensADoorToItsLimit) {
+    SceneDescription scene = door_scene(16);
+    JointMotor motor;
+    motor.speed = 1.0;
+    motor.max_force = 10.0;
+    scene.joints[0].turn[0].motor = motor;
+    World world(scene);
+    double full = 0.0, limit = 0.0, farthest = 0.0;
+    for (int step = 1; step <= 5 * 960; ++step) {
+        world.step();
+        const JointState joint = world.joint_states()[0];
+        if (full == 0.0 && joint.speed[3] > 1.0 - 1e-9) full = step / 960.0;
+        if (limit == 0.0 && joint.at_limit) limit = step / 960.0;
+        farthest = std::max(farthest, joint.position[3]);
+    }
+    std::printf("full %.6f limit %.6f beyond %.1e\n", full, limit, farthest - 0.5 * std::numbers::pi);
+    EXPECT_NEAR(full, 0.540266666666, 1.1 / 960.0);
+    EXPECT_NEAR(limit, 1.84092966012822995, 1.6 / 960.0);
+    EXPECT_LT(farthest - 0.5 * std::numbers::pi, 1e-9);
+    EXPECT_TRUE(world.snapshot().bodies[0].asleep);
+    EXPECT_NEAR(world.joint_states()[0].position[3], 0.5 * std::numbers::pi, 1e-12);
+}
+
+TEST(JointLaws, ALimitWithRestitutionReturnsTheSpeed) {
+    SceneDescription scene = door_scene(16);
+    scene.bodies[0].angular_velocity = {0.0, 2.0, 0.0};
+    scene.bodies[0].velocity = {0.0, 0.0, -0.9};
+    scene.joints[0].turn[0].restitution = 0.5;
+    World world(scene);
+    double farthest = 0.0;
+    for (int step = 1; step <= 960; ++step) {
+        world.step();
+        farthest = std::max(farthest, world.joint_states()[0].position[3]);
+    }
+    EXPECT_NEAR(world.joint_states()[0].speed[3], -1.0, 1e-5);
+    EXPECT_LT(farthest, 0.5 * std::numbers::pi + 1e-12);
+    EXPECT_GT(farthest, 0.5 * std::numbers::pi - 2.0 / 960.0);
+}
+
+TEST(JointLaws, ASpringRestsAtItsClosedForm) {
+    // A rod on a hinge with a spring: K theta = m g l cos(theta) from the horizontal.
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
+    scene.joints[0].turn[0].spring = JointSpring{.stiffness = 50.0, .damping = 5.0};
+    World world(scene);
+    run(world, scene, 20.0);
+    double angle = 0.1;
+    for (int k = 0; k < 50; ++k) angle = 9.81 * 0.5 * std::cos(angle) / 50.0;
+    std::printf("angle %.12f %.12f\n", world.joint_states()[0].position[3], -angle);
+    EXPECT_NEAR(world.joint_states()[0].position[3], -angle, 1e-9);
+}
+
+TEST(JointLaws, AStiffSpringIsStable) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi, 1);
+    scene.joints[0].turn[0].spring = JointSpring{.stiffness = 1e12};
+    World world(scene);
+    run(world, scene, 5.0);
+    EXPECT_LT(std::abs(world.joint_states()[0].position[3]), 1e-9);
+    EXPECT_LT(world.measure().kinetic, 1e-9);
+}
+
+TEST(JointLaws, AServoHoldsItsTarget) {
+    SceneDescription scene = door_scene(16);
+    JointMotor motor;
+    motor.targets = {{0.0, 0.0}, {1.0, 1.0}};
+    motor.stiffness = 1e5;
+    motor.damping = 1e3;
+    scene.joints[0].turn[0].motor = motor;
+    World world(scene);
+    run(world, scene, 0.5);
+    EXPECT_NEAR(world.joint_states()[0].position[3], 0.5, 0.02);
+    run(world, scene, 3.0);
+    EXPECT_NEAR(world.joint_states()[0].position[3], 1.0, 1e-6);
+}
+
+// Energy falls by the friction torque times the angle, swing by swing.
+TEST(JointLaws, FrictionTakesItsTorqueTimesTheAngle) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
+    scene.simulation.sleep = true;
+    scene.joints[0].turn[0].friction = 0.5;
+    World world(scene);
+    const auto energy = [&] { const Measurement m = world.measure(); return m.kinetic + m.potential; };
+    const double start = energy();
+    double travelled = 0.0, last = world.joint_states()[0].position[3], worst = 0.0;
+    for (int step = 0; step < 960 * 2; ++step) {
+        world.step();
+        const double now = world.joint_states()[0].position[3];
+        travelled += std::abs(now - last);
+        last = now;
+        worst = std::max(worst, std::abs(start - energy() - 0.5 * travelled));
+    }
+    std::printf("worst %.2e of %.2e\n", worst, 0.5 * travelled);
+    EXPECT_LT(worst, 0.02);
+    run(world, scene, 20.0);
+    EXPECT_TRUE(world.snapshot().bodies[0].asleep);
+}
+
+// The hinge of a rod from 90 degrees breaks at 15 N: at 0.918177608833369149 rad, 0.300354695438428074 s.
+TEST(JointLaws, BreaksAtItsStrength) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
+    scene.joints[0].break_force = 15.0;
+    World world(scene);
+    run(world, scene, 1.0);
+    const JointState joint = world.joint_states()[0];
+    ASSERT_TRUE(joint.broken_at);
+    std::printf("broken at %.6f\n", *joint.broken_at);
+    EXPECT_NEAR(*joint.broken_at, 0.300354695438428074, 1.5 / 960.0);
+    EXPECT_NEAR(world.snapshot().bodies[0].angular_velocity.z(), -4.22224580764613828, 0.02);
+}
+
+TEST(JointLaws, LetsGoAtItsTime) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
+    scene.simulation.sleep = true;
+    scene.joints[0].turn[0].motion = JointAxis::Motion::locked;
+    scene.joints[0].end = 2.0;
+    World world(scene);
+    run(world, scene, 1.9);
+    EXPECT_TRUE(world.snapshot().bodies[0].asleep);
+    EXPECT_NEAR(world.snapshot().bodies[0].center_of_mass.y(), 0.0, 1e-12);
+    run(world, scene, 1.1);
+    EXPECT_NEAR(world.snapshot().bodies[0].center_of_mass.y(), -0.5 * 9.81, 0.01);
+}
+
+TEST(JointLaws, AnAnchorApartIsPulledInWithoutSpeed) {
+    SceneDescription scene = empty_scene();
+    add_box(scene, {0.2, 0.2, 0.2}, {0.0, 0.0, 0.0});
+    add_box(scene, {0.2, 0.2, 0.2}, {0.5, 0.0, 0.0});
+    JointDescription& joint = add_joint(scene, JointType::ball, 0, 1, {0.25, 0.0, 0.0});
+    joint.anchor_second.x() += 0.02;
+    World world(scene);
+    double kinetic = 0.0;
+    for (int frame = 0; frame < 60; ++frame) {
+        world.advance_frame();
+        kinetic = std::max(kinetic, world.measure().kinetic);
+    }
+    std::printf("gap %.1e kinetic %.1e\n", largest_gap(world), kinetic);
+    EXPECT_LT(largest_gap(world), 1e-9);
+    EXPECT_LT(kinetic, 1e-12);
+}
+
+TEST(JointLaws, ATowerOnFixedJointsCarriesAHundredTimesItsWeight) {
+    SceneDescription scene = ground_scene(0.0, 0.5);
+    for (int i = 0; i < 11; ++i) {
+        BodyDescription& box = add_box(scene, {0.2, 0.2, 0.2}, {0.0, 0.1 + 0.2 * i, 0.0}, i == 10 ? 100.0 : 1.0);
+        (void)box;
+        add_joint(scene, JointType::fixed, i == 0 ? std::size_t(0) : std::size_t(i), std::size_t(i + 1),
+                  {0.0, 0.2 * i, 0.0});
+    }
+    scene.simulation.gravity = Vec3(3.0, -9.0, 1.0);
+    World world(scene);
+    run(world, scene, 2.0);
+    double worst = 0.0;
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i)
+        worst = std::max(worst, (world.snapshot().bodies[i].center_of_mass - scene.bodies[i].position).norm());
+    std::printf("sag %.1e\n", worst);
+    EXPECT_LT(worst, 1e-9);
+    EXPECT_TRUE(world.snapshot().bodies[5].asleep);
+}
+
+TEST(JointLaws, ADoorWithThreeHingesRests) {
+    SceneDescription scene;
+    add_box(scene, {0.9, 2.0, 0.04}, {0.45, 0.0, 0.0}, 20.0);
+    for (const double y : {-0.8, 0.0, 0.8})
+        add_joint(scene, JointType::hinge, std::nullopt, 0, {0.0, y, 0.0}, Vec3::UnitY());
+    World world(scene);
+    run(world, scene, 2.0);
+    const auto joints = world.joint_states();
+    std::printf("forces %.9f %.9f %.9f | x %.9f %.9f\n", joints[0].force.y(), joints[1].force.y(), joints[2].force.y(),
+                joints[0].force.x(), joints[2].force.x());
+    EXPECT_NEAR(joints[0].force.x(), -joints[2].force.x(), 1e-6);
+    EXPECT_NEAR(joints[0].force.y() + joints[1].force.y() + joints[2].force.y(), 20.0 * 9.81, 1e-6);
+    EXPECT_TRUE(world.snapshot().bodies[0].asleep);
+}
+
+}  // namespace
+}  // namespace tumble::laws_test
