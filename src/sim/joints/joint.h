@@ -29,6 +29,7 @@ struct Joint {
     bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
 
     // State.
+    int substeps = 1;  // of its island in the next step, a power of two
     bool active = true;                           // holds in this step
     bool broken = false;
     double broken_at = 0.0;                       // s
@@ -49,10 +50,11 @@ struct Joint {
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, active, broken, broken_at,
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps,
+               active, broken, broken_at,
                value, impulse, force, torque, point, gap, at_limit] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
-        archive.keep(active, broken, broken_at, value, impulse, force, torque, point, gap, at_limit);
+        archive.keep(substeps, active, broken, broken_at, value, impulse, force, torque, point, gap, at_limit);
     }
 };
 

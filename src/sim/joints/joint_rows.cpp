@@ -240,6 +240,8 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     block.point = g.point;
     block.first = rows_.size();
     compliance_ = compliance;
+    for (std::size_t k = 0; k < j.count(); ++k)
+        if (!j.locked(k)) j.value[k] = g.coordinates[k].value;
     const bool ball = !j.distance() && !j.locked(3) && !j.locked(4) && !j.locked(5);
     const bool isotropic = ball && j.description.type == JointType::ball;
     for (std::size_t k = 0; k < j.count(); ++k) {
@@ -265,13 +267,14 @@ void JointRows::load(const JointIsland& island, double compliance) {
     JointSet& set = *island.problem.joints;
     joints_ = &set.joints();
     h_ = island.problem.settings.h;
-    from_ = set.from();
-    to_ = set.to();
+    from_ = island.from;
+    to_ = island.to;
     length_ = island.length;
     total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;
-    for (const std::uint32_t k : island.joints) add_joint(island, set.active()[k], compliance);
+    for (const std::uint32_t k : island.joints)
+        if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken) add_joint(island, index, compliance);
 }
 
 void JointRows::add_pairs(std::vector<BlockCholesky::Pair>& pairs) {
@@ -482,7 +485,7 @@ void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
         }
 }
 
-void JointRows::store(const JointIsland& island, std::vector<bool>& reached) {
+void JointRows::store(const JointIsland& island) {
     std::vector<Body>& bodies = island.problem.bodies;
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
@@ -510,15 +513,38 @@ void JointRows::store(const JointIsland& island, std::vector<bool>& reached) {
             Body& a = bodies[j.a];
             a.momentum -= force;
             a.angular_momentum -= (block.point - a.position).cross(force) + torque;
-            reached[std::size_t(block.a)] = true;
         }
         if (block.b != none) {
             Body& b = bodies[j.b];
             b.momentum += force;
             b.angular_momentum += (block.point - b.position).cross(force) + torque;
-            reached[std::size_t(block.b)] = true;
         }
     }
+}
+
+double JointRows::swing_rate(const JointIsland& island) {
+    swing_.assign(island.bodies.size(), 0.0);
+    double most = 0.0;
+    for (const Block& block : blocks_) {
+        Vec3 force = Vec3::Zero();
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            if (!rows_[k].turns()) force += rows_[k].impulse / h_ * rows_[k].direction;
+        const Joint& j = joint(block);
+        for (const auto& [body, place] : {std::pair(j.a, block.a), std::pair(j.b, block.b)}) {
+            if (place == none) continue;
+            const Body& b = island.problem.bodies[body];
+            const Vec3 arm = block.point - b.position;
+            const double lever = arm.norm();
+            if (!(lever > 0.0)) continue;
+            const Vec3 across = arm.unitOrthogonal(), other = arm.cross(across) / lever;
+            const double gives = std::max(across.dot(b.inverse_inertia * across), other.dot(b.inverse_inertia * other));
+            // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
+            double& sum = swing_[std::size_t(place)];
+            sum += force.norm() * lever * gives / 3.0;
+            most = std::max(most, sum);
+        }
+    }
+    return std::sqrt(most);
 }
 
 }  // namespace tumble

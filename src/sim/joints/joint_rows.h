@@ -27,6 +27,7 @@ struct JointIsland {
     std::span<const std::uint32_t> bodies;  // ascending
     std::span<const std::uint32_t> joints;  // indices into JointSet::active()
     double length;                          // m, that scales angular velocities
+    double from, to;                        // s: of the step or substep
 };
 
 class JointRows {
@@ -101,7 +102,11 @@ public:
     void add_push_to(double stiffness, BlockCholesky& matrix) const;
 
     /// Gives the impulses to the bodies; `reached` marks those by index in the island.
-    void store(const JointIsland& island, std::vector<bool>& reached);
+    void store(const JointIsland& island);
+
+    /// Fastest rate (rad/s) at which a body would swing about its joints under their forces: sqrt(4 T / (m l)) for a
+    /// rod of length l.
+    double swing_rate(const JointIsland& island);
 
 private:
     void add_joint(const JointIsland& island, std::uint32_t index, double compliance);
@@ -116,6 +121,7 @@ private:
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
     std::vector<Row> rows_;
+    std::vector<double> swing_;  // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
     bool weights_changed_ = true;
 };

@@ -20,6 +20,24 @@ inline constexpr double joint_closed = 1e-13;
 /// the rounding of speeds. Not fitted: rounding.
 inline constexpr double joint_stall = 1e-6;
 
+/// Largest phase, rad, of a link's swing under tension in a step: the direction of the force is that of the step's start,
+/// and the motion grows without bound from a phase of 1 to 2 on. Test: JointStatics.AWreckingBall.
+inline constexpr double joint_swing = 0.7;
+
+/// Largest number of substeps: for that phase; where passes do not converge; and where contacts do not. Not fitted:
+/// bounds of the cost.
+inline constexpr int joint_swing_substeps = 1024;
+inline constexpr int joint_open_substeps = 64;
+inline constexpr int joint_stuck_substeps = 4;
+
+/// Passes up to which a step counts as easy: the next one is tried with half the substeps. Not fitted: the number changes
+/// the cost alone.
+inline constexpr int joint_easy_rounds = 6;
+
+/// Stiffness of the joints in the position correction, over the island's mass: a push of 1 leaves errors of 1e-5, which
+/// the next step closes.
+inline constexpr double joint_push_stiffness = 1e5;
+
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;
 

@@ -1,18 +1,24 @@
-// DirectSolver: islands with joints.
+// DirectSolver: islands with joints, in one or more substeps.
+//
+// A joint's force keeps its direction through a step. A link under tension T swings about its joints at the rate
+// sqrt(4 T / (m l)); where a step is longer than that allows, or the passes that close the joints do not converge, the
+// island is solved in substeps.
 #include "sim/contact/direct/direct_solver.h"
 #include "sim/contact/direct/settings.h"
+#include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/joints/settings.h"
 #include "sim/math/keyframe_track.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
 
 using namespace contact_rows;
 
-double DirectSolver::joint_push_stiffness() const { return 1e5 * total_mass_; }
+double DirectSolver::joint_push_stiffness() const { return tuning::joint_push_stiffness * total_mass_; }
 
 // Factors the matrix, unless it is that of the last factorization: with joints alone, the passes of a step share one.
 bool DirectSolver::factored() {
@@ -43,10 +49,11 @@ void DirectSolver::predict_ends(const JointIsland& island) {
 
 // Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
 // the last solution.
-void DirectSolver::close_joints(const JointIsland& island) {
+DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     friction_compliance_ = tuning::direct_friction_soft * compliance_;
     start();
     double last = infinity;
+    int slow = 0;  // passes in a row that do not contract
     bool found = false;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
         if (found) kept_ = velocity_;
@@ -57,26 +64,204 @@ void DirectSolver::close_joints(const JointIsland& island) {
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
             }
-            return;
+            return found && last < tuning::joint_rounding ? Closing::closed : Closing::stuck;
         }
         found = true;
+        rounds_ = std::max(rounds_, round + 1);
         const auto [change, largest] = next_round();
         predict_ends(island);
         const double error = joints_.close(island, ends_);
+        if (!std::isfinite(error)) return Closing::open;
         const bool settled =
             change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
         if (settled && (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)))
-            return;
+            return Closing::closed;
+        slow = error > tuning::joint_rounding && error >= 0.5 * last ? slow + 1 : 0;
+        if (slow >= 3) return Closing::open;
         last = error;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
                                         tuning::direct_friction_stiff * compliance_);
     }
+    return last < tuning::joint_rounding ? Closing::closed : Closing::open;
 }
 
-bool DirectSolver::solve_with_joints(const JointIsland& island) {
-    do close_joints(island);
-    while (joints_.give_way());
-    return std::all_of(velocity_.begin(), velocity_.end(), [](double v) { return std::isfinite(v); });
+// The state at the start of a substep: forces in equal parts, rows at the present poses, gaps of the contacts by the
+// displacement since the start of the step.
+void DirectSolver::load_substep(const JointIsland& island, int substep, int substeps) {
+    const ContactProblem& problem = island.problem;
+    const double d = problem.settings.h;
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        Body& body = problem.bodies[island.bodies[k]];
+        if (substeps > 1) {
+            body.momentum += starts_[k].push / substeps;
+            body.angular_momentum += starts_[k].turn / substeps;
+            body.derive();
+            find_gyration(body, d);
+            masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
+            masses_[k].inverse_inertia = body.inverse_inertia * (length_ * length_);
+        }
+        put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
+        fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
+    }
+    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
+    speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
+    if (substeps == 1) return;
+    for (ConstraintRows& constraint : constraints_)
+        for (int i = 0; i < constraint.count; ++i) {
+            Row& row = constraint.normal[i];
+            const double gap = -constraint.overlap[i] + dot(constraint, row, displacement_) + substep * d * row.offset;
+            row.target = std::min(0.0, -gap / d);
+        }
+}
+
+// Moves the bodies to the end of a substep.
+void DirectSolver::move(const JointIsland& island) {
+    const double d = island.problem.settings.h;
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        Body& body = island.problem.bodies[island.bodies[k]];
+        turn_exactly(body, body.velocity, body.angular_velocity + gyration(body, d), d);
+        body.derive();
+        three(displacement_, 6 * k) += d * three(velocity_, 6 * k);
+        three(displacement_, 6 * k + 3) += d * three(velocity_, 6 * k + 3);
+    }
+}
+
+// Changes momenta and, in several substeps, poses. Returns false where substeps are too long.
+bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds,
+                                      int substeps) {
+    const ContactProblem& step = island.problem;
+    ConstraintSettings settings = step.settings;
+    settings.h /= substeps;
+    const ContactProblem part{step.bodies, step.manifolds, step.before, settings, step.totals, step.joints};
+    load_bodies(step, island.bodies);
+    load_constraints(step, island.bodies, manifolds);
+    driven_ = true;
+    compliance_ = tuning::direct_compliance / total_mass_;
+    displacement_.assign(substeps > 1 ? 6 * island.bodies.size() : 0, 0.0);
+    if (substeps > 1) {
+        for (ConstraintRows& constraint : constraints_)
+            each_row(constraint, [&](Row& row) { row.estimate /= substeps; });
+        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+            Body& body = step.bodies[island.bodies[k]];
+            body.momentum -= starts_[k].push;
+            body.angular_momentum -= starts_[k].turn;
+        }
+    }
+    std::vector<double> sums;
+    swing_ = 0.0;
+    rounds_ = 0;
+    for (int substep = 0; substep < substeps; ++substep) {
+        const double from = island.from + substep * part.settings.h;
+        const JointIsland now{part, island.bodies, island.joints, length_, from, from + part.settings.h};
+        load_substep(now, substep, substeps);
+        structure(step, island.bodies, manifolds);
+        if (speed_scale_ <= tuning::direct_rounding * fastest_) {
+            velocity_ = free_;
+        } else {
+            do {
+                const Closing closing = close_joints(now);
+                if (closing == Closing::open && substeps < tuning::joint_open_substeps) return false;
+                if (closing == Closing::stuck && substeps < tuning::joint_stuck_substeps) return false;
+            } while (joints_.give_way());
+            swing_ = std::max(swing_, joints_.swing_rate(now) * part.settings.h);
+            if (swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps) return false;
+        }
+        std::vector<bool> reached(island.bodies.size(), true);
+        apply_contacts(part, reached);
+        joints_.store(now);
+        for (const std::uint32_t i : island.bodies) step.bodies[i].derive_velocities();
+        if (substeps == 1) break;
+        move(now);
+        std::size_t next = 0;
+        for (ConstraintRows& constraint : constraints_)
+            each_row(constraint, [&](Row& row) {
+                if (substep == 0) sums.push_back(0.0);
+                sums[next++] += row.impulse;
+                row.estimate = row.impulse;
+            });
+    }
+    std::size_t next = 0;
+    if (substeps > 1)
+        for (ConstraintRows& constraint : constraints_)
+            each_row(constraint, [&](Row& row) { row.impulse = sums[next++]; });
+    return true;
+}
+
+bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                     std::span<const std::uint32_t> manifolds,
+                                     std::span<const std::uint32_t> joints) {
+    const double h = problem.settings.h;
+    const JointIsland island{problem, bodies, joints, length_, problem.joints->from(), problem.joints->to()};
+    starts_.resize(bodies.size());
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        const Body& body = problem.bodies[bodies[k]];
+        const BodyVelocity& before = problem.before[bodies[k]];
+        starts_[k] = {body.position,
+                      body.momentum,
+                      body.angular_momentum,
+                      body.orientation,
+                      body.rotation,
+                      body.mass * (body.velocity - before.velocity),
+                      length_ * length_ * (masses_[k].inertia * (body.angular_velocity - before.angular_velocity))};
+    }
+    std::vector<Joint*> island_joints;
+    std::vector<std::array<double, Joint::coordinates>> values;
+    int substeps = 1;
+    for (const std::uint32_t k : joints) {
+        Joint& joint = problem.joints->joints()[problem.joints->active()[k]];
+        island_joints.push_back(&joint);
+        values.push_back(joint.value);
+        substeps = std::max(substeps, joint.substeps);
+    }
+    while (!solve_jointed_step(island, manifolds, substeps)) {
+        substeps *= 2;
+        for (std::size_t k = 0; k < bodies.size(); ++k) {
+            Body& body = problem.bodies[bodies[k]];
+            const Start& start = starts_[k];
+            body.position = start.position;
+            body.orientation = start.orientation;
+            body.rotation = start.rotation;
+            body.momentum = start.momentum;
+            body.angular_momentum = start.angular_momentum;
+            body.derive();
+            find_gyration(body, h);
+        }
+        for (std::size_t k = 0; k < island_joints.size(); ++k) {
+            island_joints[k]->value = values[k];
+            island_joints[k]->impulse = {};
+            island_joints[k]->broken = false;
+        }
+        if (problem.totals)
+            for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
+    }
+    const bool easy = swing_ < 0.4 * tuning::joint_swing && rounds_ <= tuning::joint_easy_rounds;
+    for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
+    displacement_.clear();
+    const bool pushed = push_out(h);
+    store_contacts(problem);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        Body& body = problem.bodies[bodies[k]];
+        body.push_velocity.setZero();
+        body.push_angular_velocity.setZero();
+        if (substeps > 1) {
+            // Back to the start: the step's velocities move the body to the end of the substeps.
+            const Vec3 moved = body.position - starts_[k].position;
+            const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());
+            body.position = starts_[k].position;
+            body.orientation = starts_[k].orientation;
+            body.rotation = starts_[k].rotation;
+            body.derive();
+            find_gyration(body, h);
+            body.push_velocity = moved / h - body.velocity;
+            body.push_angular_velocity = turned / h - body.angular_velocity - body.gyration;
+        }
+        if (!pushed) continue;
+        body.push_velocity += Vec3::Map(push_.data() + 6 * k);
+        body.push_angular_velocity += Vec3::Map(push_.data() + 6 * k + 3) / length_;
+    }
+    return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
+        return problem.bodies[i].momentum.allFinite() && problem.bodies[i].angular_momentum.allFinite();
+    });
 }
 
 }  // namespace tumble

@@ -155,28 +155,21 @@ bool DirectSolver::admissible() const {
     return true;
 }
 
-void DirectSolver::store(const JointIsland& island, bool pushed) {
-    const ContactProblem& problem = island.problem;
-    const std::span<const std::uint32_t> bodies = island.bodies;
-    std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
+// Gives the contacts' impulses to the bodies; `reached` marks those that got one, by index in the island.
+void DirectSolver::apply_contacts(const ContactProblem& problem, std::vector<bool>& reached) {
     for (const ConstraintRows& constraint : constraints_) {
-        Manifold& m = problem.manifolds[constraint.manifold];
+        const Manifold& m = problem.manifolds[constraint.manifold];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
         const ContactConstraint& geometry = constraint.geometry;
-        release(m);
-        m.friction[0] = constraint.friction[0].impulse;
-        m.friction[1] = constraint.friction[1].impulse;
-        m.torsion = constraint.count > 1 ? constraint.torsion.impulse : 0.0;
-        m.tangent = geometry.tangent_1;
-        const Vec3 friction = m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2;
+        const Vec3 friction =
+            constraint.friction[0].impulse * geometry.tangent_1 + constraint.friction[1].impulse * geometry.tangent_2;
+        const double torsion = constraint.count > 1 ? constraint.torsion.impulse : 0.0;
         Vec3 force = friction,
-             moment = geometry.friction_arm_a.cross(friction) + m.torsion * geometry.normal;  // about A's center
+             moment = geometry.friction_arm_a.cross(friction) + torsion * geometry.normal;  // about A's center
         for (int i = 0; i < constraint.count; ++i) {
-            const ContactConstraint::Point& p = geometry.points[std::size_t(i)];
-            m.points[std::size_t(p.source)].impulse = constraint.normal[i].impulse;
             const Vec3 j = constraint.normal[i].impulse * geometry.normal;
             force += j;
-            moment += p.arm_a.cross(j);
+            moment += geometry.points[std::size_t(i)].arm_a.cross(j);
         }
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         if (problem.totals) (*problem.totals)[constraint.manifold].add(force, moment, a, b);
@@ -191,7 +184,28 @@ void DirectSolver::store(const JointIsland& island, bool pushed) {
             b.angular_momentum += moment + (a.position - b.position).cross(force);
         }
     }
-    if (!joints_.empty()) joints_.store(island, reached);
+}
+
+// Keeps the contacts' impulses with their manifolds.
+void DirectSolver::store_contacts(const ContactProblem& problem) const {
+    for (const ConstraintRows& constraint : constraints_) {
+        Manifold& m = problem.manifolds[constraint.manifold];
+        release(m);
+        m.friction[0] = constraint.friction[0].impulse;
+        m.friction[1] = constraint.friction[1].impulse;
+        m.torsion = constraint.count > 1 ? constraint.torsion.impulse : 0.0;
+        m.tangent = constraint.geometry.tangent_1;
+        for (int i = 0; i < constraint.count; ++i) {
+            const ContactConstraint::Point& p = constraint.geometry.points[std::size_t(i)];
+            m.points[std::size_t(p.source)].impulse = constraint.normal[i].impulse;
+        }
+    }
+}
+
+void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
+    std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
+    apply_contacts(problem, reached);
+    store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         if (!reached[k]) continue;
         Body& body = problem.bodies[bodies[k]];
@@ -268,31 +282,24 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     load_bodies(problem, bodies);
     load_constraints(problem, bodies, manifolds);
     joints_.clear();
-    const JointIsland island{problem, bodies, joints, length_};
-    if (!joints.empty()) {
-        joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
-        speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
-        driven_ = true;
-    }
-    if (constraints_.empty() && joints_.empty()) return true;
+    if (!joints.empty()) return solve_with_joints(problem, bodies, manifolds, joints);
+    if (constraints_.empty()) return true;
     structure(problem, bodies, manifolds);
     compliance_ = tuning::direct_compliance / total_mass_;
     // nothing approaches, without gravity: overlaps are pushed apart all the same
     if (speed_scale_ <= tuning::direct_rounding * fastest_) {
         velocity_ = free_;
-        store(island, push_out(problem.settings.h));
+        store(problem, bodies, push_out(problem.settings.h));
         return true;
     }
 
-    if (!joints_.empty()) {
-        if (!solve_with_joints(island)) return false;
-    } else if (const int substeps = landing_substeps(problem, bodies); substeps > 1) {
+    if (const int substeps = landing_substeps(problem, bodies); substeps > 1) {
         if (!solve_in_substeps(problem, bodies[0], substeps)) return false;
     } else {
         if (!solve_rounds() || !admissible()) return false;
     }
     const bool pushed = push_out(problem.settings.h);
-    store(island, pushed);
+    store(problem, bodies, pushed);
     return true;
 }
 

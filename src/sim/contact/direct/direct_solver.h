@@ -65,8 +65,14 @@ private:
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
     bool solve_rounds();
-    bool solve_with_joints(const JointIsland& island);
-    void close_joints(const JointIsland& island);
+    bool solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                           std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints);
+    bool solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds, int substeps);
+    void load_substep(const JointIsland& island, int substep, int substeps);
+    enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
+    Closing close_joints(const JointIsland& island);
+    void move(const JointIsland& island);
+    void store_jointed(const JointIsland& island);
     void predict_ends(const JointIsland& island);
     std::pair<double, double> next_round();
     bool factored();
@@ -77,7 +83,9 @@ private:
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
     bool admissible() const;
     bool push_out(double h);
-    void store(const JointIsland& island, bool pushed);
+    void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
+    void store_contacts(const ContactProblem& problem) const;
+    void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
     double joint_push_stiffness() const;
 
     struct Mass {
@@ -95,6 +103,15 @@ private:
     std::vector<ConstraintRows> constraints_;
     JointRows joints_;
     std::vector<JointSide> ends_;  // poses at the end of the step
+    struct Start {                 // of a body in a jointed step
+        Vec3 position, momentum, angular_momentum;  // after the forces
+        Quat orientation;
+        Mat3 rotation;
+        Vec3 push, turn;  // N s, N m s: by the forces of the step
+    };
+    std::vector<Start> starts_;
+    double swing_ = 0.0;  // rad, largest phase of a swing in a substep
+    int rounds_ = 0;      // most passes of a substep
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };
