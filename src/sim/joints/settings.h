@@ -34,9 +34,9 @@ inline constexpr int joint_stuck_substeps = 4;
 /// the cost alone.
 inline constexpr int joint_easy_rounds = 6;
 
-/// Stiffness of the joints in the position correction, over the island's mass: a push of 1 leaves errors of 1e-5, which
-/// the next step closes.
-inline constexpr double joint_push_stiffness = 1e5;
+/// Stiffness of the joints in the position correction, over the bodies' mean mass. Near a singular position, as of a taut
+/// chain, an error is closed by displacements up to half the square root of this times as large.
+inline constexpr double joint_push_stiffness = 1e3;
 
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;

@@ -18,7 +18,9 @@ namespace tumble {
 
 using namespace contact_rows;
 
-double DirectSolver::joint_push_stiffness() const { return tuning::joint_push_stiffness * total_mass_; }
+double DirectSolver::joint_push_stiffness() const {
+    return tuning::joint_push_stiffness * total_mass_ / double(masses_.size());
+}
 
 // Factors the matrix, unless it is that of the last factorization: with joints alone, the passes of a step share one.
 bool DirectSolver::factored() {

@@ -116,9 +116,11 @@ bool DirectSolver::factor(bool pushing) {
     matrix_.set_zero();
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         BlockCholesky::Block& block = matrix_.diagonal(i);
+        // Joined bodies are pushed as if all had the same mass: else the links between heavy bodies would be thrown.
+        const double share = pushing && !joints_.empty() ? total_mass_ / (double(masses_.size()) * masses_[i].mass) : 1.0;
         for (int r = 0; r < 3; ++r) {
-            block.row[r][r] = masses_[i].mass;
-            for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = masses_[i].inertia(r, c);
+            block.row[r][r] = share * masses_[i].mass;
+            for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = share * masses_[i].inertia(r, c);
         }
     }
     std::size_t pair = 0;
@@ -216,7 +218,8 @@ double DirectSolver::line_search(double slope_0, double mass_slope, double mass_
 bool DirectSolver::minimize(int most_steps) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
     const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
-    const double tolerance = total_mass_ * speed * speed;
+    // Under a heavy load the links' velocities count, which are a small part of the energy.
+    const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * speed * speed;
     const double rounding = total_mass_ * std::pow(tuning::joint_stall * fastest_, 2);
     double last = infinity;
     for (int k = 0; k <= most_steps; ++k) {

@@ -26,10 +26,12 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
     masses_.resize(n);
     for (auto* v : {&free_, &velocity_, &step_, &gradient_, &scratch_, &push_}) v->assign(6 * n, 0.0);
     length_ = total_mass_ = speed_scale_ = fastest_ = 0.0;
+    lightest_ = infinity;
     for (const std::uint32_t i : bodies) length_ += problem.bodies[i].radius / double(n);
     for (std::size_t k = 0; k < n; ++k) {
         const Body& body = problem.bodies[bodies[k]];
         total_mass_ += body.mass;
+        lightest_ = std::min(lightest_, body.mass);
         masses_[k].mass = body.mass;
         masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
         masses_[k].inverse_inertia = body.inverse_inertia * (length_ * length_);

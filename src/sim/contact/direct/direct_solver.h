@@ -93,6 +93,7 @@ private:
         Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  // kg, over the squared length
     };
     double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;  // m, kg, m/s, m/s
+    double lightest_ = 0.0;  // kg, mass of the lightest body
     double compliance_ = 0.0, friction_compliance_ = 0.0;                         // 1/kg: R
     bool driven_ = false;  // touches a prescribed motion: energy may enter
     int factorizations_ = 0;
