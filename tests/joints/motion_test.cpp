@@ -97,5 +97,56 @@ TEST(JointMotion, APhysicalPendulum) {
     EXPECT_LT(gap, 1e-12);
 }
 
+// A pendulum with e = 1 against a wall returns to its height; a chain of ten boxes falls on the ground and rests.
+TEST(JointMotion, APendulumBouncesOffAWall) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
+    scene.bodies[0].restitution = 1.0;
+    BodyDescription& wall = add_box(scene, {0.2, 1.0, 1.0}, {-0.16, -1.4, 0.0});
+    wall.type = BodyType::fixed;
+    World world(scene);
+    const double start = energy_of(world);
+    double lowest = start, highest = start, angle = 10.0;
+    for (int frame = 0; frame < 240; ++frame) {
+        world.advance_frame();
+        highest = std::max(highest, energy_of(world));
+        lowest = std::min(lowest, energy_of(world));
+        angle = std::min(angle, angle_of(world.snapshot().bodies[0]));
+    }
+    std::printf("energy %+.3e %+.3e angle %.4f gap %.1e\n", lowest - start, highest - start, angle, largest_gap(world));
+    EXPECT_GT(angle, -0.2);
+    EXPECT_NEAR(lowest, start, 0.05);
+    EXPECT_NEAR(highest, start, 0.05);
+    EXPECT_LT(largest_gap(world), 1e-11);
+}
+
+TEST(JointMotion, AChainFallsAndRests) {
+    for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact}) {
+        SceneDescription scene = ground_scene(0.3, 0.5);
+        scene.simulation.impacts = mode;
+        for (int i = 0; i < 10; ++i) {
+            add_box(scene, {0.2, 0.1, 0.1}, {0.2 * i, 1.0 + 0.05 * i, 0.02 * (i % 2)}, 1.0 + i % 3);
+            if (i > 0)
+                add_joint(scene, JointType::ball, std::size_t(i), std::size_t(i + 1),
+                          {0.2 * i - 0.1, 1.0 + 0.05 * i - 0.025, 0.01});
+        }
+        World world(scene);
+        double gap = 0.0, last = energy_of(world), gain = 0.0;
+        for (int frame = 0; frame < 480; ++frame) {
+            world.advance_frame();
+            gap = std::max(gap, largest_gap(world));
+            gain = std::max(gain, energy_of(world) - last);
+            last = energy_of(world);
+        }
+        const Snapshot snapshot = world.snapshot();
+        const auto awake = std::count_if(snapshot.bodies.begin() + 1, snapshot.bodies.end(),
+                                         [](const BodyState& body) { return !body.asleep; });
+        std::printf("chain: gap %.1e gain %.1e awake %d penetration %.1e\n", gap, gain, int(awake),
+                    world.measure().max_penetration);
+        EXPECT_LT(gap, 1e-6);
+        EXPECT_LT(gain, 0.01);
+        EXPECT_EQ(awake, 0);
+    }
+}
+
 }  // namespace
 }  // namespace tumble::motion_test

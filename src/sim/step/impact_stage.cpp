@@ -45,6 +45,7 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
     colliding_.clear();
     contacts_.clear();
     for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (!islands.joints(k).empty()) continue;  // bounces with its joints, in the contact solver
         if (!collides(k, detection, bodies, threshold(step))) continue;
         Island& island = colliding_.emplace_back();
         island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());

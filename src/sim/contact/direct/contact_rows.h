@@ -24,6 +24,7 @@ struct ConstraintRows {
     std::uint32_t manifold = 0;
     Row normal[4], friction[2], torsion;
     double lever[4] = {}, overlap[4] = {};  // m
+    double rebound[4] = {};                 // m/s, of points that bounce in an island with joints
     double coefficient = 0.0, limit = 0.0, torsion_limit = 0.0, size = 0.0;
     double spin_lever = 0.0;  // m, of torsional friction that shares the friction limit
     double free_slip = 0.0, free_spin = 0.0, torsion_mass = 0.0;  // m/s and rad/s after the forces alone; kg m^2

@@ -113,6 +113,7 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
             Row& row = constraint.normal[i];
             const double gap = -constraint.overlap[i] + dot(constraint, row, displacement_) + substep * d * row.offset;
             row.target = std::min(0.0, -gap / d);
+            if (substep == 0 && constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
         }
 }
 
