@@ -124,7 +124,7 @@ TEST(JointMotion, AChainFallsAndRests) {
         SceneDescription scene = ground_scene(0.3, 0.5);
         scene.simulation.impacts = mode;
         for (int i = 0; i < 10; ++i) {
-            add_box(scene, {0.2, 0.1, 0.1}, {0.2 * i, 1.0 + 0.05 * i, 0.02 * (i % 2)}, 1.0 + i % 3);
+            add_box(scene, {0.2, 0.1, 0.1}, {0.2 * i, 1.0 + 0.05 * i, 0.02 * (i % 2)}, 1.0 + i % 3).friction = 0.5;
             if (i > 0)
                 add_joint(scene, JointType::ball, std::size_t(i), std::size_t(i + 1),
                           {0.2 * i - 0.1, 1.0 + 0.05 * i - 0.025, 0.01});
