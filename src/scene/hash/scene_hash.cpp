@@ -17,12 +17,14 @@ public:
     explicit DescriptionHash(Content content) : all_(content == Content::all) {}
 
     void add_scene(const SceneDescription& scene) {
-        const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, cords, overlay] = scene;
+        const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, joints, cords, overlay] =
+            scene;
         add_value(simulation);
         add_value(output);
         add_value(wind);
         add_value(forces);
         add_value(bodies);
+        if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
         add_shown_file(scene);
@@ -169,9 +171,35 @@ private:
                 integrator, keyframes, interpolation);
         if (all_) add_value(appearance);
     }
+    void add_value(const JointSpring& spring) {
+        const auto& [stiffness, damping, frequency, damping_ratio, rest] = spring;
+        add_all(stiffness, damping, frequency, damping_ratio, rest);
+    }
+    void add_value(const JointTarget& target) {
+        const auto& [time, value] = target;
+        add_all(time, value);
+    }
+    void add_value(const JointMotor& motor) {
+        const auto& [speed, targets, stiffness, damping, max_force] = motor;
+        add_all(speed, targets, stiffness, damping, max_force);
+    }
+    void add_value(const JointAxis& axis) {
+        const auto& [motion, lower, upper, restitution, spring, motor, friction] = axis;
+        add_all(motion, lower, upper, restitution, spring, motor, friction);
+    }
+    void add_value(const JointDescription& joint) {
+        const auto& [name, type, first, second, anchor_first, anchor_second, frame_first, frame_second, move, turn,
+                     swing, length, friction_coefficient, bearing_radius, break_force, break_torque, break_impulse,
+                     collide, start, end, visible] = joint;
+        add_all(name, type, first, second, anchor_first, anchor_second, frame_first, frame_second, move, turn, swing,
+                length, friction_coefficient, bearing_radius, break_force, break_torque, break_impulse, collide, start,
+                end);
+        if (all_) add_value(visible);
+    }
     void add_value(const CordDescription& cord) {
-        const auto& [body, point, anchor, radius, color] = cord;
+        const auto& [body, joint, point, anchor, radius, color] = cord;
         add_all(body, point, anchor, radius, color);
+        if (joint) add_value(joint);  // scenes without joints keep their hash
     }
 
     void add_value(const OverlaySet& show) {
@@ -210,21 +238,23 @@ std::string scene_hash(const SceneDescription& scene) { return hash_of(scene, Co
 std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, Content::motion); }
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
-    const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, cords, overlay] = scene;
+    const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, joints, cords, overlay] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
     of_any_duration.duration = 0.0;
     DescriptionHash text(Content::all);
     if (overlay.show.has(Overlay::title)) text.add(title);
     text.add_shown_file(scene);
-    return {{"simulation", part(of_any_duration)},
-            {"camera", part(camera)},
-            {"light", part(light)},
-            {"wind", part(wind)},
-            {"forces", part(forces)},
-            {"bodies", part(bodies)},
-            {"cords", part(cords)},
-            {"overlay", text.finish_with(overlay)}};
+    std::vector<std::pair<std::string, std::string>> parts{{"simulation", part(of_any_duration)},
+                                                           {"camera", part(camera)},
+                                                           {"light", part(light)},
+                                                           {"wind", part(wind)},
+                                                           {"forces", part(forces)},
+                                                           {"bodies", part(bodies)}};
+    if (!joints.empty()) parts.emplace_back("joints", part(joints));  // as in the hash
+    parts.emplace_back("cords", part(cords));
+    parts.emplace_back("overlay", text.finish_with(overlay));
+    return parts;
 }
 
 }  // namespace tumble
