@@ -2,6 +2,7 @@
 
 #include "scene/camera/camera.h"
 #include "scene/keys/bodies.h"
+#include "scene/keys/chains.h"
 #include "scene/keys/forces_and_cords.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/materials.h"
@@ -39,7 +40,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
     root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body",
-                      "joint", "force", "cord", "overlay", "caption"});
+                      "joint", "chain", "force", "cord", "overlay", "caption"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -52,6 +53,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     const std::filesystem::path folder = file.parent_path();
     const BodySources sources{materials, folder, scene.simulation, meshes};
     scene.bodies = read_bodies(root, sources);
+    read_chains(root, sources, scene.bodies, scene.joints);
     read_joints(root, scene.bodies, scene.joints);
     if (read != nullptr) {
         read->push_back(file);

@@ -81,9 +81,58 @@ move_z = [-3, 3]
 turn_x = [-4, 4]
 turn_y = [-5, 5]
 turn_z = "locked"
+[[chain]]
+name = "rope"
+links = 5
+from = [0, 20, 0]
+to = [3, 20, 0]
+sag = 0.5
+joint = { type = "ball", friction = 0.75 }
+twist = 30
+ends = ["table", "free"]
+shape = { type = "box", size = [0.6, 0.1, 0.2] }
+material = "steel"
+color = "#030201"
+visible = false
+friction = 0.25
+velocity = [0, 0, 1]
+[[chain]]
+name = "ring"
+links = 6
+from = [0, 30, 0]
+to = [3, 30, 0]
+loop = true
+normal = [0, 1, 0]
+shape = { type = "sphere", radius = 0.5 }
+colors = ["#030303", "#040404"]
 )";
 
 const std::vector<std::vector<Change>> joint_changes = {
+    {{"name", "[[chain]]", "name = \"rope\"", "name = \"string\"", true},
+     {"links", "[[chain]]", "links = 5", "links = 6", true},
+     {"shape", "[[chain]]", "size = [0.6, 0.1, 0.2]", "size = [0.6, 0.1, 0.1]", true},
+     {"from", "[[chain]]", "from = [0, 20, 0]", "from = [0.1, 20, 0]", true},
+     {"to", "[[chain]]", "to = [3, 20, 0]", "to = [3, 20, 1]", true},
+     {"sag", "[[chain]]", "sag = 0.5", "sag = 0.6", true},
+     {"length", "[[chain]]", "sag = 0.5", "length = 4", true},
+     {"loop", "name = \"ring\"", "loop = true\nnormal = [0, 1, 0]", "", true},
+     {"normal", "name = \"ring\"", "normal = [0, 1, 0]", "normal = [0, 1, 1]", true},
+     {"twist", "[[chain]]", "twist = 30", "twist = 31", true},
+     {"joint", "[[chain]]", "friction = 0.75", "friction = 0.8", true},
+     {"ends", "[[chain]]", "\"table\"", "\"world\"", true},
+     {"material", "[[chain]]", "material = \"steel\"", "", true},
+     {"color", "[[chain]]", "#030201", "#030202", false},
+     {"colors", "name = \"ring\"", "\"#040404\"", "\"#040405\"", false},
+     {"roughness", "[[chain]]", "twist = 30", "twist = 30\nroughness = 0.125", false},
+     {"metallic", "[[chain]]", "twist = 30", "twist = 30\nmetallic = 0.125", false},
+     {"pattern", "[[chain]]", "twist = 30", "twist = 30\npattern = \"grid\"", false},
+     {"visible", "[[chain]]", "visible = false", "visible = true", false},
+     {"density", "[[chain]]", "twist = 30", "twist = 30\ndensity = 20", true},
+     {"mass", "[[chain]]", "twist = 30", "twist = 30\nmass = 20", true},
+     {"restitution", "[[chain]]", "twist = 30", "twist = 30\nrestitution = 0.125", true},
+     {"friction", "[[chain]]", "friction = 0.25", "friction = 0.5", true},
+     {"velocity", "[[chain]]", "velocity = [0, 0, 1]", "velocity = [0, 0, 2]", true},
+     {"integrator", "[[chain]]", "twist = 30", "twist = 30\nintegrator = \"rk4\"", true}},
     {{"name", "[[joint]]", "elbow", "knee", true},
      {"type", "\"cross\"",
       "type = \"universal\"\nbodies = [\"cloud.2\", \"world\"]\nanchor = [0, 3, 0]\naxis = [1, 0, 0]\n"

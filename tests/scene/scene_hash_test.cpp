@@ -165,6 +165,10 @@ const std::vector<std::vector<Change>> own_tables = {
      {"cord", "", "[[cord]]\nbody = \"paddle\"",
       "[[cord]]\nbody = \"ball\"\nanchor = [1, 0, 0]\n[[cord]]\nbody = \"paddle\"", false},
      {"joint", "", "[[joint]]", "[[joint]]\ntype = \"fixed\"\nbodies = [\"ball\", \"world\"]\n[[joint]]", true},
+     {"chain", "", "[[chain]]",
+      "[[chain]]\nname = \"bar\"\nlinks = 1\nshape = { type = \"sphere\", radius = 1 }\nfrom = [0, 40, 0]\n"
+      "to = [1, 40, 0]\n[[chain]]",
+      true},
      {"overlay", "[overlay]", "start = 0.1", "", false},
      {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false}},
     {{"duration", "[simulation]", "duration = 2", "duration = 2.5", true},

@@ -14,7 +14,7 @@
 
 namespace tumble {
 
-/// What bodies are made from, beside their tables.
+/// Sources of bodies, beside their tables.
 struct BodySources {
     const Materials& materials;
     const std::filesystem::path& folder;  // of relative mesh paths
