@@ -2,7 +2,9 @@
 
 #include "scene/camera/camera.h"
 #include "scene/keys/bodies.h"
+#include "scene/keys/chains.h"
 #include "scene/keys/forces_and_cords.h"
+#include "scene/keys/joints.h"
 #include "scene/keys/materials.h"
 #include "scene/keys/overlay.h"
 #include "scene/keys/settings.h"
@@ -38,7 +40,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
     root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body",
-                      "force", "cord", "overlay", "caption"});
+                      "joint", "chain", "force", "cord", "overlay", "caption"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -47,7 +49,12 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.light = read_light(root);
     scene.wind = read_wind(root);
     MeshCache meshes(imports, std::move(supplied));
-    scene.bodies = read_bodies(root, read_materials(root), file.parent_path(), scene.simulation, meshes);
+    const Materials materials = read_materials(root);
+    const std::filesystem::path folder = file.parent_path();
+    const BodySources sources{materials, folder, scene.simulation, meshes};
+    scene.bodies = read_bodies(root, sources);
+    read_chains(root, sources, scene.bodies, scene.joints);
+    read_joints(root, scene.bodies, scene.joints);
     if (read != nullptr) {
         read->push_back(file);
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());

@@ -2,6 +2,7 @@
 #include "scene/hash/scene_hash.h"
 
 #include "scene/load.h"
+#include "scene/scene_changes.h"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ namespace fs = std::filesystem;
 const fs::path source = TUMBLE_SOURCE_DIR;
 const std::string scene_path = (source / "assets/scenes/scene.toml").string();
 
-const std::string base = R"(
+const std::string own_lines = R"(
 format = 1
 title = "Everything"
 [simulation]
@@ -146,13 +147,9 @@ start = 0.2
 end = 0.3
 )";
 
-/// A change of one key: the first place of `old_text` after the line `after` becomes `new_text`.
-struct Change {
-    std::string key, after, old_text, new_text;
-    bool motion;  // it changes the motion too
-};
+std::string base() { return own_lines + joint_lines; }
 
-const std::vector<std::vector<Change>> tables = {
+const std::vector<std::vector<Change>> own_tables = {
     {{"title", "", "title = \"Everything\"", "title = \"All\"", false},
      {"format", "", "", "", false},  // one value only
      {"simulation", "[simulation]", "duration = 2", "duration = 3", true},
@@ -167,6 +164,11 @@ const std::vector<std::vector<Change>> tables = {
       "[[force]]\nbody = \"ball\"\nforce = [1, 0, 0]\n[[force]]\nbody = \"ball\"", true},
      {"cord", "", "[[cord]]\nbody = \"paddle\"",
       "[[cord]]\nbody = \"ball\"\nanchor = [1, 0, 0]\n[[cord]]\nbody = \"paddle\"", false},
+     {"joint", "", "[[joint]]", "[[joint]]\ntype = \"fixed\"\nbodies = [\"ball\", \"world\"]\n[[joint]]", true},
+     {"chain", "", "[[chain]]",
+      "[[chain]]\nname = \"bar\"\nlinks = 1\nshape = { type = \"sphere\", radius = 1 }\nfrom = [0, 40, 0]\n"
+      "to = [1, 40, 0]\n[[chain]]",
+      true},
      {"overlay", "[overlay]", "start = 0.1", "", false},
      {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false}},
     {{"duration", "[simulation]", "duration = 2", "duration = 2.5", true},
@@ -305,12 +307,18 @@ const std::vector<std::vector<Change>> tables = {
     {{"type", "", "", "", true}, {"memory", "", "", "", true}, {"scale", "", "", "", true}},  // MeshesInMemory
 };
 
+std::vector<std::vector<Change>> all_tables() {
+    std::vector<std::vector<Change>> all = own_tables;
+    all.insert(all.end(), joint_changes.begin(), joint_changes.end());
+    return all;
+}
+
 SceneDescription parse(const std::string& text, const std::string& file = scene_path) {
     return parse_scene(text, file);
 }
 
 std::string changed(const Change& change) {
-    std::string text = base;
+    std::string text = base();
     const std::size_t from = change.after.empty() ? 0 : text.find(change.after);
     const std::size_t place = from == std::string::npos ? from : text.find(change.old_text, from);
     EXPECT_NE(place, std::string::npos) << change.key << ": " << change.old_text;
@@ -318,9 +326,9 @@ std::string changed(const Change& change) {
 }
 
 TEST(SceneHash, EveryKeyOfTheFormatChangesIt) {
-    const SceneDescription scene = parse(base);
+    const SceneDescription scene = parse(base());
     std::map<std::string, std::string> seen;  // a hash and the change that made it
-    for (const std::vector<Change>& table : tables)
+    for (const std::vector<Change>& table : all_tables())
         for (const Change& change : table) {
             if (change.old_text.empty()) continue;
             SCOPED_TRACE(change.key + " after " + change.after + ": " + change.new_text);
@@ -332,18 +340,23 @@ TEST(SceneHash, EveryKeyOfTheFormatChangesIt) {
 
 TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
     std::multiset<std::set<std::string>> changed_keys, known_keys;
-    for (const std::vector<Change>& table : tables) {
+    for (const std::vector<Change>& table : all_tables()) {
         std::set<std::string> keys;
         for (const Change& change : table) keys.insert(change.key);
         changed_keys.insert(keys);
     }
     const std::regex call("expect_keys\\(\\{([^}]*)\\}\\)"), word("\"([^\"]*)\"");
+    const std::regex of_type("\\{\"([a-z_]*)\", (all_types|of_)");  // joint_keys.cpp
     for (const auto& entry : fs::recursive_directory_iterator(source / "src/scene")) {
         if (entry.path().extension() != ".cpp") continue;
         std::ifstream file(entry.path());
         std::stringstream content;
         content << file.rdbuf();
         const std::string text = content.str();
+        std::set<std::string> of_joints;
+        for (std::sregex_iterator one(text.begin(), text.end(), of_type), end; one != end; ++one)
+            of_joints.insert((*one)[1]);
+        if (!of_joints.empty()) known_keys.insert(of_joints);
         for (std::sregex_iterator one(text.begin(), text.end(), call), end; one != end; ++one) {
             const std::string list = (*one)[1];
             std::set<std::string> keys;

@@ -183,9 +183,9 @@ struct BodyDescription {
 struct CordDescription {
     std::size_t body = 0;
     std::optional<std::size_t> joint;  // index into joints; the other values of place are not used then
-    Vec3 point = Vec3::Zero();   // body frame, from the body's origin
-    Vec3 anchor = Vec3::Zero();  // world frame
-    double radius = 0.01;        // m
+    Vec3 point = Vec3::Zero();         // body frame, from the body's origin
+    Vec3 anchor = Vec3::Zero();        // world frame
+    double radius = 0.01;              // m
     Color color{60, 60, 60};
 };
 

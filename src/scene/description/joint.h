@@ -19,9 +19,9 @@ enum class JointType { fixed, hinge, ball, slider, universal, cylindrical, plana
 
 /// A spring with a damper along one coordinate, implicit in time: stable for any stiffness.
 struct JointSpring {
-    double stiffness = 0.0;    // N/m, or N m/rad
-    double damping = 0.0;      // N s/m, or N m s/rad
-    double frequency = 0.0;    // Hz; above 0 in place of the two above, for the effective mass of the joint at the start
+    double stiffness = 0.0;  // N/m, or N m/rad
+    double damping = 0.0;    // N s/m, or N m s/rad
+    double frequency = 0.0;  // Hz; above 0 in place of the two above, for the effective mass of the joint at the start
     double damping_ratio = 0;  // of critical damping, with a frequency
     double rest = 0.0;         // m, or rad
 };
@@ -58,21 +58,19 @@ struct JointDescription {
     // Joint frame of each side: in the body's frame, from the body's origin; in world coordinates for the world. x is
     // the axis of a hinge, slider, cylindrical joint or twist, and the normal of a planar joint; a universal joint has
     // its first axis x in the first body and its second axis y in the second body.
-    Vec3 anchor_first = Vec3::Zero(), anchor_second = Vec3::Zero();           // m
-    Quat frame_first = Quat::Identity(), frame_second = Quat::Identity();     // joint frame to body frame
-    std::array<JointAxis, 3> move, turn;                                      // along and about x, y, z of the frame
+    Vec3 anchor_first = Vec3::Zero(), anchor_second = Vec3::Zero();        // m
+    Quat frame_first = Quat::Identity(), frame_second = Quat::Identity();  // joint frame to body frame
+    std::array<JointAxis, 3> move, turn;                                   // along and about x, y, z of the frame
     std::optional<std::array<double, 2>> swing;  // rad: half angles of the cone of x about y and z; of a ball
-    double length = 0.0;                // m, of a distance joint with a locked length, which is move[0]
-    double friction_coefficient = 0.0;  // of a bearing: its friction is that times its load,
-    double bearing_radius = 0.0;        // m, times this for rotation
+    double length = 0.0;                         // m, of a distance joint with a locked length, which is move[0]
+    double friction_coefficient = 0.0;           // of a bearing: its friction is that times its load,
+    double bearing_radius = 0.0;                 // m, times this for rotation
     double break_force = infinity, break_torque = infinity, break_impulse = infinity;  // N, N m, N s
-    bool collide = false;                 // whether the two bodies collide with each other
-    double start = 0.0, end = infinity;   // s: the joint holds in [start, end)
-    bool visible = false;                 // whether it is drawn
+    bool collide = false;                // whether the two bodies collide with each other
+    double start = 0.0, end = infinity;  // s: the joint holds in [start, end)
+    bool visible = false;                // whether it is drawn
 
-    bool ever_breaks() const {
-        return break_force < infinity || break_torque < infinity || break_impulse < infinity;
-    }
+    bool ever_breaks() const { return break_force < infinity || break_torque < infinity || break_impulse < infinity; }
 };
 
 }  // namespace tumble

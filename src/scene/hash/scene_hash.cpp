@@ -24,7 +24,7 @@ public:
         add_value(wind);
         add_value(forces);
         add_value(bodies);
-        add_value(joints);
+        if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
         add_shown_file(scene);
@@ -171,10 +171,6 @@ private:
                 integrator, keyframes, interpolation);
         if (all_) add_value(appearance);
     }
-    void add_value(const CordDescription& cord) {
-        const auto& [body, joint, point, anchor, radius, color] = cord;
-        add_all(body, joint, point, anchor, radius, color);
-    }
     void add_value(const JointSpring& spring) {
         const auto& [stiffness, damping, frequency, damping_ratio, rest] = spring;
         add_all(stiffness, damping, frequency, damping_ratio, rest);
@@ -199,6 +195,11 @@ private:
                 length, friction_coefficient, bearing_radius, break_force, break_torque, break_impulse, collide, start,
                 end);
         if (all_) add_value(visible);
+    }
+    void add_value(const CordDescription& cord) {
+        const auto& [body, joint, point, anchor, radius, color] = cord;
+        add_all(body, point, anchor, radius, color);
+        if (joint) add_value(joint);  // scenes without joints keep their hash
     }
 
     void add_value(const OverlaySet& show) {
@@ -244,15 +245,16 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
     DescriptionHash text(Content::all);
     if (overlay.show.has(Overlay::title)) text.add(title);
     text.add_shown_file(scene);
-    return {{"simulation", part(of_any_duration)},
-            {"camera", part(camera)},
-            {"light", part(light)},
-            {"wind", part(wind)},
-            {"forces", part(forces)},
-            {"bodies", part(bodies)},
-            {"joints", part(joints)},
-            {"cords", part(cords)},
-            {"overlay", text.finish_with(overlay)}};
+    std::vector<std::pair<std::string, std::string>> parts{{"simulation", part(of_any_duration)},
+                                                           {"camera", part(camera)},
+                                                           {"light", part(light)},
+                                                           {"wind", part(wind)},
+                                                           {"forces", part(forces)},
+                                                           {"bodies", part(bodies)}};
+    if (!joints.empty()) parts.emplace_back("joints", part(joints));  // as in the hash
+    parts.emplace_back("cords", part(cords));
+    parts.emplace_back("overlay", text.finish_with(overlay));
+    return parts;
 }
 
 }  // namespace tumble

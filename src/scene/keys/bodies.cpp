@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <iterator>
-#include <set>
 #include <string>
 
 namespace tumble {
@@ -34,53 +33,59 @@ void read_mass(const TomlTable& table, BodyDescription& body) {
     }
 }
 
-/// The body described by its table; the model of all copies of a grid or a scatter.
-BodyDescription read_model(const TomlTable& table, const Materials& materials, BodyType type, const Shape& shape,
-                           SimulationMethod method) {
+/// Names the bodies of one table: its name, copies with their number, or their index in the list of all bodies.
+void name_bodies(const TomlTable& table, bool are_copies, std::size_t first_index, BodyNames& names,
+                 std::vector<BodyDescription>& bodies) {
+    const auto given = table.find("name");
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (!given) {
+            bodies[i].name = fmt::format("{}", first_index + i);
+            continue;
+        }
+        if (are_copies) bodies[i].name = fmt::format("{}.{}", bodies[i].name, i);
+        names.take(bodies[i].name, given->origin());
+    }
+}
+
+}  // namespace
+
+BodyNames::BodyNames(const std::vector<BodyDescription>& bodies) {
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].name != std::to_string(i)) taken_.insert(bodies[i].name);
+}
+
+void BodyNames::take(const std::string& name, const SourcePosition& origin) {
+    if (!taken_.insert(name).second)
+        origin.fail(fmt::format("must be unique, and another body has it (given \"{}\")", safe_text(name)));
+}
+
+BodyDescription read_body_model(const TomlTable& table, BodyType type, const Shape& shape, const BodySources& sources) {
     BodyDescription body;
     body.type = type;
     body.shape = shape;
     table.read("name", body.name);
     if (table.has("name") && body.name.empty()) table.find("name")->fail("must not be empty");
-    apply_material(read_material(table, materials), body);
+    apply_material(read_material(table, sources.materials), body);
     table.read("visible", body.appearance.visible);
     read_mass(table, body);
     read_motion(table, body);
-    if (const auto name = table.find("integrator")) body.integrator = name->choice(integrator_choices(method));
+    if (const auto name = table.find("integrator"))
+        body.integrator = name->choice(integrator_choices(sources.settings.method));
     return body;
 }
 
-/// Names the bodies of one table, and rejects duplicate given names.
-class Names {
-public:
-    void give(const TomlTable& table, bool are_copies, std::size_t first_index, std::vector<BodyDescription>& bodies) {
-        const auto given = table.find("name");
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            if (!given) {
-                bodies[i].name = fmt::format("{}", first_index + i);
-                continue;
-            }
-            if (are_copies) bodies[i].name = fmt::format("{}.{}", bodies[i].name, i);
-            if (!taken_.insert(bodies[i].name).second) {
-                given->origin().fail(
-                    fmt::format("must be unique, and another body has it (given \"{}\")", safe_text(bodies[i].name)));
-            }
-        }
+void check_number_of_bodies(std::int64_t number, const SourcePosition& origin) {
+    if (number > limits::bodies) {
+        origin.fail(
+            fmt::format("makes too many bodies: the limit of a scene is {} (given {} so far)", limits::bodies, number));
     }
+}
 
-private:
-    std::set<std::string> taken_;
-};
-
-}  // namespace
-
-std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
-                                         const std::filesystem::path& folder, const SimulationSettings& settings,
-                                         MeshCache& meshes) {
+std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySources& sources) {
     std::vector<BodyDescription> bodies;
     const auto list = root.find("body");
     if (!list) return bodies;
-    Names names;
+    BodyNames names({});
     std::uint64_t number = 0;
     for (TomlTable& table : list->tables("; write [[body]] for each")) {
         table.set_title("[[body]]");
@@ -110,19 +115,15 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials&
                            "colors"});
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, body_types);
-        const ShapeRequest shape = read_shape(table.require("shape"), type, folder, meshes);
-        const BodyDescription model = read_model(table, materials, type, shape.shape, settings.method);
+        const ShapeRequest shape = read_shape(table.require("shape"), type, sources.folder, sources.meshes);
+        const BodyDescription model = read_body_model(table, type, shape.shape, sources);
         const auto copies = read_copies(table, type, shape);
 
-        const std::int64_t total = static_cast<std::int64_t>(bodies.size()) + (copies ? number_of(*copies) : 1);
-        if (total > limits::bodies) {
-            (copies ? copies->origin : table.origin())
-                .fail(fmt::format("makes too many bodies: the limit of a scene is {} (given {} so far)", limits::bodies,
-                                  total));
-        }
+        check_number_of_bodies(static_cast<std::int64_t>(bodies.size()) + (copies ? number_of(*copies) : 1),
+                               copies ? copies->origin : table.origin());
         std::vector<BodyDescription> made{model};
-        if (copies) made = make_copies(*copies, model, shape, meshes, settings.seed, number);
-        names.give(table, copies.has_value(), bodies.size(), made);
+        if (copies) made = make_copies(*copies, model, shape, sources.meshes, sources.settings.seed, number);
+        name_bodies(table, copies.has_value(), bodies.size(), names, made);
         bodies.insert(bodies.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
         ++number;
     }

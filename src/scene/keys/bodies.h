@@ -8,13 +8,40 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <vector>
 
 namespace tumble {
 
-/// Reads all body tables in file order. Relative mesh paths are relative to `folder`.
-std::vector<BodyDescription> read_bodies(const TomlTable& root, const Materials& materials,
-                                         const std::filesystem::path& folder, const SimulationSettings& settings,
-                                         MeshCache& meshes);
+/// Sources of bodies, beside their tables.
+struct BodySources {
+    const Materials& materials;
+    const std::filesystem::path& folder;  // of relative mesh paths
+    const SimulationSettings& settings;
+    MeshCache& meshes;
+};
+
+/// Names of the bodies of a scene: given ones are unique.
+class BodyNames {
+public:
+    /// Bodies whose name is their index have none.
+    explicit BodyNames(const std::vector<BodyDescription>& bodies);
+    /// Fails at the origin if another body has the name.
+    void take(const std::string& name, const SourcePosition& origin);
+
+private:
+    std::set<std::string> taken_;
+};
+
+/// Reads all body tables in file order.
+std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySources& sources);
+
+/// The body described by its table, but for its type and its shape; the model of all copies of a grid, a scatter or a
+/// chain.
+BodyDescription read_body_model(const TomlTable& table, BodyType type, const Shape& shape, const BodySources& sources);
+
+/// Fails at the origin if a scene with so many bodies has too many.
+void check_number_of_bodies(std::int64_t number, const SourcePosition& origin);
 
 }  // namespace tumble

@@ -19,6 +19,8 @@ public:
     /// The body that the value names. Without one, fails at the value's position and suggests the nearest name.
     std::size_t find(const TomlValue& value) const;
 
+    bool has(const std::string& name) const { return index_.count(name) != 0; }
+
 private:
     std::map<std::string, std::size_t> index_;
 };

@@ -42,6 +42,9 @@ inline constexpr std::int64_t scatter_attempts = 1000;  // number of draws of a 
                                                         // at the densest random packing (38 % of the volume,
                                                         // Renyi 1958, Torquato 2006) about this number is needed
 
+inline constexpr std::int64_t joints = 1'000'000;  // about 1.5 gigabytes of description
+inline constexpr std::int64_t links = 1'000'000;   // of one chain: as many as bodies
+
 // -- Lengths. A meter has an error of 1e-7 m at 1e9 m, already too large for a simulation.
 inline constexpr Range coordinate{-1e9, 1e9, "m"};
 inline constexpr Range size{1e-9, 1e9, "m"};
@@ -54,6 +57,22 @@ inline constexpr Range velocity{-1e9, 1e9, "m/s"};
 inline constexpr Range angular_velocity{-1e9, 1e9, "rad/s"};
 inline constexpr Range acceleration{-1e9, 1e9, "m/s^2"};
 inline constexpr Range force{-1e15, 1e15, "N"};
+
+// -- Joints. Products with coordinates and speeds of the ranges above stay finite.
+inline constexpr Range hinge_angle{-36'000.0, 36'000.0, "degrees"};  // a hundred turns: more is a spool or a mistake
+inline constexpr Range half_turn{-180.0, 180.0, "degrees"};          // a pose shows an angle only up to whole turns
+inline constexpr Range stiffness{0.0, 1e18, "N/m (N m/rad for angles)"};  // diamond, a meter thick, has 1e12
+inline constexpr Range damping{0.0, 1e18, "N s/m (N m s/rad for angles)"};
+inline constexpr Range frequency{0.0, 1e9, "Hz", true};  // sound in a crystal's cell
+inline constexpr Range damping_ratio{0.0, 1e3, ""};      // 1 is critical; a thousandfold creeps
+inline constexpr Range joint_force{0.0, 1e15, "N"};      // as of forces
+inline constexpr Range joint_torque{0.0, 1e15, "N m"};
+inline constexpr Range strength_force{0.0, 1e15, "N", true};  // 0 would break, or stand still, at once
+inline constexpr Range strength_torque{0.0, 1e15, "N m", true};
+inline constexpr Range strength_impulse{0.0, 1e15, "N s", true};
+inline constexpr double anchor_tolerance = 1e-6;  // of the smaller body's size: rounding of hand-written numbers
+inline constexpr double axis_tolerance = 1e-6;    // rad, the same
+inline constexpr double start_tolerance = 1e-9;   // m or rad: a start at a limit is forgiven its rounding
 
 // -- Matter
 inline constexpr Range mass{0.0, 1e30, "kg", true};         // half a sun

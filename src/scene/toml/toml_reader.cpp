@@ -142,7 +142,7 @@ std::vector<TomlTable> TomlValue::tables(std::string_view hint) const {
 
 // -- TomlTable
 
-void TomlTable::expect_keys(std::initializer_list<std::string_view> known) const {
+void TomlTable::expect_keys(const std::vector<std::string_view>& known) const {
     const toml::key* first = nullptr;
     for (const auto& [key, node] : *table_) {
         if (std::find(known.begin(), known.end(), key.str()) != known.end()) continue;

@@ -79,7 +79,7 @@ public:
     void set_title(std::string title) { title_ = std::move(title); }
 
     /// Throws at the first key (in file order) that is not among these, with the nearest known key.
-    void expect_keys(std::initializer_list<std::string_view> known) const;
+    void expect_keys(const std::vector<std::string_view>& known) const;
 
     const toml::table& table() const { return *table_; }
     bool has(std::string_view key) const { return table_->contains(key); }

@@ -1,0 +1,232 @@
+#include "scene/keys/chains.h"
+
+#include "core/deterministic_math.h"
+#include "scene/keys/chain_curve.h"
+#include "scene/keys/joint_keys.h"
+#include "scene/keys/joints.h"
+#include "scene/keys/shapes.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <optional>
+
+namespace tumble {
+namespace {
+
+constexpr Choice<JointType> chain_joint_types[] = {
+    {"ball", JointType::ball},
+    {"hinge", JointType::hinge},
+    {"universal", JointType::universal},
+    {"fixed", JointType::fixed},
+};
+
+/// The other side of the joint at an end.
+struct ChainEnd {
+    bool joined = false;
+    std::optional<std::size_t> body;  // empty: the world
+};
+
+struct ChainTable {
+    const TomlTable& table;
+    std::string name;
+    std::size_t links;
+    bool loop = false;
+    std::array<ChainEnd, 2> ends;
+};
+
+ChainEnd read_end(const TomlValue& value, const BodyIndex& index) {
+    if (value.text() == "free") {
+        if (index.has("free")) value.fail("is an end without a joint, and a body has this name: give it another one");
+        return {};
+    }
+    return {true, find_side(value, index)};
+}
+
+ChainTable read_chain(const TomlTable& table, const BodyIndex& index) {
+    ChainTable chain{table, {}, 0, false, {}};
+    const TomlValue name = table.require("name");
+    chain.name = name.text();
+    if (chain.name.empty()) name.fail("must not be empty");
+    table.read("loop", chain.loop);
+    chain.links = std::size_t(table.require("links").integer(chain.loop ? 3 : 1, limits::links));
+    if (const auto value = table.find("ends")) {
+        if (chain.loop) value->origin().fail("is for chains with ends (given one with loop = true)");
+        const auto end = value->items(2, "names: of a body, \"world\" or \"free\"");
+        for (std::size_t k = 0; k < 2; ++k) chain.ends[k] = read_end(end[k], index);
+    }
+    if (chain.loop)
+        for (const char* key : {"sag", "length"})
+            if (const auto value = table.find(key)) value->origin().fail("is for chains with ends (given a loop)");
+    if (!chain.loop && table.has("normal")) table.find("normal")->origin().fail("is for chains with loop = true");
+    return chain;
+}
+
+ChainCurve hanging(const ChainTable& chain, const Vec3& from, const Vec3& to) {
+    const auto sag = chain.table.find("sag"), length = chain.table.find("length");
+    if (sag && length) sag->origin().fail("and length exclude each other: give one of them");
+    const TomlValue& given = sag ? *sag : *length;
+    std::optional<ChainCurve> curve;
+    if (sag) {
+        if (chain.links < 2) sag->fail("needs at least two links");
+        curve = hanging_chain_of_sag(from, to, chain.links, sag->number(limits::size));
+    } else {
+        const double most = length->number(limits::size), least = (to - from).norm();
+        if (most < least) length->fail(fmt::format("must be at least the distance of the ends, {:.6g} m", least));
+        if (most <= least * (1.0 + 1e-9)) return straight_chain(from, to, chain.links);
+        if (chain.links < 2) length->fail("needs at least two links");
+        curve = hanging_chain_of_length(from, to, chain.links, most);
+    }
+    if (!curve)
+        given.origin().fail(
+            "has no hanging chain between these ends, which are too steep: give more links, ends that are "
+            "less above each other, or a straight chain without sag and length");
+    return *curve;
+}
+
+ChainCurve read_curve(const ChainTable& chain) {
+    const TomlTable& table = chain.table;
+    const Vec3 from = table.require("from").vector(limits::coordinate);
+    const TomlValue end = table.require("to");
+    const Vec3 to = end.vector(limits::coordinate);
+    if (!limits::size.contains((to - from).norm())) end.fail("must be another point than from");
+    if (chain.loop) {
+        std::optional<Vec3> normal;
+        if (const auto value = table.find("normal")) {
+            const Vec3 direction = value->direction(), along = (to - from).normalized();
+            if (std::fabs(direction.dot(along)) > limits::axis_tolerance)
+                value->fail("must be square to the line from one point to the other");
+            normal = (direction - direction.dot(along) * along).normalized();
+        }
+        return closed_chain(from, to, chain.links, normal);
+    }
+    if (table.has("sag") || table.has("length")) return hanging(chain, from, to);
+    return straight_chain(from, to, chain.links);
+}
+
+Quat rotation_with(const Vec3& x, const Vec3& z) {
+    Mat3 axes;
+    axes.col(0) = x;
+    axes.col(1) = z.cross(x);
+    axes.col(2) = z;
+    return Quat(axes).normalized();
+}
+
+void append_links(const ChainTable& chain, const ChainCurve& curve, const BodyDescription& model, BodyNames& names,
+                  std::vector<BodyDescription>& bodies) {
+    double twist = 0.0;  // degrees
+    chain.table.read("twist", twist, limits::angle);
+    std::vector<Color> colors;
+    if (const auto list = chain.table.find("colors")) {
+        for (const TomlValue& color : list->items()) colors.push_back(color.color());
+        if (colors.empty()) list->fail("must name at least one color");
+    }
+    const SourcePosition origin = chain.table.require("name").origin();
+    for (std::size_t i = 0; i < chain.links; ++i) {
+        BodyDescription link = model;
+        link.name = fmt::format("{}.{}", chain.name, i);
+        names.take(link.name, origin);
+        const Vec3 from = curve.corners[i], to = curve.corners[i + 1];
+        link.position = 0.5 * (from + to);
+        const SinCos half = sincos(0.5 * std::remainder(twist * double(i), 360.0) * pi / 180.0);
+        link.rotation =
+            (rotation_with((to - from).normalized(), curve.normal) * Quat(half.cos, half.sin, 0.0, 0.0)).normalized();
+        if (!colors.empty()) link.appearance.color = colors[i % colors.size()];
+        bodies.push_back(std::move(link));
+    }
+}
+
+/// The joint of a chain: the name of its type, or a table with the keys of a joint.
+class ChainJoint {
+public:
+    explicit ChainJoint(const ChainTable& chain) : table_(empty_, chain.table.origin(), "a joint of a chain") {
+        const auto value = chain.table.find("joint");
+        if (!value) return;
+        if (!value->is_table()) {
+            type_ = value->choice<JointType>(chain_joint_types);
+            return;
+        }
+        table_ = value->table();
+        table_.set_title("a joint of a chain");
+        type_ = read_joint_type(table_);
+        table_.require("type").choice<JointType>(chain_joint_types);
+        for (const char* key :
+             {"name", "bodies", "anchor", "anchors", "axes", "second_axis", "frame", "snap", "start_angle"})
+            if (const auto given = table_.find(key)) given->origin().fail("is given by the chain: leave it out");
+        if (const auto axis = table_.find("axis")) {
+            if (type_ != JointType::hinge) axis->origin().fail("is given by the chain, but for a hinge");
+            axis_ = axis->direction();
+        }
+    }
+
+    JointDescription make(const ChainEnd& first, const ChainEnd& second, const ChainCurve& curve, std::size_t corner,
+                          const Vec3& along, const std::vector<BodyDescription>& bodies) const {
+        JointDescription joint;
+        joint.type = type_;
+        joint.first = first.body;
+        joint.second = second.body;
+        JointPlace place{curve.corners[corner], along, curve.normal.cross(along)};
+        if (type_ == JointType::hinge || type_ == JointType::universal) {
+            place.x = axis_ ? *axis_ : curve.normal;
+            place.y = axis_ ? across(*axis_) : Vec3(place.x.cross(along));
+        }
+        return read_placed_joint(table_, joint, place, bodies);
+    }
+
+private:
+    toml::table empty_;
+    TomlTable table_;
+    JointType type_ = JointType::ball;
+    std::optional<Vec3> axis_;
+};
+
+void append_joints(const ChainTable& chain, const ChainCurve& curve, std::size_t first_link,
+                   const std::vector<BodyDescription>& bodies, JointNames& names,
+                   std::vector<JointDescription>& joints) {
+    const ChainJoint model(chain);
+    const SourcePosition origin = chain.table.require("name").origin();
+    const std::size_t n = chain.links;
+    check_number_of_joints(joints.size() + n + 1, chain.table.require("links").origin());
+    const auto link = [&](std::size_t i) { return ChainEnd{true, first_link + i}; };
+    const auto direction = [&](std::size_t i) { return Vec3((curve.corners[i + 1] - curve.corners[i]).normalized()); };
+    const auto append = [&](const ChainEnd& first, const ChainEnd& second, std::size_t corner, const Vec3& along) {
+        if (!first.joined || !second.joined) return;
+        joints.push_back(model.make(first, second, curve, corner, along, bodies));
+        joints.back().name = fmt::format("{}.{}", chain.name, corner);
+        names.take(joints.back().name, origin);
+    };
+    const ChainEnd before = chain.loop ? link(n - 1) : chain.ends[0];
+    append(before, link(0), 0, chain.loop ? Vec3((direction(n - 1) + direction(0)).normalized()) : direction(0));
+    for (std::size_t i = 1; i < n; ++i) append(link(i - 1), link(i), i, (direction(i - 1) + direction(i)).normalized());
+    if (!chain.loop) append(link(n - 1), chain.ends[1], n, direction(n - 1));
+}
+
+}  // namespace
+
+void read_chains(const TomlTable& root, const BodySources& sources, std::vector<BodyDescription>& bodies,
+                 std::vector<JointDescription>& joints) {
+    const auto list = root.find("chain");
+    if (!list) return;
+    const BodyIndex index(bodies);
+    BodyNames body_names(bodies);
+    JointNames joint_names(joints);
+    for (TomlTable& table : list->tables("; write [[chain]] for each")) {
+        table.set_title("[[chain]]");
+        table.expect_keys({"name",        "links",     "shape",    "from",      "to",      "sag",      "length",
+                           "loop",        "normal",    "twist",    "joint",     "ends",    "material", "color",
+                           "colors",      "roughness", "metallic", "pattern",   "visible", "density",  "mass",
+                           "restitution", "friction",  "velocity", "integrator"});
+        const ChainTable chain = read_chain(table, index);
+        check_number_of_bodies(std::int64_t(bodies.size() + chain.links), table.require("links").origin());
+        const ShapeRequest shape =
+            read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);
+        const ChainCurve curve = read_curve(chain);
+        const BodyDescription model = read_body_model(table, BodyType::dynamic, shape.shape, sources);
+        const std::size_t first_link = bodies.size();
+        append_links(chain, curve, model, body_names, bodies);
+        append_joints(chain, curve, first_link, bodies, joint_names, joints);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,344 @@
+#include "scene/keys/joints.h"
+
+#include "core/deterministic_math.h"
+#include "core/safe_text.h"
+#include "scene/keys/body_index.h"
+#include "scene/keys/joint_coordinates.h"
+#include "scene/keys/joint_keys.h"
+#include "scene/keys/joint_places.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+using Motion = JointAxis::Motion;
+
+// -- Bodies
+
+void read_bodies_of(const TomlTable& table, const BodyIndex& index, const std::vector<BodyDescription>& bodies,
+                    JointDescription& joint) {
+    const TomlValue value = table.require("bodies");
+    const auto side = value.items(2, "names of bodies, or one and \"world\"");
+    joint.first = find_side(side[0], index);
+    joint.second = find_side(side[1], index);
+    if (joint.first == joint.second) value.fail("must be two different ones");
+    const auto moves = [&](const std::optional<std::size_t>& body) {
+        return body && bodies[*body].type == BodyType::dynamic;
+    };
+    if (!moves(joint.first) && !moves(joint.second))
+        value.fail("must name at least one dynamic body: no joint moves another");
+}
+
+// -- Coordinates of each type
+
+struct JointTable {
+    const TomlTable& table;
+    const std::vector<BodyDescription>& bodies;
+    bool snap;
+    StartCoordinates start;
+};
+
+void set_motion(std::array<JointAxis, 3>& axes, Motion motion) {
+    for (JointAxis& axis : axes) axis.motion = motion;
+}
+
+/// The restitution of all limits of the joint.
+void read_restitution(const TomlTable& table, JointDescription& joint) {
+    const auto value = table.find("limit_restitution");
+    if (!value) return;
+    const double restitution = value->number(limits::restitution);
+    bool limited = joint.swing.has_value();
+    for (auto* axes : {&joint.move, &joint.turn})
+        for (JointAxis& axis : *axes) {
+            if (axis.motion == Motion::limited || joint.swing) axis.restitution = restitution;
+            limited = limited || axis.motion == Motion::limited;
+        }
+    if (!limited) value->origin().fail("needs limits (not given)");
+}
+
+void read_turn(const JointTable& given, const CoordinateKeys& keys, std::size_t k, const char* remedy,
+               JointDescription& joint) {
+    read_coordinate(given.table, keys, angle_unit, {given.start.turn[k], given.snap, remedy}, joint.turn[k]);
+}
+
+void read_slide(const JointTable& given, JointDescription& joint) {
+    const CoordinateStart start{given.start.move[0], given.snap,
+                                "give start_position, or other limits, or snap = true"};
+    read_coordinate(given.table, {"limits", "spring", "motor", "friction"}, length_unit, start, joint.move[0]);
+}
+
+constexpr const char* angle_remedy = "give start_angle, or other limits, or snap = true";
+constexpr const char* limits_remedy = "give other limits, or snap = true";
+
+std::array<double, 2> read_swing(const TomlValue& value) {
+    const auto half_angle = [](const TomlValue& one) {
+        const double angle = one.number(limits::angle);
+        if (angle <= 0.0 || angle >= 180.0) {
+            one.fail("must be above 0 and below 180 degrees: a hinge does not swing, and a ball without swing is free");
+        }
+        return angle * pi / 180.0;
+    };
+    if (value.is_number()) return {half_angle(value), half_angle(value)};
+    const auto angle = value.items(2, "half angles, about the axes y and z of the joint (or one number)");
+    return {half_angle(angle[0]), half_angle(angle[1])};
+}
+
+/// The same spring and the same friction about all axes; a cone for the swing and limits of the twist.
+void read_ball(const JointTable& given, JointDescription& joint) {
+    set_motion(joint.turn, Motion::free);
+    if (const auto value = given.table.find("swing")) {
+        joint.swing = read_swing(*value);
+        const double share =
+            std::hypot(given.start.turn[1] / (*joint.swing)[0], given.start.turn[2] / (*joint.swing)[1]);
+        if (share > 1.0 + limits::start_tolerance && !given.snap) {
+            value->fail(fmt::format("must contain the start, {:.6g} degrees; give a wider cone, or snap = true",
+                                    std::hypot(given.start.turn[1], given.start.turn[2]) * 180.0 / pi));
+        }
+    }
+    if (const auto value = given.table.find("twist")) {
+        const std::array<double, 2> range = read_limits(*value, angle_unit, limits::half_turn);
+        check_start(*value, range, angle_unit, {given.start.turn[0], given.snap, limits_remedy});
+        joint.turn[0].motion = Motion::limited;
+        joint.turn[0].lower = range[0];
+        joint.turn[0].upper = range[1];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (const auto spring = given.table.find("spring")) {
+            if (const auto rest = spring->table().find("rest"))
+                rest->origin().fail("is for joints with one coordinate: the spring of a ball pulls to its start");
+            joint.turn[k].spring = read_spring(*spring, angle_unit, 0.0);
+        }
+        if (const auto friction = given.table.find("friction"))
+            joint.turn[k].friction = friction->number(limits::joint_torque);
+    }
+}
+
+void read_universal(const JointTable& given, JointDescription& joint) {
+    read_turn(given, {"limits", "spring", nullptr, "friction"}, 0, limits_remedy, joint);
+    read_turn(given, {"second_limits", "spring", nullptr, "friction"}, 1, limits_remedy, joint);
+}
+
+void read_planar(const JointTable& given, JointDescription& joint) {
+    joint.turn[0].motion = Motion::free;
+    for (std::size_t k = 1; k < 3; ++k)
+        read_coordinate(given.table, {nullptr, nullptr, nullptr, "friction"}, length_unit, {}, joint.move[k]);
+}
+
+void read_six(const JointTable& given, JointDescription& joint) {
+    constexpr const char* move_keys[] = {"move_x", "move_y", "move_z"};
+    constexpr const char* turn_keys[] = {"turn_x", "turn_y", "turn_z"};
+    const CoordinateUnit& length = length_unit;
+    CoordinateUnit angle = angle_unit;
+    angle.value = limits::half_turn;
+    const auto check_locked = [&](const JointAxis& axis, double start, const char* key) {
+        if (given.snap || axis.motion != Motion::locked || given.table.has(key)) return;
+        const bool is_move = key[0] == 'm';
+        const double tolerance = is_move && start != 0.0 ? limits::anchor_tolerance * smaller_size(given.bodies, joint)
+                                                         : limits::axis_tolerance;
+        if (std::fabs(start) <= tolerance) return;
+        given.table.find(is_move ? "anchors" : "axes")
+            ->origin()
+            .fail(fmt::format("must meet at the start where {} is locked: give one anchor and axis, or snap = true "
+                              "(given {:.6g} {})",
+                              key, is_move ? start : start * 180.0 / pi, is_move ? "m" : "degrees"));
+    };
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (const auto value = given.table.find(move_keys[k]))
+            read_free_form_coordinate(*value, length, {given.start.move[k], given.snap, limits_remedy}, joint.move[k]);
+        if (const auto value = given.table.find(turn_keys[k]))
+            read_free_form_coordinate(*value, angle, {given.start.turn[k], given.snap, limits_remedy}, joint.turn[k]);
+        check_locked(joint.move[k], given.start.move[k], move_keys[k]);
+        check_locked(joint.turn[k], given.start.turn[k], turn_keys[k]);
+    }
+}
+
+/// A rod of one length, a rope of at most one, or a spring.
+void read_distance(const JointTable& given, JointDescription& joint) {
+    const TomlTable& table = given.table;
+    set_motion(joint.move, Motion::free);
+    set_motion(joint.turn, Motion::free);
+    JointAxis& axis = joint.move[0];
+    const double start = given.start.move[0];
+    const auto least = table.find("min_length"), most = table.find("max_length"), length = table.find("length");
+    for (const auto& one : {least, most})
+        if (length && one)
+            length->origin().fail(fmt::format("and {} exclude each other: give one of them", one->origin().name));
+    const bool is_rod = length || (!least && !most && !table.has("spring") && !table.has("motor"));
+    if (is_rod) {
+        axis.motion = Motion::locked;
+        joint.length = length ? length->number(limits::size_or_zero) : start;
+        for (const char* key : {"spring", "motor", "friction"})
+            if (const auto value = table.find(key))
+                value->origin().fail("needs a length that changes: give min_length or max_length, and no length");
+        if (std::fabs(start - joint.length) > limits::anchor_tolerance * smaller_size(given.bodies, joint) &&
+            !given.snap) {
+            length->fail(
+                fmt::format("must be the distance at the start, {:.6g} m: leave it out, or give snap = true", start));
+        }
+        return;
+    }
+    if (least || most) {
+        axis.motion = Motion::limited;
+        if (least) axis.lower = least->number(limits::size_or_zero);
+        if (most) axis.upper = most->number(limits::size_or_zero);
+        if (axis.lower >= axis.upper) most->fail("must be above min_length");
+        check_start(most ? *most : *least, {axis.lower, axis.upper}, length_unit, {start, given.snap, limits_remedy});
+    }
+    if (const auto spring = table.find("spring")) axis.spring = read_spring(*spring, length_unit, start);
+    if (const auto motor = table.find("motor")) axis.motor = read_motor(*motor, length_unit);
+    table.read("friction", axis.friction, limits::joint_force);
+}
+
+void read_coordinates(const JointTable& given, JointDescription& joint) {
+    switch (joint.type) {
+        case JointType::fixed:
+            break;
+        case JointType::hinge:
+            read_turn(given, {"limits", "spring", "motor", "friction"}, 0, angle_remedy, joint);
+            break;
+        case JointType::slider:
+            read_slide(given, joint);
+            break;
+        case JointType::cylindrical:
+            read_slide(given, joint);
+            read_turn(given, {"turn_limits", "turn_spring", "turn_motor", "turn_friction"}, 0, angle_remedy, joint);
+            break;
+        case JointType::ball:
+            read_ball(given, joint);
+            break;
+        case JointType::universal:
+            read_universal(given, joint);
+            break;
+        case JointType::planar:
+            read_planar(given, joint);
+            break;
+        case JointType::distance:
+            read_distance(given, joint);
+            break;
+        case JointType::six_dof:
+            read_six(given, joint);
+            break;
+    }
+    read_restitution(given.table, joint);
+}
+
+// -- Keys of all types
+
+void read_bearing(const TomlTable& table, JointDescription& joint) {
+    table.read("friction_coefficient", joint.friction_coefficient, limits::friction);
+    table.read("bearing_radius", joint.bearing_radius, limits::size);
+    const auto coefficient = table.find("friction_coefficient"), radius = table.find("bearing_radius");
+    if (radius && !coefficient) radius->origin().fail("needs a friction_coefficient (not given)");
+    const bool only_slides = joint.type == JointType::slider || joint.type == JointType::planar;
+    if (coefficient && !radius && !only_slides)
+        coefficient->origin().fail("needs a bearing_radius for joints that turn (not given)");
+}
+
+void read_breaking(const TomlTable& table, JointDescription& joint) {
+    table.read("break_force", joint.break_force, limits::strength_force);
+    table.read("break_torque", joint.break_torque, limits::strength_torque);
+    table.read("break_impulse", joint.break_impulse, limits::strength_impulse);
+    if (joint.type != JointType::distance || joint.move[0].motion != Motion::locked || joint.length > 0.0) return;
+    for (const char* key : {"break_force", "break_impulse"})
+        if (const auto value = table.find(key))
+            value->origin().fail("needs a distance joint with a length above 0: use a ball");
+}
+
+void read_span(const TomlTable& table, JointDescription& joint) {
+    const auto value = table.find("enabled");
+    if (!value) return;
+    const auto time = value->items();
+    if (time.empty() || time.size() > 2) value->fail("must be an array of one or two numbers, from and until");
+    joint.start = time[0].number(limits::time);
+    if (time.size() == 1) return;
+    joint.end = time[1].number(limits::time);
+    if (joint.end <= joint.start) value->fail("must end after it starts");
+}
+
+/// All keys but those of the type, the bodies and the place.
+void read_laws(const JointTable& given, JointDescription& joint) {
+    joint.collide = joint.type == JointType::distance;
+    read_coordinates(given, joint);
+    read_bearing(given.table, joint);
+    read_breaking(given.table, joint);
+    given.table.read("collide", joint.collide);
+    given.table.read("visible", joint.visible);
+    read_span(given.table, joint);
+}
+
+JointDescription read_joint(const TomlTable& table, const BodyIndex& index,
+                            const std::vector<BodyDescription>& bodies) {
+    JointDescription joint;
+    joint.type = read_joint_type(table);
+    read_bodies_of(table, index, bodies, joint);
+    JointTable given{table, bodies, false, {}};
+    table.read("snap", given.snap);
+    given.start = read_places(table, bodies, given.snap, joint);
+    read_laws(given, joint);
+    return joint;
+}
+
+}  // namespace
+
+JointNames::JointNames(const std::vector<JointDescription>& joints) {
+    for (const JointDescription& joint : joints) taken_.insert(joint.name);
+}
+
+void JointNames::take(const std::string& name, const SourcePosition& origin) {
+    if (!taken_.insert(name).second)
+        origin.fail(fmt::format("must be unique, and another joint has it (given \"{}\")", safe_text(name)));
+}
+
+std::string JointNames::give(const TomlTable& table, std::size_t index) {
+    if (const auto given = table.find("name")) {
+        const std::string name = given->text();
+        if (name.empty()) given->fail("must not be empty");
+        take(name, given->origin());
+        return name;
+    }
+    std::string name = fmt::format("joint {}", index);
+    while (!taken_.insert(name).second) name += "'";
+    return name;
+}
+
+std::optional<std::size_t> find_side(const TomlValue& name, const BodyIndex& index) {
+    if (name.text() != "world") return index.find(name);
+    if (index.has("world")) name.fail("is the world in a joint, and a body has this name: give the body another one");
+    return std::nullopt;
+}
+
+void check_number_of_joints(std::size_t number, const SourcePosition& origin) {
+    if (number > std::size_t(limits::joints)) {
+        origin.fail(
+            fmt::format("makes too many joints: the limit of a scene is {} (given {} so far)", limits::joints, number));
+    }
+}
+
+JointDescription read_placed_joint(const TomlTable& table, const JointDescription& between, const JointPlace& place,
+                                   const std::vector<BodyDescription>& bodies) {
+    JointDescription joint = between;
+    set_place(place, bodies, joint);
+    read_laws({table, bodies, false, {}}, joint);
+    return joint;
+}
+
+void read_joints(const TomlTable& root, const std::vector<BodyDescription>& bodies,
+                 std::vector<JointDescription>& joints) {
+    const auto list = root.find("joint");
+    if (!list) return;
+    const BodyIndex index(bodies);
+    JointNames names(joints);
+    for (TomlTable& table : list->tables("; write [[joint]] for each")) {
+        table.set_title("[[joint]]");
+        check_number_of_joints(joints.size() + 1, table.origin());
+        joints.push_back(read_joint(table, index, bodies));
+        joints.back().name = names.give(table, joints.size() - 1);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,20 @@
+// Changes of single keys of a scene, for the test of its hash.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace tumble {
+
+/// A change of one key: the first place of `old_text` after the line `after` becomes `new_text`.
+struct Change {
+    std::string key, after, old_text, new_text;
+    bool motion;  // it changes the motion too
+};
+
+/// Lines of a scene with bodies "ball", "table" and "cloud.0" to "cloud.2", and a change of each key of
+/// joints.
+extern const std::string joint_lines;
+extern const std::vector<std::vector<Change>> joint_changes;
+
+}  // namespace tumble
