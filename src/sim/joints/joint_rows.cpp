@@ -151,7 +151,7 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         r.law = Joint::lock;
         r.closes = true;
         r.reference = std::abs(value) <= tuning::joint_rounding * (row.turns() ? 1.0 : j.size) ? 0.0 : value;
-        r.target = unit * (r.reference - value) / h;
+        r.target = unit * ((r.reference - value) / h + h * j.curving[k]);
         push_row(r);
         return;
     }
@@ -310,9 +310,10 @@ void JointRows::evaluate_with_weights() {
     for (Row& row : rows_) {
         const double y = row.estimate + (row.target - row.speed) / row.compliance;
         row.impulse = std::clamp(y, row.least, row.most);
-        const double weight = y >= row.least && y <= row.most && row.least < row.most ? 1.0 / row.compliance : 0.0;
-        weights_changed_ = weights_changed_ || weight != row.weight;
-        row.weight = weight;
+        const auto bound = std::int8_t((y > row.most || row.least == row.most) - (y < row.least));
+        weights_changed_ = weights_changed_ || bound != row.bound;
+        row.bound = bound;
+        row.weight = bound == 0 ? 1.0 / row.compliance : 0.0;
     }
 }
 
@@ -496,6 +497,7 @@ void JointRows::store(const JointIsland& island) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
             j.impulse[row.coordinate][row.law] = amount;
+            if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
             const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
             j.at_limit = j.at_limit || (limit && row.impulse != 0.0);

@@ -44,6 +44,7 @@ public:
         double reference = 0.0;  // m or rad: value of the coordinate at the end of the step, of locks and limits
         double weight = 0.0;     // kg: 1 / R where f is not at a bound
         Vec3 direction = Vec3::Zero();
+        std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
         bool closes = false;  // takes part in close()
@@ -76,7 +77,7 @@ public:
     /// Impulses along the Newton step, without and with their derivatives.
     void evaluate(double along);
     void evaluate_with_weights();
-    /// Whether the last evaluate_with_weights() has changed a weight.
+    /// Whether the last evaluate_with_weights() has moved a row to or from a bound.
     bool weights_changed() const { return weights_changed_; }
     double slope() const;                                      // sum of f J du
     double objective(const std::vector<double>& u) const;      // J

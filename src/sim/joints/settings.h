@@ -38,6 +38,10 @@ inline constexpr int joint_easy_rounds = 6;
 /// chain, an error is closed by displacements up to half the square root of this times as large.
 inline constexpr double joint_push_stiffness = 1e3;
 
+/// Convergence of the rounds without contacts, relative to the impulses. Related test:
+/// JointLaws.AMotorOpensADoorToItsLimit.
+inline constexpr double joint_round_tolerance = 1e-8;
+
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;
 

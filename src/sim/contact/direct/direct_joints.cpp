@@ -26,8 +26,9 @@ double DirectSolver::joint_push_stiffness() const {
 bool DirectSolver::factored() {
     if (joints_.empty()) return factor(false);
     joints_.evaluate_with_weights();
-    if (constraints_.empty() && !joints_.weights_changed()) return true;
-    return factor(false);
+    if (constraints_.empty() && factored_ && !joints_.weights_changed()) return true;
+    factored_ = factor(false);
+    return factored_;
 }
 
 // Poses at the end of the step, moved by the velocities of the solve as the bodies will be.
@@ -49,6 +50,22 @@ void DirectSolver::predict_ends(const JointIsland& island) {
     }
 }
 
+// One Newton step, where it solves the whole problem: joints alone, none of which reaches or leaves a bound. The rest is
+// rounding, and left to the next pass.
+bool DirectSolver::step_linear() {
+    if (!constraints_.empty()) return false;
+    joints_.evaluate_speeds(velocity_);
+    gradient(gradient_);
+    if (!factored()) return false;
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
+    matrix_.solve(step_);
+    for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += step_[i];
+    joints_.evaluate_speeds(velocity_);
+    joints_.evaluate_with_weights();
+    if (joints_.weights_changed()) factored_ = false;
+    return factored_;
+}
+
 // Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
 // the last solution.
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
@@ -59,7 +76,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     bool found = false;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
         if (found) kept_ = velocity_;
-        if (!minimize(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
+        if (!step_linear() && !minimize(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
             if (found) {
                 velocity_ = kept_;
                 joints_.keep_estimates();
@@ -74,8 +91,8 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         predict_ends(island);
         const double error = joints_.close(island, ends_);
         if (!std::isfinite(error)) return Closing::open;
-        const bool settled =
-            change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
+        const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
+        const bool settled = change <= tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
         if (settled && (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)))
             return Closing::closed;
         slow = error > tuning::joint_rounding && error >= 0.5 * last ? slow + 1 : 0;
@@ -105,6 +122,7 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
         put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
+    factored_ = false;
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (substeps == 1) return;
@@ -139,6 +157,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     load_bodies(step, island.bodies);
     load_constraints(step, island.bodies, manifolds);
     driven_ = true;
+    factored_ = false;
     compliance_ = tuning::direct_compliance / total_mass_;
     displacement_.assign(substeps > 1 ? 6 * island.bodies.size() : 0, 0.0);
     if (substeps > 1) {

@@ -76,6 +76,7 @@ private:
     void predict_ends(const JointIsland& island);
     std::pair<double, double> next_round();
     bool factored();
+    bool step_linear();
     int landing_substeps(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const;
     bool solve_in_substeps(const ContactProblem& problem, std::uint32_t body, int substeps);
     double objective(const std::vector<double>& u);
@@ -113,6 +114,7 @@ private:
     std::vector<Start> starts_;
     double swing_ = 0.0;  // rad, largest phase of a swing in a substep
     int rounds_ = 0;      // most passes of a substep
+    bool factored_ = false;  // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };
