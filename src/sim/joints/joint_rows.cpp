@@ -436,6 +436,20 @@ double JointRows::close(const JointIsland& island, std::span<const JointSide> en
     return worst;
 }
 
+double JointRows::rounding(double fastest) const {
+    return 4.0 * std::numeric_limits<double>::epsilon() * fastest / compliance_;
+}
+
+double JointRows::rounding(const JointIsland& island, double fastest, double lightest) const {
+    double size = infinity, farthest = 0.0;
+    for (const Block& block : blocks_) {
+        size = std::min(size, joint(block).size);
+        farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+    }
+    const double places = 2.0 * std::numeric_limits<double>::epsilon() * farthest;
+    return (places + island.problem.settings.h * rounding(fastest) / lightest) / size;
+}
+
 bool JointRows::give_way() {
     bool any = false;
     for (Block& block : blocks_) {

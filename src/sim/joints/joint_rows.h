@@ -95,6 +95,12 @@ public:
     /// error, in sizes of the joint.
     double close(const JointIsland& island, std::span<const JointSide> ends);
 
+    /// Rounding of the impulses (N s) at speeds up to `fastest` (m/s), over the compliance.
+    double rounding(double fastest) const;
+    /// Rounding of the closed errors, in sizes of the joint: that of the coordinates, and that of the impulses on the
+    /// lightest body (kg).
+    double rounding(const JointIsland& island, double fastest, double lightest) const;
+
     /// Joints whose load is above their strength: their impulses are set to the strength. Returns whether any is new.
     bool give_way();
 

@@ -71,6 +71,9 @@ bool DirectSolver::step_linear() {
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     friction_compliance_ = tuning::direct_friction_soft * compliance_;
     start();
+    const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
+    const double noise = joints_.rounding(fastest_);  // N s
+    const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
@@ -83,7 +86,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
             }
-            return found && last < tuning::joint_rounding ? Closing::closed : Closing::stuck;
+            return found && last < rounding ? Closing::closed : Closing::stuck;
         }
         found = true;
         rounds_ = std::max(rounds_, round + 1);
@@ -92,16 +95,16 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         const double error = joints_.close(island, ends_);
         if (!std::isfinite(error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
-        const bool settled = change <= tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
-        if (settled && (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)))
+        const bool settled = change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
+        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last)))
             return Closing::closed;
-        slow = error > tuning::joint_rounding && error >= 0.5 * last ? slow + 1 : 0;
+        slow = error > rounding && error >= 0.5 * last ? slow + 1 : 0;
         if (slow >= 3) return Closing::open;
         last = error;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
                                         tuning::direct_friction_stiff * compliance_);
     }
-    return last < tuning::joint_rounding ? Closing::closed : Closing::open;
+    return last < rounding ? Closing::closed : Closing::open;
 }
 
 // The state at the start of a substep: forces in equal parts, rows at the present poses, gaps of the contacts by the
