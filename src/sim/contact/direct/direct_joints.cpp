@@ -212,6 +212,26 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     return true;
 }
 
+// The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.
+bool DirectSolver::fly(const JointIsland& island, int& substeps) {
+    std::vector<StepForce> forces;
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
+    for (; substeps <= tuning::joint_swing_substeps; substeps *= 2) {
+        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+            Body& body = island.problem.bodies[island.bodies[k]];
+            const Start& start = starts_[k];
+            set_state(body, {start.position, start.orientation, start.momentum - start.push,
+                             start.angular_momentum - start.turn});
+        }
+        if (flight_.advance(island, forces, JointFlight::order(island), substeps)) {
+            swing_ = flight_.swing();
+            return true;
+        }
+        if (!(flight_.swing() > tuning::joint_swing)) return false;
+    }
+    return false;
+}
+
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds,
                                      std::span<const std::uint32_t> joints) {
@@ -238,8 +258,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         values.push_back(joint.value);
         substeps = std::max(substeps, joint.substeps);
     }
-    while (!solve_jointed_step(island, manifolds, substeps)) {
-        substeps *= 2;
+    const auto reset = [&] {
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             Body& body = problem.bodies[bodies[k]];
             const Start& start = starts_[k];
@@ -258,17 +277,27 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         }
         if (problem.totals)
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
+    };
+    bool flown = false;
+    if (manifolds.empty() && JointFlight::flies(island)) {
+        flown = fly(island, substeps);
+        if (!flown) reset();
     }
-    const bool easy = swing_ < 0.4 * tuning::joint_swing && rounds_ <= tuning::joint_easy_rounds;
+    while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
+        substeps *= 2;
+        reset();
+    }
+    const bool easy =
+        swing_ < 0.4 * tuning::joint_swing && (flown || rounds_ <= tuning::joint_easy_rounds);
     for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
     displacement_.clear();
-    const bool pushed = push_out(h);
+    const bool pushed = !flown && push_out(h);
     store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
         body.push_velocity.setZero();
         body.push_angular_velocity.setZero();
-        if (substeps > 1) {
+        if (flown || substeps > 1) {
             // Back to the start: the step's velocities move the body to the end of the substeps.
             const Vec3 moved = body.position - starts_[k].position;
             const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());
