@@ -4,7 +4,7 @@
 namespace tumble::tuning {
 
 /// Compliance of rigid rows, over the island's mass and its number of joints. A round makes the error of a chain about a
-/// thousand times smaller, whatever its length, because the softest motion of n links has a compliance of pi^2 / n over
+/// thousand times smaller, at any length, because the softest motion of n links has a compliance of pi^2 / n over
 /// their mass. Smaller values add rounding to the impulses.
 inline constexpr double joint_compliance = 1e-2;
 
