@@ -314,7 +314,9 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         joint.force /= h;
         joint.torque /= h;
         if (rows_.violates_limit(island, block)) return false;
-        if (joint.force.norm() > joint.description.break_force || joint.torque.norm() > joint.description.break_torque)
+        const JointDescription& strength = joint.description;
+        if (joint.force.norm() > strength.break_force || h * joint.force.norm() > strength.break_impulse ||
+            joint.torque.norm() > strength.break_torque)
             return false;
         joint.impulse = {};
         joint.curving = {};

@@ -461,7 +461,8 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             (rows_[k].turns() ? torque : force) += rows_[k].impulse / h_ * rows_[k].direction;
         torque *= length_;
-        const double over = std::max(force.norm() / j.description.break_force, torque.norm() / j.description.break_torque);
+        const double over = std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
+                                      torque.norm() / j.description.break_torque});
         if (!(over > 1.0)) continue;
         any = block.breaks = true;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
