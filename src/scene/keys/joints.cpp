@@ -55,7 +55,8 @@ void read_restitution(const TomlTable& table, JointDescription& joint) {
     bool limited = joint.swing.has_value();
     for (auto* axes : {&joint.move, &joint.turn})
         for (JointAxis& axis : *axes) {
-            if (axis.motion == Motion::limited || joint.swing) axis.restitution = restitution;
+            const bool swings = joint.swing && axes == &joint.turn;
+            if (axis.motion == Motion::limited || swings) axis.restitution = restitution;
             limited = limited || axis.motion == Motion::limited;
         }
     if (!limited) value->origin().fail("needs limits (not given)");
