@@ -176,8 +176,8 @@ void read_distance(const JointTable& given, JointDescription& joint) {
         for (const char* key : {"spring", "motor", "friction"})
             if (const auto value = table.find(key))
                 value->origin().fail("needs a length that changes: give min_length or max_length, and no length");
-        if (std::fabs(start - joint.length) > limits::anchor_tolerance * smaller_size(given.bodies, joint) &&
-            !given.snap) {
+        if (length && !given.snap &&
+            std::fabs(start - joint.length) > limits::anchor_tolerance * smaller_size(given.bodies, joint)) {
             length->fail(
                 fmt::format("must be the distance at the start, {:.6g} m: leave it out, or give snap = true", start));
         }
