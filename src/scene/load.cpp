@@ -77,6 +77,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
         for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
     read_cords(root, scene);
+    add_cords_of_joints(scene);
     scene.camera = read_camera(root, scene);
     scene.overlay = read_overlay(root, scene.bodies, overrides);
     return scene;
