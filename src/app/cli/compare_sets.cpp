@@ -22,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <utility>
 
 namespace tumble {
@@ -181,8 +180,6 @@ private:
     std::optional<KeptFrames> kept_;
 };
 
-void write_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
-
 }  // namespace
 
 bool compares_sets(const CompareCommand& command) {
@@ -194,8 +191,8 @@ int compare_sets(const CompareCommand& command) {
     SetComparisonRun run(command);
     SetResult result = run.compare();
     explain_frames(result);
-    if (command.json) write_text(*command.json, to_json(result));
-    if (command.junit) write_text(*command.junit, to_junit(result));
+    if (command.json) write_file(*command.json, to_json(result));
+    if (command.junit) write_file(*command.junit, to_junit(result));
     if (command.report) run.write_report(result);
     std::vector<std::string> names;
     for (const ImageResult& image : result.images) names.push_back(image.name);

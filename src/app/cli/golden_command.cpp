@@ -22,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <system_error>
 
 namespace tumble {
@@ -43,8 +42,6 @@ std::vector<const GoldenCase*> chosen_cases(const GoldenSuite& suite, const std:
         if (names.empty() || std::ranges::find(names, golden.name) != names.end()) chosen.push_back(&golden);
     return chosen;
 }
-
-void save_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
 
 void save_report(const GoldenCommand& command, const GoldenSuite& suite, const SetResult& result) {
     ReportOptions options;
@@ -178,8 +175,8 @@ int run_golden_check(const GoldenCommand& command) {
     }
     const SetResult result = check_cases(suite, drawn, {command.platform, command.jobs}, interrupt);
     if (command.failures) keep_failures(*command.failures, result);
-    if (command.json) save_text(*command.json, to_json(result));
-    if (command.junit) save_text(*command.junit, to_junit(result));
+    if (command.json) write_file(*command.json, to_json(result));
+    if (command.junit) write_file(*command.junit, to_junit(result));
     if (command.report) save_report(command, suite, result);
     print_summary(result, command.quiet);
     if (!command.quiet) print_drawn(drawn);
@@ -201,7 +198,7 @@ int run_golden_add(const GoldenCommand& command) {
     const GoldenSuite suite = parse_suite(text, command.suite);
     const GoldenCase* const added = &suite.cases.back();
     if (const int code = print_accepted(accept(command, suite, {added}), command.quiet); code != 0) return code;
-    save_text(command.suite, text);
+    write_file(command.suite, text);
     if (!command.quiet) say("added the case {} to {}\n", added->name, safe_path(command.suite));
     return 0;
 }

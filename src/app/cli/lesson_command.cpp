@@ -15,7 +15,6 @@
 #include <fmt/ranges.h>
 
 #include <memory>
-#include <span>
 #include <system_error>
 
 namespace tumble {
@@ -93,7 +92,7 @@ void write_pages(const LessonCommand& command, const std::vector<SitePage>& page
     std::vector<std::unique_ptr<TemporaryFile>> files;
     for (const SitePage& page : pages) {
         files.push_back(std::make_unique<TemporaryFile>(page.file));
-        files.back()->write(std::as_bytes(std::span(page.html)));
+        files.back()->write(page.html);
     }
     for (const auto& file : files) file->commit();
     if (command.quiet) return;

@@ -6,7 +6,6 @@
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
 
-#include <span>
 #include <system_error>
 
 namespace tumble {
@@ -23,11 +22,8 @@ void run_man_pages(const ManPagesCommand& command, const manual::CommandText& pr
     std::filesystem::create_directories(command.folder, failed);
     if (failed)
         throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(command.folder), failed.message()));
-    for (const manual::ManPage& page : manual::man_pages(program, TUMBLE_VERSION)) {
-        TemporaryFile file(command.folder / page.file);
-        file.write(std::as_bytes(std::span(page.text)));
-        file.commit();
-    }
+    for (const manual::ManPage& page : manual::man_pages(program, TUMBLE_VERSION))
+        write_file(command.folder / page.file, page.text);
 }
 
 }  // namespace tumble

@@ -8,7 +8,6 @@
 
 #include <fstream>
 #include <iterator>
-#include <span>
 
 namespace tumble {
 namespace {
@@ -53,8 +52,7 @@ void write_farm_file(const FarmJob& job) {
     json["frames"] = job.frames;
     json["parts"] = FarmJson::array();
     for (const FarmPart& part : job.parts) json["parts"].push_back({part.first, part.last});
-    const std::string text = json.dump(-1, ' ', false, FarmJson::error_handler_t::replace) + "\n";
-    write_file(farm_file(job.folder), std::as_bytes(std::span(text)));
+    write_file(farm_file(job.folder), json.dump(-1, ' ', false, FarmJson::error_handler_t::replace) + "\n");
 }
 
 FarmJob read_farm_file(const fs::path& job_folder) {

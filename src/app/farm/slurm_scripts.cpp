@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -172,7 +171,7 @@ std::string slurm_settings_text(const FarmJob& job) {
 }
 
 void write_script(const fs::path& path, const std::string& text) {
-    write_file(path, std::as_bytes(std::span(text)));
+    write_file(path, text);
     std::error_code ignored;  // bash reads a script that cannot be executed as well
     if (path.filename() != "settings.sh")
         fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,

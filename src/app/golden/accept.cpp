@@ -34,7 +34,7 @@ public:
     void add(const fs::path& from, const fs::path& to) {
         const std::string bytes = content(from);
         files_.push_back(std::make_unique<TemporaryFile>(to));
-        files_.back()->write(std::as_bytes(std::span(bytes)));
+        files_.back()->write(bytes);
     }
     void commit() {
         for (const auto& file : files_) file->commit();

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -159,8 +158,7 @@ std::string page_html(const Report& report) {
 void write_comparison_report(const SetResult& set, const ReportOptions& options, const std::filesystem::path& path) {
     Report report{set, options, by_severity(set), {}};
     report.pictures = report_pictures(report.images, options.most_picture_bytes, options.workers);
-    const std::string html = page_html(report);
-    write_file(path, std::as_bytes(std::span(html)));
+    write_file(path, page_html(report));
 }
 
 }  // namespace tumble
