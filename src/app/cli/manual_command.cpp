@@ -2,11 +2,8 @@
 #include "app/cli/say.h"
 #include "app/manual/completion.h"
 #include "app/manual/man_page.h"
-#include "core/error.h"
-#include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
-
-#include <system_error>
 
 namespace tumble {
 
@@ -18,10 +15,7 @@ void run_completion(const CompletionCommand& command, const manual::CommandText&
 }
 
 void run_man_pages(const ManPagesCommand& command, const manual::CommandText& program) {
-    std::error_code failed;
-    std::filesystem::create_directories(command.folder, failed);
-    if (failed)
-        throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(command.folder), failed.message()));
+    make_folder(command.folder);
     for (const manual::ManPage& page : manual::man_pages(program, TUMBLE_VERSION))
         write_file(command.folder / page.file, page.text);
 }

@@ -3,6 +3,7 @@
 #include "app/farm/shell_text.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>
@@ -178,12 +179,6 @@ void write_script(const fs::path& path, const std::string& text) {
                         fs::perm_options::add, ignored);
 }
 
-void make_job_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder), error.message()));
-}
-
 }  // namespace
 
 void check_slurm(const FarmJob& job, const SlurmSettings& settings) {
@@ -209,7 +204,7 @@ void check_slurm(const FarmJob& job, const SlurmSettings& settings) {
 }
 
 void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings) {
-    make_job_folder(job.folder / "log");
+    make_folder(job.folder / "log");
     const std::string read_settings =
         fmt::format("set -u\nsource {} || exit\n", shell_word((job.folder / "settings.sh").string()));
     const auto write = [&](const char* name, const SlurmScript& script, const std::string& options) {

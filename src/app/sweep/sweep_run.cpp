@@ -9,7 +9,7 @@
 #include "app/workers/frame_memory.h"
 #include "app/workers/worker_process.h"
 #include "core/error.h"
-#include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/video_writer.h"
 
 #include <fmt/format.h>
@@ -143,13 +143,6 @@ private:
     bool interrupted_ = false;
     std::optional<std::string> failure_;
 };
-
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!error && !fs::is_directory(folder, error) && !error) error = std::make_error_code(std::errc::not_a_directory);
-    if (error) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder), error.message()));
-}
 
 /// The workers of a killed sweep hold its folder until the system has ended them.
 std::unique_ptr<FolderLock> lock_folder(const fs::path& folder) {
