@@ -1,13 +1,14 @@
 #include "app/farm/farm_job.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/file_bytes.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
+#include <optional>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -57,12 +58,11 @@ void write_farm_file(const FarmJob& job) {
 
 FarmJob read_farm_file(const fs::path& job_folder) {
     const fs::path file = farm_file(job_folder);
-    std::ifstream stream(file);
-    if (!stream) refuse_farm_file(file, "cannot be read: the folder holds no farm job");
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::optional<std::string> text = bytes_of_file(file);
+    if (!text) refuse_farm_file(file, "cannot be read: the folder holds no farm job");
     FarmJob job;
     try {
-        const FarmJson json = FarmJson::parse(text);
+        const FarmJson json = FarmJson::parse(*text);
         if (json.at("format") != farm_format) refuse_farm_file(file, "is of another version of the program");
         job = farm_job_of(json, job_folder);
     } catch (const FarmJson::exception& error) {
