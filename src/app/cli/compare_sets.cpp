@@ -108,7 +108,7 @@ private:
         Interrupt interrupt;
         return compare_pairs(
             [&]() -> std::optional<ImagePair> {
-                if (interrupt.pending()) throw RunError("interrupted");
+                if (interrupt.pending()) throw Interrupted();
                 return next();
             },
             tolerances_, command_.workers,
@@ -133,10 +133,8 @@ private:
     }
 
     References references_for(const NamedFiles& files, const NamedFiles& images, SetResult& result) const {
-        std::vector<std::string> platforms(std::begin(known_platforms), std::end(known_platforms));
-        platforms.insert(platforms.end(), tolerances_.platforms().begin(), tolerances_.platforms().end());
-        const std::string platform = command_.platform.value_or(this_platform());
-        References references = references_of(files, images, platform == "none" ? "" : platform, platforms);
+        References references = references_of(files, images, platform_of_option(command_.platform),
+                                              platform_folders(tolerances_.platforms()));
         result.platform = references.platform;
         return references;
     }

@@ -123,7 +123,7 @@ void run_in_children(std::size_t count, std::size_t at_once, const std::function
         std::vector<pollfd> pipes;
         for (const auto& child : children) pipes.push_back({child->pipe(), POLLIN, 0});
         ::poll(pipes.data(), pipes.size(), poll_period);
-        if (interrupt.pending()) throw RunError("interrupted");
+        if (interrupt.pending()) throw Interrupted();
         for (std::size_t i = pipes.size(); i-- > 0;) {
             if (pipes[i].revents == 0 || children[i]->read()) continue;
             const std::size_t index = children[i]->index();
