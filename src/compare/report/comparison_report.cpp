@@ -42,8 +42,8 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
 /// "3 of 42 pictures fail".
 std::string headline(const SetResult& set) {
     const auto all = static_cast<std::int64_t>(set.images.size());
-    const std::int64_t bad = set.count(Verdict::different) + set.count(Verdict::missing) + set.count(Verdict::broken) +
-                             (set.added_allowed ? 0 : set.count(Verdict::added));
+    const auto bad = std::count_if(set.images.begin(), set.images.end(),
+                                   [&](const ImageResult& image) { return set.fails(image.verdict); });
     if (all == 0) return "No pictures were compared";
     if (bad > 0)
         return fmt::format("{} of {} {}", bad, counted(all, "picture", "pictures"), bad == 1 ? "fails" : "fail");
@@ -56,9 +56,6 @@ std::string title_of(const Report& report) {
     if (!report.options.title.empty()) return report.options.title;
     return fmt::format("{} — {}", headline(report.set), report.set.image);
 }
-
-constexpr Verdict worst_first[] = {Verdict::broken, Verdict::missing, Verdict::different,
-                                   Verdict::added,  Verdict::alike,   Verdict::same};
 
 std::string counts_html(const SetResult& set) {
     std::string items, segments;
