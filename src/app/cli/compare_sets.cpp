@@ -100,8 +100,9 @@ private:
         if (command_.junit) plan.add("--junit", *command_.junit);
         if (command_.report) plan.add("--report", *command_.report);
         if (command_.difference && fs::exists(*command_.difference) && !fs::is_directory(*command_.difference))
-            throw InputError(fmt::format("--diff: must be a folder for more than two pictures ('{}' is none)",
-                                         safe_path(*command_.difference)));
+            throw InputError(
+                fmt::format("--diff: must be a folder where more than two pictures are compared ('{}' is no folder)",
+                            safe_path(*command_.difference)));
     }
 
     std::vector<ImageResult> compare(const PairSource& next) {
