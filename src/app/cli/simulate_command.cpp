@@ -2,9 +2,9 @@
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
 #include "app/cli/record_clip.h"
-#include "app/cli/run_tables.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
+#include "app/files/run_tables.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/wall_clock.h"
 #include "core/error.h"
@@ -43,7 +43,7 @@ private:
 };
 
 void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds) {
-    for (const std::filesystem::path& file : RunTables::files(command)) say("wrote {}\n", safe_path(file));
+    for (const std::filesystem::path& file : command.tables.all()) say("wrote {}\n", safe_path(file));
     const FrameTiming timing = scene.timing();
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
         (frames - 1) * timing.steps_per_frame, 1.0 / (timing.fps * timing.steps_per_frame), seconds,
@@ -56,13 +56,13 @@ void simulate_tables(const SimulateCommand& command) {
     const SceneDescription description = load_scene(command.scenes.front(), command.overrides, &inputs);
     OutputPlan plan;
     for (const auto& file : inputs) plan.add_input(file);
-    RunTables::plan(command, plan);
+    command.tables.add_to(plan);
     const v0::Scene scene = v0::make_scene(description, std::move(inputs));
     const std::int64_t frames = scene.frame_count();
     {
         RunMonitor monitor(frames, command.quiet);
         World world(description, command.threads);
-        RunTables tables(command, scene);
+        RunTables tables(command.tables, scene);
         if (tables.needs_records()) world.record_contacts();
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
@@ -80,7 +80,7 @@ RenderCommand clip_of(const SimulateCommand& command) {
     clip.scenes = command.scenes;
     clip.overrides = command.overrides;
     const bool own_frames = command.scenes.size() == 1 && clip.vary.empty() && clip.speed == 1.0 && clip.shutter == 0.0;
-    if (!own_frames && !RunTables::files(command).empty())
+    if (!own_frames && !command.tables.all().empty())
         throw InputError(
             "--checkpoints: tables are of the frames of one scene; leave out --trajectory, --energy, "
             "--impacts, --contacts and --loads with several panels, --speed and --shutter");
@@ -95,7 +95,7 @@ void simulate_rest(const SimulateCommand& command) {
     RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
     OutputPlan plan;
     for (const auto& file : scenes.inputs) plan.add_input(file);
-    RunTables::plan(command, plan);
+    command.tables.add_to(plan);
     const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
     const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
@@ -103,7 +103,7 @@ void simulate_rest(const SimulateCommand& command) {
     const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
     {
         RunMonitor monitor(end - begin, command.quiet);
-        RunTables tables(command, scene, first);
+        RunTables tables(command.tables, scene, first);
         World world = scenes.world(0, command.threads);
         if (tables.needs_records() && !world.records_contacts()) world.record_contacts();
         if (state) {
@@ -127,7 +127,7 @@ void simulate_clip(const SimulateCommand& command) {
     RenderScenes scenes(clip, shutter);
     OutputPlan plan;
     for (const auto& file : scenes.inputs) plan.add_input(file);
-    RunTables::plan(command, plan);
+    command.tables.add_to(plan);
     const SceneDescription& first = scenes.first();
     const v0::Scene scene = v0::make_scene(first, scenes.inputs);
     const std::int64_t frames = scenes.clip_frames;
@@ -135,7 +135,7 @@ void simulate_clip(const SimulateCommand& command) {
     std::uintmax_t bytes = 0;
     {
         RunMonitor monitor(frames, command.quiet);
-        RunTables tables(command, scene);
+        RunTables tables(command.tables, scene);
         CheckpointWriting checkpoints(*command.checkpoints, TUMBLE_VERSION, scenes.identity());
         ClipRecording recording;
         recording.shutter = shutter;
