@@ -40,11 +40,6 @@ std::string_view without_newlines(std::string_view text) {
     return text;
 }
 
-std::string plain(std::string_view text) {
-    constexpr std::string_view prefix = "error: ";
-    return std::string(text.starts_with(prefix) ? text.substr(prefix.size()) : text);
-}
-
 /// Text for the terminal: with "error: ".
 std::string text_of(const std::exception& error) {
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "error: out of memory";
@@ -65,7 +60,7 @@ Json members_of(const std::exception& error) {
     }
     const auto* from_library = dynamic_cast<const v0::Error*>(&error);
     const bool input = from_library != nullptr && from_library->kind() == v0::ErrorKind::input;
-    return {{"kind", input ? "input" : "run"}, {"text", plain(text_of(error))}};
+    return {{"kind", input ? "input" : "run"}, {"text", reason_of(text_of(error))}};
 }
 
 }  // namespace

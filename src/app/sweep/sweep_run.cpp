@@ -7,7 +7,6 @@
 #include "app/sweep/sweep_worker.h"
 #include "app/threads/interrupt.h"
 #include "app/workers/frame_memory.h"
-#include "app/workers/worker_process.h"
 #include "core/error.h"
 #include "output/make_folder.h"
 #include "output/video_writer.h"
@@ -173,7 +172,7 @@ void check_outputs_of(const SweepPlan& plan, const RenderScenes& scenes) {
 /// The reason without the option that a value would have on a command line.
 std::string reason_in_plan(const std::exception& error) {
     constexpr std::string_view option = "--set ";
-    std::string reason = reason_of(error);
+    std::string reason = reason_of(error.what());
     return reason.starts_with(option) ? reason.substr(option.size()) : reason;
 }
 
