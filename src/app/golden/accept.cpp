@@ -110,7 +110,7 @@ private:
         bool all_new = true;  // the record tells of the references: it is kept with an older one
         for (AcceptedImage& image : images) {
             const fs::path from = drawn.folder / image.name, to = folder_ / image.name;
-            image.what = place_of(from, to, golden.tolerances ? *golden.tolerances : suite_.tolerances);
+            image.what = place_of(from, to, suite_.tolerances_of(golden));
             if (image.what == What::kept_alike && options_.even_alike) image.what = What::replaced;
             if (image.what == What::made || image.what == What::replaced) files.add(from, to);
             all_new = all_new && image.what != What::kept_alike;
@@ -137,7 +137,6 @@ std::vector<AcceptedImage> accept_cases(const GoldenSuite& suite, std::span<cons
     const TemporaryFolder work("accept");
     const auto draw = [&](const char* name, const DrawingWork& by) {
         DrawCasesOptions how;
-        how.force = true;
         how.jobs = options.jobs;
         how.work = by;
         return draw_cases(cases, drawer, ImageCache(work.path() / name), how, interrupt);

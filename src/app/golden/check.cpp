@@ -90,8 +90,7 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
     for (std::size_t i = 0; i < places.size(); ++i) {
         const ImagePair pair = pair_of(places[i], references.files);
         if (pair.reference && pair.image) {
-            const GoldenCase& golden = *places[i].drawn->golden;
-            groups[golden.tolerances ? &*golden.tolerances : &suite.tolerances].push_back(i);
+            groups[&suite.tolerances_of(*places[i].drawn->golden)].push_back(i);
         } else {
             result.images[i] = lone_result(pair, *places[i].drawn);
         }
