@@ -198,10 +198,12 @@ int check_sweep(const SweepPlan& plan, const std::string& scene, int workers) {
             return workers_for(plan, scenes, int(std::min<std::int64_t>(workers, plan.samples)));
         } catch (const InputError& error) {
             if (!first)
-                first.emplace(SourceLocation{plan.file.string(), 0, 0},
-                              fmt::format("no sample can be made; sample 0{}: {}",
-                                          plan.axes.empty() ? "" : fmt::format(" ({})", sample.text(plan)),
-                                          reason_in_plan(error)));
+                first.emplace(
+                    SourceLocation{plan.file.string(), 0, 0},
+                    fmt::format(
+                        "{} can be made; sample 0{}: {}",
+                        count == plan.samples ? "no sample" : fmt::format("none of the first {} samples", count),
+                        plan.axes.empty() ? "" : fmt::format(" ({})", sample.text(plan)), reason_in_plan(error)));
         }
     }
     throw *first;
