@@ -4,7 +4,6 @@
 #include "core/fnv_hash.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace tumble {

@@ -7,7 +7,6 @@
 #include "app/files/frame_folder.h"
 #include "app/files/frame_set.h"
 #include "app/plots/variants.h"
-#include "core/error.h"
 #include "scene/hash/scene_hash.h"
 
 #include <fmt/format.h>

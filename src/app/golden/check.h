@@ -5,7 +5,6 @@
 #include "app/golden/suite.h"
 #include "compare/comparison.h"
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>

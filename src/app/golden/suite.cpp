@@ -2,7 +2,6 @@
 
 #include "app/golden/case_keys.h"
 #include "core/check.h"
-#include "core/safe_text.h"
 #include "scene/toml/toml_file.h"
 #include "scene/toml/toml_reader.h"
 

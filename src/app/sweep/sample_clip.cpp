@@ -7,7 +7,6 @@
 #include "app/workers/frame_maker.h"
 #include "output/video_writer.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>

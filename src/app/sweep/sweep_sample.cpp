@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <utility>
 
 namespace tumble {
 namespace {

@@ -10,7 +10,6 @@
 #include <unistd.h>
 
 #include <exception>
-#include <memory>
 #include <new>
 
 namespace tumble {
