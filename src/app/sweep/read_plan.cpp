@@ -97,7 +97,7 @@ std::int64_t read_samples(const TomlTable& root, const SweepPlan& plan) {
         if (plan.axes.empty()) return 1;
         throw InputError(
             root.origin().where,
-            "a plan without lists, or with random ones, needs the number of samples, \"samples\" (not given)");
+            "a plan without lists, or with random ones, needs \"samples\", the number of samples (not given)");
     }
     const std::int64_t samples = given->integer(1, most_samples);
     if (samples % each != 0) given->fail("must be even, because each pair has two samples");
