@@ -10,9 +10,6 @@
 
 #include <fmt/format.h>
 
-#include <system_error>
-#include <utility>
-
 namespace tumble {
 namespace {
 
@@ -78,6 +75,8 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
     plan.folder = command.frames;
     plan.aov_folder = folder_of_aovs(command);
     plan.clip = command.clip;
+    plan.clip_options = command.clip_options;
+    plan.clip_options.transparent = command.drawing.transparent;
     if (!plan.clip && !plan.folder && !plan.aov_folder)
         plan.clip = command.scenes.front().stem().string() + (command.drawing.transparent ? ".webm" : ".mp4");
     if (plan.clip) {
@@ -101,10 +100,9 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
         plan.frames.aovs = missing_in(command, *plan.aov_folder, FrameFiles::aovs, plan.aovs, scenes.frames);
     if (plan.clip) plan.frames.video = scenes.frames;
     if (plan.clip && command.resume) {
-        ClipOptions options = command.clip_options;
-        options.transparent = command.drawing.transparent;
         const ClipPicture picture{scenes.composition.width, scenes.composition.height, fps};
-        plan.segments = std::make_unique<SegmentedClip>(*plan.clip, picture, options, plan.pictures, scenes.frames);
+        plan.segments =
+            std::make_unique<SegmentedClip>(*plan.clip, picture, plan.clip_options, plan.pictures, scenes.frames);
         plan.frames.video = plan.segments->missing();
     }
     plan.frames.drawn = plan.frames.folder.united_with(plan.frames.aovs).united_with(plan.frames.video);

@@ -115,10 +115,8 @@ public:
         if (plan.segments) {
             plan.segments->open();
         } else if (plan.clip) {
-            ClipOptions options = command.clip_options;
-            options.transparent = command.drawing.transparent;
             clip_ = std::make_unique<WholeClip>(*plan.clip, scenes.composition.width, scenes.composition.height,
-                                                scenes.first().output.fps, options);
+                                                scenes.first().output.fps, plan.clip_options);
         }
     }
 
