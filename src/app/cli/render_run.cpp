@@ -37,7 +37,7 @@ CheckpointReading open_checkpoints(const std::filesystem::path& folder, RenderSc
         throw InputError(
             "--from-checkpoints: the overlay 'damage' shows changes since the frame before, which a part of a clip has "
             "not drawn; leave one of them out");
-    CheckpointReading checkpoints(folder, TUMBLE_VERSION, scenes.identity());
+    CheckpointReading checkpoints(folder, scenes.identity());
     scenes.take_survey(checkpoints.survey());
     return checkpoints;
 }

@@ -97,7 +97,7 @@ void simulate_rest(const SimulateCommand& command) {
     clip.start = command.start;
     RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
     check_tables(command, scenes.inputs);
-    const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
+    const CheckpointReading checkpoints(*command.from_checkpoints, scenes.identity());
     const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
@@ -135,7 +135,7 @@ void simulate_clip(const SimulateCommand& command) {
     {
         RunMonitor monitor(frames, command.quiet);
         RunTables tables(command, scene);
-        CheckpointWriting checkpoints(*command.checkpoints, TUMBLE_VERSION, scenes.identity());
+        CheckpointWriting checkpoints(*command.checkpoints, scenes.identity());
         ClipRecording recording;
         recording.shutter = shutter;
         recording.every = std::max<std::int64_t>(1, std::llround(command.every * first.output.fps));
