@@ -6,6 +6,7 @@
 #include "app/files/output_plan.h"
 #include "app/resume/kept_frames.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/encoder_report.h"
 
 #include <fmt/format.h>
