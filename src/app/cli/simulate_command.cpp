@@ -11,8 +11,6 @@
 #include "core/safe_text.h"
 #include "sim/checkpoint/archive.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -50,13 +48,18 @@ void say_run(const SimulateCommand& command, const SceneDescription& scene, std:
         double(frames - 1) / timing.fps / seconds);
 }
 
+/// Throws InputError if a table would replace another one or an input.
+void check_tables(const SimulateCommand& command, const FileList& inputs) {
+    OutputPlan plan;
+    for (const std::filesystem::path& file : inputs) plan.add_input(file);
+    command.tables.add_to(plan);
+}
+
 void simulate_tables(const SimulateCommand& command) {
     const double start = wall_seconds();
     FileList inputs;
     const SceneDescription description = load_scene(command.scenes.front(), command.overrides, &inputs);
-    OutputPlan plan;
-    for (const auto& file : inputs) plan.add_input(file);
-    command.tables.add_to(plan);
+    check_tables(command, inputs);
     const v0::Scene scene = v0::make_scene(description, std::move(inputs));
     const std::int64_t frames = scene.frame_count();
     {
@@ -93,10 +96,8 @@ void simulate_rest(const SimulateCommand& command) {
     RenderCommand clip = clip_of(command);
     clip.start = command.start;
     RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
-    OutputPlan plan;
-    for (const auto& file : scenes.inputs) plan.add_input(file);
-    command.tables.add_to(plan);
-    const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
+    check_tables(command, scenes.inputs);
+    const CheckpointReading checkpoints(*command.from_checkpoints, scenes.identity());
     const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
@@ -125,9 +126,7 @@ void simulate_clip(const SimulateCommand& command) {
     const RenderCommand clip = clip_of(command);
     const Shutter shutter = Shutter::of(clip.shutter, clip.blur_samples);
     RenderScenes scenes(clip, shutter);
-    OutputPlan plan;
-    for (const auto& file : scenes.inputs) plan.add_input(file);
-    command.tables.add_to(plan);
+    check_tables(command, scenes.inputs);
     const SceneDescription& first = scenes.first();
     const v0::Scene scene = v0::make_scene(first, scenes.inputs);
     const std::int64_t frames = scenes.clip_frames;
@@ -136,7 +135,7 @@ void simulate_clip(const SimulateCommand& command) {
     {
         RunMonitor monitor(frames, command.quiet);
         RunTables tables(command.tables, scene);
-        CheckpointWriting checkpoints(*command.checkpoints, TUMBLE_VERSION, scenes.identity());
+        CheckpointWriting checkpoints(*command.checkpoints, scenes.identity());
         ClipRecording recording;
         recording.shutter = shutter;
         recording.every = std::max<std::int64_t>(1, std::llround(command.every * first.output.fps));

@@ -113,18 +113,13 @@ echo "job ${job%%;*}: clip"
 
 /// A value in a line of #SBATCH, which sbatch takes apart by its own rules: '#' begins a comment, quotes are removed.
 std::string sbatch_value(std::string_view text) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,@%+-=";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) return std::string(text);
+    if (is_plain_word(text)) return std::string(text);
     std::string quoted = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') quoted += '\\';
         quoted += c;
     }
     return quoted + "\"";
-}
-
-bool has_control_characters(std::string_view text) {
-    return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
 }
 
 /// The options of sbatch in the script of a job.
