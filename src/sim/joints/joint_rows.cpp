@@ -110,7 +110,7 @@ void JointRows::push_row(const Row& row) {
     rows_.push_back(row);
     Row& added = rows_.back();
     const double last = joint(block).impulse[row.coordinate][row.law];
-    if (!row.soft) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
+    if (!row.soft && (tree_ || row.law != Joint::lock)) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }
 
 void JointRows::add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law) {
@@ -280,6 +280,12 @@ void JointRows::load(const JointIsland& island, double compliance) {
     total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;
+    bool fixed = false;
+    for (const std::uint32_t k : island.joints)
+        for (const std::uint32_t i : {(*joints_)[set.active()[k]].a, (*joints_)[set.active()[k]].b})
+            fixed = fixed || i == Joint::world || !island.problem.bodies[i].dynamic();
+    // A connected graph is a tree if it has one edge less than nodes; all that is fixed is one node.
+    tree_ = island.joints.size() + 1 == island.bodies.size() + fixed;
     for (const std::uint32_t k : island.joints)
         if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken) add_joint(island, index, compliance);
 }

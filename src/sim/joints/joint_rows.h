@@ -66,6 +66,8 @@ public:
     std::span<Row> rows() { return rows_; }
     std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
     double length() const { return length_; }  // m, of the island
+    /// Whether the joints form no loop: else their impulses are not unique, and those of the last step no estimate.
+    bool tree() const { return tree_; }
     std::span<Block> blocks() { return blocks_; }
     void clear() {
         blocks_.clear();
@@ -146,7 +148,7 @@ private:
     std::vector<Row> rows_;
     std::vector<double> swing_;  // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
-    bool weights_changed_ = true;
+    bool weights_changed_ = true, tree_ = true;
 };
 
 }  // namespace tumble
