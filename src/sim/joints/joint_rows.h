@@ -102,6 +102,11 @@ public:
     bool add_push(double stiffness, double rate, std::vector<double>& push) const;
     void add_push_to(double stiffness, BlockCholesky& matrix) const;
 
+    /// For account(): the velocities at the start of the step (`first`), or of a later substep.
+    void keep_velocities(const JointIsland& island, bool first);
+    /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
+    void account(const JointIsland& island);
+
     /// Gives the impulses to the bodies; `reached` marks those by index in the island.
     void store(const JointIsland& island);
 
@@ -122,6 +127,7 @@ private:
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
     std::vector<Row> rows_;
+    std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;  // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
     bool weights_changed_ = true;

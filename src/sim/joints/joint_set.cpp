@@ -72,6 +72,7 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
         }
     }
     for (Joint& joint : joints_) joint.active = joint.description.start <= 0.0 && joint.description.end > 0.0;
+    start_account(bodies);
     list();
 }
 
@@ -112,6 +113,10 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
         if (active != joint.active) {
             changed = true;
             joint.active = active;
+            joint.account.holds = false;
+            const double given = potential(joint, bodies);  // a joint that ends leaves its own as heat
+            joint.account.work.stored += given;
+            joint.account.work.motors += given;
             joint.impulse = {};
             joint.force.setZero();
             joint.torque.setZero();
@@ -159,13 +164,22 @@ std::vector<JointState> JointSet::states(const std::vector<Body>& bodies) const 
                 state.gap = std::max(state.gap, unit * std::abs(value));
                 continue;
             }
+            state.free[k] = true;
             state.position[k] = value;
             state.speed[k] = direction.dot(velocity(joint.b, k >= 3) - velocity(joint.a, k >= 3));
         }
         state.force = joint.force;
         state.torque = joint.torque;
         state.at_limit = joint.at_limit;
-        state.active = joint.active;
+        state.mean_force = joint.account.mean.force;
+        state.mean_torque = joint.account.mean.torque;
+        state.mean_moment = joint.account.mean.moment;
+        for (std::size_t k = 0; k < joint.count() && state.limit == 0; ++k) {
+            const auto& impulse = joint.impulse[k];
+            if (impulse[Joint::lower] != 0.0) state.limit = -1;
+            if (impulse[Joint::upper] != 0.0 || impulse[Joint::cone] != 0.0) state.limit = 1;
+        }
+        state.active = joint.active && !joint.broken;
         if (joint.broken) state.broken_at = joint.broken_at;
     }
     return result;
