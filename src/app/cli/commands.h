@@ -40,7 +40,7 @@ void run_render(const RenderCommand& command);
 
 struct SimulateCommand {
     std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
-    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
+    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads, joints;
     SceneOverrides overrides;
     std::optional<std::filesystem::path> checkpoints;       // folder
     double every = 1.0;                                     // s of the clip between two checkpoints

@@ -37,6 +37,7 @@ private:
     std::optional<v0::ImpactTable> impacts_;
     std::optional<v0::ContactTable> contacts_;
     std::optional<v0::LoadTable> loads_;
+    std::optional<v0::JointTable> joints_;
 };
 
 }  // namespace tumble
