@@ -1,4 +1,5 @@
 #include "api/scene_data.h"
+#include "app/cli/broken_joints.h"
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
 #include "app/cli/record_clip.h"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -42,7 +44,9 @@ private:
     double last_ = wall_seconds();
 };
 
-void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds) {
+void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds,
+             const std::vector<BrokenJoint>& broken) {
+    say_broken(broken);
     for (const std::filesystem::path& file : RunTables::files(command)) say("wrote {}\n", safe_path(file));
     const FrameTiming timing = scene.timing();
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
@@ -59,6 +63,7 @@ void simulate_tables(const SimulateCommand& command) {
     RunTables::plan(command, plan);
     const v0::Scene scene = v0::make_scene(description, std::move(inputs));
     const std::int64_t frames = scene.frame_count();
+    std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(frames, command.quiet);
         World world(description, command.threads);
@@ -70,8 +75,9 @@ void simulate_tables(const SimulateCommand& command) {
             monitor.update(n + 1);
         }
         tables.finish();
+        broken = broken_joints(description, world);
     }
-    if (!command.quiet) say_run(command, description, frames, wall_seconds() - start);
+    if (!command.quiet) say_run(command, description, frames, wall_seconds() - start, broken);
 }
 
 /// The clip that will be drawn from the checkpoints.
@@ -83,7 +89,7 @@ RenderCommand clip_of(const SimulateCommand& command) {
     if (!own_frames && !RunTables::files(command).empty())
         throw InputError(
             "--checkpoints: tables are of the frames of one scene; leave out --trajectory, --energy, "
-            "--impacts, --contacts and --loads with several panels, --speed and --shutter");
+            "--impacts, --contacts, --loads and --joints with several panels, --speed and --shutter");
     return clip;
 }
 
@@ -101,6 +107,7 @@ void simulate_rest(const SimulateCommand& command) {
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
     const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
+    std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(end - begin, command.quiet);
         RunTables tables(command, scene, first);
@@ -116,8 +123,9 @@ void simulate_rest(const SimulateCommand& command) {
             monitor.update(n + 1 - begin);
         }
         tables.finish();
+        broken = broken_joints(scenes.first(), world);
     }
-    if (!command.quiet) say_run(command, scenes.first(), end - begin, wall_seconds() - start);
+    if (!command.quiet) say_run(command, scenes.first(), end - begin, wall_seconds() - start, broken);
 }
 
 void simulate_clip(const SimulateCommand& command) {
@@ -133,6 +141,7 @@ void simulate_clip(const SimulateCommand& command) {
     const std::int64_t frames = scenes.clip_frames;
     std::size_t count = 0;
     std::uintmax_t bytes = 0;
+    std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(frames, command.quiet);
         RunTables tables(command, scene);
@@ -146,6 +155,7 @@ void simulate_clip(const SimulateCommand& command) {
         recording.each = [&](std::int64_t n, const World& world) {
             tables.add(n, world);
             monitor.update(n + 1);
+            if (n + 1 == scenes.ends.front()) broken = broken_joints(first, world);
         };
         record_clip(scenes, recording, checkpoints);
         tables.finish();
@@ -154,7 +164,7 @@ void simulate_clip(const SimulateCommand& command) {
     }
     if (command.quiet) return;
     say("wrote {}: {} checkpoints, {:.1f} MB\n", safe_path(*command.checkpoints), count, double(bytes) / 1e6);
-    say_run(command, first, frames, wall_seconds() - start);
+    say_run(command, first, frames, wall_seconds() - start, broken);
 }
 
 }  // namespace
