@@ -56,6 +56,15 @@ struct JointAccount {
         double work_a = 0.0, work_b = 0.0;  // J, of the joint on each body
         JointWork work;
         int solves = 0;  // steps, or substeps
+
+        /// Of locks alone; `catches`: the joint begins to hold its bodies.
+        void add_flight(const JointLoad& given, double on_a, double on_b, bool catches) {
+            load.add(given);
+            work_a += on_a;
+            work_b += on_b;
+            if (catches) work.impacts -= on_a + on_b;
+            ++solves;
+        }
     };
     Span step, frame;
     JointLoad mean;      // N and N m, over the last frame
