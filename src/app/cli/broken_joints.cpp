@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t listed = 12;  // the others are counted
+constexpr std::size_t most_lines = 12;  // the others are counted
 
 }  // namespace
 
@@ -30,9 +30,9 @@ void say_broken(const std::vector<BrokenJoint>& joints) {
             messages().event("broke", {{"joint", safe_text(joint.name)}, {"time", joint.time}});
         return;
     }
-    for (std::size_t i = 0; i < std::min(joints.size(), listed); ++i)
+    for (std::size_t i = 0; i < std::min(joints.size(), most_lines); ++i)
         say("joint '{}' broke at {:.4g} s\n", safe_text(joints[i].name), joints[i].time);
-    if (joints.size() > listed) say("{} more joints broke\n", joints.size() - listed);
+    if (joints.size() > most_lines) say("{} more joints broke\n", joints.size() - most_lines);
 }
 
 }  // namespace tumble

@@ -1,5 +1,7 @@
 #include "sim/joints/joint_set.h"
 
+#include "sim/joints/settings.h"
+
 #include "core/deterministic_math.h"
 
 #include <algorithm>
@@ -23,6 +25,18 @@ double effective_mass(const std::vector<Body>& bodies, const Joint& joint, const
 
 bool has_laws(const JointAxis& axis) {
     return axis.motion == JointAxis::Motion::limited || axis.spring || axis.motor || axis.friction > 0.0;
+}
+
+// -1 at a lower limit, 1 at an upper one or a cone, of the first coordinate that is at one.
+int limit_met(const Joint& joint, const JointGeometry& g) {
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        const JointAxis& axis = joint.axis(k);
+        if (axis.motion != JointAxis::Motion::limited) continue;
+        const double value = g.coordinates[k].value, near = tuning::joint_rounding * (k < 3 ? joint.size : 1.0);
+        if (value <= axis.lower + near || joint.impulse[k][Joint::lower] != 0.0) return -1;
+        if (value >= axis.upper - near || joint.impulse[k][Joint::upper] != 0.0) return 1;
+    }
+    return joint.description.swing && g.swing.value >= g.swing_limit - tuning::joint_rounding ? 1 : 0;
 }
 
 }  // namespace
@@ -174,11 +188,7 @@ std::vector<JointState> JointSet::states(const std::vector<Body>& bodies) const 
         state.mean_force = joint.account.mean.force;
         state.mean_torque = joint.account.mean.torque;
         state.mean_moment = joint.account.mean.moment;
-        for (std::size_t k = 0; k < joint.count() && state.limit == 0; ++k) {
-            const auto& impulse = joint.impulse[k];
-            if (impulse[Joint::lower] != 0.0) state.limit = -1;
-            if (impulse[Joint::upper] != 0.0 || impulse[Joint::cone] != 0.0) state.limit = 1;
-        }
+        state.limit = limit_met(joint, g);
         state.active = joint.active && !joint.broken;
         if (joint.broken) state.broken_at = joint.broken_at;
     }
