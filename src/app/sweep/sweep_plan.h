@@ -25,10 +25,10 @@ enum class Combination { product, zip, random };
 struct PairFactor {
     double factor = 1.0, offset = 0.0;
 };
-struct PairSource {
+struct OtherSource {
     AxisSource source;
 };
-using PairValue = std::variant<std::monostate, PairFactor, PairSource>;
+using PairValue = std::variant<std::monostate, PairFactor, OtherSource>;
 
 /// Each draw gives two samples, A and B, that differ in the value of one axis only.
 struct PairPlan {
@@ -43,11 +43,12 @@ struct SampleOutputs {
     bool frames = false;
     std::string clip;  // file name; empty: none
     AovSet aovs;
-    bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false;
-    bool arrays = false;  // impacts, contacts and loads as .npz in place of CSV
+    bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false,
+         joints = false;
+    bool arrays = false;  // impacts, contacts, loads and joints as .npz in place of CSV
     SceneForm scene = SceneForm::toml;
 
-    bool tables() const { return trajectory || energy || impacts || contacts || loads; }
+    bool tables() const { return trajectory || energy || impacts || contacts || loads || joints; }
     bool drawn() const { return frames || !clip.empty() || !aovs.empty(); }
 };
 

@@ -461,7 +461,8 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             (rows_[k].turns() ? torque : force) += rows_[k].impulse / h_ * rows_[k].direction;
         torque *= length_;
-        const double over = std::max(force.norm() / j.description.break_force, torque.norm() / j.description.break_torque);
+        const double over = std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
+                                      torque.norm() / j.description.break_torque});
         if (!(over > 1.0)) continue;
         any = block.breaks = true;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
@@ -540,8 +541,12 @@ void JointRows::store(const JointIsland& island) {
     }
 }
 
-bool JointRows::apart() const {
-    return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.law == Joint::lock && row.reference != 0.0; });
+bool JointRows::apart(double tolerance) const {
+    for (const Block& block : blocks_)
+        for (const Row& row : rows(block))
+            if (row.law == Joint::lock && std::abs(row.reference) > tolerance * (row.turns() ? 1.0 : joint(block).size))
+                return true;
+    return false;
 }
 
 bool JointRows::violates_limit(const JointIsland& island, const Block& block) const {

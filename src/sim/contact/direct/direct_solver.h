@@ -74,7 +74,6 @@ private:
     Closing close_joints(const JointIsland& island);
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
-    void store_jointed(const JointIsland& island);
     void predict_ends(const JointIsland& island);
     std::pair<double, double> next_round();
     bool factored();
