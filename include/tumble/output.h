@@ -4,6 +4,7 @@
 
 #include "contacts.h"
 #include "image.h"
+#include "joints.h"
 #include "scene.h"
 #include "snapshot.h"
 
@@ -11,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 TUMBLE_BEGIN
 
@@ -100,6 +102,8 @@ private:
 class EnergyTable {
 public:
     explicit EnergyTable(const std::string& file);
+    /// With the columns of joints where the scene has some.
+    EnergyTable(const std::string& file, const Scene& scene);
     ~EnergyTable();
     EnergyTable(EnergyTable&&) noexcept;
     EnergyTable& operator=(EnergyTable&&) noexcept;
@@ -155,6 +159,23 @@ public:
     LoadTable& operator=(LoadTable&&) noexcept;
 
     void add(std::int64_t frame, double time, const FrameContacts& contacts);  // s
+    void finish();
+
+private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// The table of `tumble simulate --joints`: one row per frame and joint.
+class JointTable {
+public:
+    JointTable(const std::string& file, const Scene& scene);
+    ~JointTable();
+    JointTable(JointTable&&) noexcept;
+    JointTable& operator=(JointTable&&) noexcept;
+
+    /// Throws Error (input) where the states are not those of each joint of the scene.
+    void add(std::int64_t frame, double time, const std::vector<JointState>& joints);  // s
     void finish();
 
 private:

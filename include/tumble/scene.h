@@ -51,6 +51,10 @@ public:
     /// The index of the body of that name; empty where there is none.
     std::optional<std::size_t> find_body(const std::string& name) const;
 
+    /// Joints in the order of the file, chains expanded. Throws Error (input) for an index of no joint.
+    std::size_t joint_count() const;
+    const std::string& joint_name(std::size_t joint) const;  // given, or "joint" with the index
+
     /// The scene file and the mesh files that were read.
     std::vector<std::string> files() const;
 

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "contacts.h"
+#include "joints.h"
 #include "scene.h"
 #include "snapshot.h"
 
 #include <cstddef>
 #include <memory>
+#include <vector>
 
 TUMBLE_BEGIN
 
@@ -38,6 +40,8 @@ public:
 
     /// The state of all bodies: at time 0 that of the scene.
     Snapshot snapshot() const;
+    /// Of all joints, in the order of the scene; forces of the last advance_frame(), else 0.
+    std::vector<JointState> joints() const;
     /// Finds the contacts of the present poses, which costs about as much as a step.
     Energies energies() const;
     /// Of the body of that index in scene order. Throws Error (input) for an index of no body.

@@ -5,16 +5,19 @@
 #include "core/image.h"
 #include "core/vector.h"
 #include "sim/snapshot/contact_records.h"
+#include "sim/snapshot/joint_state.h"
 #include "sim/snapshot/report.h"
 #include "sim/snapshot/snapshot.h"
 #include "tumble/contacts.h"
 #include "tumble/image.h"
+#include "tumble/joints.h"
 #include "tumble/snapshot.h"
 #include "tumble/vector.h"
 
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 namespace tumble::v0 {
 
@@ -47,6 +50,15 @@ inline FrameContacts to_public(const ContactRecords& from) {
     return to;
 }
 
+inline std::vector<JointState> to_public(const std::vector<tumble::JointState>& from) {
+    std::vector<JointState> to;
+    to.reserve(from.size());
+    for (const tumble::JointState& j : from)
+        to.push_back({to_public(j.point), j.free, j.position, j.speed, to_public(j.mean_force),
+                      to_public(j.mean_torque), to_public(j.mean_moment), j.gap, j.limit, j.active, j.broken_at});
+    return to;
+}
+
 inline Energies to_public(const Measurement& m, const EnergyLedger& ledger) {
     return {.kinetic = m.kinetic,
             .potential = m.potential,
@@ -58,7 +70,10 @@ inline Energies to_public(const Measurement& m, const EnergyLedger& ledger) {
             .kinetic_angular = m.kinetic_angular,
             .work = ledger.work,
             .impact_loss = ledger.impact_loss,
-            .friction_loss = ledger.friction_loss};
+            .friction_loss = ledger.friction_loss,
+            .elastic = m.elastic,
+            .motor_work = ledger.motor_work,
+            .joint_heat = ledger.joint_heat};
 }
 
 /// Throws InputError where the snapshot is not of a scene with that many bodies.

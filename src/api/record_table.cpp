@@ -4,6 +4,7 @@
 #include "output/temporary_file.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace tumble::v0 {
 
@@ -32,6 +33,14 @@ RecordTable& RecordTable::number(double value) {
         csv_->number(value);
     else
         next().numbers.push_back(value);
+    return *this;
+}
+
+RecordTable& RecordTable::no_number() {
+    if (csv_)
+        csv_->text("");
+    else
+        next().numbers.push_back(std::numeric_limits<double>::quiet_NaN());
     return *this;
 }
 

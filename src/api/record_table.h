@@ -22,6 +22,8 @@ public:
 
     RecordTable& integer(std::int64_t value);
     RecordTable& number(double value);
+    /// A number that does not exist: empty in CSV, NaN in an .npz file.
+    RecordTable& no_number();
     RecordTable& text(std::string_view value);
     RecordTable& vector(const Vec3& v) { return number(v.x).number(v.y).number(v.z); }
     void end_row();

@@ -150,6 +150,14 @@ std::optional<std::size_t> Scene::find_body(const std::string& name) const {
     return found->second;
 }
 
+std::size_t Scene::joint_count() const { return data_->description.joints.size(); }
+
+const std::string& Scene::joint_name(std::size_t joint) const {
+    const auto& joints = data_->description.joints;
+    if (joint < joints.size()) return joints[joint].name;
+    throw Error(ErrorKind::input, {}, fmt::format("a joint's index must be below {} (given {})", joints.size(), joint));
+}
+
 std::vector<std::string> Scene::files() const { return {data_->files.begin(), data_->files.end()}; }
 
 }  // namespace tumble::v0

@@ -71,16 +71,21 @@ void TrajectoryTable::finish() {
 // -- EnergyTable
 
 struct EnergyTable::State {
-    explicit State(const std::string& file)
-        : table(file,
-                "frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration,"
-                "kinetic_linear,kinetic_angular,work,impact_loss,friction_loss,elastic") {}
+    State(const std::string& file, bool of_joints)
+        : joints(of_joints),
+          table(file, std::string("frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration,"
+                                  "kinetic_linear,kinetic_angular,work,impact_loss,friction_loss,elastic") +
+                          (of_joints ? ",motor_work,joint_heat" : "")) {}
 
+    bool joints;
     TableWriter table;
 };
 
 EnergyTable::EnergyTable(const std::string& file) {
-    guarded([&] { state_ = std::make_unique<State>(file); });
+    guarded([&] { state_ = std::make_unique<State>(file, false); });
+}
+EnergyTable::EnergyTable(const std::string& file, const Scene& scene) {
+    guarded([&] { state_ = std::make_unique<State>(file, scene.joint_count() > 0); });
 }
 EnergyTable::~EnergyTable() = default;
 EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;
@@ -89,12 +94,17 @@ EnergyTable& EnergyTable::operator=(EnergyTable&&) noexcept = default;
 void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
     guarded([&] {
         TableWriter& table = state_->table;
-        table.integer(frame).number(time).number(e.kinetic).number(e.potential).number(e.kinetic + e.potential);
+        table.integer(frame)
+            .number(time)
+            .number(e.kinetic)
+            .number(e.potential)
+            .number(e.kinetic + e.potential + e.elastic);
         write_vector(table, e.momentum);
         write_vector(table, e.angular_momentum);
         table.integer(e.contacts).number(e.max_penetration);
         table.number(e.kinetic_linear).number(e.kinetic_angular);
         table.number(e.work).number(e.impact_loss).number(e.friction_loss).number(e.elastic);
+        if (state_->joints) table.number(e.motor_work).number(e.joint_heat);
         table.end_row();
     });
 }

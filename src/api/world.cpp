@@ -50,6 +50,10 @@ Snapshot World::snapshot() const {
     return guarded([&] { return to_public(state_->world.snapshot()); });
 }
 
+std::vector<JointState> World::joints() const {
+    return guarded([&] { return to_public(state_->world.joint_states()); });
+}
+
 Energies World::energies() const {
     return guarded([&] { return to_public(state_->world.measure(), state_->world.contact_records().energy); });
 }

@@ -8,6 +8,7 @@
 #include "sim/detection/narrow_phase.h"
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/joints/joint_set.h"
+#include "sim/joints/joint_structure.h"
 #include "sim/log/contact_log.h"
 #include "sim/notes/notes_method.h"
 #include "sim/snapshot/measurement.h"
@@ -100,8 +101,8 @@ struct World::State {
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep, check, log,
-               totals, records, notes, asleep, pool] = self;
+        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep,
+               check, log, totals, records, notes, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.keep(steps, set, joints, forces, detection, impacts, contact_solver, sleep, check);
         if (notes) archive.keep(*notes);
@@ -128,7 +129,8 @@ void World::State::run_stages(const StepContext& step) {
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces(step);                // F and tau at t_n change P and L
-    solve_contacts(step);              // non-penetration and friction
+    solve_contacts(step);              // non-penetration, friction and joints
+    joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
 }
 
@@ -227,9 +229,20 @@ void World::State::with_present_contacts(Use&& use) const {
 }
 
 void World::State::finish_records(double duration) {
+    for (const Joint& joint : joints.joints()) {
+        const JointAccount::Span& frame = joint.account.frame;
+        log->add_joint(joint.a, joint.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+    }
     with_present_contacts([&](const std::vector<Manifold>& found) {
         records = log->finish_frame(set.bodies, forces.field(), found, duration);
     });
+    if (joints.empty()) return;
+    const JointEnergies energy = joints.energies(set.bodies);
+    records.energy.work += energy.motors + energy.carriers;
+    records.energy.impact_loss += energy.impacts;
+    records.energy.friction_loss += energy.heat;
+    records.energy.motor_work = energy.motors;
+    records.energy.joint_heat = energy.heat;
 }
 
 World::World(const SceneDescription& scene, int threads) : World(scene, scene.timing(), threads) {}
@@ -242,7 +255,9 @@ void World::step() { state_->advance(state_->steps + 1); }
 void World::advance_frame() {
     State& s = *state_;
     if (s.log) s.log->begin_frame(s.set.bodies);
+    s.joints.begin_frame();
     s.advance(s.steps + s.settings.steps_per_frame);
+    s.joints.end_frame(s.settings.steps_per_frame, s.clock.seconds(1), s.set.bodies);
     if (s.log) s.finish_records(s.clock.seconds(s.settings.steps_per_frame));
 }
 
@@ -250,6 +265,8 @@ void World::record_contacts() {
     State& s = *state_;
     s.log = std::make_unique<ContactLog>(s.set.scene_index, s.set.origin, s.settings.gravity);
     s.log->begin_frame(s.set.bodies);
+    s.joints.begin_frame();
+    s.joints.start_account(s.set.bodies);
     s.finish_records(0.0);
 }
 
@@ -283,11 +300,22 @@ Snapshot World::snapshot() const {
     return snapshot;
 }
 
-std::vector<JointState> World::joint_states() const { return state_->joints.states(state_->set.bodies); }
+std::vector<JointState> World::joint_states() const {
+    std::vector<JointState> states = state_->joints.states(state_->set.bodies);
+    const Vec3& origin = state_->set.origin;
+    for (JointState& joint : states) {
+        joint.point += origin;
+        joint.mean_moment += origin.cross(joint.mean_force);
+    }
+    return states;
+}
+
+JointReport World::joint_report() const { return describe_joints(state_->joints, state_->set.bodies); }
 
 Measurement World::measure() const {
     const State& s = *state_;
     Measurement m = measure_motion(s.set.bodies, s.settings.gravity, s.set.origin);
+    m.elastic = s.joints.elastic(s.set.bodies);
     s.with_present_contacts([&](const std::vector<Manifold>& found) { measure_contacts(found, s.set.bodies, m); });
     return m;
 }

@@ -3,6 +3,7 @@
 
 #include "scene/description/description.h"
 #include "sim/snapshot/contact_records.h"
+#include "sim/snapshot/joint_report.h"
 #include "sim/snapshot/joint_state.h"
 #include "sim/snapshot/report.h"
 #include "sim/snapshot/snapshot.h"
@@ -39,6 +40,8 @@ public:
     Snapshot snapshot() const;
     /// Of all joints, in the scene's order, at the present time.
     std::vector<JointState> joint_states() const;
+    /// Of the joints that hold now.
+    JointReport joint_report() const;
     Measurement measure() const;
     BodyReport report(std::size_t body) const;
 

@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/table_writer.h"
+#include "scene/keys/joint_keys.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -126,6 +127,32 @@ void print_bodies(const SceneDescription& scene, const World& world) {
     put("  hull: vertices of the convex shape that collides\n");
 }
 
+std::string count_text(std::size_t count, const char* one, const char* several) {
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
+void print_joints(const SceneDescription& scene, const World& world) {
+    if (scene.joints.empty()) return;
+    std::map<JointType, std::size_t> types;
+    for (const JointDescription& joint : scene.joints) ++types[joint.type];
+    put("\n{}\n", count_text(scene.joints.size(), "joint", "joints"));
+    for (const auto& [type, count] : types) put("  {:>7} {}\n", count, type_name(type));
+    const JointReport report = world.joint_report();
+    const auto name = [&](std::size_t joint) { return safe_text(scene.joints[joint].name); };
+    put("  freedom   {}{} of {}\n", report.counted ? "" : "at least ",
+        count_text(report.degrees_of_freedom, "degree of freedom", "degrees of freedom"),
+        count_text(report.bodies, "joined body", "joined bodies"));
+    put("  groups    {}, {}, {}; {}, {}\n", count_text(report.groups, "group", "groups"),
+        count_text(report.trees, "tree", "trees"), count_text(report.loops, "loop", "loops"),
+        count_text(report.rows, "row", "rows"),
+        report.counted ? fmt::format("{} redundant", report.redundant) : "too many to find redundant ones");
+    if (report.heaviest)
+        put("  masses    {:.4g} : 1 at the most, at joint '{}'\n", report.mass_ratio, name(*report.heaviest));
+    put("  gap       {:.3g} m at the start{}\n", report.gap,
+        report.widest ? fmt::format(", at joint '{}'", name(*report.widest)) : "");
+    put("  solved    by direct rows, gaps closed each step\n");
+}
+
 /// Steps the world for a moment and extrapolates; heaps that form later cost more.
 std::string simulation_cost(const SceneDescription& scene, World& world) {
     const std::int64_t frames = scene.frame_count() - 1;
@@ -191,6 +218,7 @@ void run_info(const InfoCommand& command) {
     print_head(scene);
     print_groups(scene, world);
     print_bodies(scene, world);
+    print_joints(scene, world);
     print_cost(scene, world);
 }
 

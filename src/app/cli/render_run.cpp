@@ -3,6 +3,7 @@
 #include "app/causes/record_file.h"
 #include "app/causes/run_recorder.h"
 #include "app/checkpoints/checkpoint_folder.h"
+#include "app/cli/broken_joints.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_plan.h"
 #include "app/cli/say.h"
@@ -61,6 +62,10 @@ struct ClipMotion {
             panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(),
                               scenes.scenes[i].scene->bodies.size()});
         }
+    }
+    void say_broken_joints(const RenderScenes& scenes) const {
+        for (std::size_t i = 0; i < worlds.size(); ++i)
+            if (worlds[i]) say_broken(broken_joints(*scenes.scenes[i].scene, *worlds[i]));
     }
     /// Precondition: worlds, from the start of the clip.
     void record(RunRecorder& recorder) {
@@ -207,6 +212,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         Progress progress(plan.to_draw(), command.quiet);
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
+    if (!command.quiet) motion.say_broken_joints(scenes);
     destinations.complete();
     if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     if (trace) {

@@ -1,4 +1,5 @@
 #include "api/scene_data.h"
+#include "app/cli/broken_joints.h"
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
 #include "app/cli/record_clip.h"
@@ -15,6 +16,7 @@
 #include <cmath>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -40,7 +42,9 @@ private:
     double last_ = wall_seconds();
 };
 
-void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds) {
+void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds,
+             const std::vector<BrokenJoint>& broken) {
+    say_broken(broken);
     for (const std::filesystem::path& file : command.tables.all()) say("wrote {}\n", safe_path(file));
     const FrameTiming timing = scene.timing();
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
@@ -62,6 +66,7 @@ void simulate_tables(const SimulateCommand& command) {
     check_tables(command, inputs);
     const v0::Scene scene = v0::make_scene(description, std::move(inputs));
     const std::int64_t frames = scene.frame_count();
+    std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(frames, command.quiet);
         World world(description, command.threads);
@@ -73,8 +78,9 @@ void simulate_tables(const SimulateCommand& command) {
             monitor.update(n + 1);
         }
         tables.finish();
+        broken = broken_joints(description, world);
     }
-    if (!command.quiet) say_run(command, description, frames, wall_seconds() - start);
+    if (!command.quiet) say_run(command, description, frames, wall_seconds() - start, broken);
 }
 
 /// The clip that will be drawn from the checkpoints.
@@ -86,7 +92,7 @@ RenderCommand clip_of(const SimulateCommand& command) {
     if (!own_frames && !command.tables.all().empty())
         throw InputError(
             "--checkpoints: tables are of the frames of one scene; leave out --trajectory, --energy, "
-            "--impacts, --contacts and --loads with several panels, --speed and --shutter");
+            "--impacts, --contacts, --loads and --joints with several panels, --speed and --shutter");
     return clip;
 }
 
@@ -102,6 +108,7 @@ void simulate_rest(const SimulateCommand& command) {
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
     const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
+    std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(end - begin, command.quiet);
         RunTables tables(command.tables, scene, first);
@@ -117,8 +124,9 @@ void simulate_rest(const SimulateCommand& command) {
             monitor.update(n + 1 - begin);
         }
         tables.finish();
+        broken = broken_joints(scenes.first(), world);
     }
-    if (!command.quiet) say_run(command, scenes.first(), end - begin, wall_seconds() - start);
+    if (!command.quiet) say_run(command, scenes.first(), end - begin, wall_seconds() - start, broken);
 }
 
 void simulate_clip(const SimulateCommand& command) {
@@ -132,6 +140,7 @@ void simulate_clip(const SimulateCommand& command) {
     const std::int64_t frames = scenes.clip_frames;
     std::size_t count = 0;
     std::uintmax_t bytes = 0;
+    std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(frames, command.quiet);
         RunTables tables(command.tables, scene);
@@ -145,6 +154,7 @@ void simulate_clip(const SimulateCommand& command) {
         recording.each = [&](std::int64_t n, const World& world) {
             tables.add(n, world);
             monitor.update(n + 1);
+            if (n + 1 == scenes.ends.front()) broken = broken_joints(first, world);
         };
         record_clip(scenes, recording, checkpoints);
         tables.finish();
@@ -153,7 +163,7 @@ void simulate_clip(const SimulateCommand& command) {
     }
     if (command.quiet) return;
     say("wrote {}: {} checkpoints, {:.1f} MB\n", safe_path(*command.checkpoints), count, double(bytes) / 1e6);
-    say_run(command, first, frames, wall_seconds() - start);
+    say_run(command, first, frames, wall_seconds() - start, broken);
 }
 
 }  // namespace

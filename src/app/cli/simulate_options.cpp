@@ -123,6 +123,14 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->check(some_name())
         ->transform(or_standard_output())
         ->type_name("L.csv");
+    command
+        ->add_option(
+            "--joints", c.tables.joints,
+            "CSV or .npz: one row per frame and joint, with coordinates, speeds, force and torque,\ngap, limits "
+            "and breaking; - is standard output")
+        ->check(some_name())
+        ->transform(or_standard_output())
+        ->type_name("J.csv");
     command->add_option("--impact-law", c.overrides.impact_law, "Rule for several contacts at once")
         ->option_text("propagating|simultaneous");
     add_frames_of_time(*command, c.overrides);

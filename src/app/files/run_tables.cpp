@@ -7,7 +7,7 @@ namespace tumble {
 
 std::vector<std::filesystem::path> TableFiles::all() const {
     std::vector<std::filesystem::path> files;
-    for (const auto& file : {trajectory, energy, impacts, contacts, loads})
+    for (const auto& file : {trajectory, energy, impacts, contacts, loads, joints})
         if (file) files.push_back(*file);
     return files;
 }
@@ -18,21 +18,24 @@ void TableFiles::add_to(OutputPlan& plan) const {
     if (impacts) plan.add("--impacts", *impacts);
     if (contacts) plan.add("--contacts", *contacts);
     if (loads) plan.add("--loads", *loads);
+    if (joints) plan.add("--joints", *joints);
 }
 
 RunTables::RunTables(const TableFiles& files, const v0::Scene& scene, std::int64_t first)
     : fps_(scene.output().fps), first_(first) {
     if (files.trajectory) trajectory_.emplace(*files.trajectory, scene);
-    if (files.energy) energy_.emplace(*files.energy);
+    if (files.energy) energy_.emplace(*files.energy, scene);
     if (files.impacts) impacts_.emplace(*files.impacts, scene);
     if (files.contacts) contacts_.emplace(*files.contacts, scene);
     if (files.loads) loads_.emplace(*files.loads, scene);
+    if (files.joints) joints_.emplace(*files.joints, scene);
 }
 
 void RunTables::add(std::int64_t frame, const World& world) {
     const double time = double(frame) / fps_;
     if (trajectory_) trajectory_->add(v0::to_public(world.snapshot()));
     if (energy_) energy_->add(frame, time, v0::to_public(world.measure(), world.contact_records().energy));
+    if (joints_) joints_->add(frame, time, v0::to_public(world.joint_states()));
     if (!impacts_ && !contacts_ && !loads_) return;
     v0::FrameContacts contacts = v0::to_public(world.contact_records());
     std::erase_if(contacts.impacts, [&](const v0::Impact& impact) { return impact.frame < first_; });
@@ -47,6 +50,7 @@ void RunTables::finish() {
     if (impacts_) impacts_->finish();
     if (contacts_) contacts_->finish();
     if (loads_) loads_->finish();
+    if (joints_) joints_->finish();
 }
 
 }  // namespace tumble

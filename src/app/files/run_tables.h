@@ -15,7 +15,7 @@ class OutputPlan;
 
 /// The files of the tables that are asked for.
 struct TableFiles {
-    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
+    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads, joints;
 
     std::vector<std::filesystem::path> all() const;
     /// As the values of the options of `tumble simulate`.
@@ -43,6 +43,7 @@ private:
     std::optional<v0::ImpactTable> impacts_;
     std::optional<v0::ContactTable> contacts_;
     std::optional<v0::LoadTable> loads_;
+    std::optional<v0::JointTable> joints_;
 };
 
 }  // namespace tumble

@@ -28,6 +28,7 @@ EnergySample energy_of(const Measurement& measured, const EnergyLedger& ledger) 
     energy.kinetic_linear = measured.kinetic_linear;
     energy.kinetic_angular = measured.kinetic_angular;
     energy.potential = measured.potential;
+    energy.elastic = measured.elastic;
     energy.work = ledger.work;
     energy.impact_loss = ledger.impact_loss;
     energy.friction_loss = ledger.friction_loss;

@@ -19,7 +19,8 @@ struct SceneQuantity {
 constexpr std::array scene_quantities{
     SceneQuantity{"kinetic", "kinetic", "energy (J)", [](const Measurement& m) { return m.kinetic; }},
     SceneQuantity{"potential", "potential", "energy (J)", [](const Measurement& m) { return m.potential; }},
-    SceneQuantity{"total", "total", "energy (J)", [](const Measurement& m) { return m.kinetic + m.potential; }},
+    SceneQuantity{"total", "total", "energy (J)",
+                  [](const Measurement& m) { return m.kinetic + m.potential + m.elastic; }},
     SceneQuantity{"momentum", "|P|", "momentum (kg m/s)", [](const Measurement& m) { return m.momentum.norm(); }},
     SceneQuantity{"angular-momentum", "|L|", "angular momentum (kg m²/s)",
                   [](const Measurement& m) { return m.angular_momentum.norm(); }},

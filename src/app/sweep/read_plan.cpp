@@ -150,7 +150,8 @@ void read_tables(const TomlValue& list, SampleOutputs& outputs) {
                                                                    {"energy", &outputs.energy},
                                                                    {"impacts", &outputs.impacts},
                                                                    {"contacts", &outputs.contacts},
-                                                                   {"loads", &outputs.loads}};
+                                                                   {"loads", &outputs.loads},
+                                                                   {"joints", &outputs.joints}};
     std::vector<std::string_view> names;
     for (const auto& [name, wanted] : known) names.push_back(name);
     for (const TomlValue& item : list.items()) {

@@ -105,8 +105,8 @@ std::string identity_of(const SweepPlan& plan, const SweepSample& sample, const 
     const SampleOutputs& o = plan.outputs;
     const SampleDrawing& d = plan.drawing;
     std::string text = fmt::format("{}\n{}\n{}\n", v0::version(), scene_hash, text_of(head(plan, sample, "done")));
-    text += fmt::format("{} {} {} {}{}{}{}{} {} {}\n", o.frames, toml_string(o.clip), names_of(o.aovs), o.trajectory,
-                        o.energy, o.impacts, o.contacts, o.loads, o.arrays, int(o.scene));
+    text += fmt::format("{} {} {} {}{}{}{}{}{} {} {}\n", o.frames, toml_string(o.clip), names_of(o.aovs), o.trajectory,
+                        o.energy, o.impacts, o.contacts, o.loads, o.joints, o.arrays, int(o.scene));
     text += fmt::format("{} {} {} {} {} {} {}\n", d.start, d.speed, d.shutter, d.blur_samples, d.transparent,
                         int(d.quality), int(d.backend));
     return sha256(text);

@@ -13,6 +13,7 @@ void write_tables(const SceneDescription& description, const SampleOutputs& outp
     if (outputs.impacts) files.impacts = folder.path() / ("impacts" + ending);
     if (outputs.contacts) files.contacts = folder.path() / ("contacts" + ending);
     if (outputs.loads) files.loads = folder.path() / ("loads" + ending);
+    if (outputs.joints) files.joints = folder.path() / ("joints" + ending);
     const v0::Scene scene = v0::make_scene(description, {});
     World world(description, 1);
     RunTables tables(files, scene);

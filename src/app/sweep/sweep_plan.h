@@ -43,11 +43,12 @@ struct SampleOutputs {
     bool frames = false;
     std::string clip;  // file name; empty: none
     AovSet aovs;
-    bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false;
-    bool arrays = false;  // impacts, contacts and loads as .npz in place of CSV
+    bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false,
+         joints = false;
+    bool arrays = false;  // impacts, contacts, loads and joints as .npz in place of CSV
     SceneForm scene = SceneForm::toml;
 
-    bool tables() const { return trajectory || energy || impacts || contacts || loads; }
+    bool tables() const { return trajectory || energy || impacts || contacts || loads || joints; }
     bool drawn() const { return frames || !clip.empty() || !aovs.empty(); }
 };
 

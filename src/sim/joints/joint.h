@@ -6,6 +6,7 @@
 
 #include "scene/description/joint.h"
 #include "sim/dynamics/body.h"
+#include "sim/joints/joint_account.h"
 
 #include <array>
 #include <cstdint>
@@ -41,12 +42,15 @@ struct Joint {
     Vec3 point = Vec3::Zero();                         // m, world: where the force acts
     double gap = 0.0;                                  // m, largest error of the locked coordinates (angles times size)
     bool at_limit = false;
+    JointAccount account;
 
     bool distance() const { return description.type == JointType::distance; }
     const JointAxis& axis(std::size_t coordinate) const {
         return coordinate < 3 ? description.move[coordinate] : description.turn[coordinate - 3];
     }
     bool locked(std::size_t coordinate) const { return axis(coordinate).motion == JointAxis::Motion::locked; }
+    /// A ball, whose spring and friction act about all axes alike.
+    bool turns_alike() const { return description.type == JointType::ball && !locked(3) && !locked(4) && !locked(5); }
     /// Number of coordinates: the others do not exist.
     std::size_t count() const { return distance() ? 1 : coordinates; }
 
@@ -54,10 +58,10 @@ struct Joint {
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps,
                active, broken, broken_at,
-               value, impulse, curving, constraint_force, force, torque, point, gap, at_limit] = self;
+               value, impulse, curving, constraint_force, force, torque, point, gap, at_limit, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
         archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, force, torque, point, gap,
-                     at_limit);
+                     at_limit, account);
     }
 };
 

@@ -278,14 +278,27 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
     return true;
 }
 
-// Sums the impulses of the stages in Joint::force and torque.
+// Sums the impulses of the stages in Joint::force and torque, and in the accounts of the joints.
 void JointFlight::add_up(const JointIsland& island) {
     for (const JointRows::Block& block : rows_.blocks()) {
         Joint& joint = island.problem.joints->joints()[block.joint];
+        JointLoad load;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const JointRows::Row& row = rows_.rows()[k];
-            (row.turns() ? joint.torque : joint.force) += (row.turns() ? rows_.length() : 1.0) * given_[k] * row.direction;
+            (row.turns() ? load.torque : load.force) += (row.turns() ? rows_.length() : 1.0) * given_[k] * row.direction;
         }
+        joint.force += load.force;
+        joint.torque += load.torque;
+        load.moment = block.point.cross(load.force) + load.torque;
+        const auto work = [&](std::uint32_t body, int place) {
+            if (place == JointRows::none) return 0.0;
+            const Body& b = island.problem.bodies[body];
+            const RigidState& start = starts_[std::size_t(place)];
+            const Vec3 turn = (block.point - start.position).cross(load.force) + load.torque;
+            return 0.5 * (b.inverse_mass * load.force.dot(start.momentum + b.momentum) +
+                          turn.dot(b.inverse_inertia * (start.angular_momentum + b.angular_momentum)));
+        };
+        joint.account.step.add_flight(load, -work(joint.a, block.a), work(joint.b, block.b), !joint.account.holds);
     }
 }
 
@@ -299,6 +312,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
         joint.force.setZero();
         joint.torque.setZero();
+        joint.account.step = {};
     }
     const std::vector<double> stages = stages_of(order);
     for (int substep = 0; substep < substeps; ++substep)

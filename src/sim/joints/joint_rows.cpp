@@ -124,6 +124,7 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     r.closes = true;
     // A limit violated at the start is not left by speed: see add_push().
     r.reference = room < -tolerance ? value : limit;
+    r.goal = limit;
     r.target = unit * (r.reference - value) / h_;
     const double e = law == Joint::cone ? 0.0 : j.axis(row.coordinate).restitution;
     if (e > 0.0) {
@@ -488,15 +489,10 @@ bool JointRows::give_way() {
 bool JointRows::add_push(double stiffness, double rate, std::vector<double>& push) const {
     bool any = false;
     for (const Block& block : blocks_) {
-        const Joint& j = joint(block);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            double goal = row.reference;  // errors that the velocities did not close stand in the reference
-            if (row.law == Joint::lock) goal = 0.0;
-            else if (row.law == Joint::lower) goal = std::max(row.reference, j.axis(row.coordinate).lower);
-            else if (row.law == Joint::upper) goal = std::min(row.reference, j.axis(row.coordinate).upper);
-            else continue;
-            const double wanted = (row.turns() ? length_ : 1.0) * rate * (goal - row.reference);
+            if (!row.closes) continue;
+            const double wanted = (row.turns() ? length_ : 1.0) * rate * (row.goal - row.reference);
             if (wanted == 0.0) continue;
             any = true;
             add(block, row, stiffness * wanted, push);
@@ -510,7 +506,8 @@ void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
-            if (row.law == Joint::lock || (limit && row.impulse != 0.0)) add_square(matrix, block, row, stiffness);
+            if (row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference)))
+                add_square(matrix, block, row, stiffness);
         }
 }
 

@@ -41,7 +41,8 @@ public:
         double speed = 0.0, change = 0.0;      // m/s: J u + offset, J du
         double compliance = 0.0;               // 1/kg: R
         double least = 0.0, most = 0.0;        // N s
-        double reference = 0.0;  // m or rad: value of the coordinate at the end of the step, of locks and limits
+        // m or rad, of locks and limits: value of the coordinate at the end of the step, and the one to be pushed to.
+        double reference = 0.0, goal = 0.0;
         double weight = 0.0;     // kg: 1 / R where f is not at a bound
         Vec3 direction = Vec3::Zero();
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
@@ -115,6 +116,11 @@ public:
     bool add_push(double stiffness, double rate, std::vector<double>& push) const;
     void add_push_to(double stiffness, BlockCholesky& matrix) const;
 
+    /// For account(): the velocities at the start of the step (`first`), or of a later substep.
+    void keep_velocities(const JointIsland& island, bool first);
+    /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
+    void account(const JointIsland& island);
+
     /// Gives the impulses to the bodies; `reached` marks those by index in the island.
     void store(const JointIsland& island);
 
@@ -146,6 +152,7 @@ private:
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
     std::vector<Row> rows_;
+    std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;  // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
     bool weights_changed_ = true, tree_ = true;

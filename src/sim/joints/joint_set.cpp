@@ -1,5 +1,7 @@
 #include "sim/joints/joint_set.h"
 
+#include "sim/joints/settings.h"
+
 #include "core/deterministic_math.h"
 
 #include <algorithm>
@@ -23,6 +25,18 @@ double effective_mass(const std::vector<Body>& bodies, const Joint& joint, const
 
 bool has_laws(const JointAxis& axis) {
     return axis.motion == JointAxis::Motion::limited || axis.spring || axis.motor || axis.friction > 0.0;
+}
+
+// -1 at a lower limit, 1 at an upper one or a cone, of the first coordinate that is at one.
+int limit_met(const Joint& joint, const JointGeometry& g) {
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        const JointAxis& axis = joint.axis(k);
+        if (axis.motion != JointAxis::Motion::limited) continue;
+        const double value = g.coordinates[k].value, near = tuning::joint_rounding * (k < 3 ? joint.size : 1.0);
+        if (value <= axis.lower + near || joint.impulse[k][Joint::lower] != 0.0) return -1;
+        if (value >= axis.upper - near || joint.impulse[k][Joint::upper] != 0.0) return 1;
+    }
+    return joint.description.swing && g.swing.value >= g.swing_limit - tuning::joint_rounding ? 1 : 0;
 }
 
 }  // namespace
@@ -72,6 +86,7 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
         }
     }
     for (Joint& joint : joints_) joint.active = joint.description.start <= 0.0 && joint.description.end > 0.0;
+    start_account(bodies);
     list();
 }
 
@@ -112,6 +127,10 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
         if (active != joint.active) {
             changed = true;
             joint.active = active;
+            joint.account.holds = false;
+            const double given = potential(joint, bodies);  // a joint that ends leaves its own as heat
+            joint.account.work.stored += given;
+            joint.account.work.motors += given;
             joint.impulse = {};
             joint.force.setZero();
             joint.torque.setZero();
@@ -159,13 +178,18 @@ std::vector<JointState> JointSet::states(const std::vector<Body>& bodies) const 
                 state.gap = std::max(state.gap, unit * std::abs(value));
                 continue;
             }
+            state.free[k] = true;
             state.position[k] = value;
             state.speed[k] = direction.dot(velocity(joint.b, k >= 3) - velocity(joint.a, k >= 3));
         }
         state.force = joint.force;
         state.torque = joint.torque;
         state.at_limit = joint.at_limit;
-        state.active = joint.active;
+        state.mean_force = joint.account.mean.force;
+        state.mean_torque = joint.account.mean.torque;
+        state.mean_moment = joint.account.mean.moment;
+        state.limit = limit_met(joint, g);
+        state.active = joint.active && !joint.broken;
         if (joint.broken) state.broken_at = joint.broken_at;
     }
     return result;

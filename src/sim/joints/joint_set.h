@@ -14,8 +14,8 @@ namespace tumble {
 class JointSet {
 public:
     /// `scene_index`: by body, its index in the scene; `origin` (m, world): of the bodies' coordinates.
-    JointSet(const SceneDescription& scene, const std::vector<Body>& bodies,
-             std::span<const std::uint32_t> scene_index, const Vec3& origin);
+    JointSet(const SceneDescription& scene, const std::vector<Body>& bodies, std::span<const std::uint32_t> scene_index,
+             const Vec3& origin);
 
     bool empty() const { return joints_.empty(); }
     std::vector<Joint>& joints() { return joints_; }
@@ -41,6 +41,18 @@ public:
 
     /// Whether the joint's motor follows a path in the step: its bodies must not sleep.
     static bool driven(const Joint& joint, double from, double to);
+
+    /// The accounts of all joints begin now.
+    void start_account(const std::vector<Body>& bodies);
+    void begin_frame();
+    /// After the solve of a step, and after the last of the `steps` of a frame, each of `h` s.
+    void end_step();
+    void end_frame(int steps, double h, const std::vector<Body>& bodies);
+    /// Of the present poses, and since the start of the accounts.
+    JointEnergies energies(const std::vector<Body>& bodies) const;
+    /// Energy in the springs of all joints, or of one, J.
+    double elastic(const std::vector<Body>& bodies) const;
+    static double potential(const Joint& joint, const std::vector<Body>& bodies);
 
     /// States for the output: of the present poses and velocities, with the loads of the last step.
     std::vector<JointState> states(const std::vector<Body>& bodies) const;

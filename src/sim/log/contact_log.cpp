@@ -237,6 +237,19 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
     }
 }
 
+void ContactLog::add_joint(std::uint32_t a, std::uint32_t b, const Impulse& on_b, double work_a, double work_b) {
+    const Impulse impulse{on_b.linear, origin_.cross(on_b.linear) + on_b.angular};
+    const auto add = [&](std::uint32_t body, const Impulse& on_body, double work) {
+        if (body == nobody) return;
+        Account& account = accounts_[body];
+        account.contact = account.contact + on_body;
+        account.moments += on_body.angular.norm();
+        account.joints += work;
+    };
+    add(a, Impulse{} - impulse, work_a);
+    add(b, impulse, work_b);
+}
+
 void ContactLog::add_load(Account& account, const Impulse& impulse) {
     account.external = account.external + impulse;
     account.moments += impulse.angular.norm();
@@ -355,7 +368,8 @@ void ContactLog::add_losses(const std::vector<Body>& bodies) {
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (!bodies[i].dynamic()) continue;
         records_.energy.work += accounts_[i].work;
-        if (accounts_[i].touched) lost -= energy(bodies[i]) - accounts_[i].energy - accounts_[i].work;
+        if (accounts_[i].touched)
+            lost -= energy(bodies[i]) - accounts_[i].energy - accounts_[i].work - accounts_[i].joints;
     }
     records_.energy.friction_loss += friction_;
     records_.energy.impact_loss += lost - friction_;

@@ -42,6 +42,11 @@ public:
     void add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
                       const std::vector<ManifoldImpulse>& totals);
 
+    /// Adds the impulse of a joint in this frame on body B (N s, N m s about the origin of the bodies' coordinates) and its
+    /// work on each body, J. `nobody`: the world.
+    void add_joint(std::uint32_t a, std::uint32_t b, const Impulse& on_b, double work_a, double work_b);
+    static constexpr std::uint32_t nobody = UINT32_MAX;
+
     /// Adds gravity's impulse over `span` s on a body whose center is at `place` (m).
     void add_gravity(std::uint32_t index, const Body& body, double span, const Vec3& place);
     /// Adds the impulse of other forces; `mean`: the mean of the velocities before and after it.
@@ -95,6 +100,7 @@ private:
         double flight_energy = 0.0;  // J, then
         double energy = 0.0;         // J, at the start
         double work = 0.0;           // J, from outside
+        double joints = 0.0;         // J, work of joints
         bool touched = false;        // by an impact or a contact
     };
     void add_record(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,

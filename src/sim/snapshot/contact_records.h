@@ -103,13 +103,15 @@ struct ExternalLoad {
 
 /// Energy from the start of the simulation on, J.
 struct EnergyLedger {
-    double work = 0.0;           // by wind, forces at points and kinematic bodies; gravity's is in the potential energy
-    double impact_loss = 0.0;    // by impacts and by landings
-    double friction_loss = 0.0;  // by friction of resting and sliding contacts
+    double work = 0.0;  // by wind, forces at points, motors and kinematic bodies; gravity's is in the potential energy
+    double impact_loss = 0.0;    // by impacts, by landings and at limits of joints
+    double friction_loss = 0.0;  // by friction of resting and sliding contacts and in joints
+    double motor_work = 0.0;     // the part of `work` by motors of joints
+    double joint_heat = 0.0;     // the part of `friction_loss` in joints: friction, dampers, breaking
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [work, impact_loss, friction_loss] = self;
-        archive.keep(work, impact_loss, friction_loss);
+        auto& [work, impact_loss, friction_loss, motor_work, joint_heat] = self;
+        archive.keep(work, impact_loss, friction_loss, motor_work, joint_heat);
     }
 };
 

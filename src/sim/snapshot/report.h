@@ -13,6 +13,7 @@ struct Measurement {
     double kinetic_linear = 0.0;           // J, of translation
     double kinetic_angular = 0.0;          // J, of rotation
     double potential = 0.0;                // J, -sum m g.x
+    double elastic = 0.0;                  // J, in springs of joints
     Vec3 momentum = Vec3::Zero();          // kg m/s
     Vec3 angular_momentum = Vec3::Zero();  // kg m^2/s about the world origin
     int contacts = 0;                      // number of touching contact points

@@ -178,6 +178,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     for (int substep = 0; substep < substeps; ++substep) {
         const double from = island.from + substep * part.settings.h;
         const JointIsland now{part, island.bodies, island.joints, length_, from, from + part.settings.h};
+        joints_.keep_velocities(now, substep == 0);
         load_substep(now, substep, substeps);
         structure(step, island.bodies, manifolds);
         if (speed_scale_ <= tuning::direct_rounding * fastest_) {
@@ -195,6 +196,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         apply_contacts(part, reached);
         joints_.store(now);
         for (const std::uint32_t i : island.bodies) step.bodies[i].derive_velocities();
+        joints_.account(now);
         if (substeps == 1) break;
         move(now);
         std::size_t next = 0;

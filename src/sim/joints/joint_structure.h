@@ -1,0 +1,13 @@
+// Groups, loops and degrees of freedom of the joints that hold at the present poses.
+#pragma once
+
+#include "sim/joints/joint_set.h"
+#include "sim/snapshot/joint_report.h"
+
+#include <vector>
+
+namespace tumble {
+
+JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies);
+
+}  // namespace tumble

@@ -1,0 +1,23 @@
+// The joints of a scene at the start, for `tumble info`. A group is a set of dynamic bodies connected by joints; the
+// world, fixed and kinematic bodies connect none.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+
+namespace tumble {
+
+struct JointReport {
+    std::size_t bodies = 0;              // dynamic ones with joints
+    std::size_t degrees_of_freedom = 0;  // of these: 6 a body minus the rank of the joints' rows
+    std::size_t groups = 0, trees = 0;   // trees: groups without loops
+    std::size_t loops = 0;               // joints beyond those of a tree from the world
+    std::size_t rows = 0;                // locked coordinates
+    std::size_t redundant = 0;           // rows that follow from others
+    bool counted = true;                 // false: a group is so large that all of its rows count as independent
+    double mass_ratio = 1.0;             // largest of two dynamic bodies of a joint
+    double gap = 0.0;                    // m, largest
+    std::optional<std::size_t> heaviest, widest;  // joints with these; in the order of the scene
+};
+
+}  // namespace tumble
