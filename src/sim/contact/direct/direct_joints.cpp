@@ -98,6 +98,9 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         const bool settled = change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last)))
             return Closing::closed;
+        // Friction may change slowly from round to round; the joints are closed all the same.
+        if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
+            return Closing::closed;
         slow = error > rounding && error >= 0.5 * last ? slow + 1 : 0;
         if (slow >= 3) return Closing::open;
         last = error;
@@ -186,8 +189,10 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         } else {
             do {
                 const Closing closing = close_joints(now);
-                if (closing == Closing::open && substeps < tuning::joint_open_substeps) return false;
-                if (closing == Closing::stuck && substeps < tuning::joint_stuck_substeps) return false;
+                // Shorter steps help the joints, seldom the contacts.
+                const bool alone = closing == Closing::open && constraints_.empty();
+                const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
+                if (closing != Closing::closed && substeps < most) return false;
             } while (joints_.give_way());
             swing_ = std::max(swing_, joints_.swing_rate(now) * part.settings.h);
             if (swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps) return false;
@@ -290,7 +295,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         reset();
     }
     const bool easy =
-        swing_ < 0.4 * tuning::joint_swing && (flown || rounds_ <= tuning::joint_easy_rounds);
+        swing_ < 0.4 * tuning::joint_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
     for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
     displacement_.clear();
     const bool pushed = !flown && push_out(h);
