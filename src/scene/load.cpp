@@ -4,10 +4,12 @@
 #include "scene/keys/bodies.h"
 #include "scene/keys/chains.h"
 #include "scene/keys/forces_and_cords.h"
+#include "scene/keys/instances.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/materials.h"
 #include "scene/keys/overlay.h"
 #include "scene/keys/settings.h"
+#include "scene/keys/templates.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"
 #include "scene/toml/set_values.h"
@@ -40,7 +42,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
     root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body",
-                      "joint", "chain", "force", "cord", "overlay", "caption"});
+                      "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -53,10 +55,14 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     const std::filesystem::path folder = file.parent_path();
     const BodySources sources{materials, folder, scene.simulation, meshes};
     scene.bodies = read_bodies(root, sources);
+    FileList template_files;
+    const SceneTemplates templates = read_templates(root, sources, template_files);
+    read_instances(root, templates, sources, scene.bodies, scene.joints);
     read_chains(root, sources, scene.bodies, scene.joints);
     read_joints(root, scene.bodies, scene.joints);
     if (read != nullptr) {
         read->push_back(file);
+        read->insert(read->end(), template_files.begin(), template_files.end());
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());
     }
     if (overrides.integrator)  // the option applies to every body

@@ -105,9 +105,79 @@ loop = true
 normal = [0, 1, 0]
 shape = { type = "sphere", radius = 0.5 }
 colors = ["#030303", "#040404"]
+[template.door]
+[[template.door.body]]
+name = "frame"
+shape = { type = "box", size = [0.2, 2, 0.2] }
+[[template.door.body]]
+name = "leaf"
+shape = { type = "box", size = [1, 2, 0.1] }
+position = [0.6, 0, 0]
+[[template.door.joint]]
+name = "pin"
+type = "hinge"
+bodies = ["frame", "leaf"]
+anchor = [0.1, 0, 0]
+axis = [0, 1, 0]
+[[template.door.chain]]
+name = "lock"
+links = 2
+from = [0, 1.5, 0]
+to = [1, 1.5, 0]
+shape = { type = "box", size = [0.3, 0.1, 0.1] }
+ends = ["frame", "leaf"]
+[template.other]
+[[template.other.body]]
+name = "leaf"
+shape = { type = "sphere", radius = 1 }
+[[template.other.joint]]
+name = "pin"
+type = "hinge"
+bodies = ["leaf", "world"]
+anchor = [0, 0, 0]
+axis = [0, 1, 0]
+[[instance]]
+template = "door"
+name = "gate"
+position = [20, 0, 0]
+rotation = { axis = [0, 1, 0], angle = 45 }
+scale = 2
+mass = 70
+velocity = [0, 0, 0.5]
+angular_velocity = [0, 0.25, 0]
+grid = { count = [1, 2, 1], spacing = 9 }
+colors = ["#050505"]
+[[instance]]
+template = "other"
+name = "sign"
+pose = { pin = 20 }
 )";
 
 const std::vector<std::vector<Change>> joint_changes = {
+    {{"body", "", "[[template.other.body]]",
+      "[[template.other.body]]\nshape = { type = \"sphere\", radius = 2 }\n[[template.other.body]]", true},
+     {"joint", "[[template.door.joint]]", "axis = [0, 1, 0]", "axis = [0, 1, 1]", true},
+     {"chain", "[[template.door.chain]]", "links = 2", "links = 3", true},
+     {"file", "", "", "", true}},  // TemplatesInFiles
+    {{"format", "", "", "", true},
+     {"title", "", "", "", true},
+     {"materials", "", "", "", true},
+     {"body", "", "", "", true},
+     {"joint", "", "", "", true},
+     {"chain", "", "", "", true}},  // of a template's file
+    {{"template", "[[instance]]", "template = \"door\"", "template = \"other\"", true},
+     {"name", "[[instance]]", "name = \"gate\"", "name = \"fence\"", true},
+     {"position", "[[instance]]", "position = [20, 0, 0]", "position = [21, 0, 0]", true},
+     {"rotation", "[[instance]]", "angle = 45", "angle = 46", true},
+     {"scale", "[[instance]]", "scale = 2", "scale = 3", true},
+     {"mass", "[[instance]]", "mass = 70", "mass = 71", true},
+     {"velocity", "[[instance]]", "velocity = [0, 0, 0.5]", "velocity = [0, 0, 0.25]", true},
+     {"angular_velocity", "[[instance]]", "angular_velocity = [0, 0.25, 0]", "angular_velocity = [0, 0.5, 0]", true},
+     {"pose", "[[instance]]", "pose = { pin = 20 }", "pose = { pin = 21 }", true},
+     {"grid", "[[instance]]", "spacing = 9", "spacing = 8", true},
+     {"scatter", "[[instance]]", "grid = { count = [1, 2, 1], spacing = 9 }",
+      "scatter = { count = 2, size = [99, 99, 99] }", true},
+     {"colors", "[[instance]]", "#050505", "#060606", false}},
     {{"name", "[[chain]]", "name = \"rope\"", "name = \"string\"", true},
      {"links", "[[chain]]", "links = 5", "links = 6", true},
      {"shape", "[[chain]]", "size = [0.6, 0.1, 0.2]", "size = [0.6, 0.1, 0.1]", true},

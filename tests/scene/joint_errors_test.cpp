@@ -214,5 +214,15 @@ TEST(JointErrors, OfBreakingAndTime) {
                             });
 }
 
+TEST(JointErrors, OfCords) {
+    const std::string named = hinge + "name = \"pin\"\n[[cord]]\n";
+    expect_joint_errors("", {
+                                {named + "joint = @\"pim\"", "is not the name of a joint (did you mean \"pin\"?)"},
+                                {"[[cord]]\njoint = @\"pin\"", "is not the name of a joint: there is none"},
+                                {named + "joint = \"pin\"\nbody = @\"a\"", "and joint exclude each other"},
+                                {named + "joint = \"pin\"\nanchor = @[0, 0, 0]", "and joint exclude each other"},
+                            });
+}
+
 }  // namespace
 }  // namespace tumble::joint_errors_test

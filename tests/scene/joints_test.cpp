@@ -264,5 +264,23 @@ turn_z = { motor = { keyframes = [{ time = 0, value = 0 }, { time = 2, value = 9
     EXPECT_DOUBLE_EQ(six.turn[2].motor.value().targets[1].value, pi / 2);
 }
 
+TEST(Joints, ACordLiesBetweenTheAnchors) {
+    const SceneDescription scene =
+        scene_with(joint("distance", "name = \"rod\"\nanchors = [[1, 2, 3], [4, 5, 6]]\n") +
+                   joint("ball", "name = \"hook\"\nanchor = [7, 8, 9]\n", "\"a\", \"world\"") +
+                   "[[cord]]\njoint = \"rod\"\nradius = 0.25\n[[cord]]\njoint = \"hook\"\n");
+    const CordDescription &rod = scene.cords.at(0), &hook = scene.cords.at(1);
+    EXPECT_EQ(rod.joint, 0u);
+    EXPECT_EQ(rod.body, 1u);
+    expect_equal(rod.point, Vec3(4, 5, 6));
+    EXPECT_EQ(rod.anchor_body, 0u);
+    expect_equal(rod.anchor, Vec3(1, 2, 3));
+    EXPECT_EQ(rod.radius, 0.25);
+    EXPECT_EQ(hook.joint, 1u);
+    EXPECT_EQ(hook.body, 0u);
+    EXPECT_EQ(hook.anchor_body, std::nullopt);
+    expect_equal(hook.anchor, Vec3(7, 8, 9));
+}
+
 }  // namespace
 }  // namespace tumble::joints_test

@@ -169,6 +169,8 @@ const std::vector<std::vector<Change>> own_tables = {
       "[[chain]]\nname = \"bar\"\nlinks = 1\nshape = { type = \"sphere\", radius = 1 }\nfrom = [0, 40, 0]\n"
       "to = [1, 40, 0]\n[[chain]]",
       true},
+     {"template", "[template.door]", "size = [1, 2, 0.1]", "size = [1, 2, 0.2]", true},
+     {"instance", "", "[[instance]]", "[[instance]]\ntemplate = \"door\"\nname = \"third\"\n[[instance]]", true},
      {"overlay", "[overlay]", "start = 0.1", "", false},
      {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false}},
     {{"duration", "[simulation]", "duration = 2", "duration = 2.5", true},
@@ -275,6 +277,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"start", "[[force]]", "start = 0.5", "start = 0.6", true},
      {"end", "[[force]]", "end = 1.5", "end = 1.6", true}},
     {{"body", "[[cord]]", "paddle", "stone", false},
+     {"joint", "[[cord]]", "body = \"paddle\"\npoint = [0, 0.5, 0]\nanchor = [0, 5, 0]", "joint = \"rod\"", false},
      {"point", "[[cord]]", "0.5", "0.6", false},
      {"anchor", "[[cord]]", "[0, 5, 0]", "[0, 6, 0]", false},
      {"radius", "[[cord]]", "0.02", "0.03", false},

@@ -178,15 +178,16 @@ struct BodyDescription {
     Interpolation interpolation = Interpolation::smooth;
 };
 
-/// A thin cord: from a fixed point to a point of a body, without effect on the simulation; or between the anchors of a
-/// joint.
+/// A thin cord without effect on the simulation: from a fixed point to a point of a body, or between the anchors of a
+/// joint, whose places it has then.
 struct CordDescription {
     std::size_t body = 0;
-    std::optional<std::size_t> joint;  // index into joints; the other values of place are not used then
-    Vec3 point = Vec3::Zero();         // body frame, from the body's origin
-    Vec3 anchor = Vec3::Zero();        // world frame
-    double radius = 0.01;              // m
+    Vec3 point = Vec3::Zero();   // body frame, from the body's origin
+    Vec3 anchor = Vec3::Zero();  // world frame; with an anchor_body in its frame, from its origin
+    double radius = 0.01;        // m
     Color color{60, 60, 60};
+    std::optional<std::size_t> joint = std::nullopt;        // index into joints
+    std::optional<std::size_t> anchor_body = std::nullopt;  // index into bodies: the anchor moves with it
 };
 
 /// When a simulation makes frames: frame n shows n / fps.

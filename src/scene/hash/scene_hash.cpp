@@ -197,9 +197,9 @@ private:
         if (all_) add_value(visible);
     }
     void add_value(const CordDescription& cord) {
-        const auto& [body, joint, point, anchor, radius, color] = cord;
+        const auto& [body, point, anchor, radius, color, joint, anchor_body] = cord;
         add_all(body, point, anchor, radius, color);
-        if (joint) add_value(joint);  // scenes without joints keep their hash
+        if (joint) add_all(joint, anchor_body);  // scenes without joints keep their hash
     }
 
     void add_value(const OverlaySet& show) {

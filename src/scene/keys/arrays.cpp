@@ -209,11 +209,14 @@ void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin
 
 }  // namespace
 
-std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, const ShapeRequest& shape) {
+std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, const ShapeRequest& shape,
+                                         CopyScales scales) {
     const auto grid = body.find("grid"), scatter = body.find("scatter");
     if (!grid && !scatter) {
         for (const char* key : {"scale", "colors"}) {
-            if (const auto value = body.find(key)) value->fail("needs a grid or a scatter, and there is neither");
+            const bool has_other_meaning = scales == CopyScales::one && std::string_view(key) == "scale";
+            if (const auto value = body.find(key); value && !has_other_meaning)
+                value->fail("needs a grid or a scatter, and there is neither");
         }
         return std::nullopt;
     }
@@ -229,7 +232,7 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
         request.arrangement = read_grid(*grid);
     else
         request.arrangement = read_scatter(*scatter);
-    read_scale(body, shape, request);
+    if (scales == CopyScales::drawn) read_scale(body, shape, request);
     if (const auto colors = body.find("colors")) {
         for (const TomlValue& color : colors->items()) request.colors.push_back(color.color());
         if (request.colors.empty()) colors->fail("must name at least one color");

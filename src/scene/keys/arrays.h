@@ -34,8 +34,12 @@ struct CopiesRequest {
     std::vector<Color> colors;  // empty: all have the body's color
 };
 
+/// Whether copies have sizes of their own. Those of an instance have one size, whose key is for the whole.
+enum class CopyScales { drawn, one };
+
 /// Reads grid, scatter, scale and colors of a body's table; empty for a single body.
-std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, const ShapeRequest& shape);
+std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, const ShapeRequest& shape,
+                                         CopyScales scales = CopyScales::drawn);
 
 /// Number of bodies of the request.
 std::int64_t number_of(const CopiesRequest& request);

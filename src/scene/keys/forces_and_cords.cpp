@@ -1,5 +1,6 @@
 #include "scene/keys/forces_and_cords.h"
 
+#include "core/safe_text.h"
 #include "scene/keys/body_index.h"
 #include "scene/toml/limits.h"
 
@@ -11,6 +12,38 @@ namespace tumble {
 namespace {
 
 constexpr Choice<bool> force_frames[] = {{"world", false}, {"body", true}};
+
+void read_place_of_cord(const TomlTable& table, const BodyIndex& bodies, CordDescription& cord) {
+    cord.body = bodies.find(table.require("body"));
+    table.read("point", cord.point, limits::coordinate);
+    cord.anchor = table.require("anchor").vector(limits::coordinate);
+}
+
+const JointDescription& find_joint(const TomlValue& value, const std::vector<JointDescription>& joints) {
+    const std::string name = value.text();
+    std::vector<std::string_view> known;
+    for (const JointDescription& joint : joints) {
+        if (joint.name == name) return joint;
+        known.push_back(joint.name);
+    }
+    value.origin().fail(fmt::format("\"{}\" is not the name of a joint{}", safe_text(name),
+                                    known.empty() ? ": there is none" : suggestion(name, known)));
+}
+
+/// From the anchor of the one side to that of the other; the first end is a body.
+void read_place_from_joint(const TomlTable& table, const TomlValue& value, const std::vector<JointDescription>& joints,
+                           CordDescription& cord) {
+    for (const char* key : {"body", "point", "anchor"})
+        if (const auto given = table.find(key))
+            given->origin().fail("and joint exclude each other: the joint gives the place");
+    const JointDescription& joint = find_joint(value, joints);
+    cord.joint = std::size_t(&joint - joints.data());
+    const bool from_first = joint.second.has_value();
+    cord.body = from_first ? *joint.second : *joint.first;
+    cord.point = from_first ? joint.anchor_second : joint.anchor_first;
+    cord.anchor_body = from_first ? joint.first : joint.second;
+    cord.anchor = from_first ? joint.anchor_first : joint.anchor_second;
+}
 
 }  // namespace
 
@@ -47,11 +80,12 @@ void read_cords(const TomlTable& root, SceneDescription& scene) {
     const BodyIndex bodies(scene.bodies);
     for (TomlTable& table : list->tables("; write [[cord]] for each")) {
         table.set_title("[[cord]]");
-        table.expect_keys({"body", "point", "anchor", "radius", "color"});
+        table.expect_keys({"body", "point", "anchor", "joint", "radius", "color"});
         CordDescription cord;
-        cord.body = bodies.find(table.require("body"));
-        table.read("point", cord.point, limits::coordinate);
-        cord.anchor = table.require("anchor").vector(limits::coordinate);
+        if (const auto joint = table.find("joint"))
+            read_place_from_joint(table, *joint, scene.joints, cord);
+        else
+            read_place_of_cord(table, bodies, cord);
         table.read("radius", cord.radius, limits::size);
         table.read("color", cord.color);
         scene.cords.push_back(cord);

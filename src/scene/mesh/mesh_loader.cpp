@@ -243,6 +243,12 @@ const std::vector<LoadedMesh>& MeshCache::load_objects(const std::filesystem::pa
     return find(scale)->second;
 }
 
+MeshShape MeshCache::enlarged(const MeshShape& shape, double factor) {
+    auto& larger = larger_meshes_[{shape.asset.get(), factor}];
+    if (!larger.made) larger = {shape.asset, scaled(LoadedMesh{shape.asset, {}}, factor).asset};
+    return {larger.made};
+}
+
 CompoundShape MeshCache::enlarged(const CompoundShape& shape, double factor) {
     auto& known = larger_compounds_[{shape.parts.get(), factor}];
     if (!known.made) {
@@ -251,11 +257,7 @@ CompoundShape MeshCache::enlarged(const CompoundShape& shape, double factor) {
             part.position *= factor;
             if (auto* box = std::get_if<BoxShape>(&part.shape)) box->size *= factor;
             if (auto* ball = std::get_if<SphereShape>(&part.shape)) ball->radius *= factor;
-            if (auto* mesh = std::get_if<MeshShape>(&part.shape)) {
-                auto& larger = larger_meshes_[{mesh->asset.get(), factor}];
-                if (!larger.made) larger = {mesh->asset, scaled(LoadedMesh{mesh->asset, {}}, factor).asset};
-                mesh->asset = larger.made;
-            }
+            if (auto* mesh = std::get_if<MeshShape>(&part.shape)) *mesh = enlarged(*mesh, factor);
         }
         known = {shape.parts, std::make_shared<const std::vector<CompoundPart>>(std::move(parts))};
     }

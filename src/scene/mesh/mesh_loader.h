@@ -52,6 +52,7 @@ public:
     const std::vector<std::filesystem::path>& files() const { return read_; }
     /// All parts and their places enlarged by a factor.
     CompoundShape enlarged(const CompoundShape& shape, double factor);
+    MeshShape enlarged(const MeshShape& shape, double factor);
 
 private:
     MeshImports imports_;

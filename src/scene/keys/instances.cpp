@@ -1,0 +1,207 @@
+#include "scene/keys/instances.h"
+
+#include "core/safe_text.h"
+#include "scene/description/shape_bounds.h"
+#include "scene/description/shape_mass.h"
+#include "scene/keys/arrays.h"
+#include "scene/keys/joints.h"
+#include "scene/keys/motion.h"
+#include "scene/keys/template_pose.h"
+#include "scene/keys/template_scale.h"
+#include "scene/toml/limits.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+// Random numbers of instances are others than those of bodies, whose tables count from 0.
+constexpr std::uint64_t first_random_table = std::uint64_t(1) << 32;
+
+const SceneTemplate& find_template(const SceneTemplates& templates, const TomlValue& value) {
+    const std::string name = value.text();
+    if (const auto found = templates.find(name); found != templates.end()) return found->second;
+    std::vector<std::string_view> known;
+    for (const auto& [other, content] : templates) known.push_back(other);
+    value.origin().fail(fmt::format("\"{}\" is not the name of a template{}", safe_text(name),
+                                    known.empty() ? ": there is none" : suggestion(name, known)));
+}
+
+double mass_of_all(const SceneTemplate& content) {
+    double mass = 0.0;
+    for (const BodyDescription& body : content.bodies)
+        if (body.type == BodyType::dynamic) mass += mass_center(body).mass;
+    return mass;
+}
+
+void read_size(const TomlTable& table, MeshCache& meshes, SceneTemplate& content) {
+    double scale = 1.0;
+    table.read("scale", scale, limits::copy_scale);
+    double factor = scale * scale * scale;
+    if (const auto mass = table.find("mass")) {
+        const double all = mass_of_all(content);
+        if (!(all > 0.0)) mass->origin().fail("is for templates with a dynamic body, and there is none");
+        factor = mass->number(limits::mass) / all;
+    }
+    if (scale == 1.0 && factor == 1.0) return;
+    enlarge(content, scale, factor, meshes);
+    for (const BodyDescription& body : content.bodies) {
+        if (std::holds_alternative<PlaneShape>(body.shape)) continue;
+        const Vec3 extent = local_bounds(body.shape).extent();
+        if (limits::size.contains(extent.maxCoeff()) && extent.minCoeff() > 0.0) continue;
+        table.require("scale").fail(fmt::format("makes body \"{}\" of unusable size (a length {})",
+                                                safe_text(body.name), limits::size.requirement()));
+    }
+}
+
+/// A ball about all bodies, in the frame of the template, as the shape of its copies.
+Shape stand_in(const SceneTemplate& content, const TomlValue& arrangement) {
+    Bounds bounds;
+    std::vector<BoundingSphere> spheres;
+    for (const BodyDescription& body : content.bodies) {
+        if (std::holds_alternative<PlaneShape>(body.shape)) {
+            arrangement.origin().fail(
+                fmt::format("is for bodies of finite size (given a template with the plane \"{}\", which is endless)",
+                            safe_text(body.name)));
+        }
+        BoundingSphere sphere = bounding_sphere(body.shape);
+        sphere.center = body.position + body.rotation * sphere.center;
+        bounds.add(sphere.center.array() - sphere.radius);
+        bounds.add(sphere.center.array() + sphere.radius);
+        spheres.push_back(sphere);
+    }
+    CompoundPart ball;
+    ball.position = bounds.center();
+    double radius = 0.0;
+    for (const BoundingSphere& sphere : spheres)
+        radius = std::max(radius, (sphere.center - ball.position).norm() + sphere.radius);
+    ball.shape = SphereShape{radius};
+    return CompoundShape{std::make_shared<const std::vector<CompoundPart>>(1, ball)};
+}
+
+class InstanceReader {
+public:
+    InstanceReader(const SceneTemplates& templates, const BodySources& sources, std::vector<BodyDescription>& bodies,
+                   std::vector<JointDescription>& joints)
+        : templates_(templates),
+          sources_(sources),
+          bodies_(bodies),
+          joints_(joints),
+          body_names_(bodies),
+          joint_names_(joints) {}
+
+    void read(const TomlTable& table) {
+        table.expect_keys({"template", "name", "position", "rotation", "scale", "mass", "velocity", "angular_velocity",
+                           "pose", "grid", "scatter", "colors"});
+        SceneTemplate content = find_template(templates_, table.require("template"));
+        const TomlValue name = table.require("name");
+        if (name.text().empty()) name.fail("must not be empty");
+        if (const auto pose = table.find("pose")) apply_pose(*pose, content);
+        read_size(table, sources_.meshes, content);
+
+        BodyDescription model;  // place and velocity of the whole
+        model.name = name.text();
+        table.read("position", model.position, limits::coordinate);
+        if (const auto rotation = table.find("rotation")) model.rotation = read_rotation(*rotation);
+        table.read("velocity", model.velocity, limits::velocity);
+        table.read("angular_velocity", model.angular_velocity, limits::angular_velocity);
+        const std::vector<BodyDescription> places = make_places(table, model, content);
+        const SourcePosition origin = name.origin();
+        check_number_of_bodies(std::int64_t(bodies_.size()) + std::int64_t(places.size() * content.bodies.size()),
+                               origin);
+        check_number_of_joints(joints_.size() + places.size() * content.joints.size(), origin);
+        for (const BodyDescription& place : places) append(content, place, table.has("colors"), origin);
+        ++number_;
+    }
+
+private:
+    /// One body for each copy, with its name, pose and color.
+    std::vector<BodyDescription> make_places(const TomlTable& table, const BodyDescription& model,
+                                             const SceneTemplate& content) const {
+        ShapeRequest shape;
+        shape.shape = SphereShape{1.0};
+        for (const char* key : {"grid", "scatter"})
+            if (const auto arrangement = table.find(key)) shape.shape = stand_in(content, *arrangement);
+        const auto copies = read_copies(table, BodyType::dynamic, shape, CopyScales::one);
+        if (!copies) return {model};
+        check_number_of_bodies(std::int64_t(bodies_.size()) + number_of(*copies) * std::int64_t(content.bodies.size()),
+                               copies->origin);
+        std::vector<BodyDescription> places =
+            make_copies(*copies, model, shape, sources_.meshes, sources_.settings.seed, first_random_table + number_);
+        for (std::size_t i = 0; i < places.size(); ++i) places[i].name = fmt::format("{}.{}", model.name, i);
+        return places;
+    }
+
+    void append(const SceneTemplate& content, const BodyDescription& place, bool colored,
+                const SourcePosition& origin) {
+        const std::size_t first = bodies_.size();
+        for (BodyDescription body : content.bodies) {
+            move(place, body);
+            body.name = fmt::format("{}.{}", place.name, body.name);
+            body_names_.take(body.name, origin);
+            if (colored) body.appearance.color = place.appearance.color;
+            bodies_.push_back(std::move(body));
+        }
+        for (JointDescription joint : content.joints) {
+            move_side(place, first, joint.first, joint.anchor_first, joint.frame_first);
+            move_side(place, first, joint.second, joint.anchor_second, joint.frame_second);
+            joint.name = fmt::format("{}.{}", place.name, joint.name);
+            joint_names_.take(joint.name, origin);
+            joints_.push_back(std::move(joint));
+        }
+    }
+
+    static void move_side(const BodyDescription& place, std::size_t first, std::optional<std::size_t>& body,
+                          Vec3& anchor, Quat& frame) {
+        if (body) {
+            *body += first;
+            return;
+        }
+        anchor = place.position + place.rotation * anchor;
+        frame = (place.rotation * frame).normalized();
+    }
+
+    /// To the place, with the motion of a rigid whole that turns about the origin of the instance.
+    static void move(const BodyDescription& place, BodyDescription& body) {
+        body.position = place.position + place.rotation * body.position;
+        body.rotation = (place.rotation * body.rotation).normalized();
+        for (Keyframe& key : body.keyframes) {
+            key.position = place.position + place.rotation * key.position;
+            key.rotation = (place.rotation * key.rotation).normalized();
+        }
+        if (body.type != BodyType::dynamic) return;
+        body.velocity = place.velocity + place.rotation * body.velocity;
+        body.angular_velocity = place.angular_velocity + place.rotation * body.angular_velocity;
+        if (place.angular_velocity.isZero(0.0)) return;
+        const Vec3 center = body.position + body.rotation * mass_center(body).center;
+        body.velocity += place.angular_velocity.cross(center - place.position);
+    }
+
+    const SceneTemplates& templates_;
+    const BodySources& sources_;
+    std::vector<BodyDescription>& bodies_;
+    std::vector<JointDescription>& joints_;
+    BodyNames body_names_;
+    JointNames joint_names_;
+    std::uint64_t number_ = 0;
+};
+
+}  // namespace
+
+void read_instances(const TomlTable& root, const SceneTemplates& templates, const BodySources& sources,
+                    std::vector<BodyDescription>& bodies, std::vector<JointDescription>& joints) {
+    const auto list = root.find("instance");
+    if (!list) return;
+    InstanceReader reader(templates, sources, bodies, joints);
+    for (TomlTable& table : list->tables("; write [[instance]] for each")) {
+        table.set_title("[[instance]]");
+        reader.read(table);
+    }
+}
+
+}  // namespace tumble

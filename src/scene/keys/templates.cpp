@@ -1,0 +1,81 @@
+#include "scene/keys/templates.h"
+
+#include "core/safe_text.h"
+#include "scene/keys/chains.h"
+#include "scene/keys/joints.h"
+#include "scene/toml/limits.h"
+#include "scene/toml/toml_file.h"
+
+#include <fmt/format.h>
+
+namespace tumble {
+namespace {
+
+void refuse_instances(const TomlTable& table) {
+    for (const char* key : {"instance", "template"})
+        if (const auto value = table.find(key))
+            value->origin().fail(
+                "is not for templates: give the bodies and joints themselves, or make an instance of "
+                "each template in the scene");
+}
+
+SceneTemplate read_content(const TomlTable& table, const BodySources& sources, const SourcePosition& origin) {
+    SceneTemplate content;
+    content.bodies = read_bodies(table, sources);
+    read_chains(table, sources, content.bodies, content.joints);
+    read_joints(table, content.bodies, content.joints);
+    if (content.bodies.empty()) origin.fail("holds no body: give at least one");
+    return content;
+}
+
+/// A scene of bodies, joints and chains only, with its own materials.
+SceneTemplate read_template_file(const TomlValue& value, const BodySources& sources,
+                                 std::vector<std::filesystem::path>& files) {
+    const std::string name = value.text();
+    if (name.empty()) value.fail("must not be empty");
+    if (name.find('\0') != std::string::npos) value.fail("must not hold a zero byte");
+    const std::filesystem::path file = (sources.folder / std::filesystem::path(name)).lexically_normal();
+    std::string text;
+    try {
+        text = read_toml_file(file, "template", limits::scene_bytes);
+    } catch (const InputError& error) {
+        value.origin().fail(fmt::format("\"{}\": {}", safe_text(name, path_text_bytes), error.message()));
+    }
+    files.push_back(file);
+    const toml::table document = parse_toml(text, file.string());
+    const TomlTable root(document, {"template", {file.string(), 1, 1}}, "the file of a template");
+    refuse_instances(root);
+    root.expect_keys({"format", "title", "materials", "body", "joint", "chain"});
+    const Materials materials = read_materials(root);
+    const std::filesystem::path folder = file.parent_path();
+    return read_content(root, {materials, folder, sources.settings, sources.meshes}, value.origin());
+}
+
+SceneTemplate read_template(const TomlTable& table, const BodySources& sources,
+                            std::vector<std::filesystem::path>& files) {
+    refuse_instances(table);
+    table.expect_keys({"file", "body", "joint", "chain"});
+    const auto file = table.find("file");
+    if (!file) return read_content(table, sources, table.origin());
+    for (const char* key : {"body", "joint", "chain"})
+        if (const auto value = table.find(key)) value->origin().fail("and file exclude each other: give one of them");
+    return read_template_file(*file, sources, files);
+}
+
+}  // namespace
+
+SceneTemplates read_templates(const TomlTable& root, const BodySources& sources,
+                              std::vector<std::filesystem::path>& files) {
+    SceneTemplates templates;
+    const auto value = root.find("template");
+    if (!value) return templates;
+    if (!value->is_table()) value->fail("must be tables: write [template.NAME], and [[template.NAME.body]] for bodies");
+    for (const auto& [name, content] : value->table().entries()) {
+        TomlTable table = content.table();
+        table.set_title(fmt::format("[template.{}]", name));
+        templates.emplace(name, read_template(table, sources, files));
+    }
+    return templates;
+}
+
+}  // namespace tumble
