@@ -130,12 +130,14 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
 
 Json make_cords(const PageRun& run) {
     Json cords = Json::array();
-    for (const CordDescription& cord : run.scene.cords)
+    for (const CordDescription& cord : run.scene.cords) {
         cords.push_back({{"body", cord.body},
                          {"point", vector_json(cord.point)},
                          {"anchor", vector_json(cord.anchor)},
                          {"radius", cord.radius},
                          {"color", to_string(cord.color)}});
+        if (cord.anchor_body) cords.back()["anchor_body"] = *cord.anchor_body;
+    }
     return cords;
 }
 

@@ -32,6 +32,13 @@ void check_format(const TomlTable& root) {
     if (number != readable) format->fail(fmt::format("must be {}, the only one there is", readable));
 }
 
+void check_method_of_joints(const TomlTable& root, const SceneDescription& scene) {
+    if (scene.joints.empty() || scene.simulation.method != SimulationMethod::notes) return;
+    for (const char* key : {"joint", "chain", "instance"})
+        if (const auto list = root.find(key))
+            list->fail("joins bodies, which the method of the notes cannot: give method = \"tumble\", or no joints");
+}
+
 }  // namespace
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
@@ -60,6 +67,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_instances(root, templates, sources, scene.bodies, scene.joints);
     read_chains(root, sources, scene.bodies, scene.joints);
     read_joints(root, scene.bodies, scene.joints);
+    check_method_of_joints(root, scene);
     if (read != nullptr) {
         read->push_back(file);
         read->insert(read->end(), template_files.begin(), template_files.end());
@@ -69,6 +77,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
         for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
     read_cords(root, scene);
+    add_cords_of_joints(scene);
     scene.camera = read_camera(root, scene);
     scene.overlay = read_overlay(root, scene.bodies, overrides);
     return scene;

@@ -129,8 +129,8 @@ TEST(JointLaws, BreaksAtItsStrength) {
     const JointState joint = world.joint_states()[0];
     ASSERT_TRUE(joint.broken_at);
     std::printf("broken at %.6f\n", *joint.broken_at);
-    EXPECT_NEAR(*joint.broken_at, 0.300354695438428074, 1.5 / 960.0);
-    EXPECT_NEAR(world.snapshot().bodies[0].angular_velocity.z(), -4.22224580764613828, 0.02);
+    EXPECT_NEAR(*joint.broken_at, 0.300354695438428074, 2.0 / 960.0);
+    EXPECT_NEAR(world.snapshot().bodies[0].angular_velocity.z(), -4.22224580764613828, 0.03);
 }
 
 TEST(JointLaws, LetsGoAtItsTime) {

@@ -46,8 +46,8 @@ TEST(JointMotion, ADoublePendulumConvergesWithItsGapAtRounding) {
     const Motion coarse = double_pendulum(4), fine = double_pendulum(16);
     std::printf("240/s: %.3e gap %.1e energy %.1e; 960/s: %.3e gap %.1e energy %.1e\n", coarse.error, coarse.gap,
                 coarse.energy, fine.error, fine.gap, fine.energy);
-    EXPECT_LT(fine.error, 7e-3);
-    EXPECT_LT(fine.error, 0.3 * coarse.error);
+    EXPECT_LT(fine.error, 7e-5);
+    EXPECT_LT(fine.error, 0.07 * coarse.error);  // second order
     EXPECT_LT(coarse.gap, 1e-12);
     EXPECT_LT(fine.gap, 1e-12);
 }
@@ -78,6 +78,32 @@ TEST(JointMotion, AFreeChainKeepsItsMomenta) {
     EXPECT_LT((end.first - start.first).norm(), 1e-13);
     EXPECT_LT((end.second - start.second).norm(), 1e-12);
     EXPECT_LT(gap, 1e-12);
+}
+
+// The errors at t = 2 s of the flight of order 2, 4 and 8.
+TEST(JointMotion, FlightsOfHigherOrder) {
+    const auto run_with = [](IntegratorKind kind, int steps_per_frame) {
+        SceneDescription scene = double_pendulum_scene(steps_per_frame);
+        scene.simulation.integrator = kind;
+        World world(scene);
+        const double start = energy_of(world);
+        double gap = 0.0, energy = 0.0;
+        for (int frame = 0; frame < 120; ++frame) {
+            world.advance_frame();
+            gap = std::max(gap, largest_gap(world));
+            energy = std::max(energy, std::abs(energy_of(world) - start));
+        }
+        const Snapshot s = world.snapshot();
+        return Motion{std::max(std::abs(angle_of(s.bodies[0]) - -0.0845270358378211),
+                               std::abs(angle_of(s.bodies[1]) - 0.3920419302606883)),
+                      gap, energy};
+    };
+    EXPECT_LT(run_with(IntegratorKind::symplectic_euler, 16).error, 7e-5);
+    EXPECT_LT(run_with(IntegratorKind::runge_kutta_4, 4).error, 2e-7);
+    const Motion exact = run_with(IntegratorKind::exact, 4);
+    EXPECT_LT(exact.error, 1e-12);
+    EXPECT_LT(exact.energy, 1e-11);
+    EXPECT_LT(exact.gap, 1e-14);
 }
 
 // A hinged rod through its lowest point: the period from 90 degrees by the elliptic integral, 1.9357500144084348 s.

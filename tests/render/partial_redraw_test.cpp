@@ -48,6 +48,7 @@ SceneDescription random_scene(unsigned seed, Ground ground = Ground::plane) {
         scene.bodies.push_back(ball_body(Vec3::Zero(), random.between(0.15, 0.6), random.color()));
     if (seed % 5 < 2) scene.bodies.push_back(mesh_body(Vec3::Zero(), torus_asset(0.5, 0.2), random.color()));
     if (seed % 10 == 8) scene.cords.push_back({2, Vec3(0.1, 0.2, 0.0), Vec3(0.5, 3.0, 0.0), 0.03, {60, 60, 60}});
+    if (seed % 20 == 18) scene.cords.back().anchor_body = 4;  // moves with another body
     return scene;
 }
 

@@ -113,6 +113,37 @@ TEST(Renderer, DrawsAllPartsOfABody) {
     EXPECT_LT(different, 30u) << "but for the rounding of poses the pictures are the same";
 }
 
+// The anchor is a point of the compound, which is drawn as two bodies.
+TEST(Renderer, DrawsACordBetweenTwoBodies) {
+    SceneDescription scene = mixed_scene();
+    CompoundPart part;
+    part.shape = SphereShape{0.2};
+    part.position = Vec3(0.3, 0.1, 0.0);
+    part.rotation = Quat(Eigen::AngleAxisd(0.5, Vec3::UnitX()));
+    BodyDescription body =
+        box_body(Vec3(1.0, 2.0, 0.5), Vec3::Ones(), {220, 30, 30}, Quat(Eigen::AngleAxisd(0.7, Vec3::UnitZ())));
+    body.shape = CompoundShape{std::make_shared<const std::vector<CompoundPart>>(std::vector{part, part})};
+    scene.bodies.push_back(body);
+    const Vec3 point(-0.4, 0.2, 0.1);
+    SceneDescription fixed = scene;
+    fixed.cords[0].anchor = body.position + body.rotation * point;
+    scene.cords[0].anchor = point;
+    scene.cords[0].anchor_body = scene.bodies.size() - 1;
+    const Image image = drawn(scene), other = drawn(fixed);
+    std::size_t different = 0;
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            for (int c = 0; c < 3; ++c) different += std::abs(image.at(x, y)[c] - other.at(x, y)[c]) > 2;
+    EXPECT_LT(different, 10u) << "but for the rounding of poses the pictures are the same";
+
+    Snapshot moved = first_snapshot(scene);
+    moved.bodies.back().origin += Vec3(-1.0, 0.5, 0.0);
+    Renderer renderer(scene);
+    const Image before = renderer.render(first_snapshot(scene));
+    EXPECT_EQ(renderer.render(moved), Renderer(scene).render(moved)) << "the cord moves with its anchor";
+    EXPECT_NE(renderer.render(moved), before);
+}
+
 TEST(Renderer, NamesItsDriver) {
     Renderer renderer(empty_scene());
     EXPECT_NE(renderer.driver().find("OpenGL"), std::string::npos) << renderer.driver();

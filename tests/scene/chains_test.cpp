@@ -182,6 +182,8 @@ TEST(Chains, RefuseMistakes) {
         {three + "joint = { type = \"ball\", anchor = @[0, 0, 0] }", "is given by the chain"},
         {three + "joint = { type = \"ball\", axis = @[0, 0, 1] }", "is given by the chain, but for a hinge"},
         {three + "joint = { type = \"hinge\", limits = @[1, 2] }", "must contain the start"},
+        {"links = @90\nfrom = [999999999, 0, 0]\nto = [999999999.000001, 0, 0]", "makes links of unusable length, 0 m"},
+        {"links = @9\nfrom = [0, 0, 0]\nto = [0, 0, 2e-9]", "makes links of unusable length"},
         {three + "colors = @[]", "must name at least one color"},
         {three + "@rotation = 1", "unknown key \"rotation\" in [[chain]]"},
         {three + "[[chain]]\nname = @\"rope\"\nshape = { type = \"sphere\", radius = 1 }\n" + three, "must be unique"},

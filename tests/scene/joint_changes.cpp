@@ -23,7 +23,6 @@ break_torque = 20
 break_impulse = 7
 collide = false
 enabled = [0.5, 1.5]
-visible = false
 [[joint]]
 name = "rail"
 type = "cylindrical"
@@ -70,6 +69,7 @@ anchors = [[0, 0, 0], [0, 0, 0]]
 snap = true
 min_length = 1
 max_length = 20
+visible = false
 [[joint]]
 name = "free"
 type = "6dof"
@@ -246,7 +246,7 @@ const std::vector<std::vector<Change>> joint_changes = {
      {"break_impulse", "[[joint]]", "break_impulse = 7", "", true},
      {"collide", "[[joint]]", "collide = false", "collide = true", true},
      {"enabled", "[[joint]]", "enabled = [0.5, 1.5]", "enabled = [0.5]", true},
-     {"visible", "[[joint]]", "visible = false", "visible = true", false}},
+     {"visible", "\"rope\"", "visible = false", "visible = true", false}},
     {{"stiffness", "[[joint]]", "stiffness = 50", "stiffness = 51", true},
      {"damping", "[[joint]]", "damping = 2", "damping = 3", true},
      {"frequency", "\"rail\"", "frequency = 3", "frequency = 4", true},

@@ -202,7 +202,6 @@ break_force = 500
 break_torque = 20
 break_impulse = 3
 collide = true
-visible = true
 enabled = [0.5, 3.5]
 )") + joint("ball", "anchor = [0, 0, 0]\nspring = { stiffness = 2 }\nfriction = 3\nenabled = [1]"));
     const JointDescription& door = scene.joints.at(0);
@@ -227,7 +226,7 @@ enabled = [0.5, 3.5]
     EXPECT_EQ(door.break_force, 500.0);
     EXPECT_EQ(door.break_torque, 20.0);
     EXPECT_EQ(door.break_impulse, 3.0);
-    EXPECT_TRUE(door.collide && door.visible);
+    EXPECT_TRUE(door.collide);
     EXPECT_EQ(door.start, 0.5);
     EXPECT_EQ(door.end, 3.5);
     const JointDescription& ball = scene.joints.at(1);
@@ -266,10 +265,12 @@ turn_z = { motor = { keyframes = [{ time = 0, value = 0 }, { time = 2, value = 9
 
 TEST(Joints, ACordLiesBetweenTheAnchors) {
     const SceneDescription scene =
-        scene_with(joint("distance", "name = \"rod\"\nanchors = [[1, 2, 3], [4, 5, 6]]\n") +
+        scene_with(joint("distance", "name = \"rod\"\nvisible = true\nanchors = [[1, 2, 3], [4, 5, 6]]\n") +
                    joint("ball", "name = \"hook\"\nanchor = [7, 8, 9]\n", "\"a\", \"world\"") +
                    "[[cord]]\njoint = \"rod\"\nradius = 0.25\n[[cord]]\njoint = \"hook\"\n");
-    const CordDescription &rod = scene.cords.at(0), &hook = scene.cords.at(1);
+    ASSERT_EQ(scene.cords.size(), 3u) << "and one of the visible joint";
+    EXPECT_EQ(scene.cords[2].joint, 0u);
+    const CordDescription &rod = scene.cords[0], &hook = scene.cords[1];
     EXPECT_EQ(rod.joint, 0u);
     EXPECT_EQ(rod.body, 1u);
     expect_equal(rod.point, Vec3(4, 5, 6));

@@ -9,6 +9,8 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tumble::templates_test {
 namespace {
@@ -89,13 +91,13 @@ void expect_near(const Vec3& a, const Vec3& b, double tolerance = exact) {
 }
 
 /// Anchors of both sides meet, and frames of sliders agree.
-void expect_closed(const SceneDescription& scene) {
+void expect_closed(const SceneDescription& scene, double tolerance = 1e-13) {
     for (const JointDescription& joint : scene.joints) {
         if (joint.type != JointType::hinge) continue;
         const auto anchor = [&](const std::optional<std::size_t>& body, const Vec3& p) {
             return body ? Vec3(scene.bodies[*body].position + scene.bodies[*body].rotation * p) : p;
         };
-        expect_near(anchor(joint.first, joint.anchor_first), anchor(joint.second, joint.anchor_second), 1e-13);
+        expect_near(anchor(joint.first, joint.anchor_first), anchor(joint.second, joint.anchor_second), tolerance);
     }
 }
 
@@ -205,12 +207,82 @@ name = "i"
     const SceneDescription scene = parse_scene(parallelogram + "pose = { a = 30, b = 30, c = -30 }", "scene.toml");
     expect_near(position_of(scene, "i.bar"), Vec3(-0.5, std::sqrt(0.75), 0));
     expect_closed(scene);
-    try {
-        parse_scene(parallelogram + "pose = { a = 30, b = 25, c = -30 }", "scene.toml");
-        ADD_FAILURE() << "an open loop";
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("opens the joint \"d\""), std::string::npos) << error.what();
+    // The bar stays level and the right rocker follows, because they have no other place.
+    const SceneDescription found = parse_scene(parallelogram + "pose = { a = 30 }", "scene.toml");
+    expect_near(position_of(found, "i.bar"), Vec3(-0.5, std::sqrt(0.75), 0), 1e-11);
+    expect_closed(found, 1e-11);
+    const std::vector<std::pair<std::string, std::string>> open = {
+        {"pose = { a = 30, b = 25, c = -30 }", "opens the joint \"d\""},
+        {"pose = { a = 30, b = 25, c = -30, d = -30 }", "opens the joint \"d\""},
+        {"pose = { a = 30, d = 30 }", "opens the joint \"d\""},
+    };
+    for (const auto& [pose, phrase] : open) {
+        try {
+            parse_scene(parallelogram + pose, "scene.toml");
+            ADD_FAILURE() << "an open loop: " << pose;
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(phrase), std::string::npos) << error.what();
+        }
     }
+    const std::string limited =
+        std::string(parallelogram).replace(parallelogram.find("name = \"b\""), 10, "name = \"b\"\nlimits = [-20, 20]");
+    try {
+        parse_scene(limited + "pose = { a = 30 }", "scene.toml");
+        ADD_FAILURE() << "beyond a limit";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("moves the joint \"b\", so that its loop stays closed, to 30 degrees"),
+                  std::string::npos)
+            << error.what();
+    }
+}
+
+// A slider-crank: the crank of 1 m at 30 degrees puts the slider to cos(30) + sqrt(9 - sin(30)^2).
+TEST(Templates, ASliderFollowsItsCrank) {
+    const std::string engine = R"(format = 1
+[template.engine]
+[[template.engine.body]]
+name = "crank"
+shape = { type = "box", size = [1, 0.1, 0.1] }
+position = [0.5, 0, 0]
+[[template.engine.body]]
+name = "rod"
+shape = { type = "box", size = [3, 0.1, 0.1] }
+position = [2.5, 0, 0]
+[[template.engine.body]]
+name = "piston"
+shape = { type = "box", size = [0.5, 0.5, 0.5] }
+position = [4, 0, 0]
+[[template.engine.joint]]
+name = "main"
+type = "hinge"
+bodies = ["world", "crank"]
+anchor = [0, 0, 0]
+axis = [0, 0, 1]
+[[template.engine.joint]]
+name = "big end"
+type = "hinge"
+bodies = ["crank", "rod"]
+anchor = [1, 0, 0]
+axis = [0, 0, 1]
+[[template.engine.joint]]
+name = "wrist"
+type = "hinge"
+bodies = ["rod", "piston"]
+anchor = [4, 0, 0]
+axis = [0, 0, 1]
+[[template.engine.joint]]
+name = "cylinder"
+type = "slider"
+bodies = ["world", "piston"]
+axis = [1, 0, 0]
+[[instance]]
+template = "engine"
+name = "e"
+pose = { main = 30 }
+)";
+    const SceneDescription scene = parse_scene(engine, "scene.toml");
+    expect_near(position_of(scene, "e.piston"), Vec3(std::sqrt(0.75) + std::sqrt(9.0 - 0.25), 0, 0), 1e-11);
+    expect_closed(scene, 1e-11);
 }
 
 TEST(Templates, GrowInSize) {

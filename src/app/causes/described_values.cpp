@@ -87,9 +87,11 @@ std::string forces_text(const SceneDescription& scene) {
 
 std::string cords_text(const SceneDescription& scene) {
     std::string all;
-    for (const CordDescription& c : scene.cords)
+    for (const CordDescription& c : scene.cords) {
         all += fmt::format("{} {} {} {} {};", scene.bodies[c.body].name, text_of(c.point), text_of(c.anchor), c.radius,
                            to_string(c.color));
+        if (c.joint) all += scene.joints[*c.joint].name + ";";
+    }
     return fmt::format("{} {}", scene.cords.size(), digest_text(all));
 }
 

@@ -1,6 +1,7 @@
 #include "render/aov/shape_instance.h"
 
 #include "core/check.h"
+#include "render/scene/cord_ends.h"
 
 namespace tumble {
 namespace {
@@ -51,8 +52,8 @@ PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const Pi
 }
 
 CordPlace place_of(const CordDescription& cord, const Snapshot& snapshot, const PinholeCamera& camera) {
-    const BodyState& body = snapshot.bodies.at(cord.body);
-    return {camera.from_world(cord.anchor), camera.from_world(body.origin + body.orientation * cord.point)};
+    const CordEnds ends = cord_ends(cord, snapshot);
+    return {camera.from_world(ends.anchor), camera.from_world(ends.point)};
 }
 
 }  // namespace tumble

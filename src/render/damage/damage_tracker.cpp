@@ -120,7 +120,10 @@ void DamageTracker::find_moved(const FrameContext& frame, Damage& damage) {
     if (everything || options_.full_redraw || frame.cascades != previous_cascades_) damage.shadow_tiles.mark_all();
     moved_.bodies = everything ? std::vector<char>(frame.moved.size(), 1) : frame.moved;
     moved_.cords.clear();
-    for (const CordDescription& cord : frame.scene.cords) moved_.cords.push_back(moved_.bodies[cord.body]);
+    for (const CordDescription& cord : frame.scene.cords) {
+        const bool anchor_moved = cord.anchor_body && moved_.bodies[*cord.anchor_body] != 0;
+        moved_.cords.push_back(anchor_moved ? char(1) : moved_.bodies[cord.body]);
+    }
     for (const std::size_t plane : frame.scene.planes)
         if (moved_.bodies[plane] != 0) damage.background = true;
     if (everything) return;

@@ -3,6 +3,7 @@
 #include "core/rotation.h"
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
+#include "render/scene/cord_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -75,9 +76,8 @@ struct CordPlace {
 };
 
 CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& camera) {
-    const BodyState& state = snapshot.bodies[cord.body];
-    const Vec3 from = camera.relative(cord.anchor);
-    const Vec3 to = camera.relative(state.origin + state.orientation * cord.point);
+    const CordEnds ends = cord_ends(cord, snapshot);
+    const Vec3 from = camera.relative(ends.anchor), to = camera.relative(ends.point);
     const double length = (to - from).norm();
     return {0.5 * (from + to), length,
             rotation_between(Vec3::UnitY(), length > 0.0 ? Vec3((to - from) / length) : Vec3(Vec3::UnitY()))};

@@ -37,12 +37,16 @@ SceneDescription expand_compounds(const SceneDescription& scene) {
         else
             expanded.bodies.push_back(body);
     }
-    for (CordDescription& cord : expanded.cords) {
-        if (const CompoundShape* compound = compound_of(scene.bodies[cord.body])) {
+    const auto attach_to_part = [&](std::size_t& body, Vec3& point) {
+        if (const CompoundShape* compound = compound_of(scene.bodies[body])) {
             const CompoundPart& part = compound->parts->front();
-            cord.point = part.rotation.conjugate() * (cord.point - part.position);
+            point = part.rotation.conjugate() * (point - part.position);
         }
-        cord.body = first[cord.body];
+        body = first[body];
+    };
+    for (CordDescription& cord : expanded.cords) {
+        attach_to_part(cord.body, cord.point);
+        if (cord.anchor_body) attach_to_part(*cord.anchor_body, cord.anchor);
     }
     for (ForceDescription& force : expanded.forces) force.body = first[force.body];
     return expanded;

@@ -1,6 +1,7 @@
 #include "render/scene/drawable_bounds.h"
 
 #include "core/rotation.h"
+#include "render/scene/cord_ends.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,9 +21,9 @@ DrawableBounds bounds_of_body(const RenderBody& proxy, const RenderScene& scene,
     return bounds;
 }
 
-DrawableBounds bounds_of_cord(const CordDescription& cord, const BodyState& state, const Camera& view) {
-    const Vec3 from = view.relative(cord.anchor);
-    const Vec3 to = view.relative(state.origin + state.orientation * cord.point);
+DrawableBounds bounds_of_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& view) {
+    const CordEnds ends = cord_ends(cord, snapshot);
+    const Vec3 from = view.relative(ends.anchor), to = view.relative(ends.point);
     DrawableBounds bounds;
     bounds.center = 0.5 * (from + to);
     bounds.radius = 0.5 * (to - from).norm() + 2.0 * cord.radius;
@@ -70,8 +71,7 @@ PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snaps
     drawables.bodies.reserve(scene.bodies.size());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
         drawables.bodies.push_back(bounds_of_body(scene.bodies[i], scene, snapshot.bodies[i], view));
-    for (const CordDescription& cord : scene.cords)
-        drawables.cords.push_back(bounds_of_cord(cord, snapshot.bodies[cord.body], view));
+    for (const CordDescription& cord : scene.cords) drawables.cords.push_back(bounds_of_cord(cord, snapshot, view));
     return drawables;
 }
 

@@ -42,8 +42,11 @@ PoseFilter::PoseFilter(const SceneDescription& scene)
     for (const BodyDescription& body : scene.bodies)
         radii_.push_back(body.appearance.visible ? radius_of(body.shape) : 0.0);
     if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);  // it moves everything that is drawn
-    for (const CordDescription& cord : scene.cords)
+    for (const CordDescription& cord : scene.cords) {
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
+        if (cord.anchor_body)
+            radii_[*cord.anchor_body] = std::max(radii_[*cord.anchor_body], cord.anchor.norm() + cord.radius);
+    }
 }
 
 bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {

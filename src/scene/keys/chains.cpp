@@ -105,6 +105,15 @@ ChainCurve read_curve(const ChainTable& chain) {
     return straight_chain(from, to, chain.links);
 }
 
+void check_lengths(const ChainTable& chain, const ChainCurve& curve) {
+    for (std::size_t i = 0; i < chain.links; ++i) {
+        const double length = (curve.corners[i + 1] - curve.corners[i]).norm();
+        if (limits::size.contains(length)) continue;
+        chain.table.require("links").fail(
+            fmt::format("makes links of unusable length, {:.3g} m: give fewer links or a longer chain", length));
+    }
+}
+
 Quat rotation_with(const Vec3& x, const Vec3& z) {
     Mat3 axes;
     axes.col(0) = x;
@@ -222,6 +231,7 @@ void read_chains(const TomlTable& root, const BodySources& sources, std::vector<
         const ShapeRequest shape =
             read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);
         const ChainCurve curve = read_curve(chain);
+        check_lengths(chain, curve);
         const BodyDescription model = read_body_model(table, BodyType::dynamic, shape.shape, sources);
         const std::size_t first_link = bodies.size();
         append_links(chain, curve, model, body_names, bodies);

@@ -31,18 +31,22 @@ const JointDescription& find_joint(const TomlValue& value, const std::vector<Joi
 }
 
 /// From the anchor of the one side to that of the other; the first end is a body.
+void place_between_anchors(const JointDescription& joint, const std::vector<JointDescription>& joints,
+                           CordDescription& cord) {
+    cord.joint = std::size_t(&joint - joints.data());
+    const bool from_second = joint.second.has_value();
+    cord.body = from_second ? *joint.second : *joint.first;
+    cord.point = from_second ? joint.anchor_second : joint.anchor_first;
+    cord.anchor_body = from_second ? joint.first : joint.second;
+    cord.anchor = from_second ? joint.anchor_first : joint.anchor_second;
+}
+
 void read_place_from_joint(const TomlTable& table, const TomlValue& value, const std::vector<JointDescription>& joints,
                            CordDescription& cord) {
     for (const char* key : {"body", "point", "anchor"})
         if (const auto given = table.find(key))
             given->origin().fail("and joint exclude each other: the joint gives the place");
-    const JointDescription& joint = find_joint(value, joints);
-    cord.joint = std::size_t(&joint - joints.data());
-    const bool from_first = joint.second.has_value();
-    cord.body = from_first ? *joint.second : *joint.first;
-    cord.point = from_first ? joint.anchor_second : joint.anchor_first;
-    cord.anchor_body = from_first ? joint.first : joint.second;
-    cord.anchor = from_first ? joint.anchor_first : joint.anchor_second;
+    place_between_anchors(find_joint(value, joints), joints, cord);
 }
 
 }  // namespace
@@ -71,6 +75,15 @@ void read_forces(const TomlTable& root, SceneDescription& scene) {
                 ->fail(fmt::format("makes the force end before it starts, at {} s", number_text(force.start)));
         }
         scene.forces.push_back(force);
+    }
+}
+
+void add_cords_of_joints(SceneDescription& scene) {
+    for (const JointDescription& joint : scene.joints) {
+        if (!joint.visible) continue;
+        CordDescription cord;
+        place_between_anchors(joint, scene.joints, cord);
+        scene.cords.push_back(cord);
     }
 }
 

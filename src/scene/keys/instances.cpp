@@ -23,6 +23,8 @@ namespace {
 // Random numbers of instances are others than those of bodies, whose tables count from 0.
 constexpr std::uint64_t first_random_table = std::uint64_t(1) << 32;
 
+constexpr Range usable_factor{1e-30, 1e30, ""};  // of masses: forces and stiffness stay finite
+
 const SceneTemplate& find_template(const SceneTemplates& templates, const TomlValue& value) {
     const std::string name = value.text();
     if (const auto found = templates.find(name); found != templates.end()) return found->second;
@@ -47,6 +49,9 @@ void read_size(const TomlTable& table, MeshCache& meshes, SceneTemplate& content
         const double all = mass_of_all(content);
         if (!(all > 0.0)) mass->origin().fail("is for templates with a dynamic body, and there is none");
         factor = mass->number(limits::mass) / all;
+        if (!usable_factor.contains(factor))
+            mass->fail(
+                fmt::format("is unusable for a template of {:.3g} kg: give densities that are nearer to it", all));
     }
     if (scale == 1.0 && factor == 1.0) return;
     enlarge(content, scale, factor, meshes);

@@ -70,7 +70,7 @@ constexpr KeyOfTypes joint_keys[] = {
     {"break_impulse", all_types},
     {"collide", all_types},
     {"enabled", all_types},
-    {"visible", all_types},
+    {"visible", of_distance},
 };
 
 std::string names_of(unsigned types) {

@@ -177,7 +177,7 @@ std::array<double, 3> start_turn(const Places& places) {
     const Vec3 x1 = places.frame_first * Vec3::UnitX(), x2 = places.frame_second * Vec3::UnitX();
     const Vec3 normal = x1.cross(x2);
     const double sine = normal.norm();
-    if (sine == 0.0) return {};
+    if (sine == 0.0) return {0.0, x1.dot(x2) < 0.0 ? pi : 0.0, 0.0};
     const Vec3 swing = places.frame_first.conjugate() * (normal * (angle_between(x1, x2) / sine));
     return {0.0, swing.y(), swing.z()};
 }

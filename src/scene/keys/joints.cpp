@@ -55,7 +55,8 @@ void read_restitution(const TomlTable& table, JointDescription& joint) {
     bool limited = joint.swing.has_value();
     for (auto* axes : {&joint.move, &joint.turn})
         for (JointAxis& axis : *axes) {
-            if (axis.motion == Motion::limited || joint.swing) axis.restitution = restitution;
+            const bool swings = joint.swing && axes == &joint.turn;
+            if (axis.motion == Motion::limited || swings) axis.restitution = restitution;
             limited = limited || axis.motion == Motion::limited;
         }
     if (!limited) value->origin().fail("needs limits (not given)");
@@ -175,8 +176,8 @@ void read_distance(const JointTable& given, JointDescription& joint) {
         for (const char* key : {"spring", "motor", "friction"})
             if (const auto value = table.find(key))
                 value->origin().fail("needs a length that changes: give min_length or max_length, and no length");
-        if (std::fabs(start - joint.length) > limits::anchor_tolerance * smaller_size(given.bodies, joint) &&
-            !given.snap) {
+        if (length && !given.snap &&
+            std::fabs(start - joint.length) > limits::anchor_tolerance * smaller_size(given.bodies, joint)) {
             length->fail(
                 fmt::format("must be the distance at the start, {:.6g} m: leave it out, or give snap = true", start));
         }

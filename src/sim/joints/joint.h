@@ -36,6 +36,7 @@ struct Joint {
     std::array<double, coordinates> value{};      // m and rad, with whole turns counted; at the end of the last step
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
     std::array<double, coordinates> curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
+    std::array<double, coordinates> constraint_force{};  // N and N m, of the locked coordinates, of the last flight
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
     Vec3 point = Vec3::Zero();                         // m, world: where the force acts
     double gap = 0.0;                                  // m, largest error of the locked coordinates (angles times size)
@@ -53,9 +54,10 @@ struct Joint {
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps,
                active, broken, broken_at,
-               value, impulse, curving, force, torque, point, gap, at_limit] = self;
+               value, impulse, curving, constraint_force, force, torque, point, gap, at_limit] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
-        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, force, torque, point, gap, at_limit);
+        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, force, torque, point, gap,
+                     at_limit);
     }
 };
 

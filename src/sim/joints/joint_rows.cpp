@@ -22,37 +22,11 @@ double six_dot(const double* row, const std::vector<double>& u, int body) {
 void six_add(const double* row, double amount, std::vector<double>& to, int body) {
     for (int k = 0; k < 6; ++k) to[std::size_t(6 * body + k)] += amount * row[k];
 }
-double row_dot(const JointRows::Block& block, const JointRows::Row& row, const std::vector<double>& u) {
-    return (block.a != JointRows::none ? six_dot(row.on_a, u, block.a) : 0.0) +
-           (block.b != JointRows::none ? six_dot(row.on_b, u, block.b) : 0.0);
-}
-void row_add(const JointRows::Block& block, const JointRows::Row& row, double amount, std::vector<double>& to) {
-    if (block.a != JointRows::none) six_add(row.on_a, amount, to, block.a);
-    if (block.b != JointRows::none) six_add(row.on_b, amount, to, block.b);
-}
 void put_six(double* six, const Vec3& linear, const Vec3& angular) {
     for (int k = 0; k < 3; ++k) {
         six[k] = linear[k];
         six[3 + k] = angular[k];
     }
-}
-
-// H += weight row row^T, in the blocks of both bodies.
-void add_square(BlockCholesky& matrix, const JointRows::Block& block, const JointRows::Row& row, double weight) {
-    using Eight = BlockCholesky::Row;
-    const auto add_outer_of = [](BlockCholesky::Block& to, const double* left, const Eight& right) {
-        for (int k = 0; k < 6; ++k) to.row[k] += left[k] * right;
-    };
-    const double *p = row.on_a, *q = row.on_b;
-    const Eight a = weight * Eight{p[0], p[1], p[2], p[3], p[4], p[5], 0.0, 0.0};
-    const Eight b = weight * Eight{q[0], q[1], q[2], q[3], q[4], q[5], 0.0, 0.0};
-    if (block.a != JointRows::none) add_outer_of(matrix.diagonal(std::size_t(block.a)), row.on_a, a);
-    if (block.b != JointRows::none) add_outer_of(matrix.diagonal(std::size_t(block.b)), row.on_b, b);
-    if (block.a == JointRows::none || block.b == JointRows::none) return;
-    if (matrix.transposed(block.pair))
-        add_outer_of(matrix.coupling(block.pair), row.on_b, a);
-    else
-        add_outer_of(matrix.coupling(block.pair), row.on_a, b);
 }
 
 struct Target {
@@ -74,6 +48,34 @@ Target target_of(const JointMotor& motor, double from, double to) {
 }
 
 }  // namespace
+
+double JointRows::dot(const Block& block, const Row& row, const std::vector<double>& u) {
+    return (block.a != none ? six_dot(row.on_a, u, block.a) : 0.0) +
+           (block.b != none ? six_dot(row.on_b, u, block.b) : 0.0);
+}
+
+void JointRows::add(const Block& block, const Row& row, double amount, std::vector<double>& to) {
+    if (block.a != none) six_add(row.on_a, amount, to, block.a);
+    if (block.b != none) six_add(row.on_b, amount, to, block.b);
+}
+
+// H += weight row row^T, in the blocks of both bodies.
+void JointRows::add_square(BlockCholesky& matrix, const Block& block, const Row& row, double weight) {
+    using Eight = BlockCholesky::Row;
+    const auto add_outer_of = [](BlockCholesky::Block& to, const double* left, const Eight& right) {
+        for (int k = 0; k < 6; ++k) to.row[k] += left[k] * right;
+    };
+    const double *p = row.on_a, *q = row.on_b;
+    const Eight a = weight * Eight{p[0], p[1], p[2], p[3], p[4], p[5], 0.0, 0.0};
+    const Eight b = weight * Eight{q[0], q[1], q[2], q[3], q[4], q[5], 0.0, 0.0};
+    if (block.a != none) add_outer_of(matrix.diagonal(std::size_t(block.a)), row.on_a, a);
+    if (block.b != none) add_outer_of(matrix.diagonal(std::size_t(block.b)), row.on_b, b);
+    if (block.a == none || block.b == none) return;
+    if (matrix.transposed(block.pair))
+        add_outer_of(matrix.coupling(block.pair), row.on_b, a);
+    else
+        add_outer_of(matrix.coupling(block.pair), row.on_a, b);
+}
 
 JointRows::Row JointRows::make_row(const JointIsland& island, const Block& block, const Vec3& direction,
                                    std::size_t coordinate) const {
@@ -287,7 +289,7 @@ void JointRows::add_pairs(std::vector<BlockCholesky::Pair>& pairs) {
 void JointRows::evaluate_speeds(const std::vector<double>& u) {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            rows_[k].speed = rows_[k].offset + row_dot(block, rows_[k], u);
+            rows_[k].speed = rows_[k].offset + dot(block, rows_[k], u);
             rows_[k].change = 0.0;
         }
 }
@@ -295,7 +297,7 @@ void JointRows::evaluate_speeds(const std::vector<double>& u) {
 void JointRows::evaluate_changes(const std::vector<double>& du) {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            rows_[k].change = row_dot(block, rows_[k], du);
+            rows_[k].change = dot(block, rows_[k], du);
 }
 
 void JointRows::evaluate(double along) {
@@ -328,7 +330,7 @@ double JointRows::objective(const std::vector<double>& u) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            const double y = row.estimate + (row.target - row.offset - row_dot(block, row, u)) / row.compliance;
+            const double y = row.estimate + (row.target - row.offset - dot(block, row, u)) / row.compliance;
             const double f = std::clamp(y, row.least, row.most);
             sum += row.compliance * f * (y - 0.5 * f);  // Huber's function
         }
@@ -338,13 +340,13 @@ double JointRows::objective(const std::vector<double>& u) const {
 void JointRows::add_impulses(double factor, std::vector<double>& g) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (rows_[k].impulse != 0.0) row_add(block, rows_[k], factor * rows_[k].impulse, g);
+            if (rows_[k].impulse != 0.0) add(block, rows_[k], factor * rows_[k].impulse, g);
 }
 
 void JointRows::add_estimates(std::vector<double>& g) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (rows_[k].estimate != 0.0) row_add(block, rows_[k], rows_[k].estimate, g);
+            if (rows_[k].estimate != 0.0) add(block, rows_[k], rows_[k].estimate, g);
 }
 
 void JointRows::add_to(BlockCholesky& matrix) const {
@@ -358,7 +360,7 @@ double JointRows::demand(const std::vector<double>& u) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            const double missing = row.target - row.offset - row_dot(block, row, u);
+            const double missing = row.target - row.offset - dot(block, row, u);
             if (row.law == Joint::lock) most = std::max(most, std::abs(missing));
             if (row.least == 0.0) most = std::max(most, missing);
             if (row.most == 0.0) most = std::max(most, -missing);
@@ -436,6 +438,20 @@ double JointRows::close(const JointIsland& island, std::span<const JointSide> en
     return worst;
 }
 
+double JointRows::rounding(double fastest) const {
+    return 4.0 * std::numeric_limits<double>::epsilon() * fastest / compliance_;
+}
+
+double JointRows::rounding(const JointIsland& island, double fastest, double lightest) const {
+    double size = infinity, farthest = 0.0;
+    for (const Block& block : blocks_) {
+        size = std::min(size, joint(block).size);
+        farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+    }
+    const double places = 2.0 * std::numeric_limits<double>::epsilon() * farthest;
+    return (places + island.problem.settings.h * rounding(fastest) / lightest) / size;
+}
+
 bool JointRows::give_way() {
     bool any = false;
     for (Block& block : blocks_) {
@@ -445,7 +461,8 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             (rows_[k].turns() ? torque : force) += rows_[k].impulse / h_ * rows_[k].direction;
         torque *= length_;
-        const double over = std::max(force.norm() / j.description.break_force, torque.norm() / j.description.break_torque);
+        const double over = std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
+                                      torque.norm() / j.description.break_torque});
         if (!(over > 1.0)) continue;
         any = block.breaks = true;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
@@ -471,7 +488,7 @@ bool JointRows::add_push(double stiffness, double rate, std::vector<double>& pus
             const double wanted = (row.turns() ? length_ : 1.0) * rate * (goal - row.reference);
             if (wanted == 0.0) continue;
             any = true;
-            row_add(block, row, stiffness * wanted, push);
+            add(block, row, stiffness * wanted, push);
         }
     }
     return any;
@@ -522,6 +539,23 @@ void JointRows::store(const JointIsland& island) {
             b.angular_momentum += (block.point - b.position).cross(force) + torque;
         }
     }
+}
+
+bool JointRows::apart() const {
+    return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.law == Joint::lock && row.reference != 0.0; });
+}
+
+bool JointRows::violates_limit(const JointIsland& island, const Block& block) const {
+    const Joint& j = joint(block);
+    if (!j.soft) return false;
+    const JointGeometry g = measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
+    if (j.description.swing && g.swing.value > g.swing_limit) return true;
+    for (std::size_t k = 0; k < j.count(); ++k) {
+        const JointAxis& axis = j.axis(k);
+        if (axis.motion != JointAxis::Motion::limited) continue;
+        if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
+    }
+    return false;
 }
 
 double JointRows::swing_rate(const JointIsland& island) {

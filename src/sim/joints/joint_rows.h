@@ -61,6 +61,9 @@ public:
     };
 
     bool empty() const { return blocks_.empty(); }
+    std::span<Row> rows() { return rows_; }
+    std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
+    double length() const { return length_; }  // m, of the island
     std::span<Block> blocks() { return blocks_; }
     void clear() {
         blocks_.clear();
@@ -95,6 +98,12 @@ public:
     /// error, in sizes of the joint.
     double close(const JointIsland& island, std::span<const JointSide> ends);
 
+    /// Rounding of the impulses (N s) at speeds up to `fastest` (m/s), over the compliance.
+    double rounding(double fastest) const;
+    /// Rounding of the closed errors, in sizes of the joint: that of the coordinates, and that of the impulses on the
+    /// lightest body (kg).
+    double rounding(const JointIsland& island, double fastest, double lightest) const;
+
     /// Joints whose load is above their strength: their impulses are set to the strength. Returns whether any is new.
     bool give_way();
 
@@ -105,9 +114,20 @@ public:
     /// Gives the impulses to the bodies; `reached` marks those by index in the island.
     void store(const JointIsland& island);
 
+    /// Whether a locked coordinate has an error to be moved out.
+    bool apart() const;
+
+    /// Whether a limit of the joint is violated at the present poses.
+    bool violates_limit(const JointIsland& island, const Block& block) const;
+
     /// Fastest rate (rad/s) at which a body would swing about its joints under their forces: sqrt(4 T / (m l)) for a
     /// rod of length l.
     double swing_rate(const JointIsland& island);
+
+    /// J u without the prescribed velocities; adds amount J^T; adds weight J^T J.
+    static double dot(const Block& block, const Row& row, const std::vector<double>& u);
+    static void add(const Block& block, const Row& row, double amount, std::vector<double>& to);
+    static void add_square(BlockCholesky& matrix, const Block& block, const Row& row, double weight);
 
 private:
     void add_joint(const JointIsland& island, std::uint32_t index, double compliance);

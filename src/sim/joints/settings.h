@@ -4,7 +4,7 @@
 namespace tumble::tuning {
 
 /// Compliance of rigid rows, over the island's mass and its number of joints. A round makes the error of a chain about a
-/// thousand times smaller, whatever its length, because the softest motion of n links has a compliance of pi^2 / n over
+/// thousand times smaller, at any length, because the softest motion of n links has a compliance of pi^2 / n over
 /// their mass. Smaller values add rounding to the impulses.
 inline constexpr double joint_compliance = 1e-2;
 
@@ -21,7 +21,7 @@ inline constexpr double joint_closed = 1e-13;
 inline constexpr double joint_stall = 1e-6;
 
 /// Largest phase, rad, of a link's swing under tension in a step: the direction of the force is that of the step's start,
-/// and the motion grows without bound from a phase of 1 to 2 on. Test: JointStatics.AWreckingBall.
+/// and the motion grows without bound from a phase of 1 to 2 on. Related test: JointStatics.AWreckingBall.
 inline constexpr double joint_swing = 0.7;
 
 /// Largest number of substeps: for that phase; where passes do not converge; and where contacts do not. Not fitted:
@@ -42,10 +42,17 @@ inline constexpr double joint_push_stiffness = 1e3;
 /// JointLaws.AMotorOpensADoorToItsLimit.
 inline constexpr double joint_round_tolerance = 1e-8;
 
+/// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
+inline constexpr double joint_flight_closed = 4e-16;
+
+/// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the
+/// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointMotion.AFourBarPassesItsSingularPosition.
+inline constexpr double joint_singular = 0.2;
+
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;
 
-/// Share of a joint's error that is moved out in a step. Test: Joints.AnAnchorApartIsPulledInWithoutSpeed.
+/// Share of a joint's error that is moved out in a step. Test: JointLaws.AnAnchorApartIsPulledInWithoutSpeed.
 inline constexpr double joint_push_share = 0.2;
 
 }  // namespace tumble::tuning

@@ -6,6 +6,7 @@
 #include "sim/step/step_context.h"
 #include "sim/threads/settings.h"
 
+#include <algorithm>
 #include <atomic>
 #include <utility>
 #include <vector>
@@ -34,20 +35,35 @@ public:
     /// Limits by body. Precondition: find().
     const std::vector<CcdFraction>& limits(const StepContext& step, ContactDetection& detection,
                                            const FindPairs& find_pairs, const TurnsFreely& turns_freely = nullptr) {
-        return clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely}, find_pairs,
-                             touch_depth(detection.manifolds(), step.set.bodies));
+        const auto& limits = clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely}, find_pairs,
+                                           touch_depth(detection.manifolds(), step.set.bodies));
+        return any_fast_ && detection.islands().any_joints() ? joined(limits, detection.islands()) : limits;
     }
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [clamp, any_fast] = self;
+        auto& [clamp, any_fast, joined] = self;
         archive.keep(clamp);
-        archive.scratch(any_fast);
+        archive.scratch(any_fast, joined);
     }
 
 private:
+    /// Joined bodies move for the same fraction of the step: else their joints would open.
+    const std::vector<CcdFraction>& joined(const std::vector<CcdFraction>& limits, const ContactIslands& islands) {
+        joined_ = limits;
+        for (std::size_t k = 0; k < islands.size(); ++k) {
+            if (islands.joints(k).empty()) continue;
+            double share = 1.0;
+            for (const std::uint32_t i : islands.bodies(k)) share = std::min(share, limits[i].share);
+            if (share == 1.0) continue;
+            for (const std::uint32_t i : islands.bodies(k)) joined_[i] = {.share = share};
+        }
+        return joined_;
+    }
+
     CcdClamp clamp_;
+    std::vector<CcdFraction> joined_;  // by body
     std::atomic<bool> any_fast_{false};  // set by each body's own thread
 };
 

@@ -32,7 +32,7 @@ double SteppedMotion::least_rebound(const StepContext& step) const {
 // Explicit Euler moves a pose by the velocities of the step's start, all others by those of its end; the rotation by
 // their mean.
 BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const StepContext& step) const {
-    const bool before = body.dynamic() && body.integrator == IntegratorKind::explicit_euler;
+    const bool before = body.dynamic() && !body.jointed && body.integrator == IntegratorKind::explicit_euler;
     const BodyVelocity& old = step.set.old_velocities[i];
     BodyVelocity motion;
     motion.velocity = (before ? old.velocity : body.velocity) + body.push_velocity;

@@ -109,14 +109,16 @@ export interface Body {
   friction: number;
 }
 
-/** A straight line from a body to a fixed point, to look at: it has no effect on the motion. */
+/** A straight line to look at, without effect on the motion: from a body to a fixed point, or to another body. */
 export interface Cord {
   /** Index of the body. */
   body: number;
   /** Body frame, from the body's origin, m. */
   point: Vec3;
-  /** World frame, m. */
+  /** World frame, m; with an anchor_body in its frame, from its origin. */
   anchor: Vec3;
+  /** Index of the body with which the anchor moves. */
+  anchor_body?: number;
   /** m. */
   radius: number;
   color: ColorText;

@@ -71,6 +71,9 @@ bool DirectSolver::step_linear() {
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     friction_compliance_ = tuning::direct_friction_soft * compliance_;
     start();
+    const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
+    const double noise = joints_.rounding(fastest_);  // N s
+    const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
@@ -83,7 +86,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
             }
-            return found && last < tuning::joint_rounding ? Closing::closed : Closing::stuck;
+            return found && last < rounding ? Closing::closed : Closing::stuck;
         }
         found = true;
         rounds_ = std::max(rounds_, round + 1);
@@ -92,16 +95,16 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         const double error = joints_.close(island, ends_);
         if (!std::isfinite(error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
-        const bool settled = change <= tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_);
-        if (settled && (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)))
+        const bool settled = change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
+        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last)))
             return Closing::closed;
-        slow = error > tuning::joint_rounding && error >= 0.5 * last ? slow + 1 : 0;
+        slow = error > rounding && error >= 0.5 * last ? slow + 1 : 0;
         if (slow >= 3) return Closing::open;
         last = error;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
                                         tuning::direct_friction_stiff * compliance_);
     }
-    return last < tuning::joint_rounding ? Closing::closed : Closing::open;
+    return last < rounding ? Closing::closed : Closing::open;
 }
 
 // The state at the start of a substep: forces in equal parts, rows at the present poses, gaps of the contacts by the
@@ -209,6 +212,26 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     return true;
 }
 
+// The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.
+bool DirectSolver::fly(const JointIsland& island, int& substeps) {
+    std::vector<StepForce> forces;
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
+    for (; substeps <= tuning::joint_swing_substeps; substeps *= 2) {
+        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+            Body& body = island.problem.bodies[island.bodies[k]];
+            const Start& start = starts_[k];
+            set_state(body, {start.position, start.orientation, start.momentum - start.push,
+                             start.angular_momentum - start.turn});
+        }
+        if (flight_.advance(island, forces, JointFlight::order(island), substeps)) {
+            swing_ = flight_.swing();
+            return true;
+        }
+        if (!(flight_.swing() > tuning::joint_swing)) return false;
+    }
+    return false;
+}
+
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds,
                                      std::span<const std::uint32_t> joints) {
@@ -235,8 +258,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         values.push_back(joint.value);
         substeps = std::max(substeps, joint.substeps);
     }
-    while (!solve_jointed_step(island, manifolds, substeps)) {
-        substeps *= 2;
+    const auto reset = [&] {
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             Body& body = problem.bodies[bodies[k]];
             const Start& start = starts_[k];
@@ -255,17 +277,27 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         }
         if (problem.totals)
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
+    };
+    bool flown = false;
+    if (manifolds.empty() && JointFlight::flies(island)) {
+        flown = fly(island, substeps);
+        if (!flown) reset();
     }
-    const bool easy = swing_ < 0.4 * tuning::joint_swing && rounds_ <= tuning::joint_easy_rounds;
+    while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
+        substeps *= 2;
+        reset();
+    }
+    const bool easy =
+        swing_ < 0.4 * tuning::joint_swing && (flown || rounds_ <= tuning::joint_easy_rounds);
     for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
     displacement_.clear();
-    const bool pushed = push_out(h);
+    const bool pushed = !flown && push_out(h);
     store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
         body.push_velocity.setZero();
         body.push_angular_velocity.setZero();
-        if (substeps > 1) {
+        if (flown || substeps > 1) {
             // Back to the start: the step's velocities move the body to the end of the substeps.
             const Vec3 moved = body.position - starts_[k].position;
             const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());

@@ -20,6 +20,7 @@
 
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
+#include "sim/joints/joint_flight.h"
 #include "sim/joints/joint_rows.h"
 
 #include <cstdint>
@@ -72,7 +73,7 @@ private:
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island);
     void move(const JointIsland& island);
-    void store_jointed(const JointIsland& island);
+    bool fly(const JointIsland& island, int& substeps);
     void predict_ends(const JointIsland& island);
     std::pair<double, double> next_round();
     bool factored();
@@ -104,6 +105,7 @@ private:
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
     JointRows joints_;
+    JointFlight flight_;
     std::vector<JointSide> ends_;  // poses at the end of the step
     struct Start {                 // of a body in a jointed step
         Vec3 position, momentum, angular_momentum;  // after the forces

@@ -42,6 +42,7 @@ public:
         if (joints_.empty()) return {};
         return std::span(joints_).subspan(first_joint_[island], first_joint_[island + 1] - first_joint_[island]);
     }
+    bool any_joints() const { return !joints_.empty(); }
     /// Body pairs of the island's manifolds, in the same order.
     std::span<const BodyPair> pairs(std::size_t island) const {
         return std::span(pairs_).subspan(first_manifold_[island],

@@ -32,7 +32,9 @@ void turn(Quat& q, Vec3& m, const Vec3& inertia, double h) {
     m[k] = cosine * mk - sine * mj;
 }
 
-void drift(RigidState& s, const RigidMass& mass, double h) {
+}  // namespace
+
+void free_drift(RigidState& s, const RigidMass& mass, double h) {
     s.position += h * mass.inverse_mass * s.momentum;
     if (s.angular_momentum.isZero(0.0)) return;
     Quat q = s.orientation * mass.principal_axes;
@@ -46,11 +48,9 @@ void drift(RigidState& s, const RigidMass& mass, double h) {
     s.orientation = (q * mass.principal_axes.conjugate()).normalized();
 }
 
-}  // namespace
-
 void splitting_step(RigidState& state, const RigidMass& mass, const ForceLaw& forces, double h) {
     kick(state, mass, forces, 0.5 * h);
-    drift(state, mass, h);
+    free_drift(state, mass, h);
     kick(state, mass, forces, 0.5 * h);
 }
 

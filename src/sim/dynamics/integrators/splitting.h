@@ -10,6 +10,9 @@
 
 namespace tumble {
 
+/// The drift alone: h seconds of free flight.
+void free_drift(RigidState& state, const RigidMass& mass, double h);
+
 /// A step of h seconds.
 void splitting_step(RigidState& state, const RigidMass& mass, const ForceLaw& forces, double h);
 

@@ -1,0 +1,59 @@
+// Flight of joined bodies that touch nothing: RATTLE, to second order, and its symmetric compositions of order 4, 6, 8.
+//
+// With half a kick by the forces, the joints' impulses J^T f close all gaps at the end of a free drift; after the second
+// half kick, J^T g makes the velocities fit the joints (Andersen 1983, J. Comput. Phys. 52; symplectic: Leimkuhler and
+// Skeel 1994, J. Comput. Phys. 112; rigid bodies with a split drift: Kol, Laird, Leimkuhler 1997, J. Chem. Phys. 107).
+// Each stage ends with closed joints and fitting velocities, so compositions of stages have no drift either (Hairer,
+// Lubich, Wanner, Geometric Numerical Integration, section V.3).
+#pragma once
+
+#include "sim/contact/direct/block_cholesky.h"
+#include "sim/dynamics/integrators/rigid_state.h"
+#include "sim/joints/joint_rows.h"
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Impulse (N s) and angular impulse (N m s) of a body's forces over the step: they act evenly.
+struct StepForce {
+    Vec3 push, turn;
+};
+
+class JointFlight {
+public:
+    /// Whether the island's motion is free but for its locked joints and gravity-like forces: no springs, motors or
+    /// friction, no limit within reach, and no moving carrier.
+    static bool flies(const JointIsland& island);
+    static int order(const JointIsland& island);
+
+    /// Moves the island's bodies over the step from their present state, the start of the step without its forces.
+    /// Returns false, and leaves the bodies in any state, where the passes do not converge, a limit is met or a joint
+    /// breaks.
+    bool advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps);
+    /// Largest phase (rad) of a link's swing in a substep of the last advance().
+    double swing() const { return swing_; }
+
+private:
+    bool stage(const JointIsland& island, std::span<const StepForce> forces, double share);
+    void load(const JointIsland& island);
+    bool close(const JointIsland& island);
+    bool fit(const JointIsland& island);
+    double errors(const JointIsland& island, double h);
+    bool impulses();
+    void kick(const JointIsland& island, std::span<const StepForce> forces, double share);
+    void drift(const JointIsland& island, double h);
+    void apply(const JointIsland& island);
+    void add_up(const JointIsland& island);
+
+    JointRows rows_;
+    BlockCholesky matrix_;
+    std::vector<BlockCholesky::Pair> pairs_;
+    std::vector<RigidState> starts_;      // of a stage's drift, by body
+    std::vector<double> change_, asked_;  // du; by row: the change of J u that is asked for
+    std::vector<double> given_;           // N s, by row: impulses of the stage
+    double swing_ = 0.0, compliance_ = 0.0, total_mass_ = 0.0;
+};
+
+}  // namespace tumble
