@@ -14,11 +14,15 @@ std::array<std::int64_t, verdict_count> SetResult::counts() const {
     return numbers;
 }
 
+bool SetResult::fails(Verdict verdict) const {
+    return verdict != Verdict::same && verdict != Verdict::alike && !(verdict == Verdict::added && added_allowed);
+}
+
 int SetResult::exit_code() const {
-    if (count(Verdict::broken) > 0) return 2;
-    if (count(Verdict::missing) > 0) return 3;
-    if (count(Verdict::different) > 0) return 1;
-    return count(Verdict::added) > 0 && !added_allowed ? 1 : 0;
+    for (const Verdict verdict : worst_first)
+        if (fails(verdict) && count(verdict) > 0)
+            return verdict == Verdict::broken ? 2 : verdict == Verdict::missing ? 3 : 1;
+    return 0;
 }
 
 }  // namespace tumble

@@ -21,6 +21,9 @@ enum class Verdict {
     broken,     // cannot be compared: not a PNG file, another size
 };
 inline constexpr std::size_t verdict_count = 6;
+/// The order of reports.
+inline constexpr std::array<Verdict, verdict_count> worst_first{Verdict::broken, Verdict::missing, Verdict::different,
+                                                                Verdict::added,  Verdict::alike,   Verdict::same};
 
 /// "same", "alike", ...
 std::string_view name_of(Verdict verdict);
@@ -57,6 +60,9 @@ struct SetResult {
     /// The number of images of each verdict, in the order of the enumeration.
     std::array<std::int64_t, verdict_count> counts() const;
     std::int64_t count(Verdict verdict) const { return counts()[std::size_t(verdict)]; }
+
+    /// True for a verdict that makes the comparison fail.
+    bool fails(Verdict verdict) const;
 
     /// 2 if an image is broken, else 3 if one is missing, else 1 if one differs or an added one is not allowed, else 0.
     int exit_code() const;

@@ -1,5 +1,6 @@
 #include "compare/comparison_text.h"
 
+#include "core/html_text.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
@@ -43,52 +44,29 @@ Json json_of(const ImageResult& image) {
     return json;
 }
 
-/// Text for an attribute or an element. XML 1.0 allows no control characters but tab and line breaks.
+/// Text for an attribute or an element. XML 1.0 allows no control characters but tab and line breaks, and a reader takes
+/// those of an attribute for spaces.
 std::string escaped(std::string_view text) {
     std::string xml;
-    for (const char c : safe_lines(text, text.size() + message_text_bytes)) {
-        switch (c) {
-            case '&':
-                xml += "&amp;";
-                break;
-            case '<':
-                xml += "&lt;";
-                break;
-            case '>':
-                xml += "&gt;";
-                break;
-            case '"':
-                xml += "&quot;";
-                break;
-            case '\n':
-                xml += "&#10;";
-                break;
-            case '\t':
-                xml += "&#9;";
-                break;
-            default:
-                xml += c;
-        }
+    for (const char c : html_text(safe_lines(text, text.size() + message_text_bytes))) {
+        if (c == '\n' || c == '\t')
+            xml += fmt::format("&#{};", int(c));
+        else
+            xml += c;
     }
     return xml;
 }
 
-bool is_failure(const ImageResult& image, const SetResult& result) {
-    return image.verdict == Verdict::different || (image.verdict == Verdict::added && !result.added_allowed);
-}
-
-bool is_error(const ImageResult& image) {
-    return image.verdict == Verdict::missing || image.verdict == Verdict::broken;
-}
+/// JUnit tells tests that fail from those that cannot be done.
+bool is_error(Verdict verdict) { return verdict == Verdict::missing || verdict == Verdict::broken; }
 
 std::string testcase(const ImageResult& image, const SetResult& result) {
     const std::string head =
         fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(result.reference), escaped(image.name));
-    const bool failure = is_failure(image, result);
-    if (!failure && !is_error(image)) return head + "/>\n";
+    if (!result.fails(image.verdict)) return head + "/>\n";
     std::string text = image.reason;
     for (const std::string& cause : image.causes) text += "\n" + cause;
-    const std::string_view element = failure ? "failure" : "error";
+    const std::string_view element = is_error(image.verdict) ? "error" : "failure";
     return fmt::format("{}>\n    <{} type=\"{}\" message=\"{}\">{}</{}>\n  </testcase>\n", head, element,
                        name_of(image.verdict), escaped(text.substr(0, text.find('\n'))), escaped(text), element);
 }
@@ -116,8 +94,7 @@ std::string to_junit(const SetResult& result) {
     std::size_t failures = 0, errors = 0;
     std::string cases;
     for (const ImageResult& image : result.images) {
-        failures += is_failure(image, result) ? 1 : 0;
-        errors += is_error(image) ? 1 : 0;
+        if (result.fails(image.verdict)) ++(is_error(image.verdict) ? errors : failures);
         cases += testcase(image, result);
     }
     return fmt::format(

@@ -1,5 +1,6 @@
 #include "compare/image_compare.h"
 
+#include "compare/metrics/pixel_windows.h"
 #include "core/check.h"
 #include "core/error.h"
 #include "output/png_reader.h"
@@ -10,57 +11,34 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstdlib>
 
 namespace tumble {
 namespace {
 
-constexpr int window = 8;           // pixels: about the smallest visible object
-constexpr int stride = window / 2;  // windows overlap by half, so that no small change is split over four of them
 // Two adjacent outliers occur in noise; a small box moved by one pixel gives more than four.
 constexpr int cluster_limit = 4;  // failing pixels in a window
-
-/// A channel as a black background shows it.
-int shown(const std::uint8_t* pixel, int channel) {
-    return pixel[3] == 255 ? pixel[channel] : (2 * pixel[channel] * pixel[3] + 255) / 510;
-}
-
-/// The largest difference over the four channels of a pixel. The color of a transparent pixel is invisible, and a nearly
-/// transparent one has but a few levels of it: colors count as far as alpha shows them.
-int pixel_difference(const std::uint8_t* a, const std::uint8_t* b) {
-    int most = std::abs(int(a[3]) - int(b[3]));
-    for (int c = 0; c < 3; ++c) most = std::max(most, std::abs(shown(a, c) - shown(b, c)));
-    return most;
-}
 
 /// A bit for each channel and direction in which the second pixel is off by more than half the tolerance.
 std::uint8_t off_bits(const std::uint8_t* a, const std::uint8_t* b, int tolerance) {
     unsigned bits = 0;
     for (int c = 0; c < 4; ++c) {
-        const int shift = c == 3 ? b[3] - a[3] : shown(b, c) - shown(a, c);
+        const int shift = c == 3 ? b[3] - a[3] : seen_on_black(b, c) - seen_on_black(a, c);
         if (2 * shift > tolerance) bits |= 1u << (2 * c);
         if (-2 * shift > tolerance) bits |= 2u << (2 * c);
     }
     return static_cast<std::uint8_t>(bits);
 }
 
-/// Starts of windows along one side: every stride, and one flush with the far edge.
-std::vector<int> window_starts(int size) {
-    std::vector<int> starts;
-    for (int i = 0; i + window < size; i += stride) starts.push_back(i);
-    starts.push_back(std::max(0, size - window));
-    return starts;
-}
-
 /// True if windows start at this row.
 bool is_window_start(int row, int size) {
-    return row == std::max(0, size - window) || (row >= 0 && row % stride == 0 && row + window < size);
+    return row == std::max(0, size - window_side) || (row >= 0 && row % window_step == 0 && row + window_side < size);
 }
 
 std::array<CompareRule, 4> rules(const Comparison& c, std::size_t pixels, const CompareOptions& options) {
     // Pixels that the caller allows to differ may be anywhere, with any difference, so both window limits grow with
     // them.
-    const double cluster = options.cluster ? *options.cluster : cluster_limit + window * window * options.fraction;
+    const double cluster =
+        options.cluster ? *options.cluster : cluster_limit + window_side * window_side * options.fraction;
     const double mean = options.window ? *options.window : 0.5 * options.tolerance + 255.0 * options.fraction;
     // Rounded up, so that one pixel of a small image may be noise.
     const double count = std::ceil(options.fraction * double(pixels));
@@ -123,12 +101,12 @@ ImageComparer::ImageComparer(int width, int height, const CompareOptions& option
       height_(height),
       options_(options),
       columns_(window_starts(width)),
-      differences_(std::size_t(width) * window),
-      offs_(std::size_t(width) * window),
+      differences_(std::size_t(width) * window_side),
+      offs_(std::size_t(width) * window_side),
       sums_(std::size_t(width)) {}
 
 /// The first element of a row's differences.
-std::size_t ImageComparer::ring_row(int row) const { return std::size_t(row % window) * std::size_t(width_); }
+std::size_t ImageComparer::ring_row(int row) const { return std::size_t(row % window_side) * std::size_t(width_); }
 
 void ImageComparer::add_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b) {
     TUMBLE_CHECK_LT(row_, height_);
@@ -139,8 +117,8 @@ void ImageComparer::add_row(std::span<const std::uint8_t> a, std::span<const std
         add_differing_row(a, b);
     }
     ++row_;
-    const int top = std::max(0, row_ - window);
-    const bool full = row_ >= window || row_ == height_;
+    const int top = std::max(0, row_ - window_side);
+    const bool full = row_ >= window_side || row_ == height_;
     if (full && is_window_start(top, height_) && last_difference_ >= top) check_windows(top, row_);
 }
 
@@ -183,7 +161,7 @@ void ImageComparer::check_windows(int top, int bottom) {
         }
     }
     for (const int left : columns_) {
-        const int right = std::min(left + window, width_);
+        const int right = std::min(left + window_side, width_);
         Sums sum;
         for (int x = left; x < right; ++x) {
             sum.difference += sums_[std::size_t(x)].difference;
@@ -196,7 +174,7 @@ void ImageComparer::check_windows(int top, int bottom) {
 
 /// An image smaller than a window is one window, with the same weight for each pixel.
 void ImageComparer::check_window(int left, int top, const Sums& sums) {
-    constexpr double pixels = window * window;
+    constexpr double pixels = window_side * window_side;
     if (sums.failing > found_.worst_cluster) {
         found_.worst_cluster = sums.failing;
         found_.worst_cluster_x = left;
@@ -221,7 +199,6 @@ Comparison ImageComparer::result(LimitNames names) const {
     TUMBLE_CHECK_EQ(row_, height_);
     Comparison result = found_;
     const std::size_t pixels = std::size_t(width_) * std::size_t(height_);
-    if (pixels > 0) result.failing_fraction = double(result.failing_pixels) / double(pixels);
     if (result.differing_pixels > 0) result.changed = (result.failing_pixels > 0 ? failing_ : differing_).rectangle();
     result.rules = rules(result, pixels, options_);
     for (const CompareRule& rule : result.rules)
@@ -244,7 +221,7 @@ void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_
                     std::span<std::uint8_t> to) {
     for (std::size_t i = 0; i < to.size(); i += 4) {
         const int d = pixel_difference(&a[i], &b[i]);
-        const int sum = 2 * shown(&a[i], 0) + 5 * shown(&a[i], 1) + shown(&a[i], 2);
+        const int sum = 2 * seen_on_black(&a[i], 0) + 5 * seen_on_black(&a[i], 1) + seen_on_black(&a[i], 2);
         const int gray = sum / 24;                                     // a third of the brightness
         const int marked = d == 0 ? gray : std::min(255, 96 + 8 * d);  // the smallest difference is visible
         to[i] = static_cast<std::uint8_t>(d > tolerance ? marked : gray);

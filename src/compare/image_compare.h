@@ -56,7 +56,6 @@ struct Comparison {
     std::string reason;                            // a sentence for each failed rule, one per line
     std::size_t differing_pixels = 0;              // with any difference
     std::size_t failing_pixels = 0;                // beyond the tolerance
-    double failing_fraction = 0.0;                 // of all pixels
     int max_difference = 0;                        // levels, largest over pixels and channels
     int max_x = 0, max_y = 0;                      // its place
     double worst_window = 0.0;                     // levels, largest mean difference in an 8 x 8 window

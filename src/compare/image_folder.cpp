@@ -2,7 +2,6 @@
 
 #include "core/error.h"
 
-#include <algorithm>
 #include <set>
 #include <system_error>
 
@@ -56,11 +55,9 @@ References references_of(const NamedFiles& files, const NamedFiles& images, cons
     if (platform.empty() || platforms.count(platform) == 0) return references;
     for (const auto& [name, file] : files) {
         if (first_folder(name) != platform) continue;
-        const std::string general = name.substr(platform.size() + 1);
-        references.files[general] = file;
-        references.replacing.push_back(general);
+        references.files[name.substr(platform.size() + 1)] = file;
+        references.platform = platform;
     }
-    if (!references.replacing.empty()) references.platform = platform;
     return references;
 }
 

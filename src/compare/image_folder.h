@@ -19,8 +19,7 @@ NamedFiles png_files_in(const std::filesystem::path& folder);
 
 struct References {
     NamedFiles files;
-    std::string platform;                // whose files replace general ones; empty: none
-    std::vector<std::string> replacing;  // the names of its files
+    std::string platform;  // whose files replace general ones; empty: none
 };
 
 /// The references of a platform: each file NAME, or PLATFORM/NAME where that exists. Folders of the other platforms in

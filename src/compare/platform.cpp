@@ -18,4 +18,15 @@ std::string this_platform() {
     return platform_of(text);
 }
 
+std::string platform_of_option(const std::optional<std::string>& name) {
+    if (name == "none") return "";
+    return name ? *name : this_platform();
+}
+
+std::vector<std::string> platform_folders(const std::vector<std::string>& more) {
+    std::vector<std::string> folders{"amd", "intel", "arm", "other"};
+    folders.insert(folders.end(), more.begin(), more.end());
+    return folders;
+}
+
 }  // namespace tumble

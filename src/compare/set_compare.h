@@ -5,7 +5,6 @@
 #include "compare/pair_compare.h"
 #include "compare/tolerances.h"
 
-#include <cstdint>
 #include <functional>
 #include <optional>
 #include <vector>

@@ -13,7 +13,6 @@
 #include "compare/ignored_pixels.h"
 #include "compare/image_compare.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -27,4 +27,9 @@ InputError::InputError(const SourceLocation& where, const std::string& message)
 RunError::RunError(const std::string& message)
     : std::runtime_error("error: " + safe_lines(message)), message_(safe_lines(message)) {}
 
+std::string reason_of(std::string_view what) {
+    constexpr std::string_view prefix = "error: ";
+    return std::string(what.starts_with(prefix) ? what.substr(prefix.size()) : what);
+}
+
 }  // namespace tumble

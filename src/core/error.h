@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 namespace tumble {
 
@@ -41,6 +42,9 @@ public:
 private:
     std::string message_;
 };
+
+/// The text of an error, what(), without "error: ".
+std::string reason_of(std::string_view what);
 
 /// A signal, such as that of Ctrl-C, ended the run.
 class Interrupted : public RunError {

@@ -1,10 +1,10 @@
 #include "output/npz_check.h"
 
 #include "core/check.h"
+#include "output/checksum.h"
 #include "output/file_bytes.h"
 
 #include <fmt/format.h>
-#include <isa-l/crc.h>
 
 namespace tumble {
 namespace {
@@ -26,7 +26,7 @@ std::optional<std::string> mark_of_whole_npz(const std::filesystem::path& path) 
     const std::size_t before = file->size() - npz_comment_size;
     const std::string_view comment = std::string_view(*file).substr(before);
     const std::string_view mark = comment.substr(keyword.size(), mark_size);
-    const std::uint32_t checksum = crc32_gzip_refl(0, reinterpret_cast<const unsigned char*>(file->data()), before);
+    const std::uint32_t checksum = crc32_of(0, std::as_bytes(std::span(*file).first(before)));
     return comment == npz_comment(mark, checksum) ? std::optional(std::string(mark)) : std::nullopt;
 }
 

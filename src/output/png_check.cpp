@@ -1,9 +1,8 @@
 #include "output/png_check.h"
 
+#include "output/checksum.h"
 #include "output/file_bytes.h"
 #include "output/png_writer.h"
-
-#include <isa-l/crc.h>
 
 #include <cstdint>
 #include <string_view>
@@ -28,8 +27,8 @@ PngState state_of(std::string_view bytes) {
         const std::size_t size = number_at(bytes, at);
         if (size > bytes.size() - at - 12) return state;
         const std::string_view name = bytes.substr(at + 4, 4), data = bytes.substr(at + 8, size);
-        const auto* checked = reinterpret_cast<const unsigned char*>(name.data());
-        if (crc32_gzip_refl(0, checked, 4 + size) != number_at(bytes, at + 8 + size)) return state;
+        const std::string_view checked = bytes.substr(at + 4, 4 + size);
+        if (crc32_of(0, std::as_bytes(std::span(checked))) != number_at(bytes, at + 8 + size)) return state;
         at += 12 + size;
         if (!head && name != "IHDR") return state;
         head = true;

@@ -2,10 +2,10 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "output/checksum.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>
-#include <isa-l/crc.h>
 #include <isa-l/igzip_lib.h>
 #include <png.h>
 #include <zlib.h>
@@ -106,7 +106,7 @@ void append_chunk(std::vector<std::byte>& to, std::string_view name,
         const auto bytes = std::as_bytes(segment);
         to.insert(to.end(), bytes.begin(), bytes.end());
     }
-    append_number(to, crc32_gzip_refl(0, reinterpret_cast<const std::uint8_t*>(to.data() + first), to.size() - first));
+    append_number(to, crc32_of(0, std::span<const std::byte>(to).subspan(first)));
 }
 
 /// R, G and B of the pixels from `first` on, less those of the pixel before.

@@ -13,7 +13,6 @@
 #include <fstream>
 #include <functional>
 #include <iterator>
-#include <span>
 
 namespace tumble {
 namespace {
@@ -60,8 +59,7 @@ SegmentJoiner::SegmentJoiner(const fs::path& clip, const VideoFormat& format, co
 void SegmentJoiner::join(const ClipSegments& segments) {
     const bool gif = format_.kind == VideoKind::gif;
     const fs::path list = segments.folder / "join.txt";
-    const std::string text = list_of(segments, format_);
-    write_file(list, std::as_bytes(std::span(text)));
+    write_file(list, list_of(segments, format_));
     const fs::path program = find_ffmpeg();
     TemporaryFile file(clip_);
     {

@@ -143,4 +143,6 @@ void write_file(const fs::path& path, std::span<const std::byte> bytes) {
     file.commit();
 }
 
+void write_file(const fs::path& path, std::string_view text) { write_file(path, std::as_bytes(std::span(text))); }
+
 }  // namespace tumble

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string_view>
 
 namespace tumble {
 
@@ -37,6 +38,7 @@ public:
 
     /// Appends all the bytes. Throws RunError naming the final path (disk full, ...).
     void write(std::span<const std::byte> bytes);
+    void write(std::string_view text) { write(std::as_bytes(std::span(text))); }
 
     /// Finishes the file after the last write(): it is synced to the disk and renamed to its final name.
     void commit();
@@ -60,5 +62,6 @@ void bring_to_disk(const std::filesystem::path& folder);
 
 /// Writes all of a file at once. Throws RunError naming the path.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> bytes);
+void write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace tumble

@@ -11,12 +11,22 @@
 #include <system_error>
 
 namespace tumble {
+namespace {
 
-TemporaryFolder::TemporaryFolder(const std::string& purpose) {
+std::filesystem::path folder_of_temporary_files() {
     std::error_code error;
-    const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error) throw RunError("cannot find the folder of temporary files (TMPDIR): " + error.message());
-    std::string name = (folder / fmt::format("tumble-{}-XXXXXX", purpose)).string();
+    return folder;
+}
+
+}  // namespace
+
+TemporaryFolder::TemporaryFolder(const std::string& purpose)
+    : TemporaryFolder(folder_of_temporary_files(), fmt::format("tumble-{}-", purpose)) {}
+
+TemporaryFolder::TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix) {
+    std::string name = (parent / (prefix + "XXXXXX")).string();
     if (::mkdtemp(name.data()) == nullptr)
         throw RunError(fmt::format("cannot make a temporary folder {}: {}", safe_path(name), std::strerror(errno)));
     path_ = name;

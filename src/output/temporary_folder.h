@@ -6,11 +6,14 @@
 
 namespace tumble {
 
-/// Made in the folder of temporary files (TMPDIR), and removed with all its files at the end of the lifetime.
+/// It is removed with all its files at the end of the lifetime.
 class TemporaryFolder {
 public:
-    /// Its name is "tumble-PURPOSE-" and six random characters. Throws RunError.
+    /// In the folder of temporary files (TMPDIR), with the name "tumble-PURPOSE-" and six random characters. Throws
+    /// RunError.
     explicit TemporaryFolder(const std::string& purpose);
+    /// In a folder that exists, with a name of `prefix` and six random characters. Throws RunError.
+    TemporaryFolder(const std::filesystem::path& parent, const std::string& prefix);
     ~TemporaryFolder();
     TemporaryFolder(const TemporaryFolder&) = delete;
     TemporaryFolder& operator=(const TemporaryFolder&) = delete;

@@ -81,11 +81,11 @@ TEST(CheckpointFile, RefusesEveryOtherLength) {
 TEST(CheckpointFile, NamesTheDifference) {
     const Bytes content = state();
     CheckpointHeader other = header();
-    other.identity[0].value = "320x180";
+    other.identity[0].second = "320x180";
     EXPECT_NE(reason(checkpoint_bytes(other, content)).find("the size: 320x180 there, 640x360 here"),
               std::string::npos);
     other = header();
-    other.identity[1].value = "ffffff";
+    other.identity[1].second = "ffffff";
     EXPECT_NE(reason(checkpoint_bytes(other, content)).find("the values of the scene"), std::string::npos);
     other = header();
     other.identity.pop_back();

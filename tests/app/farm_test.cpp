@@ -48,11 +48,12 @@ std::string read_by_shell(const std::string& word) {
 TEST(Farm, AShellReadsWordsBack) {
     std::string all;
     for (int c = 1; c < 256; ++c) all += char(c);
-    for (const std::string& text : {all, std::string(), std::string("plain/word-1.toml"), std::string("it's"),
-                                    std::string("'"), std::string("a\nb"), std::string("-n"), std::string("~")})
+    for (const std::string& text :
+         {all, std::string(), std::string("plain/word-1.toml"), std::string("it's"), std::string("'"),
+          std::string("a\nb"), std::string("-n"), std::string("~"), std::string("--fps=10")})
         EXPECT_EQ(read_by_shell(shell_word(text)), text);
     EXPECT_EQ(shell_word("a/b.toml"), "a/b.toml");
-    EXPECT_EQ(shell_array("name", {"a", "b c"}), "name=( a 'b c' )");
+    EXPECT_EQ(shell_array("name", {"a", "b c", "--d=1"}), "name=( a 'b c' --d=1 )");
 }
 
 FarmJob small_job() {

@@ -41,7 +41,7 @@ private:
 
 TEST(Messages, AsJsonAreAnObjectALine) {
     Log log;
-    log.messages.say("wrote {}\nand {}\n", "a \"quoted\" name", 2);
+    log.messages.say_text("wrote a \"quoted\" name\nand 2\n");
     log.messages.progress({.done = 30, .total = 120, .seconds = 2.0});
     const auto lines = log.lines();
     ASSERT_EQ(lines.size(), 3u);
@@ -77,7 +77,7 @@ TEST(Messages, NameTheKindAndThePlaceOfAnError) {
 
 TEST(Messages, OfAnyBytesAreJson) {
     Log log;
-    log.messages.say("\xff\x01\n");
+    log.messages.say_text("\xff\x01\n");
     EXPECT_EQ(log.lines().size(), 1u);
 }
 

@@ -267,6 +267,16 @@ class Outputs(Golden):
         self.assertEqual(sorted(p.name for p in (self.folder / "failures").iterdir()),
                          ["difference_fall_000024.png", "new_fall_000024.png"])
 
+    def test_differences_show_the_tolerances_of_the_case(self):
+        self.write("golden.toml", SUITE + "tolerances = { exact = true }\n")
+        self.golden(0, "accept", "--all")
+        self.change('color = "#808080"', 'color = "#828282"')
+        self.golden(1, "check", "--failures", "failures")
+        _, _, channels, pixels = program.png_pixels(self.folder / "failures/difference_fall_000000.png")
+        red, green, blue = (pixels[i::channels] for i in range(3))
+        self.assertTrue(any(r > g for r, g in zip(red, green)))
+        self.assertFalse(any(b > g for b, g in zip(blue, green)))  # no difference is within the tolerance
+
     def test_plots_and_panels(self):
         self.write("golden.toml", """\
 format = 1

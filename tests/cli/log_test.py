@@ -44,6 +44,15 @@ class LogTest(program.ProgramTest):
         moments = [event["t"] for event in events]
         self.assertEqual(moments, sorted(moments))
 
+    def test_a_sweep(self):
+        self.write("plan.toml", 'format = 1\nscene = "drop.toml"\n[[axis]]\npath = "body.ball.shape.radius"\nvalues = [0.1, -1, 0.2]\n'
+                                '[outputs]\nscene = "none"\ntables = ["energy"]\n')
+        events = self.events(self.check(1, "sweep", "plan.toml", "-o", "out", "--log", "json").stderr)
+        self.assertEqual((events[0]["event"], events[-1]), ("start", {**events[-1], "event": "end", "exit_code": 1}))
+        texts = [event["text"] for event in events if event["event"] == "message"]
+        self.assertRegex(texts[0], r"^error: sample 1: .*given -1")
+        self.assertRegex(texts[-1], r"^wrote out/manifest.jsonl: 2 samples made, 1 failed")
+
     def test_another_descriptor(self):
         read, write = os.pipe()
         result = self.check(0, "simulate", "drop.toml", "--trajectory", "t.csv", "--log", "json", "--log-fd", str(write), pass_fds=(write,))

@@ -65,7 +65,7 @@ TEST(Flip, OfPlainPicturesIsTheDifferenceOfTheirColors) {
             EXPECT_NEAR(result.mean, exact, 4e-6) << p[0] << " " << p[1] << ", " << q[0] << " " << q[1];
             EXPECT_NEAR(result.maximum, exact, 4e-6);
         }
-    EXPECT_NEAR(mean_flip(plain(5, 5, {0, 255, 0}), plain(5, 5, {0, 0, 255})), 1.0, 1e-6);
+    EXPECT_NEAR(flip(plain(5, 5, {0, 255, 0}), plain(5, 5, {0, 0, 255})).mean, 1.0, 1e-6);
 }
 
 struct Published {
@@ -81,8 +81,8 @@ TEST(Flip, HasTheMeansOfTheAuthorsProgram) {
           Published{box_pair(), 150.0, 0.147847857}, Published{moved_pair(), usual, 0.035098437},
           Published{noise_pair(), usual, 0.125692249}, Published{noise_pair(), 20.0, 0.235577270},
           Published{noise_pair(), 150.0, 0.109743281}, Published{checker_pair(), usual, 0.137876752}}) {
-        EXPECT_NEAR(mean_flip(pair.first, pair.second, {ppd}), mean, 1e-6) << ppd;
-        EXPECT_NEAR(mean_flip(pair.second, pair.first, {ppd}), mean, 1e-6) << "exchanged, " << ppd;
+        EXPECT_NEAR(flip(pair.first, pair.second, {ppd}).mean, mean, 1e-6) << ppd;
+        EXPECT_NEAR(flip(pair.second, pair.first, {ppd}).mean, mean, 1e-6) << "exchanged, " << ppd;
     }
 }
 
@@ -142,9 +142,9 @@ TEST(Flip, AChangeReachesAsFarAsTheFiltersOnly) {
 TEST(Flip, SmallPicturesAreFiltered) {
     for (const auto& [w, h] : {std::pair{1, 1}, {1, 40}, {40, 1}, {3, 2}}) {
         const Image a = plain(w, h, {10, 200, 30}), b = plain(w, h, {10, 180, 30});
-        EXPECT_NEAR(mean_flip(a, b), flip_of_colors({10, 200, 30}, {10, 180, 30}), 4e-6) << w << " x " << h;
+        EXPECT_NEAR(flip(a, b).mean, flip_of_colors({10, 200, 30}, {10, 180, 30}), 4e-6) << w << " x " << h;
     }
-    EXPECT_NEAR(mean_flip(plain(9, 9, {10, 200, 30}), plain(9, 9, {10, 180, 30}), {1.0}),
+    EXPECT_NEAR(flip(plain(9, 9, {10, 200, 30}), plain(9, 9, {10, 180, 30}), {1.0}).mean,
                 flip_of_colors({10, 200, 30}, {10, 180, 30}), 4e-6);
 }
 
@@ -164,10 +164,10 @@ TEST(Flip, QuantilesDescribeTheMap) {
 TEST(Flip, TransparentPixelsHaveNoColor) {
     Image a = plain(20, 20, {255, 0, 0}), b = plain(20, 20, {0, 255, 0});
     for (std::size_t i = 3; i < a.pixels.size(); i += 4) a.pixels[i] = b.pixels[i] = 0;
-    EXPECT_EQ(mean_flip(a, b), 0.0);
+    EXPECT_EQ(flip(a, b).mean, 0.0);
     // Black is invisible on black, white on white.
     const Image none = a;
-    for (const int level : {0, 255}) EXPECT_GT(mean_flip(none, plain(20, 20, {level, level, level})), 0.5) << level;
+    for (const int level : {0, 255}) EXPECT_GT(flip(none, plain(20, 20, {level, level, level})).mean, 0.5) << level;
 }
 
 }  // namespace

@@ -23,10 +23,10 @@ TEST(HeatMap, GrowsLighterFromColdToHot) {
 
 TEST(HeatMap, ValuesBeyondTheEndsHaveTheirColors) {
     MetricMap map(3, 1);
-    map.values = {1.5f, 1.0f, -0.5f};
-    const Image image = heat_map(map, 1.0f, 0.0f);
+    map.values = {-0.5f, 2.0f, 2.5f};
+    const Image image = heat_map(map, 2.0f);
     EXPECT_EQ(image.at(0, 0)[0], 0);
-    EXPECT_EQ(image.at(1, 0)[0], 0);
+    EXPECT_EQ(image.at(1, 0)[0], 252);
     EXPECT_EQ(image.at(2, 0)[0], 252);
 }
 

@@ -156,7 +156,6 @@ TEST(Platforms, TheirFilesReplaceGeneralOnes) {
         {"a.png", "g/amd/a.png"}, {"b.png", "g/b.png"}, {"c.png", "g/amd/c.png"}, {"other/x.png", "g/other/x.png"}};
     EXPECT_EQ(amd.files, expected);
     EXPECT_EQ(amd.platform, "amd");
-    EXPECT_EQ(amd.replacing, (std::vector<std::string>{"a.png", "c.png"}));
     const References none = references_of(files, {}, "", {"amd", "intel", "other", "ci"});
     EXPECT_EQ(none.files, (NamedFiles{{"a.png", "g/a.png"}, {"b.png", "g/b.png"}}));
     EXPECT_EQ(none.platform, "");

@@ -15,15 +15,12 @@ if not slurm_cluster.available():
     print("skipped: no Slurm (scripts/install-dependencies --test)")
     sys.exit(77)
 
-# Part 2 stops after its first frame, on its first node.
+# On its first node, part 2 draws its first frame and then waits for the end of the node.
 SLOW = """\
 #!/bin/bash
 if [[ " $* " == *" --frames-range 3-5 "* ]] && mkdir '{mark}' 2>/dev/null; then
-    '{tumble}' "$@" &
-    until [[ -e '{folder}/frames/frame_000003.png' ]]; do sleep 0.01; done
-    kill -STOP $!
-    echo "$SLURMD_NODENAME" > '{mark}/node'
-    wait
+    '{tumble}' "${{@/#3-5/3}}" && [[ -e '{folder}/frames/frame_000003.png' ]] && echo "$SLURMD_NODENAME" > '{mark}/node'
+    exec sleep infinity
 fi
 exec '{tumble}' "$@"
 """

@@ -17,7 +17,6 @@
 
 #include <cerrno>
 #include <csignal>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -51,8 +50,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void put(TemporaryFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
-
 /// The file that a process leaves if it is killed while it writes.
 fs::path part_of_a_killed_process(const fs::path& final_path) {
     int ends[2];
@@ -60,7 +57,7 @@ fs::path part_of_a_killed_process(const fs::path& final_path) {
     const pid_t id = fork();
     if (id == 0) {
         TemporaryFile file(final_path);
-        put(file, "half");
+        file.write("half");
         const std::string name = file.path().string();
         if (write(ends[1], name.data(), name.size()) > 0) raise(SIGKILL);
         _exit(1);
@@ -79,7 +76,7 @@ fs::path part_of_a_killed_process(const fs::path& final_path) {
 TEST(PartFile, TheBytesAreOnTheDiskBeforeTheName) {
     const TestFolder folder;
     TemporaryFile file(folder / "a.txt");
-    put(file, "new");
+    file.write("new");
     const std::string part = file.path().filename().string();
     calls.clear();
     file.commit();
@@ -92,7 +89,7 @@ TEST(PartFile, AFileThatCannotBeSyncedGetsNoName) {
     write_text(folder / "a.txt", "old");
     {
         TemporaryFile file(folder / "a.txt");
-        put(file, "new");
+        file.write("new");
         sync_error = EIO;
         EXPECT_THROW(file.commit(), RunError);
         sync_error = 0;
@@ -100,7 +97,7 @@ TEST(PartFile, AFileThatCannotBeSyncedGetsNoName) {
     EXPECT_EQ(read_text(folder / "a.txt"), "old");
     EXPECT_EQ(folder.files(), 1u);
     TemporaryFile file(folder / "a.txt");
-    put(file, "new");
+    file.write("new");
     sync_error = EINVAL;  // a file system without sync
     file.commit();
     sync_error = 0;
@@ -119,11 +116,11 @@ TEST(PartFile, PartsOfAKilledProcessAreRemoved) {
 TEST(PartFile, PartsOfALivingProcessStay) {
     const TestFolder folder;
     TemporaryFile living(folder / "a.txt");
-    put(living, "first");
+    living.write("first");
     {
         TemporaryFile second(folder / "a.txt");
         EXPECT_TRUE(fs::exists(living.path()));
-        put(second, "second");
+        second.write("second");
         second.commit();
     }
     EXPECT_EQ(read_text(folder / "a.txt"), "second");
@@ -152,7 +149,7 @@ TEST(PartFile, NamesAsLongAsThereAreAny) {
         const std::string name = std::string(length - 4, 'n') + ".txt";
         const fs::path left = part_of_a_killed_process(folder / name);
         EXPECT_LE(left.filename().string().size(), std::size_t(NAME_MAX));
-        write_file(folder / name, {});
+        write_file(folder / name, std::string_view());
         EXPECT_FALSE(fs::exists(left));
         EXPECT_EQ(folder.files(), 1u);
         fs::remove(folder / name);
@@ -174,7 +171,7 @@ TEST(PartFile, ManyAtOnce) {
             try {
                 for (int n = 0; n < 200; ++n) {
                     TemporaryFile file(folder / "a.txt");
-                    put(file, "whole");
+                    file.write("whole");
                     file.publish();
                 }
                 _exit(0);

@@ -13,20 +13,17 @@
 #include <unistd.h>
 
 #include <csignal>
-#include <span>
 #include <string>
 
 namespace tumble::temporary_file_test {
 namespace {
-
-void put(TemporaryFile& file, const std::string& text) { file.write(std::as_bytes(std::span(text))); }
 
 TEST(TemporaryFile, AppearsAtCommit) {
     const TestFolder folder;
     write_text(folder / "a.txt", "old");
     {
         TemporaryFile file(folder / "a.txt");
-        put(file, "new");
+        file.write("new");
         EXPECT_EQ(read_text(folder / "a.txt"), "old");
         EXPECT_EQ(file.path().filename().string().front(), '.');
         file.commit();
@@ -40,7 +37,7 @@ TEST(TemporaryFile, WithoutCommitNothingIsLeft) {
     write_text(folder / "a.txt", "old");
     {
         TemporaryFile file(folder / "a.txt");
-        put(file, "new");
+        file.write("new");
     }
     EXPECT_EQ(read_text(folder / "a.txt"), "old");
     EXPECT_EQ(folder.files(), 1u);
@@ -51,7 +48,7 @@ TEST(TemporaryFile, ALinkIsWrittenThrough) {
     write_text(folder / "a.txt", "old");
     std::filesystem::create_symlink(folder / "a.txt", folder / "link.txt");
     TemporaryFile file(folder / "link.txt");
-    put(file, "new");
+    file.write("new");
     file.commit();
     EXPECT_EQ(read_text(folder / "a.txt"), "new");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
@@ -64,7 +61,7 @@ TEST(TemporaryFile, ALinkToAMissingFileIsWrittenThrough) {
     std::filesystem::create_symlink("in/other.txt", folder / "link.txt");
     std::filesystem::create_symlink("../a.txt", folder / "in/other.txt");
     TemporaryFile file(folder / "link.txt");
-    put(file, "new");
+    file.write("new");
     file.commit();
     EXPECT_EQ(read_text(folder / "a.txt"), "new");
     EXPECT_TRUE(std::filesystem::is_symlink(folder / "link.txt"));
@@ -89,7 +86,7 @@ TEST(TemporaryFile, ADescriptorIsWrittenAtItsPosition) {
     for (const std::filesystem::path& path : {std::filesystem::path(name), folder / "link"}) {
         TemporaryFile file(path);
         EXPECT_EQ(file.descriptor(), log);
-        put(file, "new ");
+        file.write("new ");
         file.commit();
     }
     ::close(log);
@@ -115,13 +112,13 @@ TEST(TemporaryFile, ErrorsNameTheFinalFile) {
 
 TEST(TemporaryFile, ADeviceIsWrittenInPlace) {
     TemporaryFile null("/dev/null");
-    put(null, "gone");
+    null.write("gone");
     null.commit();
     EXPECT_TRUE(std::filesystem::is_character_file("/dev/null"));
     EXPECT_THROW(
         {
             TemporaryFile full("/dev/full");
-            put(full, "no room");
+            full.write("no room");
         },
         RunError);
 }

@@ -4,9 +4,6 @@
 #include "app/causes/cause.h"
 #include "app/causes/panel_view.h"
 
-#include <cstdint>
-#include <optional>
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,5 +1,6 @@
 #include "app/causes/described_values.h"
 
+#include "core/fnv_hash.h"
 #include "scene/description/shape_bounds.h"
 
 #include <fmt/format.h>
@@ -17,7 +18,7 @@ std::string text_of(const Quat& q) { return fmt::format("[{}, {}, {}, {}]", q.w(
 
 /// Text that is too long to be shown: two of them are the same or not.
 std::string digest_text(const std::string& text) {
-    return fmt::format("#{:016x}", digest(std::as_bytes(std::span(text))));
+    return fmt::format("#{:016x}", fnv_hash(std::as_bytes(std::span(text))));
 }
 
 std::string shape_text(const Shape& shape);
@@ -30,8 +31,8 @@ struct ShapeText {
     std::string operator()(const SphereShape& s) const { return fmt::format("sphere of radius {}", s.radius); }
     std::string operator()(const MeshShape& s) const {
         const MeshAsset& asset = *s.asset;
-        std::uint64_t sum = digest(std::as_bytes(std::span(asset.vertices)));
-        sum = digest(std::as_bytes(std::span(asset.indices)), sum);
+        std::uint64_t sum = fnv_hash(std::as_bytes(std::span(asset.vertices)));
+        sum = fnv_hash(std::as_bytes(std::span(asset.indices)), sum);
         return fmt::format("mesh of {} triangles #{:016x}", asset.indices.size() / 3, sum);
     }
     std::string operator()(const CompoundShape& s) const {
@@ -130,12 +131,6 @@ void add_simulation(const SimulationSettings& s, ValueMap& values) {
 }
 
 }  // namespace
-
-std::uint64_t digest(std::span<const std::byte> bytes, std::uint64_t start) {
-    std::uint64_t sum = start;
-    for (const std::byte b : bytes) sum = (sum ^ std::uint64_t(b)) * 0x100000001b3u;
-    return sum;
-}
 
 BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     BodyKind kind;

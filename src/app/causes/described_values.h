@@ -5,9 +5,6 @@
 #include "app/composition/composition.h"
 #include "scene/description/description.h"
 
-#include <cstddef>
-#include <span>
-
 namespace tumble {
 
 BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body);
@@ -17,8 +14,5 @@ ValueMap values_of(const SceneDescription& scene);
 
 /// Size, samples and text of the whole image.
 ValueMap values_of(const Composition& composition);
-
-/// FNV-1a, 64 bits.
-std::uint64_t digest(std::span<const std::byte> bytes, std::uint64_t start = 0xcbf29ce484222325u);
 
 }  // namespace tumble

@@ -14,7 +14,6 @@
 #include <cmath>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <stdexcept>
 
 namespace tumble {
@@ -220,8 +219,7 @@ std::string record_text(const MotionRecord& record) {
 }
 
 void write_motion_record(const std::filesystem::path& file, const MotionRecord& record) {
-    const std::string text = record_text(record);
-    write_file(file, std::as_bytes(std::span(text)));
+    write_file(file, record_text(record));
 }
 
 MotionRecord parse_record(const std::string& text, const std::filesystem::path& file) {

@@ -1,9 +1,9 @@
 #include "app/causes/run_recorder.h"
 
 #include "app/causes/described_values.h"
+#include "core/fnv_hash.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 
 namespace tumble {
@@ -11,13 +11,12 @@ namespace {
 
 constexpr std::size_t trace_bytes = 8 << 10;  // of a panel's blocks
 constexpr std::size_t most_contacts = 256;    // of a panel: the first ones tell where two runs part
-constexpr double least_impulse = 0.0;         // N s: impacts without impulse are none
 
 /// The bytes of the pose decide: one digit of any number is a difference.
 std::uint32_t pose_digest(const BodyState& body, std::uint32_t before) {
     const Quat& q = body.orientation;
     const double numbers[] = {body.origin.x(), body.origin.y(), body.origin.z(), q.w(), q.x(), q.y(), q.z()};
-    const std::uint64_t sum = digest(std::as_bytes(std::span(numbers)), 0xcbf29ce484222325u ^ before);
+    const std::uint64_t sum = fnv_hash(std::as_bytes(std::span(numbers)), fnv_start ^ before);
     return std::uint32_t(sum ^ (sum >> 32));
 }
 
@@ -86,7 +85,7 @@ void PanelRecorder::add_trace(const Snapshot& snapshot) {
 void PanelRecorder::add_contacts(const Snapshot& snapshot, const ContactRecords& records) {
     std::vector<RecordedContact> found;
     for (const ImpactRecord& impact : records.impacts)
-        if (impact.impulse > least_impulse)
+        if (impact.impulse > 0.0)
             found.push_back(
                 {float(impact.when.time), std::uint32_t(impact.a), std::uint32_t(impact.b), float(impact.impulse)});
     std::vector<std::pair<std::size_t, std::size_t>> touching;

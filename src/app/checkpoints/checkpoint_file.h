@@ -19,7 +19,7 @@ inline constexpr std::uint32_t checkpoint_format = 1;
 struct CheckpointHeader {
     std::uint32_t format = checkpoint_format;
     std::string program;  // its version
-    std::string kind;     // "state" or "clip"
+    std::string kind;     // "state", "motion of panel 2" or "clip"
     std::int64_t frame = 0;
     CheckpointIdentity identity;
 

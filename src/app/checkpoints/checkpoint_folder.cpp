@@ -5,6 +5,7 @@
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
 #include "sim/checkpoint/archive.h"
+#include "tumble/version.h"
 
 #include <fmt/format.h>
 
@@ -38,10 +39,9 @@ std::vector<fs::path> files_in(const fs::path& folder) {
     return files;
 }
 
-CheckpointHeader header_of(const std::string& program, const std::string& kind, std::int64_t frame,
-                           const CheckpointIdentity& identity) {
+CheckpointHeader header_of(const std::string& kind, std::int64_t frame, const CheckpointIdentity& identity) {
     CheckpointHeader header;
-    header.program = program;
+    header.program = v0::version();
     header.kind = kind;
     header.frame = frame;
     header.identity = identity;
@@ -54,8 +54,8 @@ fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
     return folder / fmt::format("checkpoint_{:06}.tumble", frame);
 }
 
-CheckpointWriting::CheckpointWriting(const fs::path& folder, std::string program, CheckpointIdentity identity)
-    : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
+CheckpointWriting::CheckpointWriting(const fs::path& folder, CheckpointIdentity identity)
+    : folder_(folder), identity_(std::move(identity)) {
     std::error_code missing;
     fs::remove(clip_path(folder), missing);  // first: the others are of no use without
     for (const fs::path& file : files_in(folder)) fs::remove(file, missing);
@@ -63,7 +63,7 @@ CheckpointWriting::CheckpointWriting(const fs::path& folder, std::string program
 
 void CheckpointWriting::write(const fs::path& path, const std::string& kind, std::int64_t frame,
                               std::span<const std::byte> content) {
-    const std::vector<std::byte> bytes = checkpoint_bytes(header_of(program_, kind, frame, identity_), content);
+    const std::vector<std::byte> bytes = checkpoint_bytes(header_of(kind, frame, identity_), content);
     write_file(path, bytes);
     bytes_ += bytes.size();
 }
@@ -86,8 +86,8 @@ void CheckpointWriting::finish(std::span<const std::byte> survey) {
     write(clip_path(folder_.path()), "clip", 0, writer.bytes());
 }
 
-CheckpointReading::CheckpointReading(const fs::path& folder, std::string program, CheckpointIdentity identity)
-    : folder_(folder), program_(std::move(program)), identity_(std::move(identity)) {
+CheckpointReading::CheckpointReading(const fs::path& folder, CheckpointIdentity identity)
+    : folder_(folder), identity_(std::move(identity)) {
     const fs::path path = clip_path(folder);
     std::error_code error;
     if (!fs::exists(path, error))
@@ -95,7 +95,7 @@ CheckpointReading::CheckpointReading(const fs::path& folder, std::string program
             fmt::format("--from-checkpoints: '{}' has no checkpoints of a whole clip: its clip.tumble is "
                         "missing. Make them by tumble simulate --checkpoints",
                         safe_path(folder)));
-    const std::vector<std::byte> content = read_checkpoint(path, header_of(program_, "clip", 0, identity_));
+    const std::vector<std::byte> content = read_checkpoint(path, header_of("clip", 0, identity_));
     CheckpointReader reader(content);
     reader.keep(frames_, intervals_, survey_);
 }
@@ -105,7 +105,7 @@ std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
     if (after == frames_.begin()) return std::nullopt;
     const std::int64_t at = *std::prev(after);
     const fs::path path = checkpoint_path(folder_, at);
-    const std::vector<std::byte> content = read_checkpoint(path, header_of(program_, "state", at, identity_));
+    const std::vector<std::byte> content = read_checkpoint(path, header_of("state", at, identity_));
     CheckpointReader reader(content);
     ClipState state;
     reader.keep(state);
@@ -123,8 +123,7 @@ std::optional<std::int64_t> CheckpointReading::interval_after(std::int64_t inter
 }
 
 std::vector<std::byte> CheckpointReading::motion(std::int64_t interval, std::size_t panel) const {
-    return read_checkpoint(motion_path(folder_, interval, panel),
-                           header_of(program_, motion_kind(panel), interval, identity_));
+    return read_checkpoint(motion_path(folder_, interval, panel), header_of(motion_kind(panel), interval, identity_));
 }
 
 }  // namespace tumble

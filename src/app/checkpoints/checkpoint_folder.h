@@ -22,8 +22,8 @@ std::filesystem::path checkpoint_path(const std::filesystem::path& folder, std::
 /// Throws RunError if the folder cannot be made or written into, or if another run writes into it.
 class CheckpointWriting {
 public:
-    /// `program`: its version. The checkpoints of an earlier run are removed.
-    CheckpointWriting(const std::filesystem::path& folder, std::string program, CheckpointIdentity identity);
+    /// The checkpoints of an earlier run are removed.
+    CheckpointWriting(const std::filesystem::path& folder, CheckpointIdentity identity);
 
     void add(const ClipState& state);
     /// The motion of a panel (FrameRecorder) from a frame to the next one that is given, or to the end. All panels that
@@ -40,7 +40,6 @@ private:
                std::span<const std::byte> content);
 
     FrameFolder folder_;
-    std::string program_;
     CheckpointIdentity identity_;
     std::vector<std::int64_t> frames_;
     std::vector<std::int64_t> intervals_;  // of the motion: their first frames
@@ -50,7 +49,7 @@ private:
 class CheckpointReading {
 public:
     /// Throws InputError if the folder has no complete checkpoints of this clip.
-    CheckpointReading(const std::filesystem::path& folder, std::string program, CheckpointIdentity identity);
+    CheckpointReading(const std::filesystem::path& folder, CheckpointIdentity identity);
 
     std::span<const std::byte> survey() const { return survey_; }
     /// The last state at or before a frame; none: there the clip starts anew. Throws InputError for a damaged file.
@@ -65,7 +64,6 @@ public:
 
 private:
     std::filesystem::path folder_;
-    std::string program_;
     CheckpointIdentity identity_;
     std::vector<std::int64_t> frames_;     // of the states, ascending
     std::vector<std::int64_t> intervals_;  // of the motion: their first frames, ascending

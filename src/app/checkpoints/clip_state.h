@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// Of a panel whose frames have ended: before its last one, but for the poses.
+/// The state of a panel. A panel that has ended keeps the state before its last frame; only its poses go on.
 struct PanelState {
     std::vector<std::byte> simulation;  // World, FrameSequence
     std::vector<std::byte> overlay;     // OverlayBuilder; none without an overlay

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/checkpoints/checkpoint_folder.h"
-#include "app/checkpoints/motion_record.h"
+#include "app/checkpoints/frame_record.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,6 +4,7 @@
 
 #include "app/clip/clip_request.h"
 #include "app/farm/slurm_scripts.h"
+#include "app/files/run_tables.h"
 #include "gltf/key_track.h"
 #include "output/video_format.h"
 #include "render/renderer.h"
@@ -40,7 +41,7 @@ void run_render(const RenderCommand& command);
 
 struct SimulateCommand {
     std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
-    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
+    TableFiles tables;
     SceneOverrides overrides;
     std::optional<std::filesystem::path> checkpoints;       // folder
     double every = 1.0;                                     // s of the clip between two checkpoints

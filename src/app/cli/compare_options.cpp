@@ -29,8 +29,8 @@ void add_sets(CLI::App& command, CompareCommand& c) {
     command.add_flag("--allow-added", c.allow_added, "A picture without a reference is no difference");
     command
         .add_option("--fps", c.overrides.fps,
-                    "Frames per second of a scene, in place of its own; of clips whose pictures are\nshown longer "
-                    "(--variable-rate), which without this have as many frames as are\nstored")
+                    "Frames per second: of a scene, in place of its own; of a clip, to take the frame\nshown at each "
+                    "moment (--variable-rate), in place of the stored frames")
         ->check(number_within(limits::fps.min, limits::fps.max))
         ->type_name("N");
     add_values(command, c.overrides);
@@ -90,11 +90,9 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
     add_sets(*command, c);
     command->footer(
         "Pictures are alike if all four rules hold. A rule that fails is named with its value, its limit and its\n"
-        "place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a\n"
-        "small object moved by one pixel (cluster), a lost shadow (window) or a shifted color (shade) do not. The 8 x "
-        "8 "
-        "pixels\n"
-        "begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
+        "place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a small\n"
+        "object moved by one pixel (cluster), a lost shadow (window) or a shifted color (shade) do not. The 8 x 8\n"
+        "pixels begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
         "Folders are compared file by file, by their relative names. Keys, files and verdicts:\n"
         "docs/reference/comparison.md.\n"
         "Examples:\n"

@@ -21,8 +21,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <span>
 #include <utility>
 
 namespace tumble {
@@ -101,15 +99,16 @@ private:
         if (command_.junit) plan.add("--junit", *command_.junit);
         if (command_.report) plan.add("--report", *command_.report);
         if (command_.difference && fs::exists(*command_.difference) && !fs::is_directory(*command_.difference))
-            throw InputError(fmt::format("--diff: must be a folder for more than two pictures ('{}' is none)",
-                                         safe_path(*command_.difference)));
+            throw InputError(
+                fmt::format("--diff: must be a folder where more than two pictures are compared ('{}' is no folder)",
+                            safe_path(*command_.difference)));
     }
 
     std::vector<ImageResult> compare(const PairSource& next) {
         Interrupt interrupt;
         return compare_pairs(
             [&]() -> std::optional<ImagePair> {
-                if (interrupt.pending()) throw RunError("interrupted");
+                if (interrupt.pending()) throw Interrupted();
                 return next();
             },
             tolerances_, command_.workers,
@@ -134,10 +133,8 @@ private:
     }
 
     References references_for(const NamedFiles& files, const NamedFiles& images, SetResult& result) const {
-        std::vector<std::string> platforms(std::begin(known_platforms), std::end(known_platforms));
-        platforms.insert(platforms.end(), tolerances_.platforms().begin(), tolerances_.platforms().end());
-        const std::string platform = command_.platform.value_or(this_platform());
-        References references = references_of(files, images, platform == "none" ? "" : platform, platforms);
+        References references = references_of(files, images, platform_of_option(command_.platform),
+                                              platform_folders(tolerances_.platforms()));
         result.platform = references.platform;
         return references;
     }
@@ -181,8 +178,6 @@ private:
     std::optional<KeptFrames> kept_;
 };
 
-void write_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
-
 }  // namespace
 
 bool compares_sets(const CompareCommand& command) {
@@ -194,8 +189,8 @@ int compare_sets(const CompareCommand& command) {
     SetComparisonRun run(command);
     SetResult result = run.compare();
     explain_frames(result);
-    if (command.json) write_text(*command.json, to_json(result));
-    if (command.junit) write_text(*command.junit, to_junit(result));
+    if (command.json) write_file(*command.json, to_json(result));
+    if (command.junit) write_file(*command.junit, to_junit(result));
     if (command.report) run.write_report(result);
     std::vector<std::string> names;
     for (const ImageResult& image : result.images) names.push_back(image.name);

@@ -32,7 +32,8 @@ std::string entry(const ImageResult& image) {
 }  // namespace
 
 void print_summary(const SetResult& result, bool brief) {
-    for (const Verdict verdict : {Verdict::broken, Verdict::missing, Verdict::different, Verdict::added}) {
+    for (const Verdict verdict : worst_first) {
+        if (verdict == Verdict::alike || verdict == Verdict::same) continue;
         std::int64_t shown = 0;
         for (const ImageResult& image : result.images)
             if (image.verdict == verdict && shown++ < listed) put_text(entry(image));

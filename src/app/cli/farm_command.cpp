@@ -16,7 +16,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <span>
 #include <system_error>
 
 namespace tumble {
@@ -144,8 +143,7 @@ int run_openjd(const FarmCommand& command) {
     OutputPlan plan;
     add_inputs(plan, job);
     plan.add("--output", command.job);
-    const std::string text = openjd_template(job, whole_path(command.job));
-    write_file(command.job, std::as_bytes(std::span(text)));
+    write_file(command.job, openjd_template(job, whole_path(command.job)));
     if (!command.render.quiet)
         say("wrote {}: {} frames in chunks of {}\n", safe_path(command.job), job.frames, job.parts.front().count());
     return 0;

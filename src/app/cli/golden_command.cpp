@@ -22,7 +22,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <system_error>
 
 namespace tumble {
@@ -44,8 +43,6 @@ std::vector<const GoldenCase*> chosen_cases(const GoldenSuite& suite, const std:
     return chosen;
 }
 
-void save_text(const fs::path& file, const std::string& text) { write_file(file, std::as_bytes(std::span(text))); }
-
 void save_report(const GoldenCommand& command, const GoldenSuite& suite, const SetResult& result) {
     ReportOptions options;
     options.title = suite.file.string();
@@ -66,7 +63,7 @@ void plan_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
 }
 
 /// new_NAME, and difference_NAME where there is a reference of the same size.
-void keep_failures(const fs::path& folder, const SetResult& result) {
+void keep_failures(const fs::path& folder, const GoldenSuite& suite, const SetResult& result) {
     for (const ImageResult& image : result.images) {
         if (image.verdict == Verdict::same || image.verdict == Verdict::alike || image.image.empty()) continue;
         std::error_code error;
@@ -75,12 +72,13 @@ void keep_failures(const fs::path& folder, const SetResult& result) {
         if (error)
             throw RunError(fmt::format("--failures: cannot write into '{}': {}", safe_path(folder), error.message()));
         if (image.verdict == Verdict::different)
-            compare_png_files(image.reference, image.image, {}, folder / ("difference_" + image.name));
+            compare_png_files(image.reference, image.image, suite.tolerances_of(image.name).pixels,
+                              folder / ("difference_" + image.name));
     }
 }
 
 void print_drawn(const std::vector<DrawnCase>& drawn) {
-    const auto kept = std::ranges::count_if(drawn, [](const DrawnCase& d) { return d.error.empty() && d.drawn == 0; });
+    const auto kept = std::ranges::count_if(drawn, [](const DrawnCase& d) { return d.error.empty() && !d.drawn; });
     say("{} cases: {} drawn, {} unchanged since they were drawn\n", drawn.size(), std::ptrdiff_t(drawn.size()) - kept,
         kept);
 }
@@ -166,7 +164,7 @@ int run_golden_check(const GoldenCommand& command) {
     if (command.cache == "none") no_cache.emplace("golden");
     const ImageCache cache(no_cache ? no_cache->path() : cache_folder(suite, command.cache));
     DrawCasesOptions drawing;
-    drawing.force = command.force || no_cache;
+    drawing.force = command.force;
     drawing.jobs = command.jobs;
     if (!no_cache) drawing.identity = program_identity(interrupt);
     std::vector<DrawnCase> drawn;
@@ -177,9 +175,9 @@ int run_golden_check(const GoldenCommand& command) {
         drawn = draw_cases(cases, drawer, cache, drawing, interrupt);
     }
     const SetResult result = check_cases(suite, drawn, {command.platform, command.jobs}, interrupt);
-    if (command.failures) keep_failures(*command.failures, result);
-    if (command.json) save_text(*command.json, to_json(result));
-    if (command.junit) save_text(*command.junit, to_junit(result));
+    if (command.failures) keep_failures(*command.failures, suite, result);
+    if (command.json) write_file(*command.json, to_json(result));
+    if (command.junit) write_file(*command.junit, to_junit(result));
     if (command.report) save_report(command, suite, result);
     print_summary(result, command.quiet);
     if (!command.quiet) print_drawn(drawn);
@@ -190,7 +188,7 @@ int run_golden_check(const GoldenCommand& command) {
 int run_golden_accept(const GoldenCommand& command) {
     const GoldenSuite suite = load_suite(command.suite);
     if (command.all == !command.cases.empty())
-        throw InputError(command.all ? "--all: names all cases; give it or names of cases"
+        throw InputError(command.all ? "--all: stands for all cases; leave out the names, or --all"
                                      : "give the names of the cases to accept, or --all");
     const std::vector<const GoldenCase*> cases = chosen_cases(suite, command.cases);
     return print_accepted(accept(command, suite, cases), command.quiet);
@@ -201,7 +199,7 @@ int run_golden_add(const GoldenCommand& command) {
     const GoldenSuite suite = parse_suite(text, command.suite);
     const GoldenCase* const added = &suite.cases.back();
     if (const int code = print_accepted(accept(command, suite, {added}), command.quiet); code != 0) return code;
-    save_text(command.suite, text);
+    write_file(command.suite, text);
     if (!command.quiet) say("added the case {} to {}\n", added->name, safe_path(command.suite));
     return 0;
 }

@@ -2,14 +2,14 @@
 
 #include "app/cli/commands.h"
 #include "app/cli/render_run.h"
+#include "app/clip/drawing_settings.h"
 #include "app/clip/render_scenes.h"
 #include "app/files/frame_folder.h"
+#include "app/files/frame_set.h"
 #include "app/plots/variants.h"
-#include "core/error.h"
 #include "scene/hash/scene_hash.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -58,19 +58,13 @@ void draw_plot(const GoldenCase& golden, const fs::path& folder, const DrawingWo
 
 /// "0,44-45,89-90", with or without the frame before each one.
 std::string range_of(const std::vector<std::int64_t>& frames, bool with_neighbors) {
-    std::string range;
-    std::int64_t end = 0;  // one after the last frame in it
-    for (const std::int64_t frame : frames) {
-        const std::int64_t first = std::max(with_neighbors ? frame - 1 : frame, end);
-        const char* const comma = range.empty() ? "" : ",";
-        range += first < frame ? fmt::format("{}{}-{}", comma, first, frame) : fmt::format("{}{}", comma, frame);
-        end = frame + 1;
-    }
-    return range;
+    FrameSet set;
+    for (const std::int64_t frame : frames)
+        set.append(std::max(with_neighbors ? frame - 1 : frame, set.end()), frame + 1);
+    return set.text(frames.size());
 }
 
-void draw_frames(const GoldenCase& golden, const std::vector<std::int64_t>& frames, const fs::path& folder,
-                 const DrawingWork& work) {
+void draw_frames(const GoldenCase& golden, const fs::path& folder, const DrawingWork& work) {
     RenderCommand command = render_command(golden);
     command.frames = folder / "frames";
     command.motion_record = folder / golden.record_name();
@@ -78,9 +72,9 @@ void draw_frames(const GoldenCase& golden, const std::vector<std::int64_t>& fram
     command.threads = work.threads;
     // Dirty regions are those since the frame before, which is drawn as well.
     const bool all = RenderScenes(command, Shutter::of(command.shutter, command.blur_samples)).shows_damage();
-    command.frames_range = all ? fmt::format("0-{}", frames.back()) : range_of(frames, work.neighbors);
+    command.frames_range = all ? fmt::format("0-{}", golden.frames.back()) : range_of(golden.frames, work.neighbors);
     render_to_files(command);
-    for (const std::int64_t frame : frames)
+    for (const std::int64_t frame : golden.frames)
         fs::rename(frame_path(*command.frames, frame), folder / golden.image_name(frame));
     fs::remove_all(*command.frames);
 }
@@ -88,11 +82,10 @@ void draw_frames(const GoldenCase& golden, const std::vector<std::int64_t>& fram
 }  // namespace
 
 std::string SceneDrawer::identity(const GoldenCase& golden) const {
-    std::string text = fmt::format("{} {} {} {} {}\n", golden.of.value_or("-"), golden.transparent, golden.speed,
-                                   golden.shutter, golden.blur_samples);
+    std::string text;
     if (golden.of) {
         const PlotCommand command = plot_command(golden);
-        text += fmt::format("{} {}\n", command.width, command.height);
+        text = fmt::format("{} {} {}\n", command.quantities, command.width, command.height);
         for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary))
             text += fmt::format("{} {}\n", scene_hash(load_scene(variant.scene, variant.overrides)), variant.label);
         return text;
@@ -100,15 +93,17 @@ std::string SceneDrawer::identity(const GoldenCase& golden) const {
     const RenderCommand command = render_command(golden);
     const RenderScenes scenes(command, Shutter::of(command.shutter, command.blur_samples));
     for (const ClipScene& one : scenes.scenes) text += fmt::format("{} {}\n", scene_hash(*one.scene), one.label);
-    return text + fmt::format("{}\n", int(golden.arrangement));
+    const DrawingChoices choices{golden.shutter, golden.blur_samples, golden.transparent, command.drawing.backend};
+    for (const auto& [name, value] : drawing_settings(command, choices, scenes.composition))
+        text += fmt::format("{} {}\n", name, value);
+    return text;
 }
 
-void SceneDrawer::draw(const GoldenCase& golden, const std::vector<std::int64_t>& frames, const fs::path& folder,
-                       const DrawingWork& work) const {
+void SceneDrawer::draw(const GoldenCase& golden, const fs::path& folder, const DrawingWork& work) const {
     if (golden.of)
         draw_plot(golden, folder, work);
     else
-        draw_frames(golden, frames, folder, work);
+        draw_frames(golden, folder, work);
 }
 
 }  // namespace tumble

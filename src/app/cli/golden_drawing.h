@@ -8,8 +8,7 @@ namespace tumble {
 class SceneDrawer : public CaseDrawer {
 public:
     std::string identity(const GoldenCase& golden) const override;
-    void draw(const GoldenCase& golden, const std::vector<std::int64_t>& frames, const std::filesystem::path& folder,
-              const DrawingWork& work) const override;
+    void draw(const GoldenCase& golden, const std::filesystem::path& folder, const DrawingWork& work) const override;
 };
 
 }  // namespace tumble

@@ -15,13 +15,14 @@ void add_suite(CLI::App& command, GoldenCommand& c) {
         ->type_name("SUITE");
 }
 
-void add_common(CLI::App& command, GoldenCommand& c) {
-    command
-        .add_option("--platform", c.platform,
-                    "References of the folder NAME replace general ones; none: no folder does. By default\n"
-                    "the processor: amd, intel, arm or other (accept and add: the general folder)")
-        ->check(some_name())
-        ->type_name("NAME");
+constexpr const char* checked_platform =
+    "References of the folder NAME replace general ones; none: no folder does. By default\n"
+    "the processor: amd, intel, arm or other";
+constexpr const char* accepted_platform =
+    "Write references for processors of that name, in the folder NAME, in place of general\nones";
+
+void add_common(CLI::App& command, GoldenCommand& c, const char* platform) {
+    command.add_option("--platform", c.platform, platform)->check(some_name())->type_name("NAME");
     command.add_option("--jobs", c.jobs, "Cases drawn at a time")
         ->check(CLI::Range(1, most_threads))
         ->option_text(fmt::format("N [{}]", c.jobs));
@@ -78,7 +79,7 @@ void add_check(CLI::App& golden, GoldenCommand& c) {
         ->check(some_name())
         ->type_name("DIR");
     command->add_flag("--force", c.force, "Draw all cases, changed or not");
-    add_common(*command, c);
+    add_common(*command, c, checked_platform);
     command->footer(
         "Examples:\n"
         "  tumble golden check golden.toml\n"
@@ -95,7 +96,7 @@ void add_accept(CLI::App& golden, GoldenCommand& c) {
     command->add_flag("--all", c.all, "All cases");
     command->add_flag("--even-alike", c.even_alike,
                       "Replace references also where the new image is within the tolerances");
-    add_common(*command, c);
+    add_common(*command, c, accepted_platform);
     command->footer("Example:\n  tumble golden accept golden.toml falling_boxes");
 }
 
@@ -119,7 +120,7 @@ void add_add(CLI::App& golden, GoldenCommand& c) {
     command->add_option("--plot", added.overrides.plot, "Curves of quantities in the pictures (tumble render --help)")
         ->type_name("LIST");
     command->add_flag("--transparent", added.transparent, "Draw the bodies alone on a transparent background");
-    add_common(*command, c);
+    add_common(*command, c, accepted_platform);
     command->footer("Example:\n  tumble golden add golden.toml scene.toml --frames 0,45,90 --size 160x90");
 }
 

@@ -7,6 +7,7 @@
 #include "app/lesson/lesson_runs.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
 #include "page/page_shell.h"
 #include "page/web_folder.h"
@@ -15,8 +16,6 @@
 #include <fmt/ranges.h>
 
 #include <memory>
-#include <span>
-#include <system_error>
 
 namespace tumble {
 namespace {
@@ -87,13 +86,11 @@ std::vector<SitePage> make_pages(const LessonCommand& command, const Course& cou
 
 /// All pages are on the disk before the first of them gets its name.
 void write_pages(const LessonCommand& command, const std::vector<SitePage>& pages) {
-    std::error_code error;
-    fs::create_directories(command.site, error);
-    if (error) throw RunError(fmt::format("cannot make the folder {}: {}", safe_path(command.site), error.message()));
+    make_folder(command.site);
     std::vector<std::unique_ptr<TemporaryFile>> files;
     for (const SitePage& page : pages) {
         files.push_back(std::make_unique<TemporaryFile>(page.file));
-        files.back()->write(std::as_bytes(std::span(page.html)));
+        files.back()->write(page.html);
     }
     for (const auto& file : files) file->commit();
     if (command.quiet) return;

@@ -1,7 +1,5 @@
 #include "app/cli/options.h"
 #include "app/cli/say.h"
-#include "core/error.h"
-#include "tumble/error.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -30,10 +28,7 @@ void open_missing_standard_streams() {
 /// Tells it, and returns the exit code.
 int fail(const std::exception& error) {
     tumble::messages().fail(error);
-    const auto* const from_library = dynamic_cast<const tumble::v0::Error*>(&error);
-    const bool input = from_library != nullptr ? from_library->kind() == tumble::v0::ErrorKind::input
-                                               : dynamic_cast<const tumble::InputError*>(&error) != nullptr;
-    const int code = input ? 2 : 1;
+    const int code = tumble::is_input_error(error) ? 2 : 1;
     tumble::messages().end(code);
     return code;
 }

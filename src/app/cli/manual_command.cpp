@@ -2,12 +2,8 @@
 #include "app/cli/say.h"
 #include "app/manual/completion.h"
 #include "app/manual/man_page.h"
-#include "core/error.h"
-#include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
-
-#include <span>
-#include <system_error>
 
 namespace tumble {
 
@@ -19,15 +15,9 @@ void run_completion(const CompletionCommand& command, const manual::CommandText&
 }
 
 void run_man_pages(const ManPagesCommand& command, const manual::CommandText& program) {
-    std::error_code failed;
-    std::filesystem::create_directories(command.folder, failed);
-    if (failed)
-        throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(command.folder), failed.message()));
-    for (const manual::ManPage& page : manual::man_pages(program, TUMBLE_VERSION)) {
-        TemporaryFile file(command.folder / page.file);
-        file.write(std::as_bytes(std::span(page.text)));
-        file.commit();
-    }
+    make_folder(command.folder);
+    for (const manual::ManPage& page : manual::man_pages(program, TUMBLE_VERSION))
+        write_file(command.folder / page.file, page.text);
 }
 
 }  // namespace tumble

@@ -3,7 +3,7 @@
 #include "app/cli/command_line.h"
 #include "app/cli/command_reader.h"
 #include "app/cli/say.h"
-#include "app/cli/shell_text.h"
+#include "app/farm/shell_text.h"
 #include "core/safe_text.h"
 
 #include <nlohmann/json.hpp>
@@ -37,6 +37,13 @@ void begin_log(const LogOptions& log, int argc, char** argv) {
     if (!log.json) return;
     messages().write_json_to(log.descriptor);
     messages().event("start", {{"version", TUMBLE_VERSION}, {"command", std::vector<std::string>(argv, argv + argc)}});
+}
+
+/// The command as a shell reads it. Empty if a word has control characters or the text is too long for a message.
+std::string call_text(int argc, char** argv) {
+    std::string text;
+    for (int i = 0; i < argc; ++i) text.append(i > 0 ? " " : "").append(shell_word(argv[i]));
+    return safe_text(text, message_text_bytes / 2) == text ? text : "";
 }
 
 }  // namespace
@@ -85,7 +92,7 @@ int run_command_line(int argc, char** argv) {
         return code == 0 ? 0 : 2;
     }
     begin_log(line.log, argc, argv);
-    line.render.call = shell_text({argv, std::size_t(argc)});
+    line.render.call = call_text(argc, argv);
     if (render->parsed())
         run_render(line.render);
     else if (simulate->parsed())

@@ -17,7 +17,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <span>
 
 namespace tumble {
 namespace {
@@ -121,7 +120,7 @@ void run_page(const PageCommand& command) {
     shell.clips = {{clip_id, data.bytes}};
     shell.body_html = body_html(command, scenes, clip, film);
     const std::string page = page_template.fill(shell);
-    file.write(std::as_bytes(std::span(page)));
+    file.write(page);
     file.commit();
     if (!command.quiet)
         say("wrote {} ({:.4g} kB: data {:.4g} kB, film and picture {:.4g} kB; errors of the motion up to {:.2g} m, "

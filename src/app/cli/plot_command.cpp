@@ -85,7 +85,7 @@ void run_plot(const PlotCommand& command) {
     draw(figure, canvas, {0.0, 0.0, width, height});
     const std::string bytes = canvas.finish();
     if (recorder) write_motion_record(*command.motion_record, recorder->finish());
-    write_file(command.output, std::as_bytes(std::span(bytes)));
+    write_file(command.output, bytes);
     if (!command.quiet) say("wrote {}\n", safe_path(command.output));
 }
 

@@ -1,6 +1,6 @@
 #include "app/cli/record_clip.h"
 
-#include "app/checkpoints/motion_record.h"
+#include "app/checkpoints/frame_record.h"
 #include "app/pipeline/panel_run.h"
 #include "render/scene/pose_filter.h"
 #include "sim/checkpoint/archive.h"

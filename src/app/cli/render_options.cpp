@@ -122,7 +122,7 @@ void add_render_options(CLI::App& to, RenderCommand& c) {
         ->type_name("FRAMES");
     command->add_flag("--resume", c.resume,
                       "Keep the finished frames of an earlier run with the same scene, version and settings,\n"
-                      "and draw the rest. Clips are written in segments of a second, in a folder beside them,\n"
+                      "and draw the rest. Clips are written in segments of 0.8 s, in a folder beside them,\n"
                       "so that a run that is ended at any moment loses at most a second\n"
                       "(docs/how-to/long-renders.md)");
     command

@@ -6,12 +6,10 @@
 #include "app/files/output_plan.h"
 #include "app/resume/kept_frames.h"
 #include "core/error.h"
+#include "core/safe_text.h"
 #include "output/encoder_report.h"
 
 #include <fmt/format.h>
-
-#include <system_error>
-#include <utility>
 
 namespace tumble {
 namespace {
@@ -78,6 +76,8 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
     plan.folder = command.frames;
     plan.aov_folder = folder_of_aovs(command);
     plan.clip = command.clip;
+    plan.clip_options = command.clip_options;
+    plan.clip_options.transparent = command.drawing.transparent;
     if (!plan.clip && !plan.folder && !plan.aov_folder)
         plan.clip = command.scenes.front().stem().string() + (command.drawing.transparent ? ".webm" : ".mp4");
     if (plan.clip) {
@@ -101,10 +101,9 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
         plan.frames.aovs = missing_in(command, *plan.aov_folder, FrameFiles::aovs, plan.aovs, scenes.frames);
     if (plan.clip) plan.frames.video = scenes.frames;
     if (plan.clip && command.resume) {
-        ClipOptions options = command.clip_options;
-        options.transparent = command.drawing.transparent;
         const ClipPicture picture{scenes.composition.width, scenes.composition.height, fps};
-        plan.segments = std::make_unique<SegmentedClip>(*plan.clip, picture, options, plan.pictures, scenes.frames);
+        plan.segments =
+            std::make_unique<SegmentedClip>(*plan.clip, picture, plan.clip_options, plan.pictures, scenes.frames);
         plan.frames.video = plan.segments->missing();
     }
     plan.frames.drawn = plan.frames.folder.united_with(plan.frames.aovs).united_with(plan.frames.video);

@@ -18,6 +18,7 @@ namespace tumble {
 struct RenderPlan {
     std::optional<std::filesystem::path> clip, folder, aov_folder;
     std::optional<VideoFormat> format;  // of the clip
+    ClipOptions clip_options;
     FrameIdentity pictures, aovs;
     PipelineFrames frames;
     std::unique_ptr<SegmentedClip> segments;  // with --resume and a clip

@@ -17,7 +17,6 @@
 #include <algorithm>
 #include <fstream>
 #include <optional>
-#include <span>
 #include <utility>
 
 namespace tumble {
@@ -148,7 +147,7 @@ void RenderReport::write(const RenderFigures& done) const {
     shell.clips = {{report_clip, data.bytes}};
     shell.body_html = body_html(clip, data, done);
     const std::string page = template_.fill(shell);
-    write_file(*command_.report, std::as_bytes(std::span(page)));
+    write_file(*command_.report, page);
     if (!command_.quiet) say("wrote {} ({:.4g} kB)\n", safe_path(*command_.report), 1e-3 * double(page.size()));
 }
 

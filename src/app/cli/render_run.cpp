@@ -37,7 +37,7 @@ CheckpointReading open_checkpoints(const std::filesystem::path& folder, RenderSc
         throw InputError(
             "--from-checkpoints: the overlay 'damage' shows changes since the frame before, which a part of a clip has "
             "not drawn; leave one of them out");
-    CheckpointReading checkpoints(folder, TUMBLE_VERSION, scenes.identity());
+    CheckpointReading checkpoints(folder, scenes.identity());
     scenes.take_survey(checkpoints.survey());
     return checkpoints;
 }
@@ -115,10 +115,8 @@ public:
         if (plan.segments) {
             plan.segments->open();
         } else if (plan.clip) {
-            ClipOptions options = command.clip_options;
-            options.transparent = command.drawing.transparent;
             clip_ = std::make_unique<WholeClip>(*plan.clip, scenes.composition.width, scenes.composition.height,
-                                                scenes.first().output.fps, options);
+                                                scenes.first().output.fps, plan.clip_options);
         }
     }
 

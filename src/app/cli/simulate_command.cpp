@@ -2,16 +2,14 @@
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
 #include "app/cli/record_clip.h"
-#include "app/cli/run_tables.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
+#include "app/files/run_tables.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/wall_clock.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "sim/checkpoint/archive.h"
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -43,26 +41,31 @@ private:
 };
 
 void say_run(const SimulateCommand& command, const SceneDescription& scene, std::int64_t frames, double seconds) {
-    for (const std::filesystem::path& file : RunTables::files(command)) say("wrote {}\n", safe_path(file));
+    for (const std::filesystem::path& file : command.tables.all()) say("wrote {}\n", safe_path(file));
     const FrameTiming timing = scene.timing();
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
         (frames - 1) * timing.steps_per_frame, 1.0 / (timing.fps * timing.steps_per_frame), seconds,
         double(frames - 1) / timing.fps / seconds);
 }
 
+/// Throws InputError if a table would replace another one or an input.
+void check_tables(const SimulateCommand& command, const FileList& inputs) {
+    OutputPlan plan;
+    for (const std::filesystem::path& file : inputs) plan.add_input(file);
+    command.tables.add_to(plan);
+}
+
 void simulate_tables(const SimulateCommand& command) {
     const double start = wall_seconds();
     FileList inputs;
     const SceneDescription description = load_scene(command.scenes.front(), command.overrides, &inputs);
-    OutputPlan plan;
-    for (const auto& file : inputs) plan.add_input(file);
-    RunTables::plan(command, plan);
+    check_tables(command, inputs);
     const v0::Scene scene = v0::make_scene(description, std::move(inputs));
     const std::int64_t frames = scene.frame_count();
     {
         RunMonitor monitor(frames, command.quiet);
         World world(description, command.threads);
-        RunTables tables(command, scene);
+        RunTables tables(command.tables, scene);
         if (tables.needs_records()) world.record_contacts();
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
@@ -80,7 +83,7 @@ RenderCommand clip_of(const SimulateCommand& command) {
     clip.scenes = command.scenes;
     clip.overrides = command.overrides;
     const bool own_frames = command.scenes.size() == 1 && clip.vary.empty() && clip.speed == 1.0 && clip.shutter == 0.0;
-    if (!own_frames && !RunTables::files(command).empty())
+    if (!own_frames && !command.tables.all().empty())
         throw InputError(
             "--checkpoints: tables are of the frames of one scene; leave out --trajectory, --energy, "
             "--impacts, --contacts and --loads with several panels, --speed and --shutter");
@@ -93,17 +96,15 @@ void simulate_rest(const SimulateCommand& command) {
     RenderCommand clip = clip_of(command);
     clip.start = command.start;
     RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
-    OutputPlan plan;
-    for (const auto& file : scenes.inputs) plan.add_input(file);
-    RunTables::plan(command, plan);
-    const CheckpointReading checkpoints(*command.from_checkpoints, TUMBLE_VERSION, scenes.identity());
+    check_tables(command, scenes.inputs);
+    const CheckpointReading checkpoints(*command.from_checkpoints, scenes.identity());
     const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
     const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
     {
         RunMonitor monitor(end - begin, command.quiet);
-        RunTables tables(command, scene, first);
+        RunTables tables(command.tables, scene, first);
         World world = scenes.world(0, command.threads);
         if (tables.needs_records() && !world.records_contacts()) world.record_contacts();
         if (state) {
@@ -125,9 +126,7 @@ void simulate_clip(const SimulateCommand& command) {
     const RenderCommand clip = clip_of(command);
     const Shutter shutter = Shutter::of(clip.shutter, clip.blur_samples);
     RenderScenes scenes(clip, shutter);
-    OutputPlan plan;
-    for (const auto& file : scenes.inputs) plan.add_input(file);
-    RunTables::plan(command, plan);
+    check_tables(command, scenes.inputs);
     const SceneDescription& first = scenes.first();
     const v0::Scene scene = v0::make_scene(first, scenes.inputs);
     const std::int64_t frames = scenes.clip_frames;
@@ -135,8 +134,8 @@ void simulate_clip(const SimulateCommand& command) {
     std::uintmax_t bytes = 0;
     {
         RunMonitor monitor(frames, command.quiet);
-        RunTables tables(command, scene);
-        CheckpointWriting checkpoints(*command.checkpoints, TUMBLE_VERSION, scenes.identity());
+        RunTables tables(command.tables, scene);
+        CheckpointWriting checkpoints(*command.checkpoints, scenes.identity());
         ClipRecording recording;
         recording.shutter = shutter;
         recording.every = std::max<std::int64_t>(1, std::llround(command.every * first.output.fps));

@@ -14,7 +14,7 @@ void read_impacts(const std::string& text, SimulateCommand& c) {
     const bool is_file =
         file.extension() == ".csv" || file.extension() == ".npz" || text.find('/') != std::string::npos;
     if (text == "-" || is_file)
-        c.impacts = file;
+        c.tables.impacts = file;
     else if (text == "stepped" || text == "exact")
         c.overrides.impacts = text;
     else
@@ -77,14 +77,14 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->required()
         ->type_name("SCENE");
     command
-        ->add_option("--trajectory", c.trajectory,
+        ->add_option("--trajectory", c.tables.trajectory,
                      "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
                      "is standard output")
         ->check(csv_name())
         ->transform(or_standard_output())
         ->type_name("T.csv");
     command
-        ->add_option("--energy", c.energy,
+        ->add_option("--energy", c.tables.energy,
                      "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
         ->check(csv_name())
         ->transform(or_standard_output())
@@ -111,13 +111,13 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
         ->trigger_on_parse()
         ->option_text("stepped|exact|I.csv");
     command
-        ->add_option("--contacts", c.contacts,
+        ->add_option("--contacts", c.tables.contacts,
                      "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
         ->check(some_name())
         ->transform(or_standard_output())
         ->type_name("C.csv");
     command
-        ->add_option("--loads", c.loads,
+        ->add_option("--loads", c.tables.loads,
                      "CSV or .npz: one row per frame and dynamic body, with the force and moment of gravity,\nwind and "
                      "[[force]]s; - is standard output")
         ->check(some_name())

@@ -13,7 +13,7 @@ std::vector<std::int64_t> read_indices(std::string_view text) {
     std::vector<std::int64_t> indices;
     const auto fail = [&] {
         throw InputError(
-            fmt::format("--only: must be indices of samples, as in 3,17,20-23 (was '{}')", safe_text(text)));
+            fmt::format("--only: must be indices of samples, as in 3,17,20-23 (given '{}')", safe_text(text)));
     };
     const char* at = text.data();
     const char* const end = text.data() + text.size();

@@ -3,6 +3,7 @@
 
 #include "app/clip/clip_request.h"
 #include "app/composition/composition.h"
+#include "app/files/named_values.h"
 #include "app/resume/frame_identity.h"
 #include "render/gl/gl_backend.h"
 

@@ -1,25 +1,14 @@
 #include "app/compare/compared_frames.h"
 
 #include "compare/metrics/background.h"
-#include "core/error.h"
-#include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
-
-#include <fmt/format.h>
-
-#include <system_error>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
-
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw RunError(fmt::format("cannot make the folder {}: {}", safe_path(folder), error.message()));
-}
 
 Image pixels_of(const ComparedPicture& picture) {
     return picture.pixels != nullptr ? *picture.pixels : read_png(picture.file);

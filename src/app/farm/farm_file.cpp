@@ -1,14 +1,14 @@
 #include "app/farm/farm_job.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/file_bytes.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <fstream>
-#include <iterator>
-#include <span>
+#include <optional>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -53,18 +53,16 @@ void write_farm_file(const FarmJob& job) {
     json["frames"] = job.frames;
     json["parts"] = FarmJson::array();
     for (const FarmPart& part : job.parts) json["parts"].push_back({part.first, part.last});
-    const std::string text = json.dump(-1, ' ', false, FarmJson::error_handler_t::replace) + "\n";
-    write_file(farm_file(job.folder), std::as_bytes(std::span(text)));
+    write_file(farm_file(job.folder), json.dump(-1, ' ', false, FarmJson::error_handler_t::replace) + "\n");
 }
 
 FarmJob read_farm_file(const fs::path& job_folder) {
     const fs::path file = farm_file(job_folder);
-    std::ifstream stream(file);
-    if (!stream) refuse_farm_file(file, "cannot be read: the folder holds no farm job");
-    const std::string text(std::istreambuf_iterator<char>(stream), {});
+    const std::optional<std::string> text = bytes_of_file(file);
+    if (!text) refuse_farm_file(file, "cannot be read: the folder holds no farm job");
     FarmJob job;
     try {
-        const FarmJson json = FarmJson::parse(text);
+        const FarmJson json = FarmJson::parse(*text);
         if (json.at("format") != farm_format) refuse_farm_file(file, "is of another version of the program");
         job = farm_job_of(json, job_folder);
     } catch (const FarmJson::exception& error) {

@@ -1,5 +1,6 @@
 #include "app/farm/farm_job.h"
 
+#include "app/files/frame_set.h"
 #include "core/check.h"
 
 #include <fmt/format.h>
@@ -21,15 +22,9 @@ std::vector<FarmPart> divide_frames(std::int64_t frames, std::int64_t length) {
 }
 
 std::string part_list(const std::vector<int>& numbers) {
-    std::string list;
-    for (std::size_t i = 0; i < numbers.size();) {
-        std::size_t end = i + 1;
-        while (end < numbers.size() && numbers[end] == numbers[end - 1] + 1) ++end;
-        list += fmt::format("{}{}", list.empty() ? "" : ",", numbers[i]);
-        if (end - i > 1) list += fmt::format("-{}", numbers[end - 1]);
-        i = end;
-    }
-    return list;
+    FrameSet parts;
+    for (const int number : numbers) parts.append(number, number + 1);
+    return parts.text(numbers.size());
 }
 
 fs::path frames_folder(const fs::path& job_folder) { return job_folder / "frames"; }

@@ -1,15 +1,14 @@
 #include "app/farm/openjd_template.h"
 
+#include "app/farm/shell_text.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
 #include <optional>
 #include <set>
-#include <string_view>
 
 namespace tumble {
 namespace {
@@ -23,9 +22,7 @@ constexpr int notice_seconds = 120;  // between SIGTERM, after which a run ends 
 
 /// A word of a command line that holds no parameter. The format has no escape for the braces, and no control characters.
 std::string literal_word(const std::string& word) {
-    const bool control =
-        std::any_of(word.begin(), word.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
-    if (word.find("{{") != std::string::npos || word.find("}}") != std::string::npos || control)
+    if (word.find("{{") != std::string::npos || word.find("}}") != std::string::npos || has_control_characters(word))
         throw InputError(
             fmt::format("an OpenJD template cannot hold double braces or control characters in an option (was '{}'); "
                         "write braces with a "

@@ -4,9 +4,13 @@
 
 namespace tumble {
 
+bool is_plain_word(std::string_view text) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,@%+-=";
+    return !text.empty() && text.find_first_not_of(plain) == std::string_view::npos;
+}
+
 std::string shell_word(std::string_view text) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,@%+-";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) return std::string(text);
+    if (is_plain_word(text)) return std::string(text);
     std::string word = "'";
     for (const char c : text) {
         if (c == '\'')
@@ -15,6 +19,10 @@ std::string shell_word(std::string_view text) {
             word += c;
     }
     return word + "'";
+}
+
+bool has_control_characters(std::string_view text) {
+    return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
 }
 
 std::string shell_array(std::string_view name, const std::vector<std::string>& words) {

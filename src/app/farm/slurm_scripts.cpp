@@ -3,12 +3,12 @@
 #include "app/farm/shell_text.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <span>
 #include <string_view>
 #include <system_error>
 
@@ -113,18 +113,13 @@ echo "job ${job%%;*}: clip"
 
 /// A value in a line of #SBATCH, which sbatch takes apart by its own rules: '#' begins a comment, quotes are removed.
 std::string sbatch_value(std::string_view text) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./:,@%+-=";
-    if (!text.empty() && text.find_first_not_of(plain) == std::string_view::npos) return std::string(text);
+    if (is_plain_word(text)) return std::string(text);
     std::string quoted = "\"";
     for (const char c : text) {
         if (c == '"' || c == '\\') quoted += '\\';
         quoted += c;
     }
     return quoted + "\"";
-}
-
-bool has_control_characters(std::string_view text) {
-    return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
 }
 
 /// The options of sbatch in the script of a job.
@@ -172,17 +167,11 @@ std::string slurm_settings_text(const FarmJob& job) {
 }
 
 void write_script(const fs::path& path, const std::string& text) {
-    write_file(path, std::as_bytes(std::span(text)));
+    write_file(path, text);
     std::error_code ignored;  // bash reads a script that cannot be executed as well
     if (path.filename() != "settings.sh")
         fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                         fs::perm_options::add, ignored);
-}
-
-void make_job_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (error) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder), error.message()));
 }
 
 }  // namespace
@@ -210,7 +199,7 @@ void check_slurm(const FarmJob& job, const SlurmSettings& settings) {
 }
 
 void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings) {
-    make_job_folder(job.folder / "log");
+    make_folder(job.folder / "log");
     const std::string read_settings =
         fmt::format("set -u\nsource {} || exit\n", shell_word((job.folder / "settings.sh").string()));
     const auto write = [&](const char* name, const SlurmScript& script, const std::string& options) {

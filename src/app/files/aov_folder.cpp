@@ -29,8 +29,7 @@ void AovFolder::set_manifest(const std::filesystem::path& path, std::string text
 void AovFolder::write_manifest() {
     if (std::exchange(begun_, true)) return;
     if (aovs_.has(Aov::segmentation)) write_table();
-    if (!manifest_.empty() && bytes_of_file(manifest_path_) != manifest_)
-        write_file(manifest_path_, std::as_bytes(std::span(manifest_)));
+    if (!manifest_.empty() && bytes_of_file(manifest_path_) != manifest_) write_file(manifest_path_, manifest_);
 }
 
 std::unique_ptr<TemporaryFile> AovFolder::write(std::int64_t frame, std::span<const std::byte> file) {

@@ -1,4 +1,4 @@
-// Where the frames of a clip go: one encoder (WholeClip), or segments of about a second that a later run goes on from
+// Where the frames of a clip go: one encoder (WholeClip), or segments of 0.8 s, after which a later run goes on
 // (resume/segmented_clip.h).
 #pragma once
 
@@ -6,7 +6,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
+#include <utility>
 
 namespace tumble {
 

@@ -126,8 +126,7 @@ void FrameFolder::set_manifest(const fs::path& path, std::string text) {
 
 void FrameFolder::write_manifest() {
     const std::string text = std::exchange(manifest_, {});
-    if (!text.empty() && bytes_of_file(manifest_path_) != text)
-        write_file(manifest_path_, std::as_bytes(std::span(text)));
+    if (!text.empty() && bytes_of_file(manifest_path_) != text) write_file(manifest_path_, text);
 }
 
 std::unique_ptr<TemporaryFile> FrameFolder::write(std::int64_t frame, std::span<const std::byte> file) {

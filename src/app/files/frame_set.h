@@ -25,7 +25,7 @@ public:
     bool contains(std::int64_t frame) const;
     bool contiguous() const { return runs_.size() <= 1; }
     std::int64_t count() const { return count_; }
-    // Preconditions: the set is not empty.
+    // Precondition of first() and last(): the set is not empty.
     std::int64_t first() const { return runs_.front().first; }
     std::int64_t last() const { return runs_.back().end - 1; }
     std::int64_t end() const { return runs_.empty() ? 0 : runs_.back().end; }  // one after the last frame

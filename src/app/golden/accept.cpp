@@ -3,16 +3,17 @@
 #include "compare/pair_compare.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/file_bytes.h"
+#include "output/make_folder.h"
 #include "output/png_reader.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -22,19 +23,17 @@ namespace fs = std::filesystem;
 constexpr DrawingWork first_work{1, 1, false}, second_work{3, 2, true};
 
 std::string content(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream) throw RunError(fmt::format("cannot read '{}'", safe_path(file)));
-    return bytes;
+    std::optional<std::string> bytes = bytes_of_file(file);
+    if (!bytes) throw RunError(fmt::format("cannot read '{}'", safe_path(file)));
+    return std::move(*bytes);
 }
 
 /// Files that get their names together.
 class NewReferences {
 public:
     void add(const fs::path& from, const fs::path& to) {
-        const std::string bytes = content(from);
         files_.push_back(std::make_unique<TemporaryFile>(to));
-        files_.back()->write(std::as_bytes(std::span(bytes)));
+        files_.back()->write(content(from));
     }
     void commit() {
         for (const auto& file : files_) file->commit();
@@ -106,12 +105,12 @@ private:
 
     void publish(const DrawnCase& drawn, std::span<AcceptedImage> images) {
         const GoldenCase& golden = *drawn.golden;
-        make_folder();
+        make_folder(folder_);
         NewReferences files;
         bool all_new = true;  // the record tells of the references: it is kept with an older one
         for (AcceptedImage& image : images) {
             const fs::path from = drawn.folder / image.name, to = folder_ / image.name;
-            image.what = place_of(from, to, golden.tolerances ? *golden.tolerances : suite_.tolerances);
+            image.what = place_of(from, to, suite_.tolerances_of(golden));
             if (image.what == What::kept_alike && options_.even_alike) image.what = What::replaced;
             if (image.what == What::made || image.what == What::replaced) files.add(from, to);
             all_new = all_new && image.what != What::kept_alike;
@@ -126,14 +125,6 @@ private:
         files.commit();
     }
 
-    void make_folder() const {
-        std::error_code error;
-        fs::create_directories(folder_, error);
-        if (error)
-            throw RunError(
-                fmt::format("cannot make the folder of references '{}': {}", safe_path(folder_), error.message()));
-    }
-
     const GoldenSuite& suite_;
     const AcceptOptions& options_;
     fs::path folder_;
@@ -146,7 +137,6 @@ std::vector<AcceptedImage> accept_cases(const GoldenSuite& suite, std::span<cons
     const TemporaryFolder work("accept");
     const auto draw = [&](const char* name, const DrawingWork& by) {
         DrawCasesOptions how;
-        how.force = true;
         how.jobs = options.jobs;
         how.work = by;
         return draw_cases(cases, drawer, ImageCache(work.path() / name), how, interrupt);

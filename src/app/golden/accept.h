@@ -4,7 +4,6 @@
 #include "app/golden/draw_cases.h"
 #include "app/golden/suite.h"
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>

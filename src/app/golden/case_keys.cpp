@@ -1,6 +1,5 @@
 #include "app/golden/case_keys.h"
 
-#include "core/safe_text.h"
 #include "scene/toml/limits.h"
 #include "sim/frames/clip_timing.h"
 
@@ -10,7 +9,6 @@
 #include <algorithm>
 #include <limits>
 #include <string>
-#include <utility>
 
 namespace tumble {
 namespace {

@@ -23,16 +23,10 @@ struct ImagePlace {
     std::int64_t frame;
 };
 
-std::vector<std::string> platforms_of(const GoldenSuite& suite) {
-    std::vector<std::string> platforms(std::begin(known_platforms), std::end(known_platforms));
-    platforms.insert(platforms.end(), suite.tolerances.platforms().begin(), suite.tolerances.platforms().end());
-    return platforms;
-}
-
 References references_in(const GoldenSuite& suite, const std::string& platform) {
     std::error_code error;
     if (!fs::exists(suite.references, error)) return {};
-    return references_of(png_files_in(suite.references), {}, platform, platforms_of(suite));
+    return references_of(png_files_in(suite.references), {}, platform, platform_folders(suite.tolerances.platforms()));
 }
 
 ImagePair pair_of(const ImagePlace& place, const NamedFiles& references) {
@@ -82,11 +76,6 @@ std::vector<ImagePlace> places_of(std::span<const DrawnCase> drawn) {
 
 }  // namespace
 
-std::string platform_of_option(const std::optional<std::string>& platform) {
-    if (platform == "none") return "";
-    return platform ? *platform : this_platform();
-}
-
 SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn, const CheckOptions& options,
                       Interrupt& interrupt) {
     SetResult result;
@@ -101,8 +90,7 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
     for (std::size_t i = 0; i < places.size(); ++i) {
         const ImagePair pair = pair_of(places[i], references.files);
         if (pair.reference && pair.image) {
-            const GoldenCase& golden = *places[i].drawn->golden;
-            groups[golden.tolerances ? &*golden.tolerances : &suite.tolerances].push_back(i);
+            groups[&suite.tolerances_of(*places[i].drawn->golden)].push_back(i);
         } else {
             result.images[i] = lone_result(pair, *places[i].drawn);
         }
@@ -110,7 +98,7 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
     for (const auto& [tolerances, indices] : groups) {
         std::size_t next = 0;
         const auto source = [&]() -> std::optional<ImagePair> {
-            if (interrupt.pending()) throw RunError("interrupted");
+            if (interrupt.pending()) throw Interrupted();
             if (next == indices.size()) return std::nullopt;
             return pair_of(places[indices[next++]], references.files);
         };
@@ -130,7 +118,8 @@ std::vector<std::string> references_of_no_case(const GoldenSuite& suite) {
     std::vector<std::string> others;
     std::error_code error;
     std::vector<fs::path> folders{suite.references};
-    for (const std::string& platform : platforms_of(suite)) folders.push_back(suite.references / platform);
+    for (const std::string& platform : platform_folders(suite.tolerances.platforms()))
+        folders.push_back(suite.references / platform);
     for (const fs::path& folder : folders)
         for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
             const std::string name = it->path().filename().string();

@@ -5,7 +5,6 @@
 #include "app/golden/suite.h"
 #include "compare/comparison.h"
 
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
@@ -25,8 +24,5 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
 
 /// References and records in the suite's folder that belong to no case, by name.
 std::vector<std::string> references_of_no_case(const GoldenSuite& suite);
-
-/// The platform whose references replace the general ones: "" if there is none.
-std::string platform_of_option(const std::optional<std::string>& platform);
 
 }  // namespace tumble

@@ -24,7 +24,8 @@
 namespace tumble {
 namespace {
 
-constexpr int poll_period = 50;  // ms between checks for an interrupt
+constexpr int poll_period = 50;           // ms between checks for an interrupt
+constexpr char done = 'd', failed = 'f';  // the first byte of a child's text
 
 void write_all(int file, std::string_view text) {
     while (!text.empty()) {
@@ -36,17 +37,16 @@ void write_all(int file, std::string_view text) {
 }
 
 TaskEnd end_of(const std::function<std::string()>& task) {
-    using Kind = TaskEnd::Kind;
     try {
-        return {Kind::done, task()};
+        return {true, task()};
     } catch (const InputError& error) {
-        return {Kind::input_error, error.what()};
+        return {false, error.what()};
     } catch (const RunError& error) {
-        return {Kind::run_error, error.what()};
+        return {false, error.what()};
     } catch (const std::bad_alloc&) {
-        return {Kind::run_error, "error: out of memory"};
+        return {false, "error: out of memory"};
     } catch (const std::exception& error) {
-        return {Kind::run_error, fmt::format("error: {}", safe_lines(error.what()))};
+        return {false, fmt::format("error: {}", safe_lines(error.what()))};
     }
 }
 
@@ -68,7 +68,7 @@ public:
             if (::getppid() != parent) ::_exit(1);
             ::close(ends[0]);
             const TaskEnd end = end_of([&] { return task(index); });
-            write_all(ends[1], std::string(1, char(end.kind)) + end.text);
+            write_all(ends[1], (end.ok ? done : failed) + end.text);
             ::_exit(0);
         }
         ::close(ends[1]);
@@ -96,9 +96,8 @@ public:
     }
     TaskEnd finish() {
         const ProcessEnd end = wait_for_process(std::exchange(id_, -1));
-        if (text_.empty())
-            return {TaskEnd::Kind::died, fmt::format("error: its process ended without a result: {}", end.describe())};
-        return {TaskEnd::Kind(text_.front()), text_.substr(1)};
+        if (text_.empty()) return {false, fmt::format("error: its process ended without a result: {}", end.describe())};
+        return {text_.front() == done, text_.substr(1)};
     }
 
 private:
@@ -123,7 +122,7 @@ void run_in_children(std::size_t count, std::size_t at_once, const std::function
         std::vector<pollfd> pipes;
         for (const auto& child : children) pipes.push_back({child->pipe(), POLLIN, 0});
         ::poll(pipes.data(), pipes.size(), poll_period);
-        if (interrupt.pending()) throw RunError("interrupted");
+        if (interrupt.pending()) throw Interrupted();
         for (std::size_t i = pipes.size(); i-- > 0;) {
             if (pipes[i].revents == 0 || children[i]->read()) continue;
             const std::size_t index = children[i]->index();

@@ -6,17 +6,14 @@
 
 #include <cstddef>
 #include <functional>
-#include <optional>
 #include <string>
 
 namespace tumble {
 
 /// End of a task: its result, or the text of its error.
 struct TaskEnd {
-    enum class Kind : char { done = 'd', input_error = 'i', run_error = 'r', died = 'x' };
-    Kind kind = Kind::died;
+    bool ok = false;
     std::string text;
-    bool ok() const { return kind == Kind::done; }
 };
 
 /// Runs `task(i)` for each i below `count`, up to `at_once` at a time, each in a child; its text is the result. `ended`

@@ -1,11 +1,10 @@
-// Draws the images of cases, several at a time, and only those that are not in the cache.
+// Draws cases, several at a time. A case whose images are all in the cache is not drawn.
 #pragma once
 
 #include "app/golden/child_tasks.h"
 #include "app/golden/drawer.h"
 #include "app/golden/image_cache.h"
 
-#include <cstddef>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -18,7 +17,7 @@ namespace tumble {
 struct DrawnCase {
     const GoldenCase* golden = nullptr;
     std::filesystem::path folder;  // of the images and the record
-    std::size_t drawn = 0;         // images; the others were in the cache
+    bool drawn = false;            // in this run; else its images were in the cache
     std::string error;             // of a case that cannot be drawn
 };
 

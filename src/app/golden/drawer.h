@@ -3,10 +3,8 @@
 
 #include "app/golden/suite.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 namespace tumble {
 
@@ -24,10 +22,9 @@ public:
     /// Loads the scenes. Text on which the images of a case depend, apart from the program. Throws InputError.
     virtual std::string identity(const GoldenCase& golden) const = 0;
 
-    /// Draws frames of a case as image_name(), and writes record_name(), into an existing folder. Precondition: the
+    /// Draws the frames of a case as image_name(), and writes record_name(), into an existing folder. Precondition: the
     /// program has no other thread. Throws InputError, RunError.
-    virtual void draw(const GoldenCase& golden, const std::vector<std::int64_t>& frames,
-                      const std::filesystem::path& folder, const DrawingWork& work) const = 0;
+    virtual void draw(const GoldenCase& golden, const std::filesystem::path& folder, const DrawingWork& work) const = 0;
 };
 
 }  // namespace tumble

@@ -7,13 +7,10 @@
 
 #include <fmt/format.h>
 
-#include <stdlib.h>
-
 #include <algorithm>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 #include <system_error>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -51,21 +48,16 @@ fs::path ImageCache::entry(const GoldenCase& golden, const std::string& key) con
     return folder_ / fmt::format("{}-{}", golden.name, key.substr(0, key_digits));
 }
 
-std::vector<std::int64_t> ImageCache::missing(const GoldenCase& golden, const fs::path& entry) {
+bool ImageCache::holds(const GoldenCase& golden, const fs::path& entry) {
     std::error_code ignored;
-    std::vector<std::int64_t> frames;
-    for (const std::int64_t frame : golden.frames)
-        if (!fs::is_regular_file(entry / golden.image_name(frame), ignored)) frames.push_back(frame);
-    return frames;
+    return std::ranges::all_of(golden.frames, [&](std::int64_t frame) {
+        return fs::is_regular_file(entry / golden.image_name(frame), ignored);
+    });
 }
 
-fs::path ImageCache::make_work_folder() const {
+TemporaryFolder ImageCache::make_work_folder() const {
     make_folders(folder_);
-    std::string name = (folder_ / (std::string(work_prefix) + "XXXXXX")).string();
-    if (::mkdtemp(name.data()) == nullptr)
-        throw RunError(fmt::format("cannot make a folder in the cache '{}': {} (--cache names another one)",
-                                   safe_path(folder_), std::strerror(errno)));
-    return name;
+    return {folder_, work_prefix};
 }
 
 void ImageCache::remove_left_work() const {

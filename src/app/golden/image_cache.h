@@ -1,16 +1,15 @@
 // Drawn images of earlier runs, by what they depend on. A folder for each case and key:
 //   CASE-0123456789abcdef/   CASE_000000.png, ..., CASE.motion.json
-// Images are renamed into it when they are whole, so that several runs may share a cache. All images of one key are the
-// same bytes, whoever drew them.
+// Images are renamed into it when they are whole, so that several runs may share a cache: each run that draws the images
+// of a key makes the same bytes.
 #pragma once
 
 #include "app/golden/suite.h"
+#include "output/temporary_folder.h"
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <vector>
 
 namespace tumble {
 
@@ -22,11 +21,11 @@ public:
     /// The folder of a case. `key`: a hash of all that its images depend on.
     std::filesystem::path entry(const GoldenCase& golden, const std::string& key) const;
 
-    /// The frames that are not in the entry; all of them if its record is missing or of other frames.
-    static std::vector<std::int64_t> missing(const GoldenCase& golden, const std::filesystem::path& entry);
+    /// True if all images of the case are in its entry.
+    static bool holds(const GoldenCase& golden, const std::filesystem::path& entry);
 
-    /// A new folder in the cache for the drawings of a run, which locks it (FolderLock) and removes it. Throws RunError.
-    std::filesystem::path make_work_folder() const;
+    /// A new folder in the cache for the drawings of a run, which locks it (FolderLock). Throws RunError.
+    TemporaryFolder make_work_folder() const;
     /// Removes those of runs that were killed.
     void remove_left_work() const;
 

@@ -17,7 +17,6 @@
 #include <filesystem>
 #include <fstream>
 #include <span>
-#include <string_view>
 #include <system_error>
 #include <vector>
 

@@ -1,15 +1,13 @@
 #include "app/golden/suite.h"
 
 #include "app/golden/case_keys.h"
-#include "core/safe_text.h"
+#include "core/check.h"
+#include "scene/toml/toml_file.h"
 #include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <optional>
 #include <set>
 
@@ -18,24 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t suite_bytes = 4 << 20;  // ten thousand cases
+constexpr std::int64_t suite_bytes = 4 << 20;  // ten thousand cases
 constexpr const char* default_references = "references";
-
-std::string read_text(const fs::path& file) {
-    const auto fail = [&](const std::string& problem) {
-        throw InputError({file.string(), 0, 0}, "the suite " + problem);
-    };
-    std::error_code error;
-    if (fs::is_directory(file, error)) fail("is a folder; give the file in it, as in golden.toml");
-    std::ifstream stream(file, std::ios::binary);
-    if (!stream) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    std::string text(suite_bytes + 1, '\0');
-    stream.read(text.data(), std::streamsize(text.size()));
-    if (stream.bad()) fail(fmt::format("cannot be read: {}", std::strerror(errno)));
-    text.resize(std::size_t(stream.gcount()));
-    if (text.size() > suite_bytes) fail(fmt::format("is larger than {} MiB", suite_bytes >> 20));
-    return text;
-}
 
 void check_format(const TomlTable& root) {
     const auto format = root.find("format");
@@ -76,6 +58,16 @@ const GoldenCase* GoldenSuite::find(std::string_view name) const {
     return found == cases.end() ? nullptr : &*found;
 }
 
+const Tolerances& GoldenSuite::tolerances_of(const GoldenCase& golden) const {
+    return golden.tolerances ? *golden.tolerances : tolerances;
+}
+
+PairTolerances GoldenSuite::tolerances_of(const std::string& image) const {
+    const GoldenCase* const golden = find(std::string_view(image).substr(0, image.rfind('_')));
+    TUMBLE_CHECK_EQ(golden != nullptr, true);
+    return tolerances_of(*golden).of(image);
+}
+
 GoldenSuite parse_suite(const std::string& text, const fs::path& file) {
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"suite", {file.string(), 1, 1}}, "a suite");
@@ -101,7 +93,9 @@ GoldenSuite parse_suite(const std::string& text, const fs::path& file) {
     return suite;
 }
 
-GoldenSuite load_suite(const fs::path& file) { return parse_suite(read_text(file), file); }
+std::string read_suite_text(const fs::path& file) { return read_toml_file(file, "suite", suite_bytes); }
+
+GoldenSuite load_suite(const fs::path& file) { return parse_suite(read_suite_text(file), file); }
 
 void with_place_of(const GoldenCase& golden, const std::function<void()>& action) {
     try {

@@ -50,11 +50,17 @@ struct GoldenSuite {
     std::vector<GoldenCase> cases;  // in the order of the file
 
     const GoldenCase* find(std::string_view name) const;
+    /// Those of the case, else of the suite.
+    const Tolerances& tolerances_of(const GoldenCase& golden) const;
+    /// Of an image of a case (image_name()).
+    PairTolerances tolerances_of(const std::string& image) const;
 };
 
 /// Throws InputError with file, line and column for any mistake. Scenes are not read.
 GoldenSuite load_suite(const std::filesystem::path& file);
 GoldenSuite parse_suite(const std::string& text, const std::filesystem::path& file);
+/// The text of the file. Throws InputError if it cannot be read.
+std::string read_suite_text(const std::filesystem::path& file);
 
 /// Calls `action`, and gives its InputErrors without a place ("--fps: ...") that of the case's key.
 void with_place_of(const GoldenCase& golden, const std::function<void()>& action);

@@ -1,14 +1,10 @@
 #include "app/golden/suite_edit.h"
 
-#include "core/error.h"
+#include "scene/toml/toml_text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace tumble {
@@ -21,27 +17,10 @@ constexpr const char* new_suite = "format = 1\nreferences = \"references\"   # f
 std::string text_of(const fs::path& file) {
     std::error_code error;
     if (!fs::exists(file, error)) return new_suite;
-    load_suite(file);  // its mistakes have the places of the file
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream)
-        throw InputError({file.string(), 0, 0}, fmt::format("the suite cannot be read: {}", std::strerror(errno)));
+    std::string text = read_suite_text(file);
+    parse_suite(text, file);  // its mistakes have the places of the file
     if (!text.empty() && text.back() != '\n') text += '\n';
     return text;
-}
-
-/// A basic string of TOML.
-std::string toml_string(std::string_view text) {
-    std::string result = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            result += fmt::format("\\{}", c);
-        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            result += fmt::format("\\u{:04X}", int(static_cast<unsigned char>(c)));
-        else
-            result += c;
-    }
-    return result + '"';
 }
 
 std::string case_text(const NewCase& added, const fs::path& suite) {

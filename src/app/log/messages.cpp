@@ -5,11 +5,13 @@
 #include "core/safe_text.h"
 #include "tumble/error.h"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -40,11 +42,6 @@ std::string_view without_newlines(std::string_view text) {
     return text;
 }
 
-std::string plain(std::string_view text) {
-    constexpr std::string_view prefix = "error: ";
-    return std::string(text.starts_with(prefix) ? text.substr(prefix.size()) : text);
-}
-
 /// Text for the terminal: with "error: ".
 std::string text_of(const std::exception& error) {
     if (dynamic_cast<const std::bad_alloc*>(&error) != nullptr) return "error: out of memory";
@@ -63,12 +60,16 @@ Json members_of(const std::exception& error) {
         if (where.column > 0) members["column"] = where.column;
         return members;
     }
-    const auto* from_library = dynamic_cast<const v0::Error*>(&error);
-    const bool input = from_library != nullptr && from_library->kind() == v0::ErrorKind::input;
-    return {{"kind", input ? "input" : "run"}, {"text", plain(text_of(error))}};
+    return {{"kind", is_input_error(error) ? "input" : "run"}, {"text", reason_of(text_of(error))}};
 }
 
 }  // namespace
+
+bool is_input_error(const std::exception& error) {
+    const auto* from_library = dynamic_cast<const v0::Error*>(&error);
+    return from_library != nullptr ? from_library->kind() == v0::ErrorKind::input
+                                   : dynamic_cast<const InputError*>(&error) != nullptr;
+}
 
 Messages::Messages() : start_(wall_seconds()) {}
 

@@ -2,14 +2,16 @@
 // a descriptor of choice, for programs that watch the run (docs/reference/log.md).
 #pragma once
 
-#include <fmt/format.h>
 #include <nlohmann/json_fwd.hpp>
 
 #include <cstdint>
+#include <exception>
 #include <string_view>
-#include <utility>
 
 namespace tumble {
+
+/// True if the input is wrong, and not the run: exit code 2.
+bool is_input_error(const std::exception& error);
 
 struct ProgressFigures {
     std::int64_t done = 0, total = 0;
@@ -29,10 +31,6 @@ public:
 
     /// Whole lines. A failure of the write has no effect. As JSON: an event "message" for each line.
     void say_text(std::string_view text);
-    template <class... Values>
-    void say(fmt::format_string<Values...> format, Values&&... values) {
-        say_text(fmt::format(format, std::forward<Values>(values)...));
-    }
 
     /// The last message of a run that fails; as text, the words of the exception.
     void fail(const std::exception& error);

@@ -10,7 +10,6 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <exception>
 
 namespace tumble {
 namespace {
@@ -36,20 +35,15 @@ bool depends_on_duration(std::span<const ClipScene> scenes) {
            });
 }
 
-const std::string* find(const NamedValues& values, const std::string& name) {
-    const auto found = std::ranges::find(values, name, &NamedValues::value_type::first);
-    return found == values.end() ? nullptr : &found->second;
-}
-
 void list_settings(const NamedValues& there, const NamedValues& here, std::vector<std::string>& list) {
     for (const auto& [name, value] : here) {
-        const std::string* other = find(there, name);
+        const std::string* other = find_value(there, name);
         if (other == nullptr || *other != value)
             list.push_back(fmt::format("{} ({} there, {} here)", name, other == nullptr ? "none" : safe_text(*other),
                                        safe_text(value)));
     }
     for (const auto& [name, value] : there)
-        if (find(here, name) == nullptr)
+        if (find_value(here, name) == nullptr)
             list.push_back(fmt::format("{} ({} there, none here)", safe_text(name), safe_text(value)));
 }
 
@@ -112,7 +106,7 @@ std::string differences(const FrameIdentity& there, const FrameIdentity& here) {
         const FrameIdentity::Scene &a = there.scenes[i], &b = here.scenes[i];
         if (a.label != b.label) list.push_back(fmt::format("the label of panel {}", i + 1));
         for (const auto& [name, value] : b.parts) {
-            const std::string* other = find(a.parts, name);
+            const std::string* other = find_value(a.parts, name);
             if (other != nullptr && *other == value) continue;
             const bool readable = other != nullptr && value.size() < 40;  // others are hashes
             list.push_back(fmt::format("the {} of {}{}", name, safe_path(b.file),

@@ -4,18 +4,16 @@
 #pragma once
 
 #include "app/composition/make_composition.h"
+#include "app/files/named_values.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace tumble {
-
-using NamedValues = std::vector<std::pair<std::string, std::string>>;
 
 struct FrameIdentity {
     struct Scene {

@@ -3,7 +3,6 @@
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
 #include "core/error.h"
-#include "core/safe_text.h"
 #include "output/npz_check.h"
 #include "output/png_check.h"
 

@@ -14,7 +14,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <span>
 #include <system_error>
 #include <utility>
 
@@ -164,8 +163,7 @@ void SegmentedClip::end_segment() {
         writer->finish();
         const std::optional<std::string> file = bytes_of_file(one.file);
         if (!file) throw RunError(fmt::format("cannot read '{}'", safe_path(one.file)));
-        const std::string seal = fmt::format("{} {}\n", sha256(*file), writer->frames_stored());
-        write_file(one.seal, std::as_bytes(std::span(seal)));
+        write_file(one.seal, fmt::format("{} {}\n", sha256(*file), writer->frames_stored()));
         return writer->encoder_seconds();
     });
 }

@@ -10,14 +10,11 @@
 #include "app/resume/frame_identity.h"
 #include "output/segment_joiner.h"
 
-#include <atomic>
 #include <filesystem>
 #include <future>
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace tumble {
 

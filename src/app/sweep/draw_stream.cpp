@@ -1,6 +1,7 @@
 #include "app/sweep/draw_stream.h"
 
 #include "core/deterministic_math.h"
+#include "core/fnv_hash.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,17 +18,11 @@ std::uint64_t mixed(std::uint64_t z) {
 
 constexpr std::uint64_t golden_step = 0x9e3779b97f4a7c15u;
 
-/// FNV-1a.
-std::uint64_t number_of_name(std::string_view name) {
-    std::uint64_t number = 0xcbf29ce484222325u;
-    for (const char c : name) number = (number ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-    return number;
-}
-
 }  // namespace
 
 DrawStream::DrawStream(std::uint64_t seed, std::string_view axis, std::uint64_t draw)
-    : state_(mixed(mixed(mixed(seed + golden_step) ^ number_of_name(axis)) + golden_step * (draw + 1))) {}
+    : state_(mixed(mixed(mixed(seed + golden_step) ^ fnv_hash(std::as_bytes(std::span(axis)))) +
+                   golden_step * (draw + 1))) {}
 
 std::uint64_t DrawStream::next() { return mixed(state_ += golden_step); }
 

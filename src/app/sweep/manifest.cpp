@@ -3,7 +3,6 @@
 #include <nlohmann/json.hpp>
 
 #include <fstream>
-#include <span>
 #include <utility>
 
 namespace tumble {
@@ -22,7 +21,7 @@ void ManifestFile::write(std::string& line) {
 }
 
 void ManifestFile::flush() {
-    file_.write(std::as_bytes(std::span(buffer_)));
+    file_.write(buffer_);
     buffer_.clear();
 }
 

@@ -10,7 +10,6 @@
 #include <charconv>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <string_view>
 #include <vector>
 

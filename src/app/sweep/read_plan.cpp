@@ -95,8 +95,9 @@ std::int64_t read_samples(const TomlTable& root, const SweepPlan& plan) {
     if (!given) {
         if (lists && plan.combination != Combination::random) return each * plan.combinations();
         if (plan.axes.empty()) return 1;
-        throw InputError(root.origin().where,
-                         "a plan without lists, or with random ones, needs \"samples\", their number (not given)");
+        throw InputError(
+            root.origin().where,
+            "a plan without lists, or with random ones, needs \"samples\", the number of samples (not given)");
     }
     const std::int64_t samples = given->integer(1, most_samples);
     if (samples % each != 0) given->fail("must be even, because each pair has two samples");
@@ -135,7 +136,7 @@ PairPlan read_pair(const TomlTable& table, const SweepPlan& plan) {
         source.set_title("b");
         source.expect_keys(
             {"values", "range", "distribution", "min", "max", "mean", "deviation", "weights", "decimals"});
-        pair.value = PairSource{read_source(source)};
+        pair.value = OtherSource{read_source(source)};
     }
     if (pair.value.index() == 0)
         for (const std::size_t axis : pair.axes)

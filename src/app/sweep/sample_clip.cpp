@@ -2,12 +2,11 @@
 
 #include "app/clip/drawing_settings.h"
 #include "app/files/aov_folder.h"
+#include "app/pipeline/panel_run.h"
 #include "app/workers/frame_filter.h"
 #include "app/workers/frame_maker.h"
 #include "output/video_writer.h"
-#include "sim/frames/frame_sequence.h"
 
-#include <algorithm>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -24,11 +23,11 @@ constexpr const char* aov_folder = "aov";
 class Poses {
 public:
     Poses(const RenderScenes& scenes, const Shutter& shutter, const FrameOutputs& outputs)
-        : world_(scenes.world(0, 1)),
-          sequence_(world_, shutter),
+        : outputs_(outputs),
+          end_(scenes.frames.end()),
+          world_(scenes.world(0, 1)),
           overlay_(outputs.image() ? scenes.overlay(0) : nullptr),
-          outputs_(outputs),
-          end_(scenes.frames.end()) {}
+          run_({.world = &world_, .end = end_, .overlay = overlay_.get()}, shutter) {}
 
     MotionBlurFrame next() {
         MotionBlurFrame frame = waiting_ ? std::move(*waiting_) : simulate();
@@ -39,7 +38,7 @@ public:
             waiting_ = simulate();
             frame.aovs->next = waiting_->aovs->now;
         } else {
-            frame.aovs->next = sequence_.next_start();
+            frame.aovs->next = run_.next_start();
         }
         return frame;
     }
@@ -48,21 +47,19 @@ private:
     MotionBlurFrame simulate() {
         MotionBlurFrame frame;
         frame.frame = simulated_++;
-        frame.panels.push_back(sequence_.next());
+        frame.panels.push_back(run_.next(frame.frame));
         const PanelPoses& poses = frame.panels.front();
         frame.time = poses.front().time;
-        if (overlay_) write_bytes(overlay_->next(poses.front(), sequence_.records()), shapes_);
-        frame.overlays.push_back(shapes_);
+        frame.overlays.push_back(run_.shapes());
         if (!outputs_.aovs.empty()) frame.aovs = AovPoses{poses.front(), std::nullopt};
         return frame;
     }
 
-    World world_;
-    FrameSequence sequence_;
-    std::unique_ptr<OverlayBuilder> overlay_;
     FrameOutputs outputs_;
     std::int64_t end_, simulated_ = 0;
-    std::vector<std::byte> shapes_;
+    World world_;
+    std::unique_ptr<OverlayBuilder> overlay_;
+    PanelRun run_;
     std::optional<MotionBlurFrame> waiting_;
 };
 

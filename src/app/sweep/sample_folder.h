@@ -56,7 +56,7 @@ private:
     std::vector<SampleFile> files_;
 };
 
-/// True if the files are in the folder with their number of bytes; with `contents`, also with their checksums.
-bool files_are_whole(const std::filesystem::path& folder, const std::vector<SampleFile>& files, bool contents = false);
+/// True if the files are in the folder with their number of bytes.
+bool files_are_whole(const std::filesystem::path& folder, const std::vector<SampleFile>& files);
 
 }  // namespace tumble

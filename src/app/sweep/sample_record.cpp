@@ -2,13 +2,13 @@
 
 #include "app/sweep/toml_json.h"
 #include "core/sha256.h"
+#include "output/file_bytes.h"
 #include "scene/toml/toml_text.h"
 #include "tumble/version.h"
 
 #include <fmt/format.h>
 
-#include <fstream>
-#include <iterator>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -86,10 +86,10 @@ std::string failure_text(const SweepPlan& plan, const SweepSample& sample, const
 }
 
 std::optional<KnownRecord> read_sample_record(const std::filesystem::path& folder) {
-    std::ifstream file(folder / record_name, std::ios::binary);
-    if (!file) return std::nullopt;
+    std::optional<std::string> text = bytes_of_file(folder / record_name);
+    if (!text) return std::nullopt;
     KnownRecord known;
-    known.text.assign(std::istreambuf_iterator<char>(file), {});
+    known.text = std::move(*text);
     if (!known.text.empty() && known.text.back() == '\n') known.text.pop_back();
     try {
         const RecordJson json = RecordJson::parse(known.text);

@@ -25,10 +25,10 @@ enum class Combination { product, zip, random };
 struct PairFactor {
     double factor = 1.0, offset = 0.0;
 };
-struct PairSource {
+struct OtherSource {
     AxisSource source;
 };
-using PairValue = std::variant<std::monostate, PairFactor, PairSource>;
+using PairValue = std::variant<std::monostate, PairFactor, OtherSource>;
 
 /// Each draw gives two samples, A and B, that differ in the value of one axis only.
 struct PairPlan {

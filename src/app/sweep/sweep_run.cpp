@@ -7,9 +7,8 @@
 #include "app/sweep/sweep_worker.h"
 #include "app/threads/interrupt.h"
 #include "app/workers/frame_memory.h"
-#include "app/workers/worker_process.h"
 #include "core/error.h"
-#include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/video_writer.h"
 
 #include <fmt/format.h>
@@ -19,7 +18,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -144,13 +142,6 @@ private:
     std::optional<std::string> failure_;
 };
 
-void make_folder(const fs::path& folder) {
-    std::error_code error;
-    fs::create_directories(folder, error);
-    if (!error && !fs::is_directory(folder, error) && !error) error = std::make_error_code(std::errc::not_a_directory);
-    if (error) throw RunError(fmt::format("cannot make the folder '{}': {}", safe_path(folder), error.message()));
-}
-
 /// The workers of a killed sweep hold its folder until the system has ended them.
 std::unique_ptr<FolderLock> lock_folder(const fs::path& folder) {
     const auto end = std::chrono::steady_clock::now() + longest_end_of_workers;
@@ -180,7 +171,7 @@ void check_outputs_of(const SweepPlan& plan, const RenderScenes& scenes) {
 /// The reason without the option that a value would have on a command line.
 std::string reason_in_plan(const std::exception& error) {
     constexpr std::string_view option = "--set ";
-    std::string reason = reason_of(error);
+    std::string reason = reason_of(error.what());
     return reason.starts_with(option) ? reason.substr(option.size()) : reason;
 }
 
@@ -206,10 +197,12 @@ int check_sweep(const SweepPlan& plan, const std::string& scene, int workers) {
             return workers_for(plan, scenes, int(std::min<std::int64_t>(workers, plan.samples)));
         } catch (const InputError& error) {
             if (!first)
-                first.emplace(SourceLocation{plan.file.string(), 0, 0},
-                              fmt::format("no sample can be made; sample 0{}: {}",
-                                          plan.axes.empty() ? "" : fmt::format(" ({})", sample.text(plan)),
-                                          reason_in_plan(error)));
+                first.emplace(
+                    SourceLocation{plan.file.string(), 0, 0},
+                    fmt::format(
+                        "{} can be made; sample 0{}: {}",
+                        count == plan.samples ? "no sample" : fmt::format("none of the first {} samples", count),
+                        plan.axes.empty() ? "" : fmt::format(" ({})", sample.text(plan)), reason_in_plan(error)));
         }
     }
     throw *first;

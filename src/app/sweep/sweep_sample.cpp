@@ -9,7 +9,6 @@
 #include <fmt/ranges.h>
 
 #include <cmath>
-#include <utility>
 
 namespace tumble {
 namespace {
@@ -55,8 +54,8 @@ std::string scaled(const toml::node& value, const PairFactor& by, const SweepAxi
     }
     const auto number = value.value<double>();
     if (!number || value.is_boolean())
-        throw InputError(fmt::format("[pair]: the value {} of {} is no number, and has no multiple",
-                                     safe_text(toml_value_text(value)), safe_text(axis.name)));
+        throw InputError(fmt::format("[pair]: factor and offset need numbers (the value of {} is {})",
+                                     safe_text(axis.name), safe_text(toml_value_text(value))));
     const double result = *number * by.factor + by.offset;
     if (value.is_integer() && result == std::trunc(result) && std::fabs(result) < 0x1p53)
         return fmt::format("{:.0f}", result);
@@ -89,7 +88,7 @@ std::string value_of_b(const SweepPlan& plan, const SweepAxis& axis, std::size_t
     const PairValue& value = plan.pair->value;
     if (const auto* by = std::get_if<PairFactor>(&value)) return scaled(a, *by, axis);
     DrawStream stream = stream_of(plan, axis, draw, "/B");
-    if (const auto* source = std::get_if<PairSource>(&value)) {
+    if (const auto* source = std::get_if<OtherSource>(&value)) {
         if (const auto* list = std::get_if<ValueList>(&source->source))
             return list->values[std::size_t(draw) % list->values.size()];
         return draw_value(std::get<Distribution>(source->source), stream);

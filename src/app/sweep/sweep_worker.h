@@ -2,9 +2,7 @@
 #pragma once
 
 #include "app/sweep/sweep_plan.h"
-#include "output/process.h"
-
-#include <sys/types.h>
+#include "app/workers/worker_process.h"
 
 #include <array>
 #include <cstdint>
@@ -37,28 +35,22 @@ struct SweepTask {
 
 class SweepWorker {
 public:
-    /// Forks; the child closes the sockets of the workers that were started before it. Precondition: the program has no
-    /// other thread, and no OpenGL context. Throws RunError.
+    /// Forks as a WorkerProcess does.
     SweepWorker(const SweepTask& task, std::span<const int> other_sockets);
-    /// Ends the process in any state.
-    ~SweepWorker();
-    SweepWorker(const SweepWorker&) = delete;
-    SweepWorker& operator=(const SweepWorker&) = delete;
 
-    int socket() const { return socket_; }
+    int socket() const { return process_.socket(); }
     /// Precondition: it has no job.
     void give(const SampleJob& job);
     const std::optional<SampleJob>& job() const { return job_; }
     /// Call it when the socket can be read. If the process has died, a failure with its end; it is then of no more use.
     SampleReply receive();
-    bool alive() const { return id_ >= 0; }
+    bool alive() const { return process_.alive(); }
 
     /// Ends a process without a job.
-    void finish();
+    void finish() { process_.finish(); }
 
 private:
-    pid_t id_ = -1;
-    int socket_ = -1;
+    WorkerProcess process_;
     std::optional<SampleJob> job_;
 };
 

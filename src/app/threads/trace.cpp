@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 namespace tumble {
 namespace {
@@ -72,8 +71,7 @@ void Trace::write(const std::filesystem::path& file) const {
         if (span.frame >= 0) event["args"] = {{"frame", span.frame}};
         events.push_back(std::move(event));
     }
-    const std::string text = Json{{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}.dump() + "\n";
-    write_file(file, std::as_bytes(std::span(text)));
+    write_file(file, Json{{"displayTimeUnit", "ms"}, {"traceEvents", std::move(events)}}.dump() + "\n");
 }
 
 }  // namespace tumble

@@ -1,20 +1,27 @@
 #include "app/workers/worker_process.h"
 
+#include "core/error.h"
+
+#include <fmt/format.h>
+
 #include <malloc.h>
 #include <signal.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <cstdio>
 #include <cstdlib>
-#include <string_view>
+#include <system_error>
+#include <utility>
 
 namespace tumble {
 namespace {
 
 constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;  // bytes
+constexpr auto longest_end = std::chrono::seconds(1);  // of a worker without a job, which takes milliseconds
 
-}  // namespace
-
+/// Call it before the first OpenGL call.
 void become_worker(pid_t program) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker that hangs or was stopped ends with the program as well
     if (::getppid() != program) ::_exit(0);
@@ -29,11 +36,50 @@ void become_worker(pid_t program) {
     ::setenv("LP_NUM_THREADS", "0", 1);  // llvmpipe draws in this thread: one core per worker
 }
 
-std::string reason_of(const std::exception& error) {
-    std::string_view text = error.what();
-    constexpr std::string_view prefix = "error: ";
-    if (text.starts_with(prefix)) text.remove_prefix(prefix.size());
-    return std::string(text);
+}  // namespace
+
+WorkerProcess::WorkerProcess(const char* purpose, std::span<const int> other_sockets,
+                             const std::function<int(int socket)>& work) {
+    int ends[2];
+    if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
+        throw RunError("cannot make a socket: " + std::generic_category().message(errno));
+    std::fflush(nullptr);
+    const pid_t program = ::getpid();
+    id_ = ::fork();
+    if (id_ == 0) {
+        become_worker(program);
+        // A copy of the program's end of a socket in this process would keep the other worker from noticing the
+        // program's end.
+        ::close(ends[0]);
+        for (const int socket : other_sockets) ::close(socket);
+        ::_exit(work(ends[1]));  // no destructors of the parent's objects, no second flush of its streams
+    }
+    const int error = errno;
+    ::close(ends[1]);
+    socket_ = ends[0];
+    if (id_ < 0) {
+        ::close(socket_);
+        throw RunError(
+            fmt::format("cannot start a process for {}: {}", purpose, std::generic_category().message(error)));
+    }
+}
+
+WorkerProcess::~WorkerProcess() {
+    kill();
+    finish();
+}
+
+void WorkerProcess::kill() {
+    const std::lock_guard lock(id_mutex_);
+    if (id_ >= 0) ::kill(id_, SIGKILL);
+}
+
+ProcessEnd WorkerProcess::finish() {
+    if (socket_ >= 0) ::close(std::exchange(socket_, -1));  // the worker takes the closed socket as the end of its jobs
+    if (id_ < 0) return {};
+    if (!ends_within(id_, longest_end)) kill();
+    const std::lock_guard lock(id_mutex_);
+    return wait_for_process(std::exchange(id_, -1));
 }
 
 }  // namespace tumble

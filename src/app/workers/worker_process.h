@@ -1,22 +1,18 @@
-// Parts that all worker processes share. They are forked from the program, draw in a single thread on one core, and
-// exchange messages with it.
+// A worker: a process that is forked from the program, works on one core in a single thread, which may have OpenGL
+// contexts, and exchanges messages with the program. It can be stopped at any time.
 #pragma once
+
+#include "output/process.h"
 
 #include <sys/socket.h>
 #include <sys/types.h>
 
 #include <cerrno>
-#include <exception>
-#include <string>
+#include <functional>
+#include <mutex>
+#include <span>
 
 namespace tumble {
-
-/// Makes this process, forked from `program`, a worker: it ends with the program, gets no Ctrl-C of a terminal, and has
-/// no blocked signals; llvmpipe draws in its only thread. Call it before the first OpenGL call.
-void become_worker(pid_t program);
-
-/// The error text without the prefix "error: ", which the program adds.
-std::string reason_of(const std::exception& error);
 
 /// Messages arrive completely or not at all (SOCK_SEQPACKET). False: the other end is closed.
 template <typename T>
@@ -34,5 +30,36 @@ bool receive_message(int socket, T& message) {
     }
     return n == ssize_t(sizeof message);
 }
+
+class WorkerProcess {
+public:
+    /// Forks. The child ends with the program, gets no Ctrl-C of a terminal, and has no blocked signals; it closes the
+    /// sockets of the workers that were started before it, calls `work` with its end of the socket, and exits with the
+    /// code that `work` returns. Preconditions: the program has no other thread and no OpenGL context, and `work` throws
+    /// nothing. Throws RunError, naming the purpose ("drawing"), if there are no more processes or no memory.
+    WorkerProcess(const char* purpose, std::span<const int> other_sockets, const std::function<int(int socket)>& work);
+    /// Ends the process in any state.
+    ~WorkerProcess();
+    WorkerProcess(const WorkerProcess&) = delete;
+    WorkerProcess& operator=(const WorkerProcess&) = delete;
+
+    pid_t id() const { return id_; }
+    /// The program's end.
+    int socket() const { return socket_; }
+    /// False after finish().
+    bool alive() const { return id_ >= 0; }
+
+    /// Ends the process at once, from any thread.
+    void kill();
+
+    /// Ends the process and returns its usage. One that does not end within a second is killed.
+    ProcessEnd finish();
+
+private:
+    pid_t id_ = -1;
+    std::mutex
+        id_mutex_;  // guards kill() against the end of finish(), after which another process may have that number
+    int socket_ = -1;
+};
 
 }  // namespace tumble

@@ -167,8 +167,4 @@ FlipResult flip(const Image& reference, const Image& image, const FlipSettings& 
     return result;
 }
 
-double mean_flip(const Image& reference, const Image& image, const FlipSettings& settings) {
-    return flip(reference, image, settings).mean;
-}
-
 }  // namespace tumble

@@ -29,7 +29,4 @@ struct FlipResult {
 /// white, and the larger value counts. The bits of the result depend on the pixels only.
 FlipResult flip(const Image& reference, const Image& image, const FlipSettings& settings = {});
 
-/// Its mean.
-double mean_flip(const Image& reference, const Image& image, const FlipSettings& settings = {});
-
 }  // namespace tumble

@@ -44,12 +44,12 @@ std::array<Color, 256> magma_colors() {
 
 }  // namespace
 
-Image heat_map(const MetricMap& map, float cold, float hot) {
+Image heat_map(const MetricMap& map, float hot) {
     const std::array<Color, 256> table = magma_colors();
     Image image(map.width, map.height);
-    const float scale = 255.0f / (hot - cold);
+    const float scale = 255.0f / hot;
     for (std::size_t i = 0; i < map.values.size(); ++i) {
-        const float level = std::clamp((map.values[i] - cold) * scale + 0.5f, 0.0f, 255.0f);
+        const float level = std::clamp(map.values[i] * scale + 0.5f, 0.0f, 255.0f);
         const Color color = table[static_cast<std::size_t>(level)];
         std::uint8_t* const to = image.pixels.data() + 4 * i;
         to[0] = color.r;

@@ -6,8 +6,7 @@
 
 namespace tumble {
 
-/// Values from `cold` (black) over purple and orange to `hot` (light yellow); values beyond have the color of the
-/// nearer end. `hot` may be less than `cold`: SSIM has 1 for equal pixels.
-Image heat_map(const MetricMap& map, float cold = 0.0f, float hot = 1.0f);
+/// Values from 0 (black) over purple and orange to `hot` (light yellow); values beyond have the color of the nearer end.
+Image heat_map(const MetricMap& map, float hot = 1.0f);
 
 }  // namespace tumble

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <string_view>
 #include <vector>
 
@@ -43,8 +42,8 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
 /// "3 of 42 pictures fail".
 std::string headline(const SetResult& set) {
     const auto all = static_cast<std::int64_t>(set.images.size());
-    const std::int64_t bad = set.count(Verdict::different) + set.count(Verdict::missing) + set.count(Verdict::broken) +
-                             (set.added_allowed ? 0 : set.count(Verdict::added));
+    const auto bad = std::count_if(set.images.begin(), set.images.end(),
+                                   [&](const ImageResult& image) { return set.fails(image.verdict); });
     if (all == 0) return "No pictures were compared";
     if (bad > 0)
         return fmt::format("{} of {} {}", bad, counted(all, "picture", "pictures"), bad == 1 ? "fails" : "fail");
@@ -57,9 +56,6 @@ std::string title_of(const Report& report) {
     if (!report.options.title.empty()) return report.options.title;
     return fmt::format("{} — {}", headline(report.set), report.set.image);
 }
-
-constexpr Verdict worst_first[] = {Verdict::broken, Verdict::missing, Verdict::different,
-                                   Verdict::added,  Verdict::alike,   Verdict::same};
 
 std::string counts_html(const SetResult& set) {
     std::string items, segments;
@@ -159,8 +155,7 @@ std::string page_html(const Report& report) {
 void write_comparison_report(const SetResult& set, const ReportOptions& options, const std::filesystem::path& path) {
     Report report{set, options, by_severity(set), {}};
     report.pictures = report_pictures(report.images, options.most_picture_bytes, options.workers);
-    const std::string html = page_html(report);
-    write_file(path, std::as_bytes(std::span(html)));
+    write_file(path, page_html(report));
 }
 
 }  // namespace tumble

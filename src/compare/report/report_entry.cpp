@@ -109,7 +109,7 @@ std::string facts_html(const ReportEntry& entry) {
     if (result.width > 0) add(fmt::format("{} × {} pixels", result.width, result.height));
     if (result.differing_pixels > 0)
         add(fmt::format(
-            "{} pixels differ ({:.2g} %), by up to {} levels", result.differing_pixels,
+            "{} ({:.2g} %), by up to {} levels", differing_text(result),
             100.0 * double(result.differing_pixels) / std::max(1.0, double(result.width) * double(result.height)),
             result.max_difference));
     if (result.changed.width > 0)

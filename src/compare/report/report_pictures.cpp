@@ -7,6 +7,7 @@
 #include "compare/report/thumbnail.h"
 #include "core/error.h"
 #include "core/start_thread.h"
+#include "output/file_bytes.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
 
@@ -14,7 +15,8 @@
 #include <atomic>
 #include <exception>
 #include <filesystem>
-#include <fstream>
+#include <span>
+#include <string>
 #include <system_error>
 #include <thread>
 
@@ -33,12 +35,9 @@ PngBytes png_of(const Image& image, PngAlpha alpha) {
 }
 
 PngBytes bytes_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary | std::ios::ate);
-    if (!stream) return {};
-    PngBytes bytes(static_cast<std::size_t>(std::max<std::streamoff>(0, stream.tellg())));
-    stream.seekg(0);
-    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    return stream ? bytes : PngBytes{};
+    const std::string content = bytes_of_file(file).value_or("");
+    const auto bytes = std::as_bytes(std::span(content));
+    return {bytes.begin(), bytes.end()};
 }
 
 /// Empty where there is no image, or none that can be read.
@@ -70,7 +69,7 @@ void add_differences(const Image& reference, const Image& image, PairPictures& t
     to.flip = png_of(heat_map(perceived.map), PngAlpha::dropped);
     const MetricMap windows = window_map(reference, image);
     to.hottest_window = std::max(least_hot_window, *std::max_element(windows.values.begin(), windows.values.end()));
-    to.windows = png_of(heat_map(windows, 0.0f, to.hottest_window), PngAlpha::dropped);
+    to.windows = png_of(heat_map(windows, to.hottest_window), PngAlpha::dropped);
 }
 
 PairPictures pictures_of(const ImageResult& result) {

@@ -4,27 +4,6 @@
 #include <tuple>
 
 namespace tumble {
-namespace {
-
-int verdict_rank(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::broken:
-            return 0;
-        case Verdict::missing:
-            return 1;
-        case Verdict::different:
-            return 2;
-        case Verdict::added:
-            return 3;
-        case Verdict::alike:
-            return 4;
-        case Verdict::same:
-            return 5;
-    }
-    return 5;
-}
-
-}  // namespace
 
 double excess(const RuleFigure& figure) {
     constexpr double most = 1e6;
@@ -49,7 +28,8 @@ std::vector<const ImageResult*> by_severity(const SetResult& set) {
         if (image.verdict != Verdict::same) images.push_back(&image);
     const auto key = [](const ImageResult* image) {
         const RuleFigure* const worst = worst_figure(*image);
-        return std::tuple(verdict_rank(image->verdict), worst ? -excess(*worst) : 0.0, -image->differing_pixels);
+        return std::tuple(std::ranges::find(worst_first, image->verdict), worst ? -excess(*worst) : 0.0,
+                          -image->differing_pixels);
     };
     std::stable_sort(images.begin(), images.end(), [&](const auto* a, const auto* b) { return key(a) < key(b); });
     return images;

@@ -13,8 +13,7 @@ double excess(const RuleFigure& figure);
 /// The figure with the largest excess; null if there is none.
 const RuleFigure* worst_figure(const ImageResult& result);
 
-/// All images that are not the same: broken and missing ones, then those that differ by their largest excess, added
-/// ones, and those within the tolerances.
+/// All images that are not the same, the worst verdict first, and then by their largest excess.
 std::vector<const ImageResult*> by_severity(const SetResult& set);
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <span>
 #include <cmath>
+#include <span>
 
 namespace tumble {
 namespace {

@@ -171,7 +171,7 @@ double JointFlight::errors(const JointIsland& island, double h) {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const JointRows::Row& row = rows_.rows()[k];
             if (!is_lock(row)) continue;
-            const double error = g.coordinates[row.coordinate].value - row.reference;
+            const double error = g.coordinates[row.coordinate].value;
             worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : joint.size));
             asked_[k] = -(row.turns() ? rows_.length() : 1.0) * error / h;
         }
@@ -188,11 +188,12 @@ bool JointFlight::close(const JointIsland& island) {
         const double error = errors(island, h);
         if (!std::isfinite(error)) return false;
         if (error <= tuning::joint_flight_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
-        if (pass > 4 && error >= 0.9 * last) return error < tuning::joint_rounding;
+        // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
+        if (pass > 4 && error >= 0.9 * last) return error < tuning::joint_flight_open;
         last = error;
         if (!impulses()) return false;
     }
-    return false;
+    return last < tuning::joint_flight_open;
 }
 
 // Makes the velocities fit the joints at the present poses.
@@ -240,7 +241,7 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
     };
     begin();
     load(island);
-    if (!matrix_.factor() || rows_.apart()) return false;
+    if (!matrix_.factor() || rows_.apart(tuning::joint_flight_open)) return false;
     // The force of the last stage is the first estimate.
     given_.assign(rows_.rows().size(), 0.0);
     const double h = island.problem.settings.h;

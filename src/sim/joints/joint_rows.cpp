@@ -541,8 +541,12 @@ void JointRows::store(const JointIsland& island) {
     }
 }
 
-bool JointRows::apart() const {
-    return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.law == Joint::lock && row.reference != 0.0; });
+bool JointRows::apart(double tolerance) const {
+    for (const Block& block : blocks_)
+        for (const Row& row : rows(block))
+            if (row.law == Joint::lock && std::abs(row.reference) > tolerance * (row.turns() ? 1.0 : joint(block).size))
+                return true;
+    return false;
 }
 
 bool JointRows::violates_limit(const JointIsland& island, const Block& block) const {

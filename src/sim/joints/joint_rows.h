@@ -114,8 +114,8 @@ public:
     /// Gives the impulses to the bodies; `reached` marks those by index in the island.
     void store(const JointIsland& island);
 
-    /// Whether a locked coordinate has an error to be moved out.
-    bool apart() const;
+    /// Whether a locked coordinate has an error above `tolerance`, in sizes of the joint.
+    bool apart(double tolerance) const;
 
     /// Whether a limit of the joint is violated at the present poses.
     bool violates_limit(const JointIsland& island, const Block& block) const;

@@ -45,8 +45,12 @@ inline constexpr double joint_round_tolerance = 1e-8;
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
 
+/// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
+/// JointReference.AFourBarPassesItsSingularPosition.
+inline constexpr double joint_flight_open = 1e-5;
+
 /// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the
-/// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointMotion.AFourBarPassesItsSingularPosition.
+/// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_singular = 0.2;
 
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.

@@ -1,7 +1,7 @@
-#include "app/checkpoints/motion_record.h"
+#include "app/checkpoints/frame_record.h"
 
-#include <algorithm>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 namespace tumble {

@@ -1,5 +1,5 @@
 // The motion of frames as bytes: all poses come back to the bit, and each piece stands alone.
-#include "app/checkpoints/motion_record.h"
+#include "app/checkpoints/frame_record.h"
 #include "core/error.h"
 #include "support/scenes.h"
 
@@ -7,7 +7,7 @@
 
 #include <vector>
 
-namespace tumble::motion_record_test {
+namespace tumble::frame_record_test {
 using namespace tumble::testing;
 
 namespace {
@@ -57,7 +57,7 @@ std::vector<std::vector<Snapshot>> frames_of(World& world, int count) {
 
 }  // namespace
 
-TEST(MotionRecord, PosesComeBackToTheBit) {
+TEST(FrameRecord, PosesComeBackToTheBit) {
     World world(scene());
     const auto frames = frames_of(world, 40);
     FrameRecorder recorder(MotionDetail::poses);
@@ -75,7 +75,7 @@ TEST(MotionRecord, PosesComeBackToTheBit) {
     EXPECT_EQ(n, frames.size());
 }
 
-TEST(MotionRecord, StatesComeBackWithTheirRecords) {
+TEST(FrameRecord, StatesComeBackWithTheirRecords) {
     World world(scene());
     world.record_contacts();
     const auto frames = frames_of(world, 40);
@@ -91,7 +91,7 @@ TEST(MotionRecord, StatesComeBackWithTheirRecords) {
     EXPECT_TRUE(reader.at_end());
 }
 
-TEST(MotionRecord, BodiesAtRestTakeNoBytes) {
+TEST(FrameRecord, BodiesAtRestTakeNoBytes) {
     World world(scene());
     const std::vector<Snapshot> still{world.snapshot()};
     FrameRecorder recorder(MotionDetail::poses);
@@ -101,7 +101,7 @@ TEST(MotionRecord, BodiesAtRestTakeNoBytes) {
     EXPECT_LE(recorder.take().size(), one + 32);
 }
 
-TEST(MotionRecord, OtherBytesAreRefused) {
+TEST(FrameRecord, OtherBytesAreRefused) {
     World world(scene());
     FrameRecorder recorder(MotionDetail::poses);
     recorder.add({world.snapshot()}, nullptr);
@@ -115,4 +115,4 @@ TEST(MotionRecord, OtherBytesAreRefused) {
     }
 }
 
-}  // namespace tumble::motion_record_test
+}  // namespace tumble::frame_record_test

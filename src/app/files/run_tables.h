@@ -1,7 +1,6 @@
-// The tables of a run of `tumble simulate`, a row or some rows for each frame.
+// The tables of a run, a row or some rows for each frame: those of `tumble simulate`, and of the samples of sweeps.
 #pragma once
 
-#include "app/cli/commands.h"
 #include "sim/world.h"
 #include "tumble/output.h"
 
@@ -14,14 +13,21 @@ namespace tumble {
 
 class OutputPlan;
 
+/// The files of the tables that are asked for.
+struct TableFiles {
+    std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads;
+
+    std::vector<std::filesystem::path> all() const;
+    /// As the values of the options of `tumble simulate`.
+    void add_to(OutputPlan& plan) const;
+};
+
 class RunTables {
 public:
-    /// Those that the command asks for. Throws RunError if a file cannot be made.
+    /// Throws RunError if a file cannot be made.
     /// `first`: of the frames that are added; impacts before it are left out.
-    RunTables(const SimulateCommand& command, const v0::Scene& scene, std::int64_t first = 0);
+    RunTables(const TableFiles& files, const v0::Scene& scene, std::int64_t first = 0);
 
-    static void plan(const SimulateCommand& command, OutputPlan& plan);
-    static std::vector<std::filesystem::path> files(const SimulateCommand& command);
     /// True if the world has to record contacts.
     bool needs_records() const { return energy_ || impacts_ || contacts_ || loads_; }
 

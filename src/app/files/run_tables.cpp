@@ -1,0 +1,52 @@
+#include "app/files/run_tables.h"
+
+#include "api/convert.h"
+#include "app/files/output_plan.h"
+
+namespace tumble {
+
+std::vector<std::filesystem::path> TableFiles::all() const {
+    std::vector<std::filesystem::path> files;
+    for (const auto& file : {trajectory, energy, impacts, contacts, loads})
+        if (file) files.push_back(*file);
+    return files;
+}
+
+void TableFiles::add_to(OutputPlan& plan) const {
+    if (trajectory) plan.add("--trajectory", *trajectory);
+    if (energy) plan.add("--energy", *energy);
+    if (impacts) plan.add("--impacts", *impacts);
+    if (contacts) plan.add("--contacts", *contacts);
+    if (loads) plan.add("--loads", *loads);
+}
+
+RunTables::RunTables(const TableFiles& files, const v0::Scene& scene, std::int64_t first)
+    : fps_(scene.output().fps), first_(first) {
+    if (files.trajectory) trajectory_.emplace(*files.trajectory, scene);
+    if (files.energy) energy_.emplace(*files.energy);
+    if (files.impacts) impacts_.emplace(*files.impacts, scene);
+    if (files.contacts) contacts_.emplace(*files.contacts, scene);
+    if (files.loads) loads_.emplace(*files.loads, scene);
+}
+
+void RunTables::add(std::int64_t frame, const World& world) {
+    const double time = double(frame) / fps_;
+    if (trajectory_) trajectory_->add(v0::to_public(world.snapshot()));
+    if (energy_) energy_->add(frame, time, v0::to_public(world.measure(), world.contact_records().energy));
+    if (!impacts_ && !contacts_ && !loads_) return;
+    v0::FrameContacts contacts = v0::to_public(world.contact_records());
+    std::erase_if(contacts.impacts, [&](const v0::Impact& impact) { return impact.frame < first_; });
+    if (impacts_) impacts_->add(contacts);
+    if (contacts_) contacts_->add(frame, time, contacts);
+    if (loads_) loads_->add(frame, time, contacts);
+}
+
+void RunTables::finish() {
+    if (trajectory_) trajectory_->finish();
+    if (energy_) energy_->finish();
+    if (impacts_) impacts_->finish();
+    if (contacts_) contacts_->finish();
+    if (loads_) loads_->finish();
+}
+
+}  // namespace tumble
