@@ -241,6 +241,11 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     block.b = j.b == Joint::world ? none : place_in(island.bodies, j.b);
     block.point = g.point;
     block.first = rows_.size();
+    if (!j.distance()) {
+        block.free_turns = 0;
+        for (std::size_t k = 3; k < 6; ++k)
+            if (!j.locked(k)) block.axes[block.free_turns++] = g.coordinates[k].direction;
+    }
     compliance_ = compliance;
     for (std::size_t k = 0; k < j.count(); ++k)
         if (!j.locked(k)) j.value[k] = g.coordinates[k].value;
@@ -576,11 +581,21 @@ double JointRows::swing_rate(const JointIsland& island) {
             const Vec3 arm = block.point - b.position;
             const double lever = arm.norm();
             if (!(lever > 0.0)) continue;
-            const Vec3 across = arm.unitOrthogonal(), other = arm.cross(across) / lever;
-            const double gives = std::max(across.dot(b.inverse_inertia * across), other.dot(b.inverse_inertia * other));
+            // Compliance against turns about the joint, times the lever across their axis.
+            double gives = 0.0;
+            const auto turn_about = [&](const Vec3& axis) {
+                gives = std::max(gives, axis.cross(arm).norm() * axis.dot(b.inverse_inertia * axis));
+            };
+            if (block.free_turns == 3) {
+                const Vec3 across = arm.unitOrthogonal();
+                turn_about(across);
+                turn_about(arm.cross(across) / lever);
+            } else {
+                for (int k = 0; k < block.free_turns; ++k) turn_about(block.axes[k]);
+            }
             // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
             double& sum = swing_[std::size_t(place)];
-            sum += force.norm() * lever * gives / 3.0;
+            sum += force.norm() * gives / 3.0;
             most = std::max(most, sum);
         }
     }
