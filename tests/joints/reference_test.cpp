@@ -85,20 +85,19 @@ SceneDescription four_bar_scene(int couplers, int steps_per_frame) {
     const Vec3 rod{1.0, 1e-3, 1e-3};
     const double mass = 1.0;
     for (int i = 0; i <= couplers; ++i) {
-        BodyDescription& crank = add_box(scene, rod, {double(i), 0.5, 0.0}, mass);
+        BodyDescription& crank = add_box(scene, rod, {double(i), 0.5, 0.01 * i}, mass);  // rods pass each other
         crank.rotation = turn(Vec3::UnitZ(), 0.5 * pi);
         crank.velocity = {0.5, 0.0, 0.0};
         crank.angular_velocity = {0.0, 0.0, -1.0};
         add_joint(scene, JointType::hinge, std::nullopt, std::size_t(i), {double(i), 0.0, 0.0}, Vec3::UnitZ());
     }
     for (int i = 0; i < couplers; ++i) {
-        BodyDescription& coupler = add_box(scene, rod, {i + 0.5, 1.0, 0.0}, mass);
+        BodyDescription& coupler = add_box(scene, rod, {i + 0.5, 1.0, 0.1 + 0.01 * i}, mass);
         coupler.velocity = {1.0, 0.0, 0.0};
         const std::size_t body = scene.bodies.size() - 1;
         add_joint(scene, JointType::hinge, std::size_t(i), body, {double(i), 1.0, 0.0}, Vec3::UnitZ());
         add_joint(scene, JointType::hinge, std::size_t(i + 1), body, {i + 1.0, 1.0, 0.0}, Vec3::UnitZ());
     }
-    for (JointDescription& joint : scene.joints) joint.collide = false;
     return scene;
 }
 

@@ -249,7 +249,7 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
         const Joint& joint = island.problem.joints->joints()[block.joint];
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const JointRows::Row& row = rows_.rows()[k];
-            if (is_lock(row)) given_[k] = h * joint.constraint_force[row.coordinate] / (row.turns() ? rows_.length() : 1.0);
+            if (is_lock(row) && rows_.tree()) given_[k] = h * joint.constraint_force[row.coordinate] / (row.turns() ? rows_.length() : 1.0);
         }
     }
     if (!close(island)) return false;

@@ -110,7 +110,7 @@ void JointRows::push_row(const Row& row) {
     rows_.push_back(row);
     Row& added = rows_.back();
     const double last = joint(block).impulse[row.coordinate][row.law];
-    if (!row.soft) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
+    if (!row.soft && (tree_ || row.law != Joint::lock)) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }
 
 void JointRows::add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law) {
@@ -124,6 +124,7 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     r.closes = true;
     // A limit violated at the start is not left by speed: see add_push().
     r.reference = room < -tolerance ? value : limit;
+    r.goal = limit;
     r.target = unit * (r.reference - value) / h_;
     const double e = law == Joint::cone ? 0.0 : j.axis(row.coordinate).restitution;
     if (e > 0.0) {
@@ -241,6 +242,11 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     block.b = j.b == Joint::world ? none : place_in(island.bodies, j.b);
     block.point = g.point;
     block.first = rows_.size();
+    if (!j.distance()) {
+        block.free_turns = 0;
+        for (std::size_t k = 3; k < 6; ++k)
+            if (!j.locked(k)) block.axes[block.free_turns++] = g.coordinates[k].direction;
+    }
     compliance_ = compliance;
     for (std::size_t k = 0; k < j.count(); ++k)
         if (!j.locked(k)) j.value[k] = g.coordinates[k].value;
@@ -275,6 +281,12 @@ void JointRows::load(const JointIsland& island, double compliance) {
     total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;
+    bool fixed = false;
+    for (const std::uint32_t k : island.joints)
+        for (const std::uint32_t i : {(*joints_)[set.active()[k]].a, (*joints_)[set.active()[k]].b})
+            fixed = fixed || i == Joint::world || !island.problem.bodies[i].dynamic();
+    // A connected graph is a tree if it has one edge less than nodes; all that is fixed is one node.
+    tree_ = island.joints.size() + 1 == island.bodies.size() + fixed;
     for (const std::uint32_t k : island.joints)
         if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken) add_joint(island, index, compliance);
 }
@@ -477,15 +489,10 @@ bool JointRows::give_way() {
 bool JointRows::add_push(double stiffness, double rate, std::vector<double>& push) const {
     bool any = false;
     for (const Block& block : blocks_) {
-        const Joint& j = joint(block);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            double goal = row.reference;  // errors that the velocities did not close stand in the reference
-            if (row.law == Joint::lock) goal = 0.0;
-            else if (row.law == Joint::lower) goal = std::max(row.reference, j.axis(row.coordinate).lower);
-            else if (row.law == Joint::upper) goal = std::min(row.reference, j.axis(row.coordinate).upper);
-            else continue;
-            const double wanted = (row.turns() ? length_ : 1.0) * rate * (goal - row.reference);
+            if (!row.closes) continue;
+            const double wanted = (row.turns() ? length_ : 1.0) * rate * (row.goal - row.reference);
             if (wanted == 0.0) continue;
             any = true;
             add(block, row, stiffness * wanted, push);
@@ -499,7 +506,8 @@ void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
-            if (row.law == Joint::lock || (limit && row.impulse != 0.0)) add_square(matrix, block, row, stiffness);
+            if (row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference)))
+                add_square(matrix, block, row, stiffness);
         }
 }
 
@@ -576,11 +584,21 @@ double JointRows::swing_rate(const JointIsland& island) {
             const Vec3 arm = block.point - b.position;
             const double lever = arm.norm();
             if (!(lever > 0.0)) continue;
-            const Vec3 across = arm.unitOrthogonal(), other = arm.cross(across) / lever;
-            const double gives = std::max(across.dot(b.inverse_inertia * across), other.dot(b.inverse_inertia * other));
+            // Compliance against turns about the joint, times the lever across their axis.
+            double gives = 0.0;
+            const auto turn_about = [&](const Vec3& axis) {
+                gives = std::max(gives, axis.cross(arm).norm() * axis.dot(b.inverse_inertia * axis));
+            };
+            if (block.free_turns == 3) {
+                const Vec3 across = arm.unitOrthogonal();
+                turn_about(across);
+                turn_about(arm.cross(across) / lever);
+            } else {
+                for (int k = 0; k < block.free_turns; ++k) turn_about(block.axes[k]);
+            }
             // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
             double& sum = swing_[std::size_t(place)];
-            sum += force.norm() * lever * gives / 3.0;
+            sum += force.norm() * gives / 3.0;
             most = std::max(most, sum);
         }
     }

@@ -41,7 +41,8 @@ public:
         double speed = 0.0, change = 0.0;      // m/s: J u + offset, J du
         double compliance = 0.0;               // 1/kg: R
         double least = 0.0, most = 0.0;        // N s
-        double reference = 0.0;  // m or rad: value of the coordinate at the end of the step, of locks and limits
+        // m or rad, of locks and limits: value of the coordinate at the end of the step, and the one to be pushed to.
+        double reference = 0.0, goal = 0.0;
         double weight = 0.0;     // kg: 1 / R where f is not at a bound
         Vec3 direction = Vec3::Zero();
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
@@ -57,6 +58,8 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
+        Vec3 axes[3] = {};  // world: about which the bodies turn against each other
+        int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
     };
 
@@ -64,6 +67,8 @@ public:
     std::span<Row> rows() { return rows_; }
     std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
     double length() const { return length_; }  // m, of the island
+    /// Whether the joints form no loop: else their impulses are not unique, and those of the last step no estimate.
+    bool tree() const { return tree_; }
     std::span<Block> blocks() { return blocks_; }
     void clear() {
         blocks_.clear();
@@ -150,7 +155,7 @@ private:
     std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;  // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
-    bool weights_changed_ = true;
+    bool weights_changed_ = true, tree_ = true;
 };
 
 }  // namespace tumble
