@@ -146,12 +146,9 @@ PairPlan read_pair(const TomlTable& table, const SweepPlan& plan) {
 }
 
 void read_tables(const TomlValue& list, SampleOutputs& outputs) {
-    const std::vector<std::pair<std::string_view, bool*>> known = {{"trajectory", &outputs.trajectory},
-                                                                   {"energy", &outputs.energy},
-                                                                   {"impacts", &outputs.impacts},
-                                                                   {"contacts", &outputs.contacts},
-                                                                   {"loads", &outputs.loads},
-                                                                   {"joints", &outputs.joints}};
+    const std::vector<std::pair<std::string_view, bool*>> known = {
+        {"trajectory", &outputs.trajectory}, {"energy", &outputs.energy}, {"impacts", &outputs.impacts},
+        {"contacts", &outputs.contacts},     {"loads", &outputs.loads},   {"joints", &outputs.joints}};
     std::vector<std::string_view> names;
     for (const auto& [name, wanted] : known) names.push_back(name);
     for (const TomlValue& item : list.items()) {

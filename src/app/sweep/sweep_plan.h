@@ -43,8 +43,7 @@ struct SampleOutputs {
     bool frames = false;
     std::string clip;  // file name; empty: none
     AovSet aovs;
-    bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false,
-         joints = false;
+    bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false, joints = false;
     bool arrays = false;  // impacts, contacts, loads and joints as .npz in place of CSV
     SceneForm scene = SceneForm::toml;
 

@@ -323,7 +323,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
             if (!stage(now, forces, share / substeps)) return false;
             if (swing_ > tuning::joint_swing) return false;
         }
-    // Limits and strengths are looked at once a step: what is met is left to the steps of contact.
+    // Limits and strengths are looked at once a step: a step that meets one is left to the solver of contacts.
     for (const JointRows::Block& block : rows_.blocks()) {
         Joint& joint = island.problem.joints->joints()[block.joint];
         joint.force /= h;

@@ -1,8 +1,7 @@
 #include "sim/joints/joint_set.h"
 
-#include "sim/joints/settings.h"
-
 #include "core/deterministic_math.h"
+#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
