@@ -1,7 +1,7 @@
 // The accounts of a step, by row and by joint.
 #include "sim/joints/joint_account.h"
 
-#include "sim/joints/joint_rows.h"
+#include "sim/contact/direct/joint_rows.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,8 +20,8 @@
 
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
-#include "sim/joints/joint_flight.h"
-#include "sim/joints/joint_rows.h"
+#include "sim/contact/direct/joint_flight.h"
+#include "sim/contact/direct/joint_rows.h"
 
 #include <cstdint>
 #include <span>

@@ -9,7 +9,7 @@
 
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/dynamics/integrators/rigid_state.h"
-#include "sim/joints/joint_rows.h"
+#include "sim/contact/direct/joint_rows.h"
 
 #include <span>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "sim/joints/joint_flight.h"
+#include "sim/contact/direct/joint_flight.h"
 
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/joints/settings.h"

@@ -1,0 +1,274 @@
+// JointRows: the rows of a joint, by the laws of its coordinates.
+#include "sim/contact/direct/joint_rows.h"
+#include "sim/joints/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+int place_in(std::span<const std::uint32_t> bodies, std::uint32_t body) {
+    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
+    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : JointRows::none;
+}
+
+void put_six(double* six, const Vec3& linear, const Vec3& angular) {
+    for (int k = 0; k < 3; ++k) {
+        six[k] = linear[k];
+        six[3 + k] = angular[k];
+    }
+}
+
+struct Target {
+    double value = 0.0, speed = 0.0;  // at the end of the step; mean over it
+};
+
+double target_at(const std::vector<JointTarget>& targets, double time) {
+    const auto next = std::upper_bound(targets.begin(), targets.end(), time,
+                                       [](double t, const JointTarget& target) { return t < target.time; });
+    if (next == targets.begin()) return next->value;
+    const JointTarget& last = next[-1];
+    if (next == targets.end()) return last.value;
+    return last.value + (next->value - last.value) * ((time - last.time) / (next->time - last.time));
+}
+
+Target target_of(const JointMotor& motor, double from, double to) {
+    const double end = target_at(motor.targets, to);
+    return {end, (end - target_at(motor.targets, from)) / (to - from)};
+}
+
+}  // namespace
+
+JointRows::Row JointRows::make_row(const JointIsland& island, const Block& block, const Vec3& direction,
+                                   std::size_t coordinate) const {
+    Row row;
+    row.direction = direction;
+    row.coordinate = std::uint8_t(coordinate);
+    row.compliance = compliance_;
+    row.least = -infinity;
+    row.most = infinity;
+    const Joint& j = joint(block);
+    const auto side = [&](std::uint32_t body, int place, double sign, double* six) {
+        if (body == Joint::world) return;
+        const Body& b = island.problem.bodies[body];
+        const Vec3 arm = block.point - b.position;
+        if (place != none) {
+            if (row.turns())
+                put_six(six, Vec3::Zero(), sign * direction);
+            else
+                put_six(six, sign * direction, sign / length_ * arm.cross(direction));
+        } else if (b.moves()) {
+            row.offset += sign * (row.turns() ? length_ * direction.dot(b.angular_velocity)
+                                              : direction.dot(b.point_velocity(arm)));
+        }
+    };
+    side(j.a, block.a, -1.0, row.on_a);
+    side(j.b, block.b, 1.0, row.on_b);
+    return row;
+}
+
+void JointRows::push_row(const Row& row) {
+    const Block& block = blocks_.back();
+    rows_.push_back(row);
+    Row& added = rows_.back();
+    const double last = joint(block).impulse[row.coordinate][row.law];
+    if (!row.soft && (tree_ || row.law != Joint::lock)) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
+}
+
+void JointRows::add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law) {
+    Row r = row;
+    const Joint& j = joint(blocks_.back());
+    const bool above = law == Joint::lower;  // the coordinate must stay above the limit
+    const double unit = row.turns() ? length_ : 1.0, tolerance = tuning::joint_rounding * (row.turns() ? 1.0 : j.size);
+    const double room = above ? value - limit : limit - value;  // negative: violated
+    r.law = law;
+    (above ? r.least : r.most) = 0.0;
+    r.closes = true;
+    // A limit violated at the start is not left by speed: see add_push().
+    r.reference = room < -tolerance ? value : limit;
+    r.goal = limit;
+    r.target = unit * (r.reference - value) / h_;
+    const double e = law == Joint::cone ? 0.0 : j.axis(row.coordinate).restitution;
+    if (e > 0.0) {
+        const Body* a = j.a == Joint::world ? nullptr : &island.problem.bodies[j.a];
+        const Body* b = j.b == Joint::world ? nullptr : &island.problem.bodies[j.b];
+        const Vec3& p = blocks_.back().point;
+        const auto rate = [&](const Body* body) {
+            if (!body) return 0.0;
+            return row.direction.dot(row.turns() ? body->angular_velocity : body->point_velocity(p - body->position));
+        };
+        const double speed = rate(b) - rate(a), approach = above ? -speed : speed;
+        const double threshold = island.problem.settings.bounce_threshold / (row.turns() ? j.size : 1.0);
+        if (approach > threshold && approach * h_ > room) {
+            r.target = -e * unit * speed;
+            r.closes = false;
+        }
+    }
+    push_row(r);
+}
+
+void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std::size_t k, const Row& row) {
+    const Joint& j = joint(blocks_.back());
+    const JointAxis& axis = j.axis(k);
+    const double value = g.coordinates[k].value, unit = row.turns() ? length_ : 1.0, h = h_;
+    if (axis.motion == JointAxis::Motion::locked) {
+        Row r = row;
+        r.law = Joint::lock;
+        r.closes = true;
+        r.reference = std::abs(value) <= tuning::joint_rounding * (row.turns() ? 1.0 : j.size) ? 0.0 : value;
+        r.target = unit * ((r.reference - value) / h + h * j.curving[k]);
+        push_row(r);
+        return;
+    }
+    if (axis.motion == JointAxis::Motion::limited) {
+        if (axis.lower > -infinity) add_limit(island, row, value, axis.lower, Joint::lower);
+        if (axis.upper < infinity) add_limit(island, row, value, axis.upper, Joint::upper);
+    }
+    const auto add_soft = [&](Joint::Law law, double stiffness, double damping, const Target& target, double most) {
+        const double gain = h * stiffness + damping;
+        if (!(gain > 0.0)) return;
+        Row r = row;
+        r.law = law;
+        r.soft = true;
+        r.compliance = unit * unit / (h * gain);
+        r.target = unit * (stiffness * (target.value - value) + damping * target.speed) / gain;
+        r.most = most * h / unit;
+        r.least = -r.most;
+        push_row(r);
+    };
+    if (axis.spring) {
+        const JointSpring& s = j.springs[k];
+        add_soft(Joint::spring, s.stiffness, s.damping, {s.rest, 0.0}, infinity);
+    }
+    if (axis.motor && axis.motor->speed) {
+        Row r = row;
+        r.law = Joint::motor;
+        r.target = unit * *axis.motor->speed;
+        r.most = axis.motor->max_force * h / unit;
+        r.least = -r.most;
+        push_row(r);
+    } else if (axis.motor) {
+        add_soft(Joint::motor, axis.motor->stiffness, axis.motor->damping, target_of(*axis.motor, from_, to_),
+                 axis.motor->max_force);
+    }
+    if (axis.friction > 0.0 || j.description.friction_coefficient > 0.0) {
+        Row r = row;
+        r.law = Joint::friction;
+        r.most = axis.friction * h / unit;
+        r.least = -r.most;
+        push_row(r);
+    }
+}
+
+// Spring and friction of a ball act about all axes alike: the spring along the rotation vector, friction against the
+// angular velocity.
+void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block) {
+    const Joint& j = joint(block);
+    const JointAxis& axis = j.description.turn[0];
+    const bool rubs = axis.friction > 0.0 || j.description.friction_coefficient > 0.0;
+    if (!axis.spring && !rubs) return;
+    const auto spin = [&](std::uint32_t body) -> Vec3 {
+        return body == Joint::world ? Vec3(Vec3::Zero()) : island.problem.bodies[body].angular_velocity;
+    };
+    const Vec3 relative = spin(j.b) - spin(j.a);
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (axis.spring) {
+            const JointSpring& s = j.springs[3];
+            const double gain = h_ * s.stiffness + s.damping;
+            Row r = make_row(island, block, g.axes.col(Eigen::Index(i)), 3 + i);
+            r.law = Joint::spring;
+            r.soft = true;
+            r.compliance = length_ * length_ / (h_ * gain);
+            r.target = -length_ * s.stiffness * g.rotation[Eigen::Index(i)] / gain;
+            if (gain > 0.0) push_row(r);
+        }
+        if (!rubs) continue;
+        const Vec3 along = relative.norm() > 0.0 ? relative.normalized() : Vec3(g.axes.col(0));
+        const Vec3 across = along.unitOrthogonal();
+        const Vec3 basis[3] = {along, across, along.cross(across)};
+        Row r = make_row(island, block, basis[i], 3 + i);
+        r.law = Joint::friction;
+        r.most = axis.friction * h_ / length_;
+        r.least = -r.most;
+        push_row(r);
+    }
+}
+
+void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double compliance) {
+    Joint& j = (*joints_)[index];
+    const JointGeometry g =
+        measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
+    Block& block = blocks_.emplace_back();
+    block.joint = index;
+    block.a = j.a == Joint::world ? none : place_in(island.bodies, j.a);
+    block.b = j.b == Joint::world ? none : place_in(island.bodies, j.b);
+    block.point = g.point;
+    block.first = rows_.size();
+    if (!j.distance()) {
+        block.free_turns = 0;
+        for (std::size_t k = 3; k < 6; ++k)
+            if (!j.locked(k)) block.axes[block.free_turns++] = g.coordinates[k].direction;
+    }
+    compliance_ = compliance;
+    for (std::size_t k = 0; k < j.count(); ++k)
+        if (!j.locked(k)) j.value[k] = g.coordinates[k].value;
+    const bool ball = !j.distance() && !j.locked(3) && !j.locked(4) && !j.locked(5);
+    const bool isotropic = ball && j.description.type == JointType::ball;
+    for (std::size_t k = 0; k < j.count(); ++k) {
+        const Row row = make_row(island, block, g.coordinates[k].direction, k);
+        if (isotropic && k >= 3) {
+            const JointAxis& axis = j.axis(k);
+            if (axis.motion != JointAxis::Motion::limited) continue;
+            if (axis.lower > -infinity) add_limit(island, row, g.coordinates[k].value, axis.lower, Joint::lower);
+            if (axis.upper < infinity) add_limit(island, row, g.coordinates[k].value, axis.upper, Joint::upper);
+        } else {
+            add_laws(island, g, k, row);
+        }
+    }
+    if (isotropic) add_ball_laws(island, g, block);
+    if (ball && j.description.swing)
+        add_limit(island, make_row(island, block, g.swing.direction, 4), g.swing.value, g.swing_limit, Joint::cone);
+    block.count = rows_.size() - block.first;
+    follow_load(block);
+}
+
+void JointRows::load(const JointIsland& island, double compliance) {
+    clear();
+    JointSet& set = *island.problem.joints;
+    joints_ = &set.joints();
+    h_ = island.problem.settings.h;
+    from_ = island.from;
+    to_ = island.to;
+    length_ = island.length;
+    total_mass_ = 0.0;
+    for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
+    weights_changed_ = true;
+    bool fixed = false;
+    for (const std::uint32_t k : island.joints)
+        for (const std::uint32_t i : {(*joints_)[set.active()[k]].a, (*joints_)[set.active()[k]].b})
+            fixed = fixed || i == Joint::world || !island.problem.bodies[i].dynamic();
+    // A connected graph is a tree if it has one edge less than nodes; all that is fixed is one node.
+    tree_ = island.joints.size() + 1 == island.bodies.size() + fixed;
+    for (const std::uint32_t k : island.joints)
+        if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken) add_joint(island, index, compliance);
+}
+
+void JointRows::follow_load(const Block& block) {
+    const Joint& j = joint(block);
+    const double coefficient = j.description.friction_coefficient;
+    if (!(coefficient > 0.0)) return;
+    double square = 0.0;
+    for (std::size_t k = block.first; k < block.first + block.count; ++k)
+        if (rows_[k].law == Joint::lock && !rows_[k].turns()) square += rows_[k].estimate * rows_[k].estimate;
+    for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+        Row& row = rows_[k];
+        if (row.law != Joint::friction) continue;
+        const double lever = row.turns() ? j.description.bearing_radius / length_ : 1.0;
+        row.most = j.axis(row.coordinate).friction * h_ / (row.turns() ? length_ : 1.0) +
+                   coefficient * lever * std::sqrt(square);
+        row.least = -row.most;
+    }
+}
+
+}  // namespace tumble
