@@ -100,8 +100,8 @@ struct World::State {
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep, check, log,
-               totals, records, notes, asleep, pool] = self;
+        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep,
+               check, log, totals, records, notes, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.keep(steps, set, joints, forces, detection, impacts, contact_solver, sleep, check);
         if (notes) archive.keep(*notes);

@@ -233,8 +233,7 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
 
 void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double compliance) {
     Joint& j = (*joints_)[index];
-    const JointGeometry g =
-        measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
+    const JointGeometry g = measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
     Block& block = blocks_.emplace_back();
     block.joint = index;
     block.a = j.a == Joint::world ? none : place_in(island.bodies, j.a);
@@ -281,7 +280,8 @@ void JointRows::load(const JointIsland& island, double compliance) {
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;
     for (const std::uint32_t k : island.joints)
-        if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken) add_joint(island, index, compliance);
+        if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken)
+            add_joint(island, index, compliance);
 }
 
 void JointRows::add_pairs(std::vector<BlockCholesky::Pair>& pairs) {
@@ -434,8 +434,8 @@ double JointRows::close(const JointIsland& island, std::span<const JointSide> en
             const double reference = cone ? std::max(g.swing_limit, row.reference) : row.reference;
             const double unit = row.turns() ? length_ : 1.0, size = row.turns() ? 1.0 : j.size;
             const double error = value - reference;
-            const bool held = row.law == Joint::lock || row.impulse != 0.0 ||
-                              (row.law == Joint::lower ? error < 0.0 : error > 0.0);
+            const bool held =
+                row.law == Joint::lock || row.impulse != 0.0 || (row.law == Joint::lower ? error < 0.0 : error > 0.0);
             if (held) worst = std::max(worst, std::abs(error) / size);
             row.target = row.speed - unit * error / h_;
         }
@@ -466,8 +466,9 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             (rows_[k].turns() ? torque : force) += rows_[k].impulse / h_ * rows_[k].direction;
         torque *= length_;
-        const double over = std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
-                                      torque.norm() / j.description.break_torque});
+        const double over =
+            std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
+                      torque.norm() / j.description.break_torque});
         if (!(over > 1.0)) continue;
         any = block.breaks = true;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
@@ -486,10 +487,14 @@ bool JointRows::add_push(double stiffness, double rate, std::vector<double>& pus
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             double goal = row.reference;  // errors that the velocities did not close stand in the reference
-            if (row.law == Joint::lock) goal = 0.0;
-            else if (row.law == Joint::lower) goal = std::max(row.reference, j.axis(row.coordinate).lower);
-            else if (row.law == Joint::upper) goal = std::min(row.reference, j.axis(row.coordinate).upper);
-            else continue;
+            if (row.law == Joint::lock)
+                goal = 0.0;
+            else if (row.law == Joint::lower)
+                goal = std::max(row.reference, j.axis(row.coordinate).lower);
+            else if (row.law == Joint::upper)
+                goal = std::min(row.reference, j.axis(row.coordinate).upper);
+            else
+                continue;
             const double wanted = (row.turns() ? length_ : 1.0) * rate * (goal - row.reference);
             if (wanted == 0.0) continue;
             any = true;

@@ -14,8 +14,8 @@ namespace tumble {
 class JointSet {
 public:
     /// `scene_index`: by body, its index in the scene; `origin` (m, world): of the bodies' coordinates.
-    JointSet(const SceneDescription& scene, const std::vector<Body>& bodies,
-             std::span<const std::uint32_t> scene_index, const Vec3& origin);
+    JointSet(const SceneDescription& scene, const std::vector<Body>& bodies, std::span<const std::uint32_t> scene_index,
+             const Vec3& origin);
 
     bool empty() const { return joints_.empty(); }
     std::vector<Joint>& joints() { return joints_; }

@@ -10,13 +10,13 @@
 namespace tumble {
 
 struct JointState {
-    Vec3 point = Vec3::Zero();                            // m, world: the second body's anchor
-    std::array<double, 6> position{}, speed{};            // m and rad, m/s and rad/s, by coordinate; locked: 0
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();     // N, N m, world: on the second body, mean of the last step
-    double gap = 0.0;                                     // m: largest error of the locked coordinates
+    Vec3 point = Vec3::Zero();                         // m, world: the second body's anchor
+    std::array<double, 6> position{}, speed{};         // m and rad, m/s and rad/s, by coordinate; locked: 0
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N, N m, world: on the second body, mean of the last step
+    double gap = 0.0;                                  // m: largest error of the locked coordinates
     bool at_limit = false;
-    bool active = true;                                   // holds
-    std::optional<double> broken_at;                      // s
+    bool active = true;               // holds
+    std::optional<double> broken_at;  // s
 };
 
 }  // namespace tumble

@@ -95,9 +95,9 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         const double error = joints_.close(island, ends_);
         if (!std::isfinite(error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
-        const bool settled = change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
-        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last)))
-            return Closing::closed;
+        const bool settled =
+            change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
+        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
         slow = error > rounding && error >= 0.5 * last ? slow + 1 : 0;
         if (slow >= 3) return Closing::open;
         last = error;
@@ -233,8 +233,7 @@ bool DirectSolver::fly(const JointIsland& island, int& substeps) {
 }
 
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                                     std::span<const std::uint32_t> manifolds,
-                                     std::span<const std::uint32_t> joints) {
+                                     std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
     const JointIsland island{problem, bodies, joints, length_, problem.joints->from(), problem.joints->to()};
     starts_.resize(bodies.size());
@@ -287,8 +286,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         substeps *= 2;
         reset();
     }
-    const bool easy =
-        swing_ < 0.4 * tuning::joint_swing && (flown || rounds_ <= tuning::joint_easy_rounds);
+    const bool easy = swing_ < 0.4 * tuning::joint_swing && (flown || rounds_ <= tuning::joint_easy_rounds);
     for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
     displacement_.clear();
     const bool pushed = !flown && push_out(h);
