@@ -77,8 +77,7 @@ inline SceneDescription free_chain_scene(int links = 8) {
     for (int i = 0; i < links; ++i) {
         BodyDescription& box = add_box(scene, {1.0, 0.1, 0.2}, {double(i), 0.0, 0.0});
         box.velocity = Vec3(0.3 * std::sin(i + 1.0), 0.5 * std::cos(2.0 * i), 0.4 * std::sin(3.0 * i + 0.5));
-        if (i > 0)
-            add_joint(scene, JointType::ball, std::size_t(i - 1), std::size_t(i), {i - 0.5, 0.0, 0.0});
+        if (i > 0) add_joint(scene, JointType::ball, std::size_t(i - 1), std::size_t(i), {i - 0.5, 0.0, 0.0});
     }
     return scene;
 }

@@ -16,8 +16,7 @@ SceneDescription door_scene(int steps_per_frame) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = steps_per_frame;
     add_box(scene, {0.9, 2.0, 0.04}, {0.45, 0.0, 0.0}, 20.0);
-    JointDescription& hinge =
-        add_joint(scene, JointType::hinge, std::nullopt, 0, Vec3::Zero(), Vec3::UnitY());
+    JointDescription& hinge = add_joint(scene, JointType::hinge, std::nullopt, 0, Vec3::Zero(), Vec3::UnitY());
     hinge.turn[0].motion = JointAxis::Motion::limited;
     hinge.turn[0].lower = -1.0;
     hinge.turn[0].upper = 0.5 * std::numbers::pi;
@@ -104,7 +103,10 @@ TEST(JointLaws, FrictionTakesItsTorqueTimesTheAngle) {
     scene.simulation.sleep = true;
     scene.joints[0].turn[0].friction = 0.5;
     World world(scene);
-    const auto energy = [&] { const Measurement m = world.measure(); return m.kinetic + m.potential; };
+    const auto energy = [&] {
+        const Measurement m = world.measure();
+        return m.kinetic + m.potential;
+    };
     const double start = energy();
     double travelled = 0.0, last = world.joint_states()[0].position[3], worst = 0.0;
     for (int step = 0; step < 960 * 2; ++step) {

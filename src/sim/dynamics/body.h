@@ -30,9 +30,9 @@ struct Body {
     IntegratorKind integrator = IntegratorKind::symplectic_euler;
     bool spherical_top = false;  // equal moments, as of a ball or a cube: the tensor is the same in every frame
     bool asleep = false;
-    bool flying = false;  // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
+    bool flying = false;   // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
     bool jointed = false;  // has a joint that holds: it moves with the bodies joined to it
-    bool flew = false;    // moved in the last step by an integrator of higher order than the two Euler methods
+    bool flew = false;     // moved in the last step by an integrator of higher order than the two Euler methods
     double mass = 0.0, inverse_mass = 0.0;  // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                    // m, about the center of mass; infinity for a half-space
     double restitution = 0.0, friction = 0.0;
@@ -78,15 +78,15 @@ struct Body {
     void derive_velocities();
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [type, integrator, spherical_top, asleep, flying, jointed, flew, mass, inverse_mass, radius, restitution, friction,
-               drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia, principal_axes,
-               center_of_mass, name, position, orientation, rotation, momentum, angular_momentum, velocity,
-               angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity] = self;
+        auto& [type, integrator, spherical_top, asleep, flying, jointed, flew, mass, inverse_mass, radius, restitution,
+               friction, drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
+               principal_axes, center_of_mass, name, position, orientation, rotation, momentum, angular_momentum,
+               velocity, angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity] = self;
         archive.rebuilt(type, integrator, spherical_top, mass, inverse_mass, radius, restitution, friction, drag_area,
                         collider, track, inertia_body, inverse_inertia_body, principal_inertia, principal_axes,
                         center_of_mass, name);
-        archive.keep(asleep, flying, jointed, flew, position, orientation, rotation, momentum, angular_momentum, velocity,
-                     angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity);
+        archive.keep(asleep, flying, jointed, flew, position, orientation, rotation, momentum, angular_momentum,
+                     velocity, angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity);
     }
 };
 

@@ -4,7 +4,6 @@
 #include "sim/impact/settings.h"
 
 #include <algorithm>
-#include <span>
 #include <cmath>
 #include <span>
 

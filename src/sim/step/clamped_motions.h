@@ -35,8 +35,8 @@ public:
     /// Limits by body. Precondition: find().
     const std::vector<CcdFraction>& limits(const StepContext& step, ContactDetection& detection,
                                            const FindPairs& find_pairs, const TurnsFreely& turns_freely = nullptr) {
-        const auto& limits = clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely}, find_pairs,
-                                           touch_depth(detection.manifolds(), step.set.bodies));
+        const auto& limits = clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely},
+                                           find_pairs, touch_depth(detection.manifolds(), step.set.bodies));
         return any_fast_ && detection.islands().any_joints() ? joined(limits, detection.islands()) : limits;
     }
 
@@ -63,7 +63,7 @@ private:
     }
 
     CcdClamp clamp_;
-    std::vector<CcdFraction> joined_;  // by body
+    std::vector<CcdFraction> joined_;    // by body
     std::atomic<bool> any_fast_{false};  // set by each body's own thread
 };
 

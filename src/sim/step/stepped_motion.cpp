@@ -16,8 +16,8 @@ namespace {
 // rotation is that of free rotation, which keeps the energy all along.
 bool turns_freely(std::uint32_t i, const StepContext& step) {
     const Body& body = step.set.bodies[i];
-    return body.dynamic() && !body.jointed && body.integrator != IntegratorKind::explicit_euler && !step.forces.touched(i, body) &&
-           (!body.gyration.isZero(0.0) || turns_too_far(body, step.h));
+    return body.dynamic() && !body.jointed && body.integrator != IntegratorKind::explicit_euler &&
+           !step.forces.touched(i, body) && (!body.gyration.isZero(0.0) || turns_too_far(body, step.h));
 }
 
 }  // namespace

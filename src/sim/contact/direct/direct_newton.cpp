@@ -117,7 +117,8 @@ bool DirectSolver::factor(bool pushing) {
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         BlockCholesky::Block& block = matrix_.diagonal(i);
         // Joined bodies are pushed as if all had the same mass: else the links between heavy bodies would be thrown.
-        const double share = pushing && !joints_.empty() ? total_mass_ / (double(masses_.size()) * masses_[i].mass) : 1.0;
+        const double share =
+            pushing && !joints_.empty() ? total_mass_ / (double(masses_.size()) * masses_[i].mass) : 1.0;
         for (int r = 0; r < 3; ++r) {
             block.row[r][r] = share * masses_[i].mass;
             for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = share * masses_[i].inertia(r, c);

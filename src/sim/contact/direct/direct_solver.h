@@ -95,7 +95,7 @@ private:
         Mat3 inertia = Mat3::Zero(), inverse_inertia = Mat3::Zero();  // kg, over the squared length
     };
     double length_ = 1.0, total_mass_ = 0.0, speed_scale_ = 0.0, fastest_ = 0.0;  // m, kg, m/s, m/s
-    double lightest_ = 0.0;  // kg, mass of the lightest body
+    double lightest_ = 0.0;                                                       // kg, mass of the lightest body
     double compliance_ = 0.0, friction_compliance_ = 0.0;                         // 1/kg: R
     bool driven_ = false;  // touches a prescribed motion: energy may enter
     int factorizations_ = 0;
@@ -106,16 +106,16 @@ private:
     std::vector<ConstraintRows> constraints_;
     JointRows joints_;
     JointFlight flight_;
-    std::vector<JointSide> ends_;  // poses at the end of the step
-    struct Start {                 // of a body in a jointed step
+    std::vector<JointSide> ends_;                   // poses at the end of the step
+    struct Start {                                  // of a body in a jointed step
         Vec3 position, momentum, angular_momentum;  // after the forces
         Quat orientation;
         Mat3 rotation;
         Vec3 push, turn;  // N s, N m s: by the forces of the step
     };
     std::vector<Start> starts_;
-    double swing_ = 0.0;  // rad, largest phase of a swing in a substep
-    int rounds_ = 0;      // most passes of a substep
+    double swing_ = 0.0;     // rad, largest phase of a swing in a substep
+    int rounds_ = 0;         // most passes of a substep
     bool factored_ = false;  // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;

@@ -87,11 +87,11 @@ public:
     void evaluate_with_weights();
     /// Whether the last evaluate_with_weights() has moved a row to or from a bound.
     bool weights_changed() const { return weights_changed_; }
-    double slope() const;                                      // sum of f J du
-    double objective(const std::vector<double>& u) const;      // J
-    void add_impulses(double factor, std::vector<double>& g) const;   // g += factor J^T f
-    void add_estimates(std::vector<double>& g) const;          // g += J^T e
-    void add_to(BlockCholesky& matrix) const;                  // H += J^T J / R
+    double slope() const;                                            // sum of f J du
+    double objective(const std::vector<double>& u) const;            // J
+    void add_impulses(double factor, std::vector<double>& g) const;  // g += factor J^T f
+    void add_estimates(std::vector<double>& g) const;                // g += J^T e
+    void add_to(BlockCholesky& matrix) const;                        // H += J^T J / R
     /// Fastest speed (m/s) that the rigid rows demand of velocities u.
     double demand(const std::vector<double>& u) const;
 

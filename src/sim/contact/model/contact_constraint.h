@@ -59,7 +59,7 @@ struct ContactProblem {
     const std::vector<BodyVelocity>& before;  // by body
     ConstraintSettings settings;
     std::vector<ManifoldImpulse>* totals = nullptr;  // by manifold, set by the solvers; null: not asked for
-    JointSet* joints = nullptr;  // null: a scene without joints
+    JointSet* joints = nullptr;                      // null: a scene without joints
 };
 
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the

@@ -21,8 +21,8 @@ public:
     /// Other bodies belong to no island and connect none. Manifolds without a body that takes part, and bodies without
     /// manifolds, are skipped. The same pairs and the same awake bodies give the same islands.
     /// - `joined`: the bodies of the joints that hold; UINT32_MAX for the world. They connect as manifolds do.
-    void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies,
-              std::span<const std::uint32_t> awake, std::span<const BodyPair> joined = {});
+    void find(std::span<const BodyPair> touching, const std::vector<Body>& bodies, std::span<const std::uint32_t> awake,
+              std::span<const BodyPair> joined = {});
 
     /// Number of times the islands were rebuilt: equal numbers mean the same islands.
     std::uint64_t changes() const { return round_; }
@@ -56,9 +56,10 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [members, held, held_joints, round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free,
-               joints, first_joint] = self;
-        archive.keep(round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free, joints, first_joint);
+        auto& [members, held, held_joints, round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs,
+               free, joints, first_joint] = self;
+        archive.keep(round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free, joints,
+                     first_joint);
         archive.scratch(members, held, held_joints);
     }
 
@@ -78,7 +79,7 @@ private:
         bool touched = false;
     };
     std::vector<Member> members_;
-    std::vector<std::uint32_t> held_;  // by manifold: index of one of its bodies that takes part
+    std::vector<std::uint32_t> held_;         // by manifold: index of one of its bodies that takes part
     std::vector<std::uint32_t> held_joints_;  // by joint: the same
     std::uint64_t round_ = 0;
     std::vector<std::uint32_t> bodies_, manifolds_, first_body_{0}, first_manifold_{0};
