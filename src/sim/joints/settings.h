@@ -53,6 +53,10 @@ inline constexpr double joint_flight_open = 1e-5;
 /// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_singular = 0.2;
 
+/// Factor of the tolerance of Newton's steps for joints in contact, and their number in the first round. Not fitted: cost.
+inline constexpr double joint_contact_tolerance = 100.0;
+inline constexpr int joint_first_newton_steps = 100;
+
 /// Error, in sizes of the joint, at which the joints of an island in contact count as closed after
 /// tuning::direct_rounds rounds. Not fitted: the next step closes the rest.
 inline constexpr double joint_contact_closed = 1e-7;

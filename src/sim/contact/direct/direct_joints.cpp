@@ -74,18 +74,20 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
     const double noise = joints_.rounding(fastest_);  // N s
     const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
+    consistent_ = true;
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
         if (found) kept_ = velocity_;
-        if (!step_linear() && !minimize(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
+        if (!step_linear() && !minimize(found ? tuning::direct_newton_steps : tuning::joint_first_newton_steps)) {
             if (found) {
                 velocity_ = kept_;
                 joints_.keep_estimates();
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
             }
+            consistent_ = found;
             return found && last < rounding ? Closing::closed : Closing::stuck;
         }
         found = true;
@@ -141,6 +143,28 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
         }
 }
 
+// Gives the solution to the bodies: the impulses, equal and opposite. Where Newton's steps stopped on the way they do not
+// fit the velocities, which are nearer to the solution.
+void DirectSolver::apply_solution(const JointIsland& island) {
+    std::vector<Body>& bodies = island.problem.bodies;
+    if (consistent_) {
+        std::vector<bool> reached(island.bodies.size(), true);
+        apply_contacts(island.problem, reached);
+    }
+    joints_.store(island, consistent_);
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        Body& body = bodies[island.bodies[k]];
+        if (!consistent_) {
+            body.momentum = body.mass * three(velocity_, 6 * k);
+            body.angular_momentum = length_ * length_ *
+                                    (masses_[k].inertia * (three(velocity_, 6 * k + 3) / length_ - body.gyration));
+        }
+        body.derive_velocities();
+    }
+    if (consistent_) return;
+    for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.impulse = 0.0; });
+}
+
 // Moves the bodies to the end of a substep.
 void DirectSolver::move(const JointIsland& island) {
     const double d = island.problem.settings.h;
@@ -186,6 +210,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         structure(step, island.bodies, manifolds);
         if (speed_scale_ <= tuning::direct_rounding * fastest_) {
             velocity_ = free_;
+            consistent_ = true;
         } else {
             do {
                 const Closing closing = close_joints(now);
@@ -197,10 +222,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
             swing_ = std::max(swing_, joints_.swing_rate(now) * part.settings.h);
             if (swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps) return false;
         }
-        std::vector<bool> reached(island.bodies.size(), true);
-        apply_contacts(part, reached);
-        joints_.store(now);
-        for (const std::uint32_t i : island.bodies) step.bodies[i].derive_velocities();
+        apply_solution(now);
         joints_.account(now);
         if (substeps == 1) break;
         move(now);

@@ -220,7 +220,9 @@ bool DirectSolver::minimize(int most_steps) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
     const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
     // Under a heavy load the links' velocities count, which are a small part of the energy.
-    const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * speed * speed;
+    // With contacts too, the next round is as near as that.
+    const double loose = !joints_.empty() && !constraints_.empty() ? tuning::joint_contact_tolerance : 1.0;
+    const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * (loose * speed) * (loose * speed);
     const double rounding = total_mass_ * std::pow(tuning::joint_stall * fastest_, 2);
     double last = infinity;
     for (int k = 0; k <= most_steps; ++k) {

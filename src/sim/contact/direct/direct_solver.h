@@ -74,6 +74,7 @@ private:
     Closing close_joints(const JointIsland& island);
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
+    void apply_solution(const JointIsland& island);
     void predict_ends(const JointIsland& island);
     std::pair<double, double> next_round();
     bool factored();
@@ -116,6 +117,7 @@ private:
     std::vector<Start> starts_;
     double swing_ = 0.0;     // rad, largest phase of a swing in a substep
     int rounds_ = 0;         // most passes of a substep
+    bool consistent_ = true;  // the impulses fit the velocities
     bool factored_ = false;  // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;

@@ -9,11 +9,6 @@
 namespace tumble {
 namespace {
 
-int place_in(std::span<const std::uint32_t> bodies, std::uint32_t body) {
-    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
-    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : JointRows::none;
-}
-
 double six_dot(const double* row, const std::vector<double>& u, int body) {
     double sum = 0.0;
     for (int k = 0; k < 6; ++k) sum += row[k] * u[std::size_t(6 * body + k)];
@@ -256,7 +251,9 @@ void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
         }
 }
 
-void JointRows::store(const JointIsland& island) {
+void JointRows::store(const JointIsland& island, bool apply) {
+    if (!apply)
+        for (Row& row : rows_) row.impulse = 0.0;
     std::vector<Body>& bodies = island.problem.bodies;
     for (const Block& block : blocks_) {
         Joint& j = joint(block);

@@ -122,7 +122,8 @@ public:
     void account(const JointIsland& island);
 
     /// Gives the impulses to the bodies; `reached` marks those by index in the island.
-    void store(const JointIsland& island);
+    /// `apply`: else they are only recorded, as zero.
+    void store(const JointIsland& island, bool apply);
 
     /// Whether a locked coordinate has an error above `tolerance`, in sizes of the joint.
     bool apart(double tolerance) const;
