@@ -23,24 +23,25 @@ struct Joint {
     std::uint32_t a = world, b = world;  // indices of the bodies
     JointDescription description;
     // Frames in the body frame, from the center of mass; in world coordinates for the world.
-    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();          // m
-    Quat frame_a = Quat::Identity(), frame_b = Quat::Identity();    // joint frame to body frame
-    double size = 0.0;                                              // m, of its smaller body: unit of tolerances
-    std::array<JointSpring, coordinates> springs;                   // with stiffness and damping in physical units
+    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();        // m
+    Quat frame_a = Quat::Identity(), frame_b = Quat::Identity();  // joint frame to body frame
+    double size = 0.0;                                            // m, of its smaller body: unit of tolerances
+    std::array<JointSpring, coordinates> springs;                 // with stiffness and damping in physical units
     bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
 
     // State.
-    int substeps = 1;  // of its island in the next step, a power of two
-    bool active = true;                           // holds in this step
+    int substeps = 1;    // of its island in the next step, a power of two
+    bool active = true;  // holds in this step
     bool broken = false;
-    double broken_at = 0.0;                       // s
-    std::array<double, coordinates> value{};      // m and rad, with whole turns counted; at the end of the last step
+    double broken_at = 0.0;                   // s
+    std::array<double, coordinates> value{};  // m and rad, with whole turns counted; at the end of the last step
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
-    std::array<double, coordinates> curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
+    std::array<double, coordinates>
+        curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
     std::array<double, coordinates> constraint_force{};  // N and N m, of the locked coordinates, of the last flight
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
-    Vec3 point = Vec3::Zero();                         // m, world: where the force acts
-    double gap = 0.0;                                  // m, largest error of the locked coordinates (angles times size)
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();    // N and N m, on B at `point`, mean over the last step
+    Vec3 point = Vec3::Zero();                           // m, world: where the force acts
+    double gap = 0.0;  // m, largest error of the locked coordinates (angles times size)
     bool at_limit = false;
     JointAccount account;
 
@@ -56,12 +57,12 @@ struct Joint {
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps,
-               active, broken, broken_at,
-               value, impulse, curving, constraint_force, force, torque, point, gap, at_limit, account] = self;
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps, active, broken,
+               broken_at, value, impulse, curving, constraint_force, force, torque, point, gap, at_limit, account] =
+            self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
-        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, force, torque, point, gap,
-                     at_limit, account);
+        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, force, torque,
+                     point, gap, at_limit, account);
     }
 };
 

@@ -97,9 +97,9 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         const double error = joints_.close(island, ends_);
         if (!std::isfinite(error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
-        const bool settled = change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
-        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last)))
-            return Closing::closed;
+        const bool settled =
+            change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
+        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
         // Friction may change slowly from round to round; the joints are closed all the same.
         if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;
@@ -156,8 +156,8 @@ void DirectSolver::apply_solution(const JointIsland& island) {
         Body& body = bodies[island.bodies[k]];
         if (!consistent_) {
             body.momentum = body.mass * three(velocity_, 6 * k);
-            body.angular_momentum = length_ * length_ *
-                                    (masses_[k].inertia * (three(velocity_, 6 * k + 3) / length_ - body.gyration));
+            body.angular_momentum =
+                length_ * length_ * (masses_[k].inertia * (three(velocity_, 6 * k + 3) / length_ - body.gyration));
         }
         body.derive_velocities();
     }
@@ -262,8 +262,7 @@ bool DirectSolver::fly(const JointIsland& island, int& substeps) {
 }
 
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                                     std::span<const std::uint32_t> manifolds,
-                                     std::span<const std::uint32_t> joints) {
+                                     std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
     const JointIsland island{problem, bodies, joints, length_, problem.joints->from(), problem.joints->to()};
     starts_.resize(bodies.size());

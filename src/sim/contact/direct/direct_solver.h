@@ -115,10 +115,10 @@ private:
         Vec3 push, turn;  // N s, N m s: by the forces of the step
     };
     std::vector<Start> starts_;
-    double swing_ = 0.0;     // rad, largest phase of a swing in a substep
-    int rounds_ = 0;         // most passes of a substep
+    double swing_ = 0.0;      // rad, largest phase of a swing in a substep
+    int rounds_ = 0;          // most passes of a substep
     bool consistent_ = true;  // the impulses fit the velocities
-    bool factored_ = false;  // the matrix is that of the rows' weights
+    bool factored_ = false;   // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };

@@ -18,9 +18,9 @@ constexpr std::array<double, 5> kahan_li_6{0.39216144400731413927925056, 0.33259
                                            -0.70624617255763935980996482, 0.08221359629355080023149045,
                                            0.79854399093482996339895035};
 constexpr std::array<double, 9> kahan_li_8{
-    0.13020248308889008087881763,  0.56116298177510838456196441, -0.38947496264484728640807860,
-    0.15884190655515560089621075,  -0.39590389413323757733623154, 0.18453964097831570709183254,
-    0.25837438768632204729397911,  0.29501172360931029887096624,  -0.60550853383003451169892108};
+    0.13020248308889008087881763, 0.56116298177510838456196441,  -0.38947496264484728640807860,
+    0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
+    0.25837438768632204729397911, 0.29501172360931029887096624,  -0.60550853383003451169892108};
 
 std::vector<double> stages_of(int order) {
     std::span<const double> half;
@@ -95,8 +95,8 @@ void JointFlight::load(const JointIsland& island) {
     }
     const double turn = island.problem.settings.h * fastest;
     compliance_ = tuning::joint_compliance / (total_mass_ * double(island.joints.size()));
-    compliance_ = std::max(compliance_, tuning::joint_singular * turn * turn * turn * turn / total_mass_ *
-                                            double(island.bodies.size()));
+    compliance_ = std::max(
+        compliance_, tuning::joint_singular * turn * turn * turn * turn / total_mass_ * double(island.bodies.size()));
     for (const JointRows::Block& block : rows_.blocks())
         for (const JointRows::Row& row : rows_.rows(block))
             if (is_lock(row)) JointRows::add_square(matrix_, block, row, 1.0 / compliance_);
@@ -187,7 +187,8 @@ bool JointFlight::close(const JointIsland& island) {
         drift(island, h);
         const double error = errors(island, h);
         if (!std::isfinite(error)) return false;
-        if (error <= tuning::joint_flight_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
+        if (error <= tuning::joint_flight_closed || (error < tuning::joint_rounding && error >= 0.5 * last))
+            return true;
         // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
         if (pass > 4 && error >= 0.9 * last) return error < tuning::joint_flight_open;
         last = error;
@@ -249,7 +250,8 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
         const Joint& joint = island.problem.joints->joints()[block.joint];
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const JointRows::Row& row = rows_.rows()[k];
-            if (is_lock(row) && rows_.tree()) given_[k] = h * joint.constraint_force[row.coordinate] / (row.turns() ? rows_.length() : 1.0);
+            if (is_lock(row) && rows_.tree())
+                given_[k] = h * joint.constraint_force[row.coordinate] / (row.turns() ? rows_.length() : 1.0);
         }
     }
     if (!close(island)) return false;
@@ -285,7 +287,8 @@ void JointFlight::add_up(const JointIsland& island) {
         JointLoad load;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const JointRows::Row& row = rows_.rows()[k];
-            (row.turns() ? load.torque : load.force) += (row.turns() ? rows_.length() : 1.0) * given_[k] * row.direction;
+            (row.turns() ? load.torque : load.force) +=
+                (row.turns() ? rows_.length() : 1.0) * given_[k] * row.direction;
         }
         joint.force += load.force;
         joint.torque += load.torque;

@@ -8,8 +8,8 @@
 #pragma once
 
 #include "sim/contact/direct/block_cholesky.h"
-#include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/dynamics/integrators/rigid_state.h"
 
 #include <span>
 #include <vector>

@@ -73,7 +73,8 @@ void JointRows::push_row(const Row& row) {
     rows_.push_back(row);
     Row& added = rows_.back();
     const double last = joint(block).impulse[row.coordinate][row.law];
-    if (!row.soft && (tree_ || row.law != Joint::lock)) added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
+    if (!row.soft && (tree_ || row.law != Joint::lock))
+        added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }
 
 void JointRows::add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law) {
@@ -197,8 +198,7 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
 
 void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double compliance) {
     Joint& j = (*joints_)[index];
-    const JointGeometry g =
-        measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
+    const JointGeometry g = measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
     Block& block = blocks_.emplace_back();
     block.joint = index;
     block.a = j.a == Joint::world ? none : place_in(island.bodies, j.a);
@@ -251,7 +251,8 @@ void JointRows::load(const JointIsland& island, double compliance) {
     // A connected graph is a tree if it has one edge less than nodes; all that is fixed is one node.
     tree_ = island.joints.size() + 1 == island.bodies.size() + fixed;
     for (const std::uint32_t k : island.joints)
-        if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken) add_joint(island, index, compliance);
+        if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken)
+            add_joint(island, index, compliance);
 }
 
 void JointRows::follow_load(const Block& block) {

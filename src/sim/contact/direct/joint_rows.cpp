@@ -181,8 +181,8 @@ double JointRows::close(const JointIsland& island, std::span<const JointSide> en
             const double reference = cone ? std::max(g.swing_limit, row.reference) : row.reference;
             const double unit = row.turns() ? length_ : 1.0, size = row.turns() ? 1.0 : j.size;
             const double error = value - reference;
-            const bool held = row.law == Joint::lock || row.impulse != 0.0 ||
-                              (row.law == Joint::lower ? error < 0.0 : error > 0.0);
+            const bool held =
+                row.law == Joint::lock || row.impulse != 0.0 || (row.law == Joint::lower ? error < 0.0 : error > 0.0);
             if (held) worst = std::max(worst, std::abs(error) / size);
             row.target = row.speed - unit * error / h_;
         }
@@ -213,8 +213,9 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             (rows_[k].turns() ? torque : force) += rows_[k].impulse / h_ * rows_[k].direction;
         torque *= length_;
-        const double over = std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
-                                      torque.norm() / j.description.break_torque});
+        const double over =
+            std::max({force.norm() / j.description.break_force, h_ * force.norm() / j.description.break_impulse,
+                      torque.norm() / j.description.break_torque});
         if (!(over > 1.0)) continue;
         any = block.breaks = true;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {

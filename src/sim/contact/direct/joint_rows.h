@@ -43,7 +43,7 @@ public:
         double least = 0.0, most = 0.0;        // N s
         // m or rad, of locks and limits: value of the coordinate at the end of the step, and the one to be pushed to.
         double reference = 0.0, goal = 0.0;
-        double weight = 0.0;     // kg: 1 / R where f is not at a bound
+        double weight = 0.0;  // kg: 1 / R where f is not at a bound
         Vec3 direction = Vec3::Zero();
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
         std::uint8_t coordinate = 0;
@@ -154,7 +154,7 @@ private:
     std::vector<Block> blocks_;
     std::vector<Row> rows_;
     std::vector<BodyVelocity> before_;  // by body of the island
-    std::vector<double> swing_;  // 1/s^2, by body of the island
+    std::vector<double> swing_;         // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
     bool weights_changed_ = true, tree_ = true;
 };
