@@ -150,7 +150,7 @@ void print_joints(const SceneDescription& scene, const World& world) {
         put("  masses    {:.4g} : 1 at the most, at joint '{}'\n", report.mass_ratio, name(*report.heaviest));
     put("  gap       {:.3g} m at the start{}\n", report.gap,
         report.widest ? fmt::format(", at joint '{}'", name(*report.widest)) : "");
-    put("  solved    by direct rows, gaps closed each step\n");
+    put("  solved    by rows beside contacts; in flight by RATTLE\n");
 }
 
 /// Steps the world for a moment and extrapolates; heaps that form later cost more.

@@ -49,6 +49,10 @@ inline constexpr double joint_flight_closed = 4e-16;
 /// JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_flight_open = 1e-5;
 
+/// Share of its strength that a joint may carry in the step of a flight in which it breaks. Above, the step is solved such
+/// that it carries no more than its strength. Not fitted: the load of a free motion changes little in a step.
+inline constexpr double joint_flight_over = 1.1;
+
 /// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the
 /// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_singular = 0.2;

@@ -333,9 +333,14 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         joint.torque /= h;
         if (rows_.violates_limit(island, block)) return false;
         const JointDescription& strength = joint.description;
-        if (joint.force.norm() > strength.break_force || h * joint.force.norm() > strength.break_impulse ||
-            joint.torque.norm() > strength.break_torque)
-            return false;
+        const double over =
+            std::max({joint.force.norm() / strength.break_force, h * joint.force.norm() / strength.break_impulse,
+                      joint.torque.norm() / strength.break_torque});
+        if (over > tuning::joint_flight_over) return false;
+        if (over > 1.0) {
+            joint.broken = true;
+            joint.broken_at = island.to;
+        }
         joint.impulse = {};
         joint.curving = {};
         joint.at_limit = false;
