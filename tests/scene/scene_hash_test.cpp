@@ -328,16 +328,37 @@ std::string changed(const Change& change) {
     return place == std::string::npos ? text : text.replace(place, change.old_text.size(), change.new_text);
 }
 
+/// The scene without tables that join bodies: the method of the notes has no joints.
+std::string without_joints(const std::string& text) {
+    std::string kept, table;
+    const auto flush = [&] {
+        const bool joins = table.starts_with("[[joint") || table.starts_with("[[chain") ||
+                           table.starts_with("[[instance") || table.starts_with("[template") ||
+                           table.starts_with("[[template") || table.find("\njoint = ") != std::string::npos;
+        if (!joins) kept += table;
+        table.clear();
+    };
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with('[')) flush();
+        table += line + "\n";
+    }
+    flush();
+    return kept;
+}
+
 TEST(SceneHash, EveryKeyOfTheFormatChangesIt) {
-    const SceneDescription scene = parse(base());
+    const SceneDescription scene = parse(base()), unjoined = parse(without_joints(base()));
     std::map<std::string, std::string> seen;  // a hash and the change that made it
     for (const std::vector<Change>& table : all_tables())
         for (const Change& change : table) {
             if (change.old_text.empty()) continue;
             SCOPED_TRACE(change.key + " after " + change.after + ": " + change.new_text);
-            const SceneDescription other = parse(changed(change));
-            EXPECT_NE(scene_hash(other), scene_hash(scene));
-            EXPECT_EQ(motion_hash(other) != motion_hash(scene), change.motion);
+            const bool notes = change.new_text.find("\"notes\"") != std::string::npos;
+            const SceneDescription other = parse(notes ? without_joints(changed(change)) : changed(change));
+            const SceneDescription& before = notes ? unjoined : scene;
+            EXPECT_NE(scene_hash(other), scene_hash(before));
+            EXPECT_EQ(motion_hash(other) != motion_hash(before), change.motion);
         }
 }
 
