@@ -1,6 +1,7 @@
 // Resting contact of all islands: selects a solver for each island, by rules that depend on the scene alone.
 //
 // The direct solver (direct_solver.h) takes
+// - islands with joints, which the soft solver does not know,
 // - single bodies,
 // - all islands of a small scene,
 // - islands that touch nothing fixed,
