@@ -35,10 +35,9 @@ TEST(JointLaws, AMotorOpensADoorToItsLimit) {
         world.step();
         const JointState joint = world.joint_states()[0];
         if (full == 0.0 && joint.speed[3] > 1.0 - 1e-9) full = step / 960.0;
-        if (limit == 0.0 && joint.at_limit) limit = step / 960.0;
+        if (limit == 0.0 && joint.limit != 0) limit = step / 960.0;
         farthest = std::max(farthest, joint.position[3]);
     }
-    std::printf("full %.6f limit %.6f beyond %.1e\n", full, limit, farthest - 0.5 * std::numbers::pi);
     EXPECT_NEAR(full, 0.540266666666, 1.1 / 960.0);
     EXPECT_NEAR(limit, 1.84092966012822995, 1.6 / 960.0);
     EXPECT_LT(farthest - 0.5 * std::numbers::pi, 1e-9);
@@ -70,7 +69,6 @@ TEST(JointLaws, ASpringRestsAtItsClosedForm) {
     run(world, scene, 20.0);
     double angle = 0.1;
     for (int k = 0; k < 50; ++k) angle = 9.81 * 0.5 * std::cos(angle) / 50.0;
-    std::printf("angle %.12f %.12f\n", world.joint_states()[0].position[3], -angle);
     EXPECT_NEAR(world.joint_states()[0].position[3], -angle, 1e-9);
 }
 
@@ -116,7 +114,6 @@ TEST(JointLaws, FrictionTakesItsTorqueTimesTheAngle) {
         last = now;
         worst = std::max(worst, std::abs(start - energy() - 0.5 * travelled));
     }
-    std::printf("worst %.2e of %.2e\n", worst, 0.5 * travelled);
     EXPECT_LT(worst, 0.02);
     run(world, scene, 20.0);
     EXPECT_TRUE(world.snapshot().bodies[0].asleep);
@@ -130,7 +127,6 @@ TEST(JointLaws, BreaksAtItsStrength) {
     run(world, scene, 1.0);
     const JointState joint = world.joint_states()[0];
     ASSERT_TRUE(joint.broken_at);
-    std::printf("broken at %.6f\n", *joint.broken_at);
     EXPECT_NEAR(*joint.broken_at, 0.300354695438428074, 2.0 / 960.0);
     EXPECT_NEAR(world.snapshot().bodies[0].angular_velocity.z(), -4.22224580764613828, 0.03);
 }
@@ -160,7 +156,6 @@ TEST(JointLaws, AnAnchorApartIsPulledInWithoutSpeed) {
         world.advance_frame();
         kinetic = std::max(kinetic, world.measure().kinetic);
     }
-    std::printf("gap %.1e kinetic %.1e\n", largest_gap(world), kinetic);
     EXPECT_LT(largest_gap(world), 1e-9);
     EXPECT_LT(kinetic, 1e-12);
 }
@@ -168,8 +163,7 @@ TEST(JointLaws, AnAnchorApartIsPulledInWithoutSpeed) {
 TEST(JointLaws, ATowerOnFixedJointsCarriesAHundredTimesItsWeight) {
     SceneDescription scene = ground_scene(0.0, 0.5);
     for (int i = 0; i < 11; ++i) {
-        BodyDescription& box = add_box(scene, {0.2, 0.2, 0.2}, {0.0, 0.1 + 0.2 * i, 0.0}, i == 10 ? 100.0 : 1.0);
-        (void)box;
+        add_box(scene, {0.2, 0.2, 0.2}, {0.0, 0.1 + 0.2 * i, 0.0}, i == 10 ? 100.0 : 1.0);
         add_joint(scene, JointType::fixed, i == 0 ? std::size_t(0) : std::size_t(i), std::size_t(i + 1),
                   {0.0, 0.2 * i, 0.0});
     }
@@ -179,7 +173,6 @@ TEST(JointLaws, ATowerOnFixedJointsCarriesAHundredTimesItsWeight) {
     double worst = 0.0;
     for (std::size_t i = 1; i < scene.bodies.size(); ++i)
         worst = std::max(worst, (world.snapshot().bodies[i].center_of_mass - scene.bodies[i].position).norm());
-    std::printf("sag %.1e\n", worst);
     EXPECT_LT(worst, 1e-9);
     EXPECT_TRUE(world.snapshot().bodies[5].asleep);
 }
@@ -192,8 +185,6 @@ TEST(JointLaws, ADoorWithThreeHingesRests) {
     World world(scene);
     run(world, scene, 2.0);
     const auto joints = world.joint_states();
-    std::printf("forces %.9f %.9f %.9f | x %.9f %.9f\n", joints[0].force.y(), joints[1].force.y(), joints[2].force.y(),
-                joints[0].force.x(), joints[2].force.x());
     EXPECT_NEAR(joints[0].force.x(), -joints[2].force.x(), 1e-6);
     EXPECT_NEAR(joints[0].force.y() + joints[1].force.y() + joints[2].force.y(), 20.0 * 9.81, 1e-6);
     EXPECT_TRUE(world.snapshot().bodies[0].asleep);

@@ -44,8 +44,6 @@ Motion double_pendulum(int steps_per_frame) {
 
 TEST(JointMotion, ADoublePendulumConvergesWithItsGapAtRounding) {
     const Motion coarse = double_pendulum(4), fine = double_pendulum(16);
-    std::printf("240/s: %.3e gap %.1e energy %.1e; 960/s: %.3e gap %.1e energy %.1e\n", coarse.error, coarse.gap,
-                coarse.energy, fine.error, fine.gap, fine.energy);
     EXPECT_LT(fine.error, 7e-5);
     EXPECT_LT(fine.error, 0.07 * coarse.error);  // second order
     EXPECT_LT(coarse.gap, 1e-12);
@@ -73,8 +71,6 @@ TEST(JointMotion, AFreeChainKeepsItsMomenta) {
         change = std::max(change, std::abs(energy_of(world) - energy));
     }
     const auto end = momenta();
-    std::printf("P %.1e L %.1e gap %.1e E %.3f dE %.1e\n", (end.first - start.first).norm(),
-                (end.second - start.second).norm(), gap, energy, change);
     EXPECT_LT((end.first - start.first).norm(), 1e-13);
     EXPECT_LT((end.second - start.second).norm(), 1e-12);
     EXPECT_LT(gap, 1e-12);
@@ -118,7 +114,6 @@ TEST(JointMotion, APhysicalPendulum) {
         if (last > 0.0 && angle <= 0.0) crossed = (step - 1 + last / (last - angle)) / 960.0;
         last = angle;
     }
-    std::printf("quarter %.9f gap %.1e\n", crossed, gap);
     EXPECT_NEAR(4.0 * crossed, 1.9357500144084348, 4e-3);
     EXPECT_LT(gap, 1e-12);
 }
@@ -138,7 +133,6 @@ TEST(JointMotion, APendulumBouncesOffAWall) {
         lowest = std::min(lowest, energy_of(world));
         angle = std::min(angle, angle_of(world.snapshot().bodies[0]));
     }
-    std::printf("energy %+.3e %+.3e angle %.4f gap %.1e\n", lowest - start, highest - start, angle, largest_gap(world));
     EXPECT_GT(angle, -0.2);
     EXPECT_NEAR(lowest, start, 0.05);
     EXPECT_NEAR(highest, start, 0.05);
@@ -166,8 +160,6 @@ TEST(JointMotion, AChainFallsAndRests) {
         const Snapshot snapshot = world.snapshot();
         const auto awake = std::count_if(snapshot.bodies.begin() + 1, snapshot.bodies.end(),
                                          [](const BodyState& body) { return !body.asleep; });
-        std::printf("chain: gap %.1e gain %.1e awake %d penetration %.1e\n", gap, gain, int(awake),
-                    world.measure().max_penetration);
         EXPECT_LT(gap, 1e-6);
         EXPECT_LT(gain, 0.01);
         EXPECT_EQ(awake, 0);

@@ -115,7 +115,6 @@ TEST(JointReference, AFourBarPassesItsSingularPosition) {
     }
     const BodyState crank = world.snapshot().bodies[0];
     const Vec3 b0 = crank.origin + crank.orientation * Vec3(0.5, 0.0, 0.0);
-    std::printf("B0 %.9f %.9f gap %.1e energy %.1e\n", b0.x(), b0.y(), gap, energy);
     EXPECT_NEAR(b0.x(), 0.328458111540815379, 1e-3);
     EXPECT_NEAR(b0.y(), 0.944538518178600962, 1e-3);
     EXPECT_LT(gap, 1e-5);
@@ -143,8 +142,6 @@ TEST(JointReference, BricardsMechanism) {
     run(world, scene, 1.0);
     const BodyState link = world.snapshot().bodies[2];
     const Vec3 corner = link.origin + link.orientation * Vec3(0.0, 0.0, 0.5);
-    std::printf("corner %.12f %.12f %.12f energy %.1e gap %.1e\n", corner.x(), corner.y(), corner.z(),
-                energy_of(world) - start, largest_gap(world));
     EXPECT_LT((corner - Vec3(0.5105014611872, -1.6491675993948, 0.1401231145532)).norm(), 1e-9);
     EXPECT_NEAR(energy_of(world), start, 1e-8);
     EXPECT_LT(largest_gap(world), 1e-13);
@@ -178,7 +175,6 @@ TEST(JointReference, StruckRods) {
             worst = std::max({worst, std::abs(body.velocity.y() - after[n - 2][i].first),
                               std::abs(body.angular_velocity.z() - after[n - 2][i].second)});
         }
-        std::printf("rods %zu: %.1e\n", n, worst);
         EXPECT_LT(worst, 1e-7);
     }
 }

@@ -41,7 +41,6 @@ struct Joint {
     std::array<double, coordinates> constraint_force{};  // N and N m, of the locked coordinates, of the last flight
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();    // N and N m, on B at `point`, mean over the last step
     Vec3 point = Vec3::Zero();                           // m, world: where the force acts
-    bool at_limit = false;
     JointAccount account;
 
     bool distance() const { return description.type == JointType::distance; }
@@ -57,10 +56,10 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps, active, broken,
-               broken_at, value, impulse, curving, constraint_force, force, torque, point, at_limit, account] = self;
+               broken_at, value, impulse, curving, constraint_force, force, torque, point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
         archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, force, torque,
-                     point, at_limit, account);
+                     point, account);
     }
 };
 

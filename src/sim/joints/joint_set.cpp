@@ -183,7 +183,6 @@ std::vector<JointState> JointSet::states(const std::vector<Body>& bodies) const 
         }
         state.force = joint.force;
         state.torque = joint.torque;
-        state.at_limit = joint.at_limit;
         state.mean_force = joint.account.mean.force;
         state.mean_torque = joint.account.mean.torque;
         state.mean_moment = joint.account.mean.moment;

@@ -17,7 +17,6 @@ struct JointState {
     Vec3 mean_force = Vec3::Zero(), mean_torque = Vec3::Zero();  // N, N m: the same, mean of the last frame
     Vec3 mean_moment = Vec3::Zero();  // N m about the world origin: of both, mean of the last frame
     double gap = 0.0;                 // m: largest error of the locked coordinates
-    bool at_limit = false;
     int limit = 0;                    // -1 at a lower limit, 1 at an upper one or a cone
     bool active = true;               // holds
     std::optional<double> broken_at;  // s

@@ -5,7 +5,9 @@
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/body.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble::contact_rows {
@@ -33,6 +35,12 @@ struct ConstraintRows {
     std::uint8_t source[4] = {};
     ContactConstraint geometry;
 };
+
+/// Index of a body among the island's, ascending; none if it is not one of them.
+inline int place_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
+    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
+    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : none;
+}
 
 /// Three of the numbers, from an index on.
 inline Eigen::Map<Vec3> three(std::vector<double>& numbers, std::size_t from) {

@@ -223,7 +223,7 @@ bool DirectSolver::minimize(int most_steps) {
     // With contacts too, the next round is as near as that.
     const double loose = !joints_.empty() && !constraints_.empty() ? tuning::joint_contact_tolerance : 1.0;
     const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * (loose * speed) * (loose * speed);
-    const double rounding = total_mass_ * std::pow(tuning::joint_stall * fastest_, 2);
+    const double stalled = tuning::joint_stall * fastest_, rounding = total_mass_ * stalled * stalled;
     double last = infinity;
     for (int k = 0; k <= most_steps; ++k) {
         evaluate_speeds();

@@ -15,11 +15,6 @@ using namespace contact_rows;
 
 namespace {
 
-int place_of(std::span<const std::uint32_t> bodies, std::uint32_t body) {
-    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
-    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : -1;
-}
-
 // Joined bodies bounce here and not in the stage of impacts, which knows no joints: -e v_rel- (notes eq. 14) of a point
 // that touches and approaches fast; else 0.
 double rebound(const Manifold& m, const ContactConstraint::Point& p, const BodiesInStep& bodies,

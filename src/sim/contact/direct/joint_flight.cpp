@@ -343,7 +343,6 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         }
         joint.impulse = {};
         joint.curving = {};
-        joint.at_limit = false;
         joint.point = block.point;
         for (std::size_t c = 0; c < joint.count(); ++c)
             if (joint.locked(c)) joint.impulse[c][Joint::lock] = joint.constraint_force[c] * h;

@@ -1,4 +1,5 @@
 // JointRows: the rows of a joint, by the laws of its coordinates.
+#include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_rows.h"
 #include "sim/joints/settings.h"
 
@@ -7,18 +8,6 @@
 
 namespace tumble {
 namespace {
-
-int place_in(std::span<const std::uint32_t> bodies, std::uint32_t body) {
-    const auto found = std::lower_bound(bodies.begin(), bodies.end(), body);
-    return found != bodies.end() && *found == body ? int(found - bodies.begin()) : JointRows::none;
-}
-
-void put_six(double* six, const Vec3& linear, const Vec3& angular) {
-    for (int k = 0; k < 3; ++k) {
-        six[k] = linear[k];
-        six[3 + k] = angular[k];
-    }
-}
 
 struct Target {
     double value = 0.0, speed = 0.0;  // at the end of the step; mean over it
@@ -55,9 +44,9 @@ JointRows::Row JointRows::make_row(const JointIsland& island, const Block& block
         const Vec3 arm = block.point - b.position;
         if (place != none) {
             if (row.turns())
-                put_six(six, Vec3::Zero(), sign * direction);
+                contact_rows::put(six, Vec3::Zero(), sign * direction);
             else
-                put_six(six, sign * direction, sign / length_ * arm.cross(direction));
+                contact_rows::put(six, sign * direction, sign / length_ * arm.cross(direction));
         } else if (b.moves()) {
             row.offset += sign * (row.turns() ? length_ * direction.dot(b.angular_velocity)
                                               : direction.dot(b.point_velocity(arm)));
@@ -201,8 +190,8 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     const JointGeometry g = measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
     Block& block = blocks_.emplace_back();
     block.joint = index;
-    block.a = j.a == Joint::world ? none : place_in(island.bodies, j.a);
-    block.b = j.b == Joint::world ? none : place_in(island.bodies, j.b);
+    block.a = contact_rows::place_of(island.bodies, j.a);
+    block.b = contact_rows::place_of(island.bodies, j.b);
     block.point = g.point;
     block.first = rows_.size();
     if (!j.distance()) {

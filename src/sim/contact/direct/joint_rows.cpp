@@ -260,15 +260,12 @@ void JointRows::store(const JointIsland& island, bool apply) {
         Joint& j = joint(block);
         Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         j.impulse = {};
-        j.at_limit = false;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
             j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
-            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
-            j.at_limit = j.at_limit || (limit && row.impulse != 0.0);
         }
         j.force = force / h_;
         j.torque = torque / h_;

@@ -1,4 +1,4 @@
-// The joints of one island as rows of the Jacobian J over its velocities, for the direct solver (docs: joints.md).
+// The joints of one island as rows of the Jacobian J over its velocities, for the direct solver (docs/explanation/joints.md).
 //
 // Each row is one law of one coordinate: its impulse is
 //   f = clamp(e + (b - J u) / R, least, most)
@@ -12,6 +12,7 @@
 #pragma once
 
 #include "sim/contact/direct/block_cholesky.h"
+#include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
 
@@ -32,7 +33,7 @@ struct JointIsland {
 
 class JointRows {
 public:
-    static constexpr int none = -1;
+    static constexpr int none = contact_rows::none;
     struct Row {
         double on_a[6] = {}, on_b[6] = {};
         double offset = 0.0;                   // m/s, of bodies with prescribed velocity
@@ -88,7 +89,7 @@ public:
     /// Whether the last evaluate_with_weights() has moved a row to or from a bound.
     bool weights_changed() const { return weights_changed_; }
     double slope() const;                                            // sum of f J du
-    double objective(const std::vector<double>& u) const;            // J
+    double objective(const std::vector<double>& u) const;            // J: the rows' part of the minimized function at u
     void add_impulses(double factor, std::vector<double>& g) const;  // g += factor J^T f
     void add_estimates(std::vector<double>& g) const;                // g += J^T e
     void add_to(BlockCholesky& matrix) const;                        // H += J^T J / R
@@ -112,7 +113,8 @@ public:
     /// Joints whose load is above their strength: their impulses are set to the strength. Returns whether any is new.
     bool give_way();
 
-    /// For the position correction: J^T J and J^T of the errors at the start, times `share` / h.
+    /// For the position correction: adds `stiffness` J^T of the speeds that move errors out at `rate` (1/s), and stiffness
+    /// J^T J. Returns whether there are such errors.
     bool add_push(double stiffness, double rate, std::vector<double>& push) const;
     void add_push_to(double stiffness, BlockCholesky& matrix) const;
 
@@ -121,8 +123,7 @@ public:
     /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
     void account(const JointIsland& island);
 
-    /// Gives the impulses to the bodies; `reached` marks those by index in the island.
-    /// `apply`: else they are only recorded, as zero.
+    /// Gives the impulses to the bodies and keeps them with the joints. Without `apply` all are zero.
     void store(const JointIsland& island, bool apply);
 
     /// Whether a locked coordinate has an error above `tolerance`, in sizes of the joint.
