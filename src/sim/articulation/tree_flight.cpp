@@ -20,6 +20,20 @@ bool is_length(const TreeNode& node, int k, bool speed) {
     return node.kind == TreeNode::Kind::free && (speed ? k >= 3 : k < 3);
 }
 
+// A sum with the rounding of its additions (Neumaier 1974): in slow motions that of a plain sum of places is the same from
+// step to step, and the center of mass would drift.
+struct CompensatedSum {
+    Vec3 sum = Vec3::Zero(), rest = Vec3::Zero();
+    void add(const Vec3& v) {
+        for (int i = 0; i < 3; ++i) {
+            const double t = sum[i] + v[i];
+            rest[i] += std::abs(sum[i]) >= std::abs(v[i]) ? (sum[i] - t) + v[i] : (v[i] - t) + sum[i];
+            sum[i] = t;
+        }
+    }
+    Vec3 value() const { return sum + rest; }
+};
+
 }  // namespace
 
 std::optional<IntegratorKind> TreeFlight::method_of(const std::vector<Body>& bodies,
@@ -45,10 +59,14 @@ TreeFlight::Totals TreeFlight::totals() const {
         sum.angular_momentum += body.angular_momentum;
     }
     const Vec3 mean = sum.momentum / sum.mass;
+    CompensatedSum center;
     for (const std::uint32_t i : step_->island) {
         const Body& body = step_->bodies[i];
-        sum.angular_momentum += (body.position - tree_.origin()).cross(body.momentum - body.mass * mean);
+        const Vec3 place = body.position - tree_.origin();
+        sum.angular_momentum += place.cross(body.momentum - body.mass * mean);
+        center.add(body.mass * place);
     }
+    sum.center = center.value() / sum.mass;
     return sum;
 }
 
@@ -56,7 +74,8 @@ bool TreeFlight::start() {
     const TreeStep& step = *step_;
     if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
     pushed_ = false;
-    for (const std::uint32_t i : step.island) pushed_ = pushed_ || !step.forces.only_gravity(i);
+    for (const std::uint32_t i : step.island)
+        pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
     const int n = int(step.island.size());
     coordinates_ = tree_.coordinates();
     extras_ = coordinates_ + tree_.speeds();
@@ -250,16 +269,19 @@ void TreeFlight::place() {
     const double h = step_->h;
     const bool free = tree_.is_free();
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero(), center = Vec3::Zero(), push = Vec3::Zero();
+    Vec3 wanted = Vec3::Zero(), moment = start_.angular_momentum, place = start_.center;
     if (free) {
         Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+        CompensatedSum sum;
         const auto link_of = [&](std::size_t i) -> const ForwardDynamics::Link& {
             return dynamics_.link(tree_.node_of_body()[i]);
         };
         for (std::size_t i = 0; i < n; ++i) {
             const double mass = step_->bodies[step_->island[i]].mass;
-            center += mass * link_of(i).position() / start_.mass;
+            sum.add(mass * link_of(i).position());
             momentum += mass * link_of(i).center_velocity();
         }
+        center = sum.value() / start_.mass;
         const Vec3 mean = momentum / start_.mass;
         Mat3 inertia = Mat3::Zero();
         for (std::size_t i = 0; i < n; ++i) {
@@ -271,17 +293,20 @@ void TreeFlight::place() {
             angular += own * link.velocity.turn + body.mass * arm.cross(link.center_velocity() - mean);
             inertia += own + body.mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
         }
-        Vec3 wanted = Vec3::Zero(), moment = start_.angular_momentum, place = Vec3::Zero();
         if (pushed_) {
             for (const PushedImpulse& given : pushed_impulses()) wanted += given.push;
             moment += y_.segment<3>(y_.size() - 6);
-            place = y_.tail<3>();
+            place += y_.tail<3>();
         }
         shift = place - center;
         turn = inertia.inverse() * (moment - angular);
         push = wanted / start_.mass - mean;
     }
+    // What rounding leaves of the momenta goes to the root.
+    Vec3 left = start_.momentum + start_.mass * h * frame_.gravity + wanted, moment_left = moment;
     const Vec3 base = free ? frame_.place(h) : frame_.origin, speed = free ? frame_.speed(h) : Vec3(Vec3::Zero());
+    // The rounding of the frame's place is the same in each step, and would add up.
+    if (free) shift += h * (frame_.velocity + 0.5 * h * frame_.gravity) - (base - frame_.origin);
     for (std::size_t i = 0; i < n; ++i) {
         Body& body = step_->bodies[step_->island[i]];
         const int at = tree_.node_of_body()[i];
@@ -293,8 +318,16 @@ void TreeFlight::place() {
         const Vec3 velocity = link.center_velocity() + push + turn.cross(link.position() - center) + speed;
         body.momentum = body.mass * velocity;
         body.angular_momentum = body.rotation * (body.inertia_body * (body.rotation.transpose() * omega));
+        left -= body.momentum;
+        moment_left -= body.angular_momentum +
+                       (link.position() + shift - place).cross(body.momentum - body.mass * (wanted / start_.mass + speed));
         body.derive();
     }
+    if (!free) return;
+    Body& root = step_->bodies[step_->island[std::size_t(tree_.order().front().body)]];
+    root.momentum += left;
+    root.angular_momentum += moment_left;
+    root.derive();
 }
 
 TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
