@@ -52,7 +52,7 @@ public:
     void coordinate_rates(const double* coordinates, const double* speeds, double* rates) const;
 
     /// Speeds of the tree that are nearest to given momenta of its bodies, in the metric of kinetic energy; after move()
-    /// with speeds of 0. The joints give equal and opposite impulses.
+    /// with speeds of 0. The joints give equal and opposite impulses. Leaves the velocities as the links' accelerations.
     void fit_speeds(std::span<const Impulse> momenta, double* speeds);
 
     /// Force and moment (about the node's point) that the joint of each node gives to the rest of the tree behind it: by

@@ -95,19 +95,19 @@ bool TreeFlight::start() {
         momenta.push_back({step.bodies[i].momentum - step.bodies[i].mass * frame_.velocity,
                            step.bodies[i].angular_momentum});
     dynamics_.fit_speeds(momenta, y_.data() + coordinates_);
-    dynamics_.move(y_.data(), y_.data() + coordinates_);
     return y_.allFinite() && fits();
 }
 
-// Whether the bodies' velocities are those of the tree.
+// Whether the bodies' velocities are those of the tree, which fit_speeds() leaves in place of the accelerations.
 bool TreeFlight::fits() const {
     double fastest = 0.0, off = 0.0;
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
         const Body& body = step_->bodies[step_->island[i]];
         const ForwardDynamics::Link& link = dynamics_.link(tree_.node_of_body()[i]);
         fastest = std::max({fastest, body.velocity.norm(), step_->length * body.angular_velocity.norm()});
-        off = std::max({off, (link.center_velocity() + frame_.velocity - body.velocity).norm(),
-                        step_->length * (link.velocity.turn - body.angular_velocity).norm()});
+        const auto& [turn, move] = link.acceleration;
+        off = std::max({off, (move + turn.cross(link.center) + frame_.velocity - body.velocity).norm(),
+                        step_->length * (turn - body.angular_velocity).norm()});
     }
     return off <= tuning::tree_misfit * fastest;
 }
