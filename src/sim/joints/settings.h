@@ -34,9 +34,19 @@ inline constexpr int joint_stuck_substeps = 4;
 /// the cost alone.
 inline constexpr int joint_easy_rounds = 6;
 
-/// Stiffness of the joints in the position correction, over the bodies' mean mass. Near a singular position, as of a taut
-/// chain, an error is closed by displacements up to half the square root of this times as large.
-inline constexpr double joint_push_stiffness = 1e3;
+/// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
+/// a singular position, as of a taut chain, it is closed by displacements up to half the square root of this times as
+/// large.
+inline constexpr double joint_push_apart = 1e3;
+
+/// Stiffness of closed joints there, over the mass of the island, and largest number of passes: the stiffness is a
+/// hundred times that of contacts, so that each pass makes their errors a hundred times smaller.
+inline constexpr double joint_push_closed = 1e4;
+inline constexpr int joint_push_passes = 8;
+
+/// Errors below this share of the smaller body are moved out by rigid rows: the displacements stay small near singular
+/// positions too. Not fitted: below any visible size.
+inline constexpr double joint_push_small = 1e-6;
 
 /// Convergence of the rounds without contacts, relative to the impulses. Related test:
 /// JointLaws.AMotorOpensADoorToItsLimit.

@@ -173,10 +173,7 @@ bool DirectSolver::factor(bool pushing) {
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
     }
-    if (pushing)
-        joints_.add_push_to(joint_push_stiffness(), matrix_);
-    else
-        joints_.add_to(matrix_);
+    joints_.add_weights(matrix_);
     return matrix_.factor();
 }
 
@@ -295,7 +292,7 @@ std::pair<double, double> DirectSolver::next_round() {
             largest = std::max(largest, std::abs(row.impulse));
             row.estimate = row.impulse;
         });
-        set_limits(constraint);
+        if (!limits_held_) set_limits(constraint);
     }
     return {change, largest};
 }
