@@ -59,6 +59,10 @@ inline constexpr double joint_flight_closed = 4e-16;
 /// JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_flight_open = 1e-5;
 
+/// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
+/// that turn by 0.3 rad in a step open their joints by less.
+inline constexpr double joint_clamped_open = 1e-2;
+
 /// Share of its strength that a joint may carry in the step of a flight in which it breaks. Above, the step is solved such
 /// that it carries no more than its strength. Not fitted: the load of a free motion changes little in a step.
 inline constexpr double joint_flight_over = 1.1;

@@ -412,4 +412,11 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     });
 }
 
+void DirectSolver::close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                               std::span<const std::uint32_t> joints) {
+    double length = 0.0;
+    for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
+    flight_.close_poses({problem, bodies, joints, length, problem.joints->from(), problem.joints->to()});
+}
+
 }  // namespace tumble

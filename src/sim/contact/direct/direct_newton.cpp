@@ -285,7 +285,7 @@ void DirectSolver::start() {
 
 // Takes the impulses as the next estimates. Returns the largest change and the largest impulse, N s.
 std::pair<double, double> DirectSolver::next_round() {
-    auto [change, largest] = joints_.next_round();
+    auto [change, largest] = joints_.next_round(!limits_held_);
     for (ConstraintRows& constraint : constraints_) {
         each_row(constraint, [&](Row& row) {
             change = std::max(change, std::abs(row.impulse - row.estimate));

@@ -37,6 +37,10 @@ public:
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints = {});
 
+    /// Closes the joints at the present poses: see JointFlight::close_poses().
+    void close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                     std::span<const std::uint32_t> joints);
+
     /// Block operations of a factorization for this island.
     std::size_t factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                             std::span<const std::uint32_t> manifolds);
@@ -119,7 +123,7 @@ private:
     double swing_ = 0.0;      // rad, largest phase of a swing in a substep
     int rounds_ = 0;          // most passes of a substep
     bool consistent_ = true;  // the impulses fit the velocities
-    bool limits_held_ = false;
+    bool limits_held_ = false;  // friction's limits no longer follow the loads: the rounds did not settle
     bool factored_ = false;  // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;

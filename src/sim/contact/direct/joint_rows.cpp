@@ -140,7 +140,7 @@ double JointRows::demand(const std::vector<double>& u) const {
     return most;
 }
 
-std::pair<double, double> JointRows::next_round() {
+std::pair<double, double> JointRows::next_round(bool follow) {
     double change = 0.0, largest = 0.0;
     for (Row& row : rows_) {
         largest = std::max(largest, std::abs(row.impulse));
@@ -149,7 +149,7 @@ std::pair<double, double> JointRows::next_round() {
         row.estimate = row.impulse;
     }
     for (const Block& block : blocks_)
-        if (!block.breaks) follow_load(block);
+        if (follow && !block.breaks) follow_load(block);
     return {change, largest};
 }
 

@@ -95,9 +95,9 @@ public:
     /// Fastest speed (m/s) that the rigid rows demand of velocities u.
     double demand(const std::vector<double>& u) const;
 
-    /// Takes the impulses as the next estimates, and follows the load of bearings. Returns the largest change and the
+    /// Takes the impulses as the next estimates; friction follows the load of bearings if `follow`. Returns the largest change and the
     /// largest impulse, N s.
-    std::pair<double, double> next_round();
+    std::pair<double, double> next_round(bool follow);
     void keep_estimates();
     /// Moves the targets such that the errors at the end of the step vanish, given the poses there. Returns the largest
     /// error, in sizes of the joint.
