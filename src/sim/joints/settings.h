@@ -39,10 +39,9 @@ inline constexpr int joint_easy_rounds = 6;
 /// large.
 inline constexpr double joint_push_apart = 1e3;
 
-/// Stiffness of closed joints there, over the mass of the island, and largest number of passes: the stiffness is a
-/// hundred times that of contacts, so that each pass makes their errors a hundred times smaller.
+/// Stiffness of closed joints there, over the mass of the island: a hundred times that of contacts, so that each pass
+/// makes their errors up to a hundred times smaller.
 inline constexpr double joint_push_closed = 1e4;
-inline constexpr int joint_push_passes = 8;
 
 /// Errors below this share of the smaller body are moved out by rigid rows: the displacements stay small near singular
 /// positions too. Not fitted: below any visible size.
@@ -60,8 +59,8 @@ inline constexpr double joint_flight_closed = 4e-16;
 inline constexpr double joint_flight_open = 1e-5;
 
 /// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
-/// that turn by 0.3 rad in a step open their joints by less.
-inline constexpr double joint_clamped_open = 1e-2;
+/// that turn by a radian in a step open their joints by less.
+inline constexpr double joint_clamped_open = 0.1;
 
 /// Share of its strength that a joint may carry in the step of a flight in which it breaks. Above, the step is solved such
 /// that it carries no more than its strength. Not fitted: the load of a free motion changes little in a step.

@@ -31,13 +31,16 @@ bool DirectSolver::push_joined(const JointIsland& island, bool moved) {
         return false;
     }
     const std::vector<double> contacts = push_;
+    double last = infinity;
     for (int pass = 0;; ++pass) {
         push_ = contacts;
         joints_.add_push(push_);
         matrix_.solve(push_);
-        if (pass == tuning::joint_push_passes) return true;
+        if (pass == tuning::joint_rounds) return true;
         predict_ends(island, moved);
-        if (joints_.close_push(island, ends_, push_) <= tuning::joint_closed) return true;
+        const double error = joints_.close_push(island, ends_, push_);
+        if (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
+        last = error;
     }
 }
 
