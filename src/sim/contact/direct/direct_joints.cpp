@@ -95,10 +95,16 @@ bool DirectSolver::step_linear() {
     return factored_;
 }
 
+// Beside contacts, the friction of joints starts soft as that of contacts does.
+void DirectSolver::set_friction_compliance(double compliance) {
+    friction_compliance_ = compliance;
+    if (!constraints_.empty()) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
+}
+
 // Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
 // the last solution.
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
-    friction_compliance_ = tuning::direct_friction_soft * compliance_;
+    set_friction_compliance(tuning::direct_friction_soft * compliance_);
     start();
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
     const double noise = joints_.rounding(fastest_);  // N s
@@ -141,8 +147,8 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
             slow = 0;
         }
         last = error;
-        friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
-                                        tuning::direct_friction_stiff * compliance_);
+        set_friction_compliance(std::max(friction_compliance_ * tuning::direct_friction_stiffening,
+                                         tuning::direct_friction_stiff * compliance_));
     }
     return last < rounding ? Closing::closed : Closing::open;
 }

@@ -80,6 +80,7 @@ private:
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
     void apply_solution(const JointIsland& island);
+    void set_friction_compliance(double compliance);
     void predict_ends(const JointIsland& island, bool moved);
     std::pair<double, double> next_round();
     bool factored();

@@ -153,6 +153,11 @@ std::pair<double, double> JointRows::next_round(bool follow) {
     return {change, largest};
 }
 
+void JointRows::soften_friction(double factor) {
+    for (Row& row : rows_)
+        if (row.law == Joint::friction) row.compliance = factor * compliance_;
+}
+
 void JointRows::keep_estimates() {
     for (Row& row : rows_)
         if (!row.soft) row.impulse = row.estimate;

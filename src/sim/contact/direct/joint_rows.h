@@ -99,6 +99,8 @@ public:
     /// largest impulse, N s.
     std::pair<double, double> next_round(bool follow);
     void keep_estimates();
+    /// Makes the rows of friction `factor` times as compliant as rigid rows.
+    void soften_friction(double factor);
     /// Moves the targets such that the errors at the end of the step vanish, given the poses there. Returns the largest
     /// error, in sizes of the joint.
     double close(const JointIsland& island, std::span<const JointSide> ends);
