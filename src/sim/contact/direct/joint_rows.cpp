@@ -301,7 +301,12 @@ void JointRows::store(const JointIsland& island, bool apply) {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
-            j.impulse[row.coordinate][row.law] = amount;
+            // The friction of a ball acts along axes that follow the motion: it is kept along those of the joint.
+            if (row.law == Joint::friction && row.turns() && j.turns_alike())
+                for (std::size_t i = 0; i < 3; ++i)
+                    j.impulse[3 + i][Joint::friction] += amount * row.direction.dot(block.axes[i]);
+            else
+                j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
         }
