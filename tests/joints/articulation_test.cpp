@@ -12,14 +12,12 @@ using namespace tumble::testing;
 
 namespace {
 
-constexpr std::array types{JointType::fixed,       JointType::hinge,  JointType::ball,   JointType::slider, JointType::universal,
-                           JointType::cylindrical, JointType::planar, JointType::six_dof};
+constexpr std::array types{JointType::fixed,     JointType::hinge,       JointType::ball,   JointType::slider,
+                           JointType::universal, JointType::cylindrical, JointType::planar, JointType::six_dof};
 
 struct Random {
     std::mt19937_64 engine{7};
-    double operator()(double least, double most) {
-        return least + (most - least) * (double(engine() >> 11) * 0x1p-53);
-    }
+    double operator()(double least, double most) { return least + (most - least) * (double(engine() >> 11) * 0x1p-53); }
     Vec3 vector() { return {(*this)(-1.0, 1.0), (*this)(-1.0, 1.0), (*this)(-1.0, 1.0)}; }
 };
 
@@ -158,8 +156,7 @@ TEST(Articulation, AccelerationsAgainstDenseEquations) {
             const SpatialMotion& at_joint = link.acceleration;
             const Vec3 center = at_joint.move + at_joint.turn.cross(link.center) + w.cross(w.cross(link.center));
             rest.segment<3>(6 * i) = body.mass * center - pushes[std::size_t(i)].force;
-            rest.segment<3>(6 * i + 3) =
-                inertia * at_joint.turn + w.cross(inertia * w) - pushes[std::size_t(i)].torque;
+            rest.segment<3>(6 * i + 3) = inertia * at_joint.turn + w.cross(inertia * w) - pushes[std::size_t(i)].torque;
             acceleration.segment<3>(6 * i) = center + gravity;
             acceleration.segment<3>(6 * i + 3) = at_joint.turn;
         }

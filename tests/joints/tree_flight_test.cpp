@@ -21,7 +21,8 @@ double angle_of(const Body& body) {
 
 // A hinged rod released at 10, 90 and 170 degrees: after a period K(sin^2(angle / 2)) 4 / w it is back and at rest.
 TEST(TreeFlight, PeriodsOfAPhysicalPendulum) {
-    const double periods[3][2] = {{10.0, 1.64312051580774093}, {90.0, 1.9357500144084348}, {170.0, 4.00053715316770717}};
+    const double periods[3][2] = {
+        {10.0, 1.64312051580774093}, {90.0, 1.9357500144084348}, {170.0, 4.00053715316770717}};
     for (const auto& [degrees, period] : periods) {
         TreeScene t(pendulum_scene(degrees * pi / 180.0));
         const int steps = int(std::ceil(240.0 * period));
@@ -58,7 +59,8 @@ TEST(TreeFlight, RungeKuttaHasOrderFour) {
     const auto error = [](int rate) {
         TreeScene t(double_pendulum_scene(1));
         for (int k = 0; k < rate; ++k) EXPECT_EQ(t.step(1.0 / rate, IntegratorKind::runge_kutta_4), Outcome::flown);
-        return std::hypot(angle_of(t.set.bodies[0]) - -1.2043240792353393, angle_of(t.set.bodies[1]) - -0.8199807116655024);
+        return std::hypot(angle_of(t.set.bodies[0]) - -1.2043240792353393,
+                          angle_of(t.set.bodies[1]) - -0.8199807116655024);
     };
     const double coarse = error(120), fine = error(240);
     EXPECT_NEAR(std::log2(coarse / fine), 4.0, 0.4);
@@ -127,7 +129,8 @@ TEST(TreeFlight, AFreeChainKeepsItsMomentaToTheLastDigits) {
         for (int k = 0; k < 600; ++k) {
             ASSERT_EQ(t.step(1.0 / 60.0, method), Outcome::flown);
             for (const Joint* joint : t.list) {
-                const JointGeometry g = measure(*joint, side_of(t.set.bodies, joint->a), side_of(t.set.bodies, joint->b));
+                const JointGeometry g =
+                    measure(*joint, side_of(t.set.bodies, joint->a), side_of(t.set.bodies, joint->b));
                 for (std::size_t c = 0; c < 3; ++c) gap = std::max(gap, std::abs(g.coordinates[c].value));
             }
         }
@@ -200,8 +203,8 @@ TEST(TreeFlight, AgreesWithRattle) {
             add_box(scene, {0.3, 0.1, 0.2}, {0.6, 0.1, 0.0}, 1.0).rotation = turn(Vec3(-1.0, 2.0, 1.0), 0.9);
             scene.bodies[0].angular_velocity = {1.0, 2.0, -1.0};
             scene.bodies[1].velocity = {0.1, -0.4, 0.3};
-            JointDescription& joint = add_joint(scene, type, swapped ? 1 : 0, swapped ? 0 : 1, {0.3, 0.05, 0.0},
-                                                {1.0, 0.4, -0.3});
+            JointDescription& joint =
+                add_joint(scene, type, swapped ? 1 : 0, swapped ? 0 : 1, {0.3, 0.05, 0.0}, {1.0, 0.4, -0.3});
             if (type == JointType::six_dof)
                 for (JointAxis* axis : {&joint.move[0], &joint.move[2], &joint.turn[0], &joint.turn[1]})
                     axis->motion = JointAxis::Motion::free;

@@ -30,8 +30,7 @@ struct TreeScene {
     }
 
     TreeFlight::Outcome step(double h, IntegratorKind method = IntegratorKind::exact) {
-        const TreeFlight::Outcome outcome =
-            flight.advance({set.bodies, island, list, forces, time, h, 0.2}, method);
+        const TreeFlight::Outcome outcome = flight.advance({set.bodies, island, list, forces, time, h, 0.2}, method);
         time += h;
         return outcome;
     }

@@ -28,13 +28,13 @@ public:
 
     private:
         friend class ForwardDynamics;
-        SpatialMotion bias;      // c: of the acceleration, by the velocities
-        SpatialInertia inertia;  // I^A
-        SpatialForce effort;     // p^A
-        SpatialForce column;     // U = I^A S
-        double pivot = 0.0;        // 1 / (S^T U)
-        double drive = 0.0;        // u = tau - S^T p^A
-        Sym3 inverse;     // of a ball: D^-1
+        SpatialMotion bias;           // c: of the acceleration, by the velocities
+        SpatialInertia inertia;       // I^A
+        SpatialForce effort;          // p^A
+        SpatialForce column;          // U = I^A S
+        double pivot = 0.0;           // 1 / (S^T U)
+        double drive = 0.0;           // u = tau - S^T p^A
+        Sym3 inverse;                 // of a ball: D^-1
         Vec3 turning = Vec3::Zero();  // of a ball: u
     };
 

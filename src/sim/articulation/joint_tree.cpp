@@ -30,7 +30,7 @@ struct Sequence {
     const Joint& joint;
     bool forward;  // the parent is the joint's first body
     Side parent, child;
-    Quat relative;       // of the child's joint frame in the parent's
+    Quat relative;        // of the child's joint frame in the parent's
     JointGeometry shape;  // at the present poses
     std::vector<TreeNode>& nodes;
 
@@ -111,8 +111,7 @@ struct Sequence {
 double worst_error(const Joint& joint, const JointGeometry& shape) {
     double worst = 0.0;
     for (std::size_t k = 0; k < joint.count(); ++k)
-        if (joint.locked(k))
-            worst = std::max(worst, std::abs(shape.coordinates[k].value) / (k < 3 ? joint.size : 1.0));
+        if (joint.locked(k)) worst = std::max(worst, std::abs(shape.coordinates[k].value) / (k < 3 ? joint.size : 1.0));
     return worst;
 }
 

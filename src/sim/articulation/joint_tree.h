@@ -27,9 +27,9 @@ struct TreeNode {
     double sign = 1.0;            // of the joint's coordinate along the node's own
     int at = 0, speed_at = 0;     // first of its coordinates and of its speeds
     // In the parent's frame. A frame is along the principal axes of the body; its reference point is the joint's anchor.
-    Vec3 arm = Vec3::Zero();        // m, from the parent's reference to this one's, at a coordinate of 0
+    Vec3 arm = Vec3::Zero();         // m, from the parent's reference to this one's, at a coordinate of 0
     Quat turned = Quat::Identity();  // orientation at a coordinate of 0
-    Vec3 axis = Vec3::Zero();       // prismatic: in the parent's frame; revolute: in the node's own
+    Vec3 axis = Vec3::Zero();        // prismatic: in the parent's frame; revolute: in the node's own
     // Of the body.
     double mass = 0.0;                  // kg
     Vec3 inertia = Vec3::Zero();        // kg m^2, about the center of mass

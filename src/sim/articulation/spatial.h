@@ -32,7 +32,8 @@ struct Sym3 {
     double xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
 
     Vec3 operator*(const Vec3& v) const {
-        return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2], xz * v[0] + yz * v[1] + zz * v[2]};
+        return {xx * v[0] + xy * v[1] + xz * v[2], xy * v[0] + yy * v[1] + yz * v[2],
+                xz * v[0] + yz * v[1] + zz * v[2]};
     }
     Vec3 col(int i) const {
         if (i == 0) return {xx, xy, xz};
@@ -76,9 +77,9 @@ inline Sym3 symmetric(const Mat3& m) { return {m(0, 0), m(0, 1), m(0, 2), m(1, 1
 /// f = I a: moment = turning turn + mixed move, force = mixed^T turn + moving move. Of a rigid body or of a subtree
 /// (Featherstone's articulated-body inertia, section 7.1).
 struct SpatialInertia {
-    Sym3 turning;                // kg m^2
-    Mat3 mixed = Mat3::Zero();   // kg m
-    Sym3 moving;                 // kg
+    Sym3 turning;               // kg m^2
+    Mat3 mixed = Mat3::Zero();  // kg m
+    Sym3 moving;                // kg
 
     SpatialForce operator*(const SpatialMotion& a) const {
         return {turning * a.turn + mixed * a.move, mixed.transpose() * a.turn + moving * a.move};

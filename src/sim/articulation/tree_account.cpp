@@ -80,7 +80,8 @@ void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const
         const auto [body, index] = order[k];
         if (index == TreeNode::no_joint) continue;
         const Vec3 behind = impulses[std::size_t(body)];
-        if (const int above = tree_.parent_of(index); above != TreeNode::no_body) impulses[std::size_t(above)] += behind;
+        if (const int above = tree_.parent_of(index); above != TreeNode::no_body)
+            impulses[std::size_t(above)] += behind;
         const std::size_t j = std::size_t(index);
         const bool second = step_.joints[j]->b == step_.island[std::size_t(body)];
         const Sample &a = samples_[j], &b = ends[j];
@@ -89,8 +90,8 @@ void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const
         const Vec3 point = 0.5 * (a.point + b.point) + 0.125 * span * (a.rate - b.rate);
         const double third = span / 6.0;
         moments_[j] += third * (a.point.cross(a.force) + 4.0 * point.cross(middle) + b.point.cross(b.force));
-        carried_[j] += third * (frame_.place(time_).cross(a.force) + 4.0 * frame_.place(0.5 * (time_ + t)).cross(middle) +
-                                frame_.place(t).cross(b.force));
+        carried_[j] += third * (frame_.place(time_).cross(a.force) +
+                                4.0 * frame_.place(0.5 * (time_ + t)).cross(middle) + frame_.place(t).cross(b.force));
     }
 }
 
@@ -129,8 +130,7 @@ double TreeAccount::swing_rate() const {
             const Vec3 arm = node.principal.conjugate() * (joint.b == i ? joint.anchor_b : joint.anchor_a);
             // Compliance against turns about the principal axes, times the lever across each.
             double gives = 0.0;
-            for (int c = 0; c < 3; ++c)
-                gives = std::max(gives, Vec3::Unit(c).cross(arm).norm() / node.inertia[c]);
+            for (int c = 0; c < 3; ++c) gives = std::max(gives, Vec3::Unit(c).cross(arm).norm() / node.inertia[c]);
             double& sum = sums[std::size_t(place)];
             sum += samples_[k].force.norm() * gives / 3.0;
             most = std::max(most, sum);

@@ -54,13 +54,14 @@ private:
     const JointTree& tree_;
     const TreeStep& step_;
     const FallingFrame& frame_;
-    double time_ = 0.0;                     // s, of the last sample
+    double time_ = 0.0;  // s, of the last sample
     bool sampled_ = false;
-    std::vector<Start> starts_;             // by body
-    std::vector<Sample> samples_;           // by joint
-    std::vector<Vec3> momenta_, pushes_;    // N s, by body: of the last sample
-    std::vector<Vec3> moments_, carried_;   // N m s, by joint: integrals of point x force, and of the frame's place x force
-    std::vector<SpatialForce> forces_;    // by node
+    std::vector<Start> starts_;           // by body
+    std::vector<Sample> samples_;         // by joint
+    std::vector<Vec3> momenta_, pushes_;  // N s, by body: of the last sample
+    std::vector<Vec3> moments_,
+        carried_;                       // N m s, by joint: integrals of point x force, and of the frame's place x force
+    std::vector<SpatialForce> forces_;  // by node
 };
 
 }  // namespace tumble

@@ -92,8 +92,8 @@ bool TreeFlight::start() {
     dynamics_.move(y_.data(), y_.data() + coordinates_);
     std::vector<Impulse> momenta;
     for (const std::uint32_t i : step.island)
-        momenta.push_back({step.bodies[i].momentum - step.bodies[i].mass * frame_.velocity,
-                           step.bodies[i].angular_momentum});
+        momenta.push_back(
+            {step.bodies[i].momentum - step.bodies[i].mass * frame_.velocity, step.bodies[i].angular_momentum});
     dynamics_.fit_speeds(momenta, y_.data() + coordinates_);
     return y_.allFinite() && fits();
 }
@@ -162,7 +162,8 @@ double TreeFlight::error_of(const Vector& difference, double scale) const {
     double worst = 0.0;
     for (const TreeNode& node : tree_.nodes()) {
         for (int k = 0; k < node.coordinates(); ++k)
-            worst = std::max(worst, std::abs(difference[node.at + k]) / (is_length(node, k, false) ? step_->length : 1.0));
+            worst =
+                std::max(worst, std::abs(difference[node.at + k]) / (is_length(node, k, false) ? step_->length : 1.0));
         for (int k = 0; k < node.speeds(); ++k)
             worst = std::max(worst, std::abs(difference[coordinates_ + node.speed_at + k]) /
                                         (scale * (is_length(node, k, true) ? step_->length : 1.0)));
@@ -319,8 +320,9 @@ void TreeFlight::place() {
         body.momentum = body.mass * velocity;
         body.angular_momentum = body.rotation * (body.inertia_body * (body.rotation.transpose() * omega));
         left -= body.momentum;
-        moment_left -= body.angular_momentum +
-                       (link.position() + shift - place).cross(body.momentum - body.mass * (wanted / start_.mass + speed));
+        moment_left -=
+            body.angular_momentum +
+            (link.position() + shift - place).cross(body.momentum - body.mass * (wanted / start_.mass + speed));
         body.derive();
     }
     if (!free) return;
@@ -340,7 +342,8 @@ TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind met
         if (pushed_)
             for (const std::uint32_t i : step.island) next = std::min(next, step.forces.next_change(i, now));
         law_time_ = 0.5 * (now + next);
-        if (!integrate(next < end ? next - step.from : step.h, method == IntegratorKind::exact)) return Outcome::declined;
+        if (!integrate(next < end ? next - step.from : step.h, method == IntegratorKind::exact))
+            return Outcome::declined;
         now = next;
     }
     rate(y_);

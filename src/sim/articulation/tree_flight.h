@@ -35,9 +35,9 @@ public:
 
 private:
     using Vector = Eigen::VectorXd;
-    struct Totals {  // of a free tree
+    struct Totals {                                                     // of a free tree
         Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();  // about the center of mass
-        Vec3 center = Vec3::Zero();  // m, from the tree's origin
+        Vec3 center = Vec3::Zero();                                     // m, from the tree's origin
         double mass = 0.0;
     };
 

@@ -346,8 +346,9 @@ TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
     for (const std::uint32_t k : island.joints)
         joints.push_back(&problem.joints->joints()[problem.joints->active()[k]]);
     set_back(island);
-    return tree_flight_.advance({problem.bodies, island.bodies, joints, *problem.forces, island.from, problem.settings.h,
-                                 island.length}, *method);
+    return tree_flight_.advance(
+        {problem.bodies, island.bodies, joints, *problem.forces, island.from, problem.settings.h, island.length},
+        *method);
 }
 
 // The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.

@@ -11,8 +11,7 @@ void extrapolation_step(RigidState& state, const RigidMass& mass, const ForceLaw
     const StateVector y = vector_of(state);
     const StateVector first = rate(y);
     StateVector change = StateVector::Zero();
-    for (std::size_t k = 0; k < columns; ++k)
-        change += weight[k] * midpoint_change(y, first, h, counts[k], rate);
+    for (std::size_t k = 0; k < columns; ++k) change += weight[k] * midpoint_change(y, first, h, counts[k], rate);
     state = state_of(StateVector(y + change));
 }
 
