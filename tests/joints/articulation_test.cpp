@@ -81,16 +81,6 @@ struct Tree {
         }
         return columns;
     }
-    Eigen::MatrixXd masses() const {
-        const Eigen::Index n = Eigen::Index(scene.set.bodies.size());
-        Eigen::MatrixXd m = Eigen::MatrixXd::Zero(6 * n, 6 * n);
-        for (Eigen::Index i = 0; i < n; ++i) {
-            const Body& body = scene.set.bodies[std::size_t(i)];
-            m.block<3, 3>(6 * i, 6 * i) = body.mass * Mat3::Identity();
-            m.block<3, 3>(6 * i + 3, 6 * i + 3) = body.rotation * body.inertia_body * body.rotation.transpose();
-        }
-        return m;
-    }
 };
 
 TEST(Articulation, PlacesBodiesWhereTheyAre) {
@@ -109,24 +99,21 @@ TEST(Articulation, PlacesBodiesWhereTheyAre) {
     }
 }
 
-// Nearest speeds in the metric of kinetic energy: (A^T M A) s = A^T p with the motions A.
-TEST(Articulation, SpeedsOfGivenMomenta) {
+// Velocities that fit the joints give the speeds that they were made from.
+TEST(Articulation, SpeedsOfGivenVelocities) {
     Random random;
     for (int trial = 0; trial < 20; ++trial) {
         Tree t(random_tree(random, 12, trial % 2 == 0));
-        Eigen::VectorXd p(6 * Eigen::Index(t.scene.set.bodies.size()));
-        std::vector<Impulse> momenta;
-        for (Eigen::Index i = 0; i < p.size() / 6; ++i) {
-            momenta.push_back({random.vector(), random.vector()});
-            p.segment<3>(6 * i) = momenta.back().linear;
-            p.segment<3>(6 * i + 3) = momenta.back().angular;
-        }
-        const Eigen::MatrixXd a = t.motions();
-        const Eigen::VectorXd wanted = (a.transpose() * t.masses() * a).ldlt().solve(a.transpose() * p);
+        std::vector<double> wanted(t.speeds.size());
+        for (double& speed : wanted) speed = random(-2.0, 2.0);
+        t.dynamics.move(t.q.data(), wanted.data());
+        const Eigen::VectorXd u = velocities(t.tree, t.dynamics);
+        std::vector<SpatialMotion> given;
+        for (Eigen::Index i = 0; i < u.size() / 6; ++i) given.push_back({u.segment<3>(6 * i + 3), u.segment<3>(6 * i)});
         t.dynamics.move(t.q.data(), t.speeds.data());
-        t.dynamics.fit_speeds(momenta, t.rates.data());
-        const Eigen::VectorXd found = Eigen::VectorXd::Map(t.rates.data(), a.cols());
-        EXPECT_LT((a * (found - wanted)).norm(), 1e-11 * (a * wanted).norm());
+        t.dynamics.find_speeds(given, t.rates.data());
+        EXPECT_LT((velocities(t.tree, t.dynamics) - u).norm(), 1e-12 * u.norm());
+        for (std::size_t k = 0; k < wanted.size(); ++k) EXPECT_NEAR(t.rates[k], wanted[k], 1e-12 * u.norm());
     }
 }
 

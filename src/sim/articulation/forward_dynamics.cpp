@@ -253,16 +253,46 @@ void ForwardDynamics::coordinate_rates(const double* coordinates, const double* 
     }
 }
 
-// The same sweeps: I u - momenta in place of I a + p, and nothing else.
-void ForwardDynamics::fit_speeds(std::span<const Impulse> momenta, double* speeds) {
+// Each node's share of the velocity of the body at the end of its joint, relative to the node before, at the body's point.
+void ForwardDynamics::find_speeds(std::span<const SpatialMotion> bodies, double* speeds) {
     const std::vector<TreeNode>& nodes = tree_.nodes();
-    for (std::size_t i = 0; i < nodes.size(); ++i) {
-        if (nodes[i].body == TreeNode::no_body) continue;
-        const Impulse& given = momenta[std::size_t(nodes[i].body)];
-        push(int(i), {given.linear, given.angular});
+    for (std::size_t i = 0, end = 0; i < nodes.size(); ++i) {
+        if (end < i) end = i;
+        while (nodes[end].body == TreeNode::no_body) ++end;
+        const TreeNode& node = nodes[i];
+        Link& link = links_[i];
+        const Link &body = links_[end], &parent = above(node);
+        const SpatialMotion& given = bodies[std::size_t(nodes[end].body)];
+        const SpatialMotion& before = parent.velocity;
+        const Vec3 turn = given.turn - before.turn;
+        const Vec3 move =
+            given.move - given.turn.cross(body.center) - before.move - before.turn.cross(body.point - parent.point);
+        double* speed = speeds + node.speed_at;
+        link.velocity = {before.turn, before.move + before.turn.cross(link.arm)};
+        switch (node.kind) {
+            case NodeKind::fixed:
+                break;
+            case NodeKind::revolute:
+                speed[0] = link.axis.dot(turn);
+                link.velocity.turn += speed[0] * link.axis;
+                break;
+            case NodeKind::prismatic:
+                speed[0] = link.axis.dot(move);
+                link.velocity.move += speed[0] * link.axis;
+                break;
+            case NodeKind::ball:
+                for (int k = 0; k < 3; ++k) speed[k] = turn[k];
+                link.velocity.turn += turn;
+                break;
+            case NodeKind::free:
+                for (int k = 0; k < 3; ++k) {
+                    speed[k] = given.turn[k];
+                    speed[3 + k] = given.move[k];
+                }
+                link.velocity = given;
+                break;
+        }
     }
-    sweep_in();
-    sweep_out(Vec3::Zero(), speeds);
 }
 
 void ForwardDynamics::joint_forces(std::span<const Wrench> pushes, std::vector<SpatialForce>& forces) const {

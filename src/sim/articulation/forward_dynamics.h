@@ -51,9 +51,9 @@ public:
     /// Rates of the coordinates, after move().
     void coordinate_rates(const double* coordinates, const double* speeds, double* rates) const;
 
-    /// Speeds of the tree that are nearest to given momenta of its bodies, in the metric of kinetic energy; after move()
-    /// with speeds of 0. The joints give equal and opposite impulses. Leaves the velocities as the links' accelerations.
-    void fit_speeds(std::span<const Impulse> momenta, double* speeds);
+    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after move() with speeds of 0; and its
+    /// velocities at those speeds. They are the given ones if these fit the joints.
+    void find_speeds(std::span<const SpatialMotion> bodies, double* speeds);
 
     /// Force and moment (about the node's point) that the joint of each node gives to the rest of the tree behind it: by
     /// the recursive Newton-Euler algorithm (Featherstone 2008, Table 5.1), after accelerate().

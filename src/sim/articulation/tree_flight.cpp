@@ -3,7 +3,6 @@
 #include "sim/articulation/settings.h"
 #include "sim/dynamics/integrators/extrapolation.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
-#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <array>
@@ -20,34 +19,7 @@ bool is_length(const TreeNode& node, int k, bool speed) {
     return node.kind == TreeNode::Kind::free && (speed ? k >= 3 : k < 3);
 }
 
-// A sum with the rounding of its additions (Neumaier 1974): in slow motions that of a plain sum of places is the same from
-// step to step, and the center of mass would drift.
-struct CompensatedSum {
-    Vec3 sum = Vec3::Zero(), rest = Vec3::Zero();
-    void add(const Vec3& v) {
-        for (int i = 0; i < 3; ++i) {
-            const double t = sum[i] + v[i];
-            rest[i] += std::abs(sum[i]) >= std::abs(v[i]) ? (sum[i] - t) + v[i] : (v[i] - t) + sum[i];
-            sum[i] = t;
-        }
-    }
-    Vec3 value() const { return sum + rest; }
-};
-
 }  // namespace
-
-std::optional<IntegratorKind> TreeFlight::method_of(const std::vector<Body>& bodies,
-                                                    std::span<const std::uint32_t> island) {
-    bool exact = false, splitting = false, runge_kutta = false;
-    for (const std::uint32_t i : island) {
-        exact = exact || bodies[i].integrator == IntegratorKind::exact;
-        splitting = splitting || bodies[i].integrator == IntegratorKind::splitting;
-        runge_kutta = runge_kutta || bodies[i].integrator == IntegratorKind::runge_kutta_4;
-    }
-    if (exact) return IntegratorKind::exact;
-    if (runge_kutta && !splitting) return IntegratorKind::runge_kutta_4;
-    return std::nullopt;
-}
 
 // Of the bodies' present momenta, about their center of mass.
 TreeFlight::Totals TreeFlight::totals() const {
@@ -59,14 +31,12 @@ TreeFlight::Totals TreeFlight::totals() const {
         sum.angular_momentum += body.angular_momentum;
     }
     const Vec3 mean = sum.momentum / sum.mass;
-    CompensatedSum center;
     for (const std::uint32_t i : step_->island) {
         const Body& body = step_->bodies[i];
         const Vec3 place = body.position - tree_.origin();
         sum.angular_momentum += place.cross(body.momentum - body.mass * mean);
-        center.add(body.mass * place);
+        sum.center += body.mass / sum.mass * place;
     }
-    sum.center = center.value() / sum.mass;
     return sum;
 }
 
@@ -90,24 +60,22 @@ bool TreeFlight::start() {
     }
     tree_.start(y_.data());
     dynamics_.move(y_.data(), y_.data() + coordinates_);
-    std::vector<Impulse> momenta;
+    std::vector<SpatialMotion> velocities;
     for (const std::uint32_t i : step.island)
-        momenta.push_back(
-            {step.bodies[i].momentum - step.bodies[i].mass * frame_.velocity, step.bodies[i].angular_momentum});
-    dynamics_.fit_speeds(momenta, y_.data() + coordinates_);
+        velocities.push_back({step.bodies[i].angular_velocity, step.bodies[i].velocity - frame_.velocity});
+    dynamics_.find_speeds(velocities, y_.data() + coordinates_);
     return y_.allFinite() && fits();
 }
 
-// Whether the bodies' velocities are those of the tree, which fit_speeds() leaves in place of the accelerations.
+// Whether the bodies' velocities are those of the tree.
 bool TreeFlight::fits() const {
     double fastest = 0.0, off = 0.0;
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
         const Body& body = step_->bodies[step_->island[i]];
         const ForwardDynamics::Link& link = dynamics_.link(tree_.node_of_body()[i]);
         fastest = std::max({fastest, body.velocity.norm(), step_->length * body.angular_velocity.norm()});
-        const auto& [turn, move] = link.acceleration;
-        off = std::max({off, (move + turn.cross(link.center) + frame_.velocity - body.velocity).norm(),
-                        step_->length * (turn - body.angular_velocity).norm()});
+        off = std::max({off, (link.center_velocity() + frame_.velocity - body.velocity).norm(),
+                        step_->length * (link.velocity.turn - body.angular_velocity).norm()});
     }
     return off <= tuning::tree_misfit * fastest;
 }
@@ -236,9 +204,8 @@ bool TreeFlight::integrate(double until, bool exact) {
     for (bool fresh = true; done < span; fresh = false) {
         const Vector first = rate(y_);
         sample();
-        const double swing = account_->swing_rate(), scale = std::max(fastest(y_, first), swing);
-        if (fresh && exact) size = span / std::max(1.0, std::ceil(span * scale / tuning::tree_phase));
-        if (!exact) size = span / std::max(1.0, std::ceil(span * swing / tuning::joint_swing));
+        const double scale = std::max(fastest(y_, first), account_->swing_rate());
+        if (fresh || !exact) size = span / std::max(1.0, std::ceil(span * scale / tuning::tree_phase));
         // Equal steps over the rest.
         const double rest = span - done;
         size = rest / std::ceil(rest / size * (1.0 - 1e-12));
@@ -273,16 +240,14 @@ void TreeFlight::place() {
     Vec3 wanted = Vec3::Zero(), moment = start_.angular_momentum, place = start_.center;
     if (free) {
         Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
-        CompensatedSum sum;
         const auto link_of = [&](std::size_t i) -> const ForwardDynamics::Link& {
             return dynamics_.link(tree_.node_of_body()[i]);
         };
         for (std::size_t i = 0; i < n; ++i) {
             const double mass = step_->bodies[step_->island[i]].mass;
-            sum.add(mass * link_of(i).position());
+            center += mass / start_.mass * link_of(i).position();
             momentum += mass * link_of(i).center_velocity();
         }
-        center = sum.value() / start_.mass;
         const Vec3 mean = momentum / start_.mass;
         Mat3 inertia = Mat3::Zero();
         for (std::size_t i = 0; i < n; ++i) {

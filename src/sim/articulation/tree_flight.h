@@ -21,11 +21,6 @@ public:
         declined,  // no tree, or its joints have come apart
         stopped,   // a limit is met, or a joint breaks: a step for the solver of contacts
     };
-    /// The method that moves the bodies of an island whose joints are a tree: extrapolation where one of them is exact, the
-    /// method of Runge and Kutta where all others are not symplectic of higher order.
-    static std::optional<IntegratorKind> method_of(const std::vector<Body>& bodies,
-                                                   std::span<const std::uint32_t> island);
-
     /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
     /// and joints, and leaves them in any state where they have not flown.
     Outcome advance(const TreeStep& step, IntegratorKind method);

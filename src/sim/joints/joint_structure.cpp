@@ -1,5 +1,7 @@
 #include "sim/joints/joint_structure.h"
 
+#include "sim/joints/flight_way.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
@@ -103,6 +105,17 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
     }
 }
 
+void add_way(const Group& group, bool tree, const JointSet& joints, const std::vector<Body>& bodies,
+             JointReport& report) {
+    for (const std::uint32_t i : group.bodies)
+        if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
+    for (const std::uint32_t k : group.joints) {
+        if (!only_locks(joints.joints()[k], bodies)) return void(++report.by_rows);
+        tree = tree && !joints.joints()[k].distance();
+    }
+    ++(tree && tree_method(bodies, group.bodies) ? report.by_coordinates : report.by_rattle);
+}
+
 }  // namespace
 
 JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies) {
@@ -119,6 +132,7 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
         report.loops += loops;
         report.rows += group.rows;
         report.redundant += group.rows - rank;
+        add_way(group, loops == 0, joints, bodies, report);
         report.counted = report.counted && small;
     }
     find_extremes(joints, bodies, report);

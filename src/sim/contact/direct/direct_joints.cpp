@@ -7,6 +7,7 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
 #include "sim/math/keyframe_track.h"
 
@@ -340,7 +341,7 @@ void DirectSolver::set_back(const JointIsland& island) {
 // In joint coordinates, if the joints form a tree and the integrator is one for such coordinates.
 TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
     const ContactProblem& problem = island.problem;
-    const auto method = TreeFlight::method_of(problem.bodies, island.bodies);
+    const auto method = tree_method(problem.bodies, island.bodies);
     if (!method || !problem.forces) return TreeFlight::Outcome::declined;
     std::vector<Joint*> joints;
     for (const std::uint32_t k : island.joints)
