@@ -268,7 +268,7 @@ void TreeFlight::place() {
         turn = inertia.inverse() * (moment - angular);
         push = wanted / start_.mass - mean;
     }
-    // What rounding leaves of the momenta goes to the root.
+    // The rounding of the momenta goes to the root.
     Vec3 left = start_.momentum + start_.mass * h * frame_.gravity + wanted, moment_left = moment;
     const Vec3 base = free ? frame_.place(h) : frame_.origin, speed = free ? frame_.speed(h) : Vec3(Vec3::Zero());
     // The rounding of the frame's place is the same in each step, and would add up.
