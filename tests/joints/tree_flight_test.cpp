@@ -193,6 +193,53 @@ TEST(TreeFlight, StopsAtALimitAndAtAStrength) {
     EXPECT_NEAR(weak.list[0]->broken_at, 0.300354695438428074, 1.0 / 960.0);
 }
 
+// A ball of ten thousand and of a million times the mass of its links, which swing fast under tension: evaluations in
+// proportion to that rate where the error can be reached, and no more where rounding hides it.
+TEST(TreeFlight, LightLinksBetweenHeavyBodies) {
+    for (const double mass : {1e4, 1e6}) {
+        SceneDescription scene;
+        const Vec3 along(0.5, -std::sqrt(0.75), 0.0);
+        for (std::size_t i = 0; i < 5; ++i) {
+            add_box(scene, {0.02, 0.1, 0.02}, (0.05 + 0.1 * double(i)) * along).rotation =
+                turn(Vec3::UnitZ(), pi / 6.0);
+            add_joint(scene, JointType::ball, i == 0 ? std::nullopt : std::optional<std::size_t>(i - 1), i,
+                      0.1 * double(i) * along);
+        }
+        add_sphere(scene, 0.2, 0.7 * along).mass = mass;
+        add_joint(scene, JointType::ball, 4, 5, 0.5 * along);
+        TreeScene t(scene);
+        const double energy = t.energy();
+        for (int k = 0; k < 20; ++k) {
+            const Outcome outcome = t.step(1.0 / 960.0);
+            EXPECT_LT(t.flight.evaluations(), 30000);
+            if (mass > 1e5 && outcome == Outcome::declined) break;
+            ASSERT_EQ(outcome, Outcome::flown);
+            EXPECT_NEAR(t.energy(), energy, 1e-11 * std::abs(energy));
+        }
+    }
+}
+
+// Fast turns in long steps: more parts of a step, and whole turns counted.
+TEST(TreeFlight, FastTurns) {
+    for (const IntegratorKind method : {IntegratorKind::exact, IntegratorKind::runge_kutta_4}) {
+        SceneDescription scene = empty_scene();
+        add_box(scene, {1.0, 0.1, 0.1}, Vec3::Zero()).angular_velocity = {0.0, 0.0, 1e4};
+        add_joint(scene, JointType::hinge, std::nullopt, 0, Vec3::Zero(), Vec3::UnitZ());
+        TreeScene hinge(scene);
+        for (int k = 0; k < 60; ++k) ASSERT_EQ(hinge.step(1.0 / 60.0, method), Outcome::flown);
+        EXPECT_NEAR(hinge.list[0]->value[3], 1e4, 1e-6);
+        scene = empty_scene();
+        BodyDescription& box = add_box(scene, {1.0, 0.1, 0.1}, {0.5, 0.0, 0.0});
+        box.angular_velocity = {300.0, 20.0, 10.0};
+        box.velocity = box.angular_velocity.cross(box.position);
+        add_joint(scene, JointType::ball, std::nullopt, 0, Vec3::Zero());
+        TreeScene ball(scene);
+        const double energy = ball.energy();
+        for (int k = 0; k < 60; ++k) ASSERT_EQ(ball.step(1.0 / 60.0, method), Outcome::flown);
+        EXPECT_NEAR(ball.energy(), energy, (method == IntegratorKind::exact ? 1e-11 : 0.05) * energy);
+    }
+}
+
 // By joint coordinates and by RATTLE: the same motion and the same forces, for each type and both orders of the bodies.
 TEST(TreeFlight, AgreesWithRattle) {
     for (const JointType type : {JointType::fixed, JointType::hinge, JointType::ball, JointType::slider,

@@ -4,8 +4,6 @@
 
 namespace tumble {
 
-using NodeKind = TreeNode::Kind;
-
 namespace {
 
 Quat quaternion_at(const double* q) { return Quat(q[3], q[0], q[1], q[2]).normalized(); }

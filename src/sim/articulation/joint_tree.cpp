@@ -55,12 +55,12 @@ struct Sequence {
         if (free == 1) {
             const Vec3 axis = Vec3::Unit(last_free);
             const auto [c, s] = unit(relative.w(), relative.vec()[last_free]);
-            TreeNode& node = add(TreeNode::Kind::revolute, std::size_t(3 + last_free));
+            TreeNode& node = add(NodeKind::revolute, std::size_t(3 + last_free));
             node.turned = (entry * about(axis, c, s) * exit.conjugate()).normalized();
             node.axis = exit * axis;
         }
         if (free == 2) add_universal(last_locked, entry, exit);
-        if (free == 3) add(TreeNode::Kind::ball, 3).turned = (entry * relative * exit.conjugate()).normalized();
+        if (free == 3) add(NodeKind::ball, 3).turned = (entry * relative * exit.conjugate()).normalized();
         return false;
     }
 
@@ -73,10 +73,10 @@ struct Sequence {
         const double z = forward ? relative.vec()[locked] : -relative.vec()[locked];
         const auto [cm, sm] = std::hypot(w, x) >= std::hypot(y, z) ? unit(w, x) : unit(y, z);
         const auto [cn, sn] = unit(w * cm + x * sm, y * cm + z * sm);
-        TreeNode& first = add(TreeNode::Kind::revolute, std::size_t(3 + m));
+        TreeNode& first = add(NodeKind::revolute, std::size_t(3 + m));
         first.turned = (entry * about(Vec3::Unit(m), cm, sm)).normalized();
         first.axis = Vec3::Unit(m);
-        TreeNode& second = add(TreeNode::Kind::revolute, std::size_t(3 + n));
+        TreeNode& second = add(NodeKind::revolute, std::size_t(3 + n));
         second.turned = (about(Vec3::Unit(n), cn, sn) * exit.conjugate()).normalized();
         second.axis = exit * Vec3::Unit(n);
     }
@@ -90,13 +90,13 @@ struct Sequence {
         bool welded = false;
         if (!forward || moves.empty()) welded = add_turns(parent.frame, child.frame);
         if (welded && moves.empty()) {
-            add(TreeNode::Kind::fixed, 0).turned = weld;
+            add(NodeKind::fixed, 0).turned = weld;
             return;
         }
         Quat frame = parent.frame;
         if (!forward && !welded) frame = child.frame;  // behind the rotations
         for (const std::size_t k : moves) {
-            TreeNode& node = add(TreeNode::Kind::prismatic, k);
+            TreeNode& node = add(NodeKind::prismatic, k);
             node.axis = frame * Vec3::Unit(int(k));
             node.arm = node.sign * shape.coordinates[k].value * node.axis;
             if (!forward && welded && k == moves.front()) {
@@ -255,7 +255,7 @@ bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint3
         ground_ = Quat::Identity();
         const Body& body = bodies[island[std::size_t(link.body)]];
         TreeNode& root = nodes_.emplace_back();
-        root.kind = TreeNode::Kind::free;
+        root.kind = NodeKind::free;
         root.arm = body.position - origin_;
         root.turned = (body.orientation * body.principal_axes).normalized();
         set_body(root, link.body, body);
@@ -273,11 +273,11 @@ bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint3
 void JointTree::start(double* coordinates) const {
     for (const TreeNode& node : nodes_) {
         double* q = coordinates + node.at;
-        if (node.kind == TreeNode::Kind::revolute || node.kind == TreeNode::Kind::prismatic) q[0] = 0.0;
-        if (node.kind == TreeNode::Kind::free) {
+        if (node.kind == NodeKind::revolute || node.kind == NodeKind::prismatic) q[0] = 0.0;
+        if (node.kind == NodeKind::free) {
             for (int i = 0; i < 3; ++i) *q++ = node.arm[i];
         }
-        if (node.kind == TreeNode::Kind::ball || node.kind == TreeNode::Kind::free)
+        if (node.kind == NodeKind::ball || node.kind == NodeKind::free)
             for (int i = 0; i < 4; ++i) q[i] = node.turned.coeffs()[i];
     }
 }

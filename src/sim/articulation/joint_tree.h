@@ -46,6 +46,8 @@ struct TreeNode {
     }
 };
 
+using NodeKind = TreeNode::Kind;
+
 class JointTree {
 public:
     /// Whether the joints form a tree of these bodies (indices, ascending), which hangs on at most one joint to the world,
@@ -53,7 +55,7 @@ public:
     bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints);
 
     const std::vector<TreeNode>& nodes() const { return nodes_; }
-    bool is_free() const { return nodes_.front().kind == TreeNode::Kind::free; }
+    bool is_free() const { return nodes_.front().kind == NodeKind::free; }
     /// Node of each body of the island.
     std::span<const int> node_of_body() const { return node_of_; }
     /// Body at the side of the joint (index among the island's joints) that is farther from the root.

@@ -7,12 +7,17 @@ namespace tumble::tuning {
 /// its results are as near to each other as rounding allows. Related test: TreeFlight.ADoublePendulumToTheLastDigits.
 inline constexpr double tree_tolerance = 2e-15;
 
+/// Error in units of that tolerance which may be rounding. Related test: TreeFlight.LightLinksBetweenHeavyBodies.
+inline constexpr double tree_rounding = 1e5;
+
 /// Phase, rad, of the first step that is tried: of the fastest turn, of the fastest change of a turn, and of the swing of a
 /// link under tension. Not fitted: the error decides.
 inline constexpr double tree_phase = 0.5;
 
-/// Largest number of steps in a span. Not fitted: a bound of the cost.
-inline constexpr int tree_most_steps = 4096;
+/// Largest number of such steps in a span, and the number of parts of one in which the error must be reached: else the
+/// rows advance the bodies. Not fitted: bounds of the cost.
+inline constexpr int tree_most_steps = 1024;
+inline constexpr int tree_shortest = 16;
 
 /// Gaps up to this share of the smaller body are closed at the start of a step, and speeds that miss the joints by this
 /// share of the fastest one are fitted. Not fitted to a case: above rounding, and the energy changes by its square.

@@ -15,8 +15,8 @@ constexpr int pushed_numbers = 7;  // by body
 
 // m / length where a coordinate is a displacement.
 bool is_length(const TreeNode& node, int k, bool speed) {
-    if (node.kind == TreeNode::Kind::prismatic) return true;
-    return node.kind == TreeNode::Kind::free && (speed ? k >= 3 : k < 3);
+    if (node.kind == NodeKind::prismatic) return true;
+    return node.kind == NodeKind::free && (speed ? k >= 3 : k < 3);
 }
 
 }  // namespace
@@ -180,8 +180,8 @@ double TreeFlight::extrapolate(const Vector& first, double h, double scale, Vect
 
 void TreeFlight::normalize() {
     for (const TreeNode& node : tree_.nodes()) {
-        if (node.kind == TreeNode::Kind::ball) y_.segment<4>(node.at).normalize();
-        if (node.kind == TreeNode::Kind::free) y_.segment<4>(node.at + 3).normalize();
+        if (node.kind == NodeKind::ball) y_.segment<4>(node.at).normalize();
+        if (node.kind == NodeKind::free) y_.segment<4>(node.at + 3).normalize();
     }
 }
 
@@ -199,20 +199,25 @@ std::vector<PushedImpulse> TreeFlight::pushed_impulses() const {
 void TreeFlight::sample() { account_->sample(dynamics_, time_, pushes_, pushed_impulses()); }
 
 bool TreeFlight::integrate(double until, bool exact) {
-    const double span = until - time_, least = span / tuning::tree_most_steps, begin = time_;
+    const double span = until - time_, begin = time_;
     double size = span, done = 0.0;
     for (bool fresh = true; done < span; fresh = false) {
         const Vector first = rate(y_);
         sample();
         const double scale = std::max(fastest(y_, first), account_->swing_rate());
+        if (span * scale > tuning::tree_phase * tuning::tree_most_steps) return false;
+        const double least = tuning::tree_phase / (scale * tuning::tree_shortest);
         if (fresh || !exact) size = span / std::max(1.0, std::ceil(span * scale / tuning::tree_phase));
         // Equal steps over the rest.
         const double rest = span - done;
         size = rest / std::ceil(rest / size * (1.0 - 1e-12));
         Vector change = Vector::Zero(y_.size());
         if (exact) {
-            double error = extrapolate(first, size, scale, change);
-            while (!(error <= 1.0) && size > least) {
+            double error = extrapolate(first, size, scale, change), last = infinity;
+            // An error that half a step does not make much smaller is rounding: of masses far apart.
+            while (!(error <= 1.0) && !(error > 0.25 * last && error < tuning::tree_rounding)) {
+                if (size < least) return false;
+                last = error;
                 size *= 0.5;
                 error = extrapolate(first, size, scale, change);
             }
@@ -297,6 +302,13 @@ void TreeFlight::place() {
     root.derive();
 }
 
+// Of angles more than half a turn from those of the start, which the poses do not show.
+void TreeFlight::count_turns() {
+    for (const TreeNode& node : tree_.nodes())
+        if (node.kind == NodeKind::revolute)
+            step_->joints[std::size_t(node.joint)]->value[node.coordinate] += node.sign * y_[node.at];
+}
+
 TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
     step_ = &step;
     if (!start()) return Outcome::declined;
@@ -314,6 +326,7 @@ TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind met
     rate(y_);
     sample();
     place();
+    count_turns();
     return account_->finish(pushed_impulses()) ? Outcome::flown : Outcome::stopped;
 }
 

@@ -16,6 +16,10 @@ namespace tumble {
 
 class TreeFlight {
 public:
+    TreeFlight() = default;
+    TreeFlight(const TreeFlight&) = delete;  // the dynamics refer to the tree
+    TreeFlight& operator=(const TreeFlight&) = delete;
+
     enum class Outcome {
         flown,
         declined,  // no tree, or its joints have come apart
@@ -48,6 +52,7 @@ private:
     void normalize();
     void sample();
     void place();
+    void count_turns();
     std::vector<PushedImpulse> pushed_impulses() const;
 
     const TreeStep* step_ = nullptr;
