@@ -54,6 +54,20 @@ void JointSet::end_step() {
     }
 }
 
+void JointSet::take_blows() {
+    for (Joint& joint : joints_) {
+        JointAccount& account = joint.account;
+        if (account.blows.solves == 0) continue;
+        joint.force += account.blows.load.force / (to_ - from_);
+        joint.torque += account.blows.load.torque / (to_ - from_);
+        account.frame.load.add(account.blows.load);
+        account.frame.work_a += account.blows.work_a;
+        account.frame.work_b += account.blows.work_b;
+        account.work.add(account.blows.work);
+        account.blows = {};
+    }
+}
+
 // Joints of sleeping bodies give their last forces in the steps without a solve.
 void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
     for (Joint& joint : joints_) {

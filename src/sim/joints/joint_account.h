@@ -67,14 +67,15 @@ struct JointAccount {
         }
     };
     Span step, frame;
+    Span blows;          // of impacts in this step, apart from the solve
     JointLoad mean;      // N and N m, over the last frame
     JointWork work;      // since the start
     bool holds = false;  // has held its bodies: the work of its locks is then no impact
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [step, frame, mean, work, holds] = self;
-        archive.scratch(step, frame);
+        auto& [step, frame, blows, mean, work, holds] = self;
+        archive.scratch(step, frame, blows);
         archive.keep(mean, work, holds);
     }
 };

@@ -45,10 +45,13 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
     colliding_.clear();
     contacts_.clear();
     for (std::size_t k = 0; k < islands.size(); ++k) {
-        if (!islands.joints(k).empty()) continue;  // bounces with its joints, in the contact solver
         if (!collides(k, detection, bodies, threshold(step))) continue;
         Island& island = colliding_.emplace_back();
         island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+        for (const std::uint32_t j : islands.joints(k)) {
+            Joint& joint = step.joints.joints()[step.joints.active()[j]];
+            if (!joint.broken) island.joints.push_back(&joint);
+        }
         for (const std::uint32_t m : islands.manifolds(k)) {
             struck_.push_back(m);
             impulses_before_.push_back(normal_impulse(manifolds[m]));
@@ -58,14 +61,10 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
         }
     }
     if (struck_.empty()) return;
-    const ImpactSettings impacts{.threshold = threshold(step),
-                                 .slow = tuning::impact_slow * threshold(step),
-                                 .law = step.settings.impact_law,
-                                 .friction = true};
     traces_.assign(step.log ? colliding_.size() : 0, {});
-    step.pool.for_each(colliding_.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
-        resolve_impacts(colliding_[i], contacts_, bodies, impacts, step.log ? &traces_[i] : nullptr);
-    });
+    blows_.assign(colliding_.size(), {});
+    step.pool.for_each(colliding_.size(), tuning::parallel_grain,
+                       [&](std::size_t i, std::size_t) { resolve_island(step, i); });
     for (const ImpactTrace& trace : traces_) step.log->add_impact(trace, contacts_, bodies, step.impact_time());
     std::size_t next = 0;
     for (const std::uint32_t k : struck_) {
@@ -75,6 +74,31 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
             if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
         }
     }
+    for (const std::vector<JointBlow>& blows : blows_)
+        for (const JointBlow& blow : blows) take_blow(blow, bodies);
+}
+
+// Impacts that are too large, or too strong for a joint, are left to the contact solver, whose joints give way.
+void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
+    const ImpactSettings impacts{.threshold = threshold(step),
+                                 .slow = tuning::impact_slow * threshold(step),
+                                 .law = step.settings.impact_law,
+                                 .friction = true};
+    Island& island = colliding_[index];
+    std::vector<Body>& bodies = step.set.bodies;
+    ImpactTrace* trace = step.log ? &traces_[index] : nullptr;
+    std::vector<JointBlow>& blows = blows_[index];
+    const int passes = resolve_impacts(island, contacts_, bodies, impacts, trace, &blows);
+    const bool breaks =
+        std::any_of(blows.begin(), blows.end(), [&](const JointBlow& blow) { return blow.over(step.h) > 1.0; });
+    if (passes != too_large && !breaks) return;
+    for (const std::uint32_t i : island.bodies) bodies[i].derive_velocities();
+    for (const std::uint32_t k : island.contacts) {
+        contacts_[k].impact = contacts_[k].bounce_velocity = 0.0;
+        contacts_[k].impact_friction.setZero();
+    }
+    blows.clear();
+    if (trace) *trace = {};
 }
 
 void ImpactStage::hold_bounces(const StepContext& step) {

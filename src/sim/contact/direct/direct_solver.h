@@ -18,7 +18,7 @@
 // Lengths are measured in the island's mean radius, so that rotation and translation have equal weight.
 #pragma once
 
-#include "sim/contact/direct/block_cholesky.h"
+#include "sim/math/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_flight.h"
 #include "sim/contact/direct/joint_rows.h"

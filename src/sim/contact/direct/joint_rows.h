@@ -11,7 +11,7 @@
 // Rows of angles are scaled by the island's length, as the angular velocities are: all rows are in m/s and N s.
 #pragma once
 
-#include "sim/contact/direct/block_cholesky.h"
+#include "sim/math/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
