@@ -132,7 +132,7 @@ void World::State::run_stages(const StepContext& step) {
     solve_contacts(step);              // non-penetration, friction and joints
     joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
-    joints.take_blows();
+    joints.take_events();
 }
 
 // Joints that begin or end to hold in this step, or are driven in it, wake their bodies.
@@ -163,7 +163,7 @@ void World::State::advance(std::int64_t to) {
     while (steps < to) {
         if (log) list_asleep();
         const std::int64_t reached = motion->skip_steps(context(), to);
-        joints.take_blows();
+        joints.take_events();
         if (reached == steps) {
             step();
         } else {

@@ -54,17 +54,17 @@ void JointSet::end_step() {
     }
 }
 
-void JointSet::take_blows() {
+void JointSet::take_events() {
     for (Joint& joint : joints_) {
         JointAccount& account = joint.account;
-        if (account.blows.solves == 0) continue;
-        joint.force += account.blows.load.force / (to_ - from_);
-        joint.torque += account.blows.load.torque / (to_ - from_);
-        account.frame.load.add(account.blows.load);
-        account.frame.work_a += account.blows.work_a;
-        account.frame.work_b += account.blows.work_b;
-        account.work.add(account.blows.work);
-        account.blows = {};
+        if (account.events.solves == 0) continue;
+        joint.force += account.events.load.force / (to_ - from_);
+        joint.torque += account.events.load.torque / (to_ - from_);
+        account.frame.load.add(account.events.load);
+        account.frame.work_a += account.events.work_a;
+        account.frame.work_b += account.events.work_b;
+        account.work.add(account.events.work);
+        account.events = {};
     }
 }
 

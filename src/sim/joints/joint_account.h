@@ -66,16 +66,26 @@ struct JointAccount {
             ++solves;
         }
     };
+    /// A flight, or a solve, between events.
+    void take_flight(const Span& span) {
+        events.load.add(span.load);
+        events.work_a += span.work_a;
+        events.work_b += span.work_b;
+        events.work.add(span.work);
+        ++events.solves;
+        holds = true;
+    }
+
     Span step, frame;
-    Span blows;          // of impacts in this step, apart from the solve
+    Span events;         // of impacts, and flights between them, in this step: apart from the solve
     JointLoad mean;      // N and N m, over the last frame
     JointWork work;      // since the start
     bool holds = false;  // has held its bodies: the work of its locks is then no impact
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [step, frame, blows, mean, work, holds] = self;
-        archive.scratch(step, frame, blows);
+        auto& [step, frame, events, mean, work, holds] = self;
+        archive.scratch(step, frame, events);
         archive.keep(mean, work, holds);
     }
 };

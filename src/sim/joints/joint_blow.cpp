@@ -20,7 +20,7 @@ void take_blow(const JointBlow& blow, std::vector<Body>& bodies) {
     };
     add(blow.joint->a, -1.0);
     add(blow.joint->b, 1.0);
-    JointAccount::Span& account = blow.joint->account.blows;
+    JointAccount::Span& account = blow.joint->account.events;
     account.load.add({blow.force, blow.torque, blow.point.cross(blow.force) + blow.torque});
     account.work_a += blow.work_a;
     account.work_b += blow.work_b;

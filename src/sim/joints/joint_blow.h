@@ -14,7 +14,7 @@ struct JointBlow {
     Vec3 torque = Vec3::Zero();         // N m s
     Vec3 point = Vec3::Zero();          // m, world
     double work_a = 0.0, work_b = 0.0;  // J, on each body
-    double lost = 0.0;                  // J, at the joint's limits
+    double lost = 0.0;                  // J, at the joint's limits: by their mean speeds before and after the impact
 
     /// How far the blow exceeds the joint's strength, at most 1 where it holds. A force is the mean over `h` s.
     double over(double h) const;

@@ -47,8 +47,8 @@ public:
     void begin_frame();
     /// After the solve of a step, and after the last of the `steps` of a frame, each of `h` s.
     void end_step();
-    /// After the impacts of a step: adds them to the loads and accounts.
-    void take_blows();
+    /// After the impacts of a step, and flights between them: adds them to the loads and accounts.
+    void take_events();
     void end_frame(int steps, double h, const std::vector<Body>& bodies);
     /// Of the present poses, and since the start of the accounts.
     JointEnergies energies(const std::vector<Body>& bodies) const;

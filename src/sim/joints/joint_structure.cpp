@@ -1,23 +1,16 @@
 #include "sim/joints/joint_structure.h"
 
+#include "sim/joints/joint_groups.h"
+
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <map>
-#include <numeric>
 
 namespace tumble {
 namespace {
 
 constexpr std::size_t most_rows = 600;    // of a group whose rank is found: a second or less
 constexpr double dependent_share = 1e-9;  // pivots below this share of the largest are rounding of the poses
-
-struct Group {
-    std::vector<std::uint32_t> bodies;  // ascending
-    std::vector<std::uint32_t> joints;
-    std::size_t rows = 0;
-    bool anchored = false;  // by a joint to the world, or to a body that is not dynamic
-};
 
 bool is_dynamic(const std::vector<Body>& bodies, std::uint32_t i) { return i != Joint::world && bodies[i].dynamic(); }
 
@@ -27,42 +20,19 @@ std::size_t locked_rows(const Joint& joint) {
     return rows;
 }
 
-std::vector<Group> groups_of(const JointSet& joints, const std::vector<Body>& bodies) {
-    std::vector<std::uint32_t> parent(bodies.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
-    for (const BodyPair& pair : joints.pairs())
-        if (is_dynamic(bodies, pair.a) && is_dynamic(bodies, pair.b)) parent[root(pair.a)] = root(pair.b);
-    std::map<std::uint32_t, Group> groups;
-    for (const std::uint32_t k : joints.active()) {
-        const Joint& joint = joints.joints()[k];
-        const bool a = is_dynamic(bodies, joint.a), b = is_dynamic(bodies, joint.b);
-        if (!a && !b) continue;
-        Group& group = groups[root(a ? joint.a : joint.b)];
-        group.joints.push_back(k);
-        group.rows += locked_rows(joint);
-        group.anchored = group.anchored || !a || !b;
-        if (a) group.bodies.push_back(joint.a);
-        if (b) group.bodies.push_back(joint.b);
-    }
-    std::vector<Group> list;
-    for (auto& [first, group] : groups) {
-        std::sort(group.bodies.begin(), group.bodies.end());
-        group.bodies.erase(std::unique(group.bodies.begin(), group.bodies.end()), group.bodies.end());
-        list.push_back(std::move(group));
-    }
-    return list;
+std::size_t locked_rows(const JointGroup& group, const JointSet& joints) {
+    std::size_t rows = 0;
+    for (const std::uint32_t k : group.joints) rows += locked_rows(joints.joints()[k]);
+    return rows;
 }
 
 // Rank of the rows of the locked coordinates over the velocities of the group's bodies.
-std::size_t rank_of(const Group& group, const JointSet& joints, const std::vector<Body>& bodies) {
-    if (group.rows == 0) return 0;
+std::size_t rank_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
+    const std::size_t rows = locked_rows(group, joints);
+    if (rows == 0) return 0;
     double length = 0.0;  // m, that scales angular velocities
     for (const std::uint32_t i : group.bodies) length += bodies[i].radius / double(group.bodies.size());
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(Eigen::Index(group.rows), Eigen::Index(6 * group.bodies.size()));
+    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(Eigen::Index(rows), Eigen::Index(6 * group.bodies.size()));
     Eigen::Index row = 0;
     for (const std::uint32_t index : group.joints) {
         const Joint& joint = joints.joints()[index];
@@ -107,18 +77,19 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
 
 JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies) {
     JointReport report;
-    for (const Group& group : groups_of(joints, bodies)) {
+    for (const JointGroup& group : find_joint_groups(joints, bodies)) {
+        const std::size_t rows = locked_rows(group, joints);
         const std::size_t nodes = group.bodies.size() + group.anchored, columns = 6 * group.bodies.size();
         const std::size_t loops = group.joints.size() + 1 - nodes;
-        const bool small = group.rows <= most_rows;
-        const std::size_t rank = small ? rank_of(group, joints, bodies) : std::min(group.rows, columns);
+        const bool small = rows <= most_rows;
+        const std::size_t rank = small ? rank_of(group, joints, bodies) : std::min(rows, columns);
         report.bodies += group.bodies.size();
         report.degrees_of_freedom += columns - rank;
         ++report.groups;
         report.trees += loops == 0;
         report.loops += loops;
-        report.rows += group.rows;
-        report.redundant += group.rows - rank;
+        report.rows += rows;
+        report.redundant += rows - rank;
         report.counted = report.counted && small;
     }
     find_extremes(joints, bodies, report);

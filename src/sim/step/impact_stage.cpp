@@ -65,7 +65,8 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
     blows_.assign(colliding_.size(), {});
     step.pool.for_each(colliding_.size(), tuning::parallel_grain,
                        [&](std::size_t i, std::size_t) { resolve_island(step, i); });
-    for (const ImpactTrace& trace : traces_) step.log->add_impact(trace, contacts_, bodies, step.impact_time());
+    for (std::size_t i = 0; i < traces_.size(); ++i)
+        step.log->add_impact(traces_[i], contacts_, bodies, step.impact_time(), blows_[i]);
     std::size_t next = 0;
     for (const std::uint32_t k : struck_) {
         for (int i = 0; i < manifolds[k].count; ++i) {
