@@ -205,14 +205,20 @@ double JointRows::rounding(double fastest) const {
     return 4.0 * std::numeric_limits<double>::epsilon() * fastest / compliance_;
 }
 
+double JointRows::smallest_size() const {
+    double size = infinity;
+    for (const Block& block : blocks_) size = std::min(size, joint(block).size);
+    return size;
+}
+
+double JointRows::place_rounding() const {
+    double farthest = 0.0;
+    for (const Block& block : blocks_) farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+    return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest_size();
+}
+
 double JointRows::rounding(const JointIsland& island, double fastest, double lightest) const {
-    double size = infinity, farthest = 0.0;
-    for (const Block& block : blocks_) {
-        size = std::min(size, joint(block).size);
-        farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
-    }
-    const double places = 2.0 * std::numeric_limits<double>::epsilon() * farthest;
-    return (places + island.problem.settings.h * rounding(fastest) / lightest) / size;
+    return place_rounding() + island.problem.settings.h * rounding(fastest) / (lightest * smallest_size());
 }
 
 bool JointRows::give_way() {

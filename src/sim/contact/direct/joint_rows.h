@@ -108,6 +108,8 @@ public:
 
     /// Rounding of the impulses (N s) at speeds up to `fastest` (m/s), over the compliance.
     double rounding(double fastest) const;
+    /// Rounding of the coordinates, in sizes of the joint.
+    double place_rounding() const;
     /// Rounding of the closed errors, in sizes of the joint: that of the coordinates, and that of the impulses on the
     /// lightest body (kg).
     double rounding(const JointIsland& island, double fastest, double lightest) const;
@@ -160,6 +162,7 @@ private:
     void follow_load(const Block& block);
     JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
     void push_row(const Row& row);
+    double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
 
     std::vector<Joint>* joints_ = nullptr;
