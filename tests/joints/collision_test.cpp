@@ -158,10 +158,11 @@ TEST(JointCollision, TheLoadOfAFrameHasTheBlow) {
         SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
         scene.simulation.impacts = mode;
         scene.bodies[0].restitution = 0.8;
+        scene.bodies[0].friction = 0.0;
         add_body(scene, PlaneShape{Vec3::UnitX(), -0.3}, Vec3::Zero()).type = BodyType::fixed;
         World world(scene);
         world.record_contacts();
-        const double frame = 1.0 / scene.output.fps, start = energy_of(world);
+        const double frame = 1.0 / scene.output.fps;
         double lost = 0.0;
         std::size_t blows = 0;
         for (int n = 0; n < 90; ++n) {
@@ -176,13 +177,12 @@ TEST(JointCollision, TheLoadOfAFrameHasTheBlow) {
             }
             blows += records.impacts.size();
             for (const ContactRecord& contact : records.contacts)
-                if (contact.a != ContactRecord::nobody)
-                    force += (contact.a == 0 ? -1.0 : 1.0) *
-                             (contact.normal_force * contact.normal + contact.tangential_force);
+                force += (contact.a == 0 ? -1.0 : 1.0) *
+                         (contact.normal_force * contact.normal + contact.tangential_force);
             EXPECT_LT((after.momentum - before.momentum - frame * force).norm(), 1e-12) << n;
         }
         EXPECT_GT(blows, 0u);
-        EXPECT_NEAR(world.contact_records().energy.impact_loss, lost, 0.02 * start);
+        EXPECT_NEAR(world.contact_records().energy.impact_loss, lost, 0.02 * lost);
     }
 }
 
@@ -217,7 +217,8 @@ TEST(JointCollision, ABlowBreaksAHinge) {
         for (const bool strong : {false, true}) {
             SceneDescription scene = empty_scene();
             scene.simulation.impacts = mode;
-            for (int i = 0; i < 2; ++i) add_box(scene, {0.1, 1.0, 0.1}, {0.0, -0.5 - i, 0.0}).restitution = 1.0;
+            add_box(scene, {0.1, 0.9, 0.1}, {0.0, -0.5, 0.0}).restitution = 1.0;
+            add_box(scene, {0.1, 0.9, 0.1}, {0.0, -1.5, 0.0}).restitution = 1.0;
             add_joint(scene, JointType::hinge, std::nullopt, 0, Vec3::Zero(), Vec3::UnitZ());
             add_joint(scene, JointType::hinge, 0, 1, {0.0, -1.0, 0.0}, Vec3::UnitZ()).break_impulse =
                 strong ? 10.0 : 0.1;
@@ -228,10 +229,10 @@ TEST(JointCollision, ABlowBreaksAHinge) {
             run(world, scene, 0.5);
             EXPECT_EQ(world.joint_states()[1].broken_at.has_value(), !strong);
             EXPECT_LE(energy_of(world), start + 1e-4);
-            if (!strong) {
-                EXPECT_NEAR(*world.joint_states()[1].broken_at, 0.17, 2.0 / 960.0);
-                EXPECT_LT(world.snapshot().bodies[0].angular_velocity.norm(), mode == ImpactMode::exact ? 1e-12 : 0.5);
-            }
+            if (strong) continue;
+            // The upper rod gets what the hinge could give, at a meter from its own.
+            EXPECT_NEAR(*world.joint_states()[1].broken_at, 0.17, 2.0 / 960.0);
+            EXPECT_NEAR(world.snapshot().bodies[0].angular_velocity.z(), -0.1 / (0.82 / 12.0 + 0.25), 1e-3);
         }
 }
 

@@ -106,8 +106,12 @@ void EventDrivenMotion::end_group_flights(std::vector<Body>& bodies, const Event
     }
     if (cluster_.broken().empty()) return;
     // All other flights go on: their groups are found again as they were.
-    for (Joint* joint : cluster_.broken()) joint->broken_at = clock_.seconds(now);
     groups_.find();
+    for (Joint* joint : cluster_.broken()) {
+        joint->broken_at = clock_.seconds(now);
+        for (const std::uint32_t k : {joint->a, joint->b})
+            if (k != Joint::world && groups_.group(k) == GroupFlights::none) bodies[k].jointed = false;
+    }
 }
 
 // Flying groups with new states fly on. Those that cannot, as where a limit is near, are stepped to the end of the step.

@@ -58,7 +58,7 @@ public:
 private:
     /// What a flight changes in a joint.
     struct JointMemory {
-        std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{};
+        std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{}, constraint_rate{};
         std::array<std::array<double, Joint::laws>, Joint::coordinates> impulse{};
         Vec3 point;
     };

@@ -2,6 +2,7 @@
 
 #include "sim/ccd/settings.h"
 #include "sim/geometry/settings.h"
+#include "sim/impact/joint_strength.h"
 
 #include <algorithm>
 #include <numeric>
@@ -151,32 +152,19 @@ Island ImpactCluster::island(std::vector<Body>& bodies, const Bring& bring) {
     return island;
 }
 
-// Joints that the impact breaks take no part. An impact of too much work is one of the bodies without their joints, which
-// answer in the next step.
+// An impact of too much work is one of the bodies without their joints, which answer in the next step.
 void ImpactCluster::resolve_island(Island& island, std::vector<Body>& bodies, const ImpactSettings& settings,
                                    ImpactTrace* trace) {
-    for (bool again = true; again;) {
-        again = false;
-        blows_.clear();
-        if (trace) *trace = {};
-        if (resolve_impacts(island, contacts_, bodies, settings, trace, &blows_) == too_large) {
-            island.joints.clear();
-            again = true;
-        }
-        for (const JointBlow& blow : blows_) {
-            if (!(blow.over(settings.span) > 1.0)) continue;
-            blow.joint->broken = true;
-            add_once(broken_, blow.joint);
-            std::erase(island.joints, blow.joint);
-            again = true;
-        }
-        if (!again) return;
-        for (const std::uint32_t k : island.bodies) bodies[k].derive();
-        for (Contact& c : contacts_) {
-            c.impact = c.bounce_velocity = 0.0;
-            c.impact_friction.setZero();
-        }
+    blows_.clear();
+    broken_.clear();
+    if (trace) *trace = {};
+    if (island.joints.empty()) {
+        resolve_impacts(island, contacts_, bodies, settings, trace);
+        return;
     }
+    if (resolve_breaking(island, contacts_, bodies, settings, trace, blows_, broken_) != too_large) return;
+    island.joints.clear();
+    resolve_impacts(island, contacts_, bodies, settings, trace);
 }
 
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
@@ -225,6 +213,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             if (group == GroupFlights::none) continue;
             for (const std::uint32_t k : groups_.groups()[group].bodies) add_once(receivers_, k);
         }
+    for (Joint* joint : broken_) joint->broken = true;
     std::sort(receivers_.begin(), receivers_.end());
     for (const std::uint32_t k : brought_)
         if (bodies[k].dynamic()) bodies[k].derive();

@@ -23,7 +23,7 @@ public:
     explicit ImpactCluster(GroupFlights& groups) : groups_(groups) { scratch_.choice = AxisChoice::nearest; }
 
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
-    /// whether anything changed. Joints whose strength the impact exceeds break, and give no impulse. `trace`: gets the
+    /// whether anything changed. Joints whose strength the impact exceeds break (joint_strength.h). `trace`: gets the
     /// impulses on contacts(), or null.
     bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                  const Bring& bring, const ImpactSettings& settings, ImpactTrace* trace = nullptr);

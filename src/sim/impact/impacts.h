@@ -12,6 +12,7 @@ namespace tumble {
 /// part. Returns the number of passes; 0 without impacts.
 /// `trace`: gets every impulse; its entries of a contact add up to the contact's. Null: not asked for.
 /// `blows`: gets the impulses of the island's joints, which change no momenta either: take_blow(). Null: not asked for.
+/// The joints have no strength: resolve_breaking().
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
                     const ImpactSettings& settings, ImpactTrace* trace = nullptr,
                     std::vector<JointBlow>* blows = nullptr);

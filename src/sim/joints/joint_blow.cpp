@@ -24,7 +24,10 @@ void take_blow(const JointBlow& blow, std::vector<Body>& bodies) {
     account.load.add({blow.force, blow.torque, blow.point.cross(blow.force) + blow.torque});
     account.work_a += blow.work_a;
     account.work_b += blow.work_b;
-    account.work.impacts += blow.lost;
+    if (blow.breaks)
+        account.work.heat -= blow.work_a + blow.work_b;
+    else
+        account.work.impacts += blow.lost;
     const auto carrier = [&](std::uint32_t i) { return i == Joint::world || !bodies[i].dynamic(); };
     if (carrier(blow.joint->a)) account.work.carriers -= blow.work_a;
     if (carrier(blow.joint->b)) account.work.carriers -= blow.work_b;

@@ -422,7 +422,7 @@ ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const F
     add_touching(touching, bodies);
     for (auto& [key, sum] : sums_) records_.contacts.push_back(mean(key, sum, bodies, duration));
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
-        if (bodies[i].flying) end_flight(i, bodies[i], !forces.only_gravity(i));
+        if (bodies[i].flying && !bodies[i].jointed) end_flight(i, bodies[i], !forces.only_gravity(i));
     add_loads(bodies, duration);
     add_corrections(bodies, duration);
     add_losses(bodies);

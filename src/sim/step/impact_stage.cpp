@@ -4,6 +4,7 @@
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/geometry/contact_tolerance.h"
+#include "sim/impact/joint_strength.h"
 #include "sim/impact/settings.h"
 #include "sim/log/contact_log.h"
 #include "sim/step/contact_detection.h"
@@ -79,27 +80,26 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
         for (const JointBlow& blow : blows) take_blow(blow, bodies);
 }
 
-// Impacts that are too large, or too strong for a joint, are left to the contact solver, whose joints give way.
+// Impacts of too much work are left to the contact solver.
 void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
     const ImpactSettings impacts{.threshold = threshold(step),
                                  .slow = tuning::impact_slow * threshold(step),
                                  .law = step.settings.impact_law,
-                                 .friction = true};
+                                 .friction = true,
+                                 .span = step.h};
     Island& island = colliding_[index];
-    std::vector<Body>& bodies = step.set.bodies;
     ImpactTrace* trace = step.log ? &traces_[index] : nullptr;
-    std::vector<JointBlow>& blows = blows_[index];
-    const int passes = resolve_impacts(island, contacts_, bodies, impacts, trace, &blows);
-    const bool breaks =
-        std::any_of(blows.begin(), blows.end(), [&](const JointBlow& blow) { return blow.over(step.h) > 1.0; });
-    if (passes != too_large && !breaks) return;
-    for (const std::uint32_t i : island.bodies) bodies[i].derive_velocities();
-    for (const std::uint32_t k : island.contacts) {
-        contacts_[k].impact = contacts_[k].bounce_velocity = 0.0;
-        contacts_[k].impact_friction.setZero();
+    if (island.joints.empty()) {
+        resolve_impacts(island, contacts_, step.set.bodies, impacts, trace);
+        return;
     }
-    blows.clear();
-    if (trace) *trace = {};
+    std::vector<Joint*> broken;
+    resolve_breaking(island, contacts_, step.set.bodies, impacts, trace, blows_[index], broken);
+    for (Joint* joint : broken) {
+        joint->broken = true;
+        joint->broken_at = step.end();
+        std::erase(island.joints, joint);
+    }
 }
 
 void ImpactStage::hold_bounces(const StepContext& step) {

@@ -368,6 +368,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     int substeps = 1;
     for (const std::uint32_t k : joints) {
         Joint& joint = problem.joints->joints()[problem.joints->active()[k]];
+        if (joint.broken) continue;  // in an impact of this step
         island_joints.push_back(&joint);
         values.push_back(joint.value);
         substeps = std::max(substeps, joint.substeps);
