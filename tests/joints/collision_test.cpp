@@ -177,8 +177,8 @@ TEST(JointCollision, TheLoadOfAFrameHasTheBlow) {
             }
             blows += records.impacts.size();
             for (const ContactRecord& contact : records.contacts)
-                force += (contact.a == 0 ? -1.0 : 1.0) *
-                         (contact.normal_force * contact.normal + contact.tangential_force);
+                force +=
+                    (contact.a == 0 ? -1.0 : 1.0) * (contact.normal_force * contact.normal + contact.tangential_force);
             EXPECT_LT((after.momentum - before.momentum - frame * force).norm(), 1e-12) << n;
         }
         EXPECT_GT(blows, 0u);
@@ -240,8 +240,8 @@ TEST(JointCollision, ThreadsAndOrderChangeNoByte) {
     for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact}) {
         SceneDescription scene = ground_scene(0.6, 0.5);
         scene.simulation.impacts = mode;
-        for (int c = 0; c < 6; ++c)
-            for (int i = 0; i < 4; ++i) {
+        for (int c = 0; c < 4; ++c)
+            for (int i = 0; i < 3; ++i) {
                 BodyDescription& box = add_box(scene, {0.2, 0.1, 0.1}, {0.2 * i, 0.3 + 0.25 * c, 0.4 * (c % 2)});
                 box.friction = 0.4;
                 box.restitution = 0.6;
@@ -251,7 +251,7 @@ TEST(JointCollision, ThreadsAndOrderChangeNoByte) {
                               Vec3::UnitZ());
             }
         World one(scene, 1), two(scene, 2);
-        for (int frame = 0; frame < 40; ++frame) {
+        for (int frame = 0; frame < 24; ++frame) {
             one.advance_frame();
             two.advance_frame();
             const Snapshot a = one.snapshot(), b = two.snapshot();

@@ -68,16 +68,16 @@ void EventDrivenMotion::take_off_groups(std::vector<Body>& bodies, const ForceFi
         };
         land_group(g, bodies);
         if (!groups_.can_fly(g, forces)) continue;
-        const bool moved = any([&](std::uint32_t k) {
-            return moves(bodies[k], bodies[k].velocity, bodies[k].angular_velocity);
-        });
+        const bool moved =
+            any([&](std::uint32_t k) { return moves(bodies[k], bodies[k].velocity, bodies[k].angular_velocity); });
         changed_.clear();
         if (!fly_group(g, bodies, {step, 0.0})) continue;
-        const bool goes = moved || any([&](std::uint32_t k) {
-            const RigidState& end = groups_.end_of(k);
-            const Body& body = bodies[k];
-            return moves(body, body.inverse_mass * end.momentum, body.inverse_inertia * end.angular_momentum);
-        });
+        const bool goes =
+            moved || any([&](std::uint32_t k) {
+                const RigidState& end = groups_.end_of(k);
+                const Body& body = bodies[k];
+                return moves(body, body.inverse_mass * end.momentum, body.inverse_inertia * end.angular_momentum);
+            });
         if (goes) {
             taken_off_.insert(taken_off_.end(), members.begin(), members.end());
         } else {

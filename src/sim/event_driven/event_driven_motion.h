@@ -74,9 +74,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster, log,
-               trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds, velocities_before,
-               impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
+        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster,
+               log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
+               velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
         archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands);
         archive.keep_each(balls);
         archive.keep(events, neighbor_boxes, queue, search, cluster, ccd_clamp, contact_solver, velocities_before,

@@ -56,7 +56,7 @@ public:
     const RigidState& end_of(std::uint32_t body) const { return flights_[group_of_[body]].last[place_[body]]; }
 
 private:
-    /// What a flight changes in a joint.
+    /// The state of a joint that a flight changes.
     struct JointMemory {
         std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{}, constraint_rate{};
         std::array<std::array<double, Joint::laws>, Joint::coordinates> impulse{};

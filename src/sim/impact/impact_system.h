@@ -18,7 +18,8 @@ namespace tumble {
 /// Bodies that an impact can reach: connected dynamic bodies, and their contacts; both ascending.
 struct Island {
     std::vector<std::uint32_t> bodies, contacts;
-    std::vector<Joint*> joints = {};  // that hold any of the bodies; with a body of a joint the list has all of its group
+    std::vector<Joint*> joints =
+        {};  // that hold any of the bodies; with a body of a joint the list has all of its group
 };
 
 /// The impulses of an impact one by one, if asked for: one entry for each contact and pass of the law.

@@ -46,7 +46,10 @@ void add_square(BlockCholesky& matrix, std::uint32_t first, std::uint32_t pair, 
 
 JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vector<Joint*>& joints,
                            const std::vector<Body>& all)
-    : bodies_(bodies.begin(), bodies.end()), places_(bodies.size()), group_of_(bodies.size(), no_place), joints_(joints) {
+    : bodies_(bodies.begin(), bodies.end()),
+      places_(bodies.size()),
+      group_of_(bodies.size(), no_place),
+      joints_(joints) {
     const std::size_t n = bodies.size();
     std::vector<std::uint32_t> parent(n);
     std::iota(parent.begin(), parent.end(), 0u);

@@ -69,7 +69,7 @@ private:
     struct Group {
         std::uint32_t first = 0, bodies = 0;  // places
         std::size_t first_lock = 0, locks = 0;
-        std::vector<std::size_t> joints;  // indices in joints_
+        std::vector<std::size_t> joints;   // indices in joints_
         std::vector<std::uint32_t> pairs;  // by joint: index in the matrix, or none
         BlockCholesky matrix;
     };

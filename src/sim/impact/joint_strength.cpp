@@ -5,7 +5,7 @@
 namespace tumble {
 namespace {
 
-// What an impact changes.
+// The changes by an impact.
 struct Outcome {
     int passes = 0;
     std::vector<Contact> contacts;         // of the island
@@ -77,8 +77,8 @@ int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::
         body.angular_velocity = mix(body.angular_velocity, strong.velocities[i].angular_velocity, share);
     }
     for (JointBlow& blow : strong.blows) {
-        const auto weak = std::find_if(blows.begin(), blows.end(),
-                                       [&](const JointBlow& other) { return other.joint == blow.joint; });
+        const auto weak =
+            std::find_if(blows.begin(), blows.end(), [&](const JointBlow& other) { return other.joint == blow.joint; });
         const JointBlow none;
         const JointBlow& other = weak == blows.end() ? none : *weak;
         blow.force = mix(other.force, blow.force, share);

@@ -16,7 +16,7 @@ struct JointBlow {
     double work_a = 0.0, work_b = 0.0;  // J, on each body
     double lost = 0.0;                  // J, at the joint's limits: by their mean speeds before and after the impact
 
-    bool breaks = false;                // the joint breaks: its work is heat
+    bool breaks = false;  // the joint breaks: its work is heat
 
     /// How far the blow exceeds the joint's strength, at most 1 where it holds. A force is the mean over `h` s.
     double over(double h) const;

@@ -168,8 +168,7 @@ void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, c
 }
 
 void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts,
-                            const std::vector<Body>& bodies, const ImpactTime& when,
-                            std::span<const JointBlow> blows) {
+                            const std::vector<Body>& bodies, const ImpactTime& when, std::span<const JointBlow> blows) {
     add_struck(trace, contacts, bodies, blows);
     for (std::size_t k = 0; k < trace.entries.size(); ++k) {
         const ImpactTrace::Entry& entry = trace.entries[k];

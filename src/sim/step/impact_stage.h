@@ -41,12 +41,12 @@ public:
 private:
     void resolve_island(const StepContext& step, std::size_t island);
 
-    std::vector<Contact> contacts_;        // of the colliding islands, point by point
-    std::vector<Island> colliding_;        // islands with impacts in this step
-    std::vector<std::uint32_t> struck_;    // indices of the manifolds of these islands
-    std::vector<ImpactTrace> traces_;      // by entry of colliding_; for the log
+    std::vector<Contact> contacts_;              // of the colliding islands, point by point
+    std::vector<Island> colliding_;              // islands with impacts in this step
+    std::vector<std::uint32_t> struck_;          // indices of the manifolds of these islands
+    std::vector<ImpactTrace> traces_;            // by entry of colliding_; for the log
     std::vector<std::vector<JointBlow>> blows_;  // by entry of colliding_
-    std::vector<double> impulses_before_;  // N s, by entry of struck_: before the step
+    std::vector<double> impulses_before_;        // N s, by entry of struck_: before the step
 };
 
 }  // namespace tumble

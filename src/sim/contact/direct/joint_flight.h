@@ -7,9 +7,9 @@
 // Lubich, Wanner, Geometric Numerical Integration, section V.3).
 #pragma once
 
-#include "sim/math/block_cholesky.h"
 #include "sim/contact/direct/joint_rows.h"
 #include "sim/dynamics/integrators/rigid_state.h"
+#include "sim/math/block_cholesky.h"
 
 #include <span>
 #include <vector>

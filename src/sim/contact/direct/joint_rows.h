@@ -7,14 +7,14 @@
 //   limit   f >= 0 (lower) or f <= 0 (upper); b = -distance / h
 //   spring  R = 1 / (h (h K + C)), b = (K (rest - value) + C v) / (h K + C), e = 0: implicit, stable for any K and C
 //   motor   as a spring to its target, or b = speed; bounds: its largest force times h
-//   friction b = 0; bounds: its force times h
+//   friction b = 0; bounds: its force times h; of a ball, one for the length of the vector of three rows
 // Rows of angles are scaled by the island's length, as the angular velocities are: all rows are in m/s and N s.
 #pragma once
 
-#include "sim/math/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
+#include "sim/math/block_cholesky.h"
 
 #include <cstdint>
 #include <span>
@@ -49,8 +49,9 @@ public:
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
-        bool closes = false;  // takes part in close()
-        bool soft = false;    // a spring: its estimate stays 0
+        bool closes = false;       // takes part in close()
+        bool soft = false;         // a spring: its estimate stays 0
+        bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
     struct Block {
@@ -161,6 +162,12 @@ private:
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
     JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
+    struct BallFriction {
+        Vec3 wanted = Vec3::Zero();  // N s, without the bound
+        double scale = 1.0;          // from that to the impulse
+        bool slides = false;
+    };
+    static BallFriction ball_friction(const Row* row, double along);
     void push_row(const Row& row);
     double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
