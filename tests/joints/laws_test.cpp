@@ -1,5 +1,6 @@
 // Limits, motors, springs, friction and breaking against their closed forms.
 #include "joint_scenes.h"
+#include "sim/joints/motor_target.h"
 
 #include <gtest/gtest.h>
 
@@ -93,6 +94,28 @@ TEST(JointLaws, AServoHoldsItsTarget) {
     EXPECT_NEAR(world.joint_states()[0].position[3], 0.5, 0.02);
     run(world, scene, 3.0);
     EXPECT_NEAR(world.joint_states()[0].position[3], 1.0, 1e-6);
+}
+
+// The parabola through evenly spaced keys of a parabola, at rest at both ends, without overshoot, and C1.
+TEST(JointLaws, AMotorMovesSmoothlyThroughItsKeyframes) {
+    JointMotor motor;
+    motor.targets = {{1.0, 0.0}, {2.0, 1.0}, {3.0, 4.0}, {4.0, 9.0}, {5.0, 9.0}, {6.0, 5.0}};
+    for (const auto& [time, value] : motor.targets) EXPECT_EQ(motor_target(motor, time), value);
+    EXPECT_EQ(motor_target(motor, 0.0), 0.0);
+    EXPECT_EQ(motor_target(motor, 7.0), 5.0);
+    EXPECT_NEAR(motor_target(motor, 2.3), 1.3 * 1.3, 1e-14);
+    EXPECT_EQ(motor_target(motor, 4.5), 9.0);
+    const auto speed = [&](double time) {
+        return (motor_target(motor, time + 1e-6) - motor_target(motor, time - 1e-6)) / 2e-6;
+    };
+    for (double time = 0.5; time < 6.5; time += 0.01) {
+        EXPECT_NEAR(speed(time + 1e-3), speed(time), 0.1);
+        EXPECT_LE(motor_target(motor, time), 9.0);
+    }
+    EXPECT_NEAR(speed(1.0), 0.0, 1e-5);
+    motor.interpolation = Interpolation::linear;
+    EXPECT_NEAR(motor_target(motor, 2.3), 1.0 + 0.3 * 3.0, 1e-14);
+    EXPECT_NEAR(motor_target(motor, 5.25), 8.0, 1e-14);
 }
 
 // Energy falls by the friction torque times the angle, swing by swing.

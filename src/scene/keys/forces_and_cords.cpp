@@ -19,17 +19,6 @@ void read_place_of_cord(const TomlTable& table, const BodyIndex& bodies, CordDes
     cord.anchor = table.require("anchor").vector(limits::coordinate);
 }
 
-const JointDescription& find_joint(const TomlValue& value, const std::vector<JointDescription>& joints) {
-    const std::string name = value.text();
-    std::vector<std::string_view> known;
-    for (const JointDescription& joint : joints) {
-        if (joint.name == name) return joint;
-        known.push_back(joint.name);
-    }
-    value.origin().fail(fmt::format("\"{}\" is not the name of a joint{}", safe_text(name),
-                                    known.empty() ? ": there is none" : suggestion(name, known)));
-}
-
 /// From the anchor of the one side to that of the other; the first end is a body.
 void place_between_anchors(const JointDescription& joint, const std::vector<JointDescription>& joints,
                            CordDescription& cord) {
@@ -46,7 +35,9 @@ void read_place_from_joint(const TomlTable& table, const TomlValue& value, const
     for (const char* key : {"body", "point", "anchor"})
         if (const auto given = table.find(key))
             given->origin().fail("and joint exclude each other: the joint gives the place");
-    place_between_anchors(find_joint(value, joints), joints, cord);
+    const JointDescription& joint = find_joint(value, joints);
+    if (joint.type == JointType::gear) value.fail("is a gear, which has no anchors: give one of its joints");
+    place_between_anchors(joint, joints, cord);
 }
 
 }  // namespace

@@ -44,7 +44,7 @@ bool JointFlight::flies(const JointIsland& island) {
         if (bodies[i].integrator == IntegratorKind::explicit_euler) return false;
     for (const std::uint32_t k : island.joints) {
         const Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
-        if (joint.broken) return false;
+        if (joint.broken || joint.gear()) return false;
         for (std::size_t c = 0; c < joint.count(); ++c) {
             const JointAxis& axis = joint.axis(c);
             if (axis.spring || axis.motor || axis.friction > 0.0) return false;

@@ -13,9 +13,11 @@
 
 #include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
+#include "sim/contact/direct/gear_row.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -53,6 +55,19 @@ public:
         bool soft = false;    // a spring: its estimate stays 0
         bool turns() const { return coordinate >= 3; }
     };
+    /// A gear, which has one row: where it acts.
+    struct GearSide {
+        std::uint32_t joint = 0;
+        int a = none, b = none;
+        Vec3 point = Vec3::Zero(), direction = Vec3::Zero();
+        bool turns = false;
+        double factor = 0.0;  // of the impulse of the row, in units of the rows of joints
+    };
+    struct Gear {
+        GearRow row;
+        std::array<GearSide, 2> sides;
+        double value = 0.0;  // m or rad: largest term of the relation
+    };
     struct Block {
         std::uint32_t joint = 0;
         int a = none, b = none;
@@ -62,6 +77,7 @@ public:
         Vec3 axes[3] = {};  // world: about which the bodies turn against each other
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
+        Gear* gear = nullptr;
     };
 
     bool empty() const { return blocks_.empty(); }
@@ -73,6 +89,7 @@ public:
     std::span<Block> blocks() { return blocks_; }
     void clear() {
         blocks_.clear();
+        gears_.clear();
         rows_.clear();
     }
 
@@ -148,11 +165,21 @@ private:
     void add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law);
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
+    JointSide end_of(const JointIsland& island, std::span<const JointSide> ends, std::uint32_t body, int place) const;
+    BodyVelocity mean_velocity(const JointIsland& island, std::uint32_t body, int place, const Vec3& point) const;
+
+    bool geared_forest(const JointIsland& island) const;
+    void add_gear(const JointIsland& island, std::uint32_t index);
+    double gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
+    JointLoad load_of(const Block& block, std::size_t which) const;  // of a gear, on one of its joints
+    void store_gear(const JointIsland& island, const Block& block);
+    void account_gear(const JointIsland& island, const Block& block);
     void push_row(const Row& row);
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
 
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
+    std::vector<Gear> gears_;  // of fixed capacity: blocks point to them
     std::vector<Row> rows_;
     std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;         // 1/s^2, by body of the island
