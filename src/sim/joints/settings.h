@@ -34,9 +34,18 @@ inline constexpr int joint_stuck_substeps = 4;
 /// the cost alone.
 inline constexpr int joint_easy_rounds = 6;
 
-/// Stiffness of the joints in the position correction, over the bodies' mean mass. Near a singular position, as of a taut
-/// chain, an error is closed by displacements up to half the square root of this times as large.
-inline constexpr double joint_push_stiffness = 1e3;
+/// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
+/// a singular position, as of a taut chain, it is closed by displacements up to half the square root of this times as
+/// large.
+inline constexpr double joint_push_apart = 1e3;
+
+/// Stiffness of closed joints there, over the mass of the island: a hundred times that of contacts, so that each pass
+/// makes their errors up to a hundred times smaller.
+inline constexpr double joint_push_closed = 1e4;
+
+/// Errors below this share of the smaller body are moved out by rigid rows: the displacements stay small near singular
+/// positions too. Not fitted: below any visible size.
+inline constexpr double joint_push_small = 1e-6;
 
 /// Convergence of the rounds without contacts, relative to the impulses. Related test:
 /// JointLaws.AMotorOpensADoorToItsLimit.
@@ -48,6 +57,10 @@ inline constexpr double joint_flight_closed = 4e-16;
 /// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
 /// JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_flight_open = 1e-5;
+
+/// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
+/// that turn by a radian in a step open their joints by less.
+inline constexpr double joint_clamped_open = 0.1;
 
 /// Share of its strength that a joint may carry in the step of a flight in which it breaks. Above, the step is solved such
 /// that it carries no more than its strength. Not fitted: the load of a free motion changes little in a step.

@@ -116,7 +116,7 @@ JointLoad JointRows::load_of(const Block& block, std::size_t which) const {
 
 double JointRows::gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const {
     const auto end = [&](std::uint32_t body) {
-        return end_of(island, ends, body, contact_rows::place_of(island.bodies, body));
+        return end_of(island, body, contact_rows::place_of(island.bodies, body), ends);
     };
     return measure_gear(joint(block), *joints_, end).error;
 }

@@ -1,5 +1,6 @@
 #include "sim/contact/direct/joint_flight.h"
 
+#include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/joints/settings.h"
 
@@ -197,6 +198,25 @@ bool JointFlight::close(const JointIsland& island) {
     return last < tuning::joint_flight_open;
 }
 
+void JointFlight::close_poses(const JointIsland& island) {
+    std::vector<Body>& bodies = island.problem.bodies;
+    prepare(island);
+    double last = infinity;
+    for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
+        load(island);
+        const double error = errors(island, 1.0);
+        if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) return;
+        last = error;
+        given_.assign(rows_.rows().size(), 0.0);
+        if (!matrix_.factor() || !impulses()) return;
+        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+            Body& body = bodies[island.bodies[k]];
+            turn_exactly(body, Vec3::Map(&change_[6 * k]), Vec3::Map(&change_[6 * k + 3]) / rows_.length(), 1.0);
+            body.derive();
+        }
+    }
+}
+
 // Makes the velocities fit the joints at the present poses.
 bool JointFlight::fit(const JointIsland& island) {
     std::vector<double> velocity(change_.size());
@@ -305,11 +325,15 @@ void JointFlight::add_up(const JointIsland& island) {
     }
 }
 
-bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps) {
+void JointFlight::prepare(const JointIsland& island) {
     swing_ = total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     starts_.resize(island.bodies.size());
     change_.resize(6 * island.bodies.size());
+}
+
+bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps) {
+    prepare(island);
     const double h = island.problem.settings.h;
     for (const std::uint32_t k : island.joints) {
         Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];

@@ -32,10 +32,15 @@ public:
     /// Returns false, and leaves the bodies in any state, where the passes do not converge, a limit is met or a joint
     /// breaks.
     bool advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps);
+    /// Moves the bodies by the least displacements, in the metric of their masses, that close the locked coordinates at
+    /// the present poses. Momenta stay, and so does the center of mass of a free island. Joints that are wide open, as
+    /// those that are pulled in, stay as they are.
+    void close_poses(const JointIsland& island);
     /// Largest phase (rad) of a link's swing in a substep of the last advance().
     double swing() const { return swing_; }
 
 private:
+    void prepare(const JointIsland& island);
     bool stage(const JointIsland& island, std::span<const StepForce> forces, double share);
     void load(const JointIsland& island);
     bool close(const JointIsland& island);

@@ -122,7 +122,7 @@ void JointRows::add_estimates(std::vector<double>& g) const {
             if (rows_[k].estimate != 0.0) add(block, rows_[k], rows_[k].estimate, g);
 }
 
-void JointRows::add_to(BlockCholesky& matrix) const {
+void JointRows::add_weights(BlockCholesky& matrix) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             if (rows_[k].weight != 0.0) add_square(matrix, block, rows_[k], rows_[k].weight);
@@ -144,7 +144,7 @@ double JointRows::demand(const std::vector<double>& u) const {
     return most;
 }
 
-std::pair<double, double> JointRows::next_round() {
+std::pair<double, double> JointRows::next_round(bool follow) {
     double change = 0.0, largest = 0.0;
     for (Row& row : rows_) {
         largest = std::max(largest, std::abs(row.impulse));
@@ -153,8 +153,13 @@ std::pair<double, double> JointRows::next_round() {
         row.estimate = row.impulse;
     }
     for (const Block& block : blocks_)
-        if (!block.breaks) follow_load(block);
+        if (follow && !block.breaks) follow_load(block);
     return {change, largest};
+}
+
+void JointRows::soften_friction(double factor) {
+    for (Row& row : rows_)
+        if (row.law == Joint::friction) row.compliance = factor * compliance_;
 }
 
 void JointRows::keep_estimates() {
@@ -163,8 +168,8 @@ void JointRows::keep_estimates() {
 }
 
 // Pose at the end of the step: a body of the island has it in `ends`, another one moves by its velocity.
-JointSide JointRows::end_of(const JointIsland& island, std::span<const JointSide> ends, std::uint32_t body,
-                            int place) const {
+JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int place,
+                            std::span<const JointSide> ends) const {
     if (body == Joint::world) return {};
     if (place != none) return ends[std::size_t(place)];
     const Body& b = island.problem.bodies[body];
@@ -174,21 +179,29 @@ JointSide JointRows::end_of(const JointIsland& island, std::span<const JointSide
     return side;
 }
 
+JointGeometry JointRows::measure_end(const JointIsland& island, const Block& block,
+                                     std::span<const JointSide> ends) const {
+    if (block.gear) return {};
+    const Joint& j = joint(block);
+    return measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+}
+
+double JointRows::value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
+                           std::span<const JointSide> ends) const {
+    return block.gear ? gear_error(island, block, ends) : g.coordinates[row.coordinate].value;
+}
+
 double JointRows::close(const JointIsland& island, std::span<const JointSide> ends) {
     double worst = 0.0;
     for (const Block& block : blocks_) {
         if (block.breaks) continue;
         const Joint& j = joint(block);
-        const JointGeometry g =
-            block.gear ? JointGeometry{}
-                       : measure(j, end_of(island, ends, j.a, block.a), end_of(island, ends, j.b, block.b));
+        const JointGeometry g = measure_end(island, block, ends);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (!row.closes) continue;
             const bool cone = row.law == Joint::cone;
-            const double value = block.gear ? gear_error(island, block, ends)
-                                 : cone     ? g.swing.value
-                                            : g.coordinates[row.coordinate].value;
+            const double value = cone ? g.swing.value : value_of(island, block, row, g, ends);
             const double reference = cone ? std::max(g.swing_limit, row.reference) : row.reference;
             const double unit = row.turns() ? length_ : 1.0, size = row.turns() ? 1.0 : j.size;
             const double error = value - reference;
@@ -239,29 +252,50 @@ bool JointRows::give_way() {
     return any;
 }
 
-bool JointRows::add_push(double stiffness, double rate, std::vector<double>& push) const {
+bool JointRows::start_push(const JointIsland& island, double share, PushStiffness stiffness) {
     bool any = false;
-    for (const Block& block : blocks_) {
+    for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const Row& row = rows_[k];
-            if (!row.closes) continue;
-            const double wanted = (row.turns() ? length_ : 1.0) * rate * (row.goal - row.reference);
-            if (wanted == 0.0) continue;
-            any = true;
-            add(block, row, stiffness * wanted, push);
+            Row& row = rows_[k];
+            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
+            const bool held = row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference));
+            const double wanted = row.closes ? share * (row.goal - row.reference) : 0.0;
+            const double small = tuning::joint_push_small * (row.turns() ? 1.0 : joint(block).size);
+            any = any || wanted != 0.0;
+            row.soft = std::abs(wanted) > small;
+            row.weight = !held ? 0.0 : row.soft ? stiffness.apart : stiffness.closed;
+            row.goal = row.reference + wanted;
+            row.estimate = 0.0;
+            row.target = (row.turns() ? length_ : 1.0) * wanted / island.problem.settings.h;
         }
-    }
     return any;
 }
 
-void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
+void JointRows::add_push(std::vector<double>& push) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const Row& row = rows_[k];
-            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
-            if (row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference)))
-                add_square(matrix, block, row, stiffness);
+            const double amount = rows_[k].estimate + rows_[k].weight * rows_[k].target;
+            if (amount != 0.0) add(block, rows_[k], amount, push);
         }
+}
+
+double JointRows::close_push(const JointIsland& island, std::span<const JointSide> ends,
+                             const std::vector<double>& push) {
+    const double h = island.problem.settings.h;  // s: the step, where the rows are those of its last substep
+    double worst = 0.0;
+    for (const Block& block : blocks_) {
+        const Joint& j = joint(block);
+        const JointGeometry g = measure_end(island, block, ends);
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            if (row.law != Joint::lock || row.soft) continue;
+            const double speed = dot(block, row, push), error = value_of(island, block, row, g, ends) - row.goal;
+            worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : j.size));
+            row.estimate += row.weight * (row.target - speed);
+            row.target = speed - (row.turns() ? length_ : 1.0) * error / h;
+        }
+    }
+    return worst;
 }
 
 void JointRows::store(const JointIsland& island, bool apply) {

@@ -109,14 +109,15 @@ public:
     double objective(const std::vector<double>& u) const;            // J: the rows' part of the minimized function at u
     void add_impulses(double factor, std::vector<double>& g) const;  // g += factor J^T f
     void add_estimates(std::vector<double>& g) const;                // g += J^T e
-    void add_to(BlockCholesky& matrix) const;                        // H += J^T J / R
     /// Fastest speed (m/s) that the rigid rows demand of velocities u.
     double demand(const std::vector<double>& u) const;
 
-    /// Takes the impulses as the next estimates, and follows the load of bearings. Returns the largest change and the
+    /// Takes the impulses as the next estimates; friction follows the load of bearings if `follow`. Returns the largest change and the
     /// largest impulse, N s.
-    std::pair<double, double> next_round();
+    std::pair<double, double> next_round(bool follow);
     void keep_estimates();
+    /// Makes the rows of friction `factor` times as compliant as rigid rows.
+    void soften_friction(double factor);
     /// Moves the targets such that the errors at the end of the step vanish, given the poses there. Returns the largest
     /// error, in sizes of the joint.
     double close(const JointIsland& island, std::span<const JointSide> ends);
@@ -130,10 +131,18 @@ public:
     /// Joints whose load is above their strength: their impulses are set to the strength. Returns whether any is new.
     bool give_way();
 
-    /// For the position correction: adds `stiffness` J^T of the speeds that move errors out at `rate` (1/s), and stiffness
-    /// J^T J. Returns whether there are such errors.
-    bool add_push(double stiffness, double rate, std::vector<double>& push) const;
-    void add_push_to(double stiffness, BlockCholesky& matrix) const;
+    /// Position correction, after the last use of the impulses: errors are moved out by pseudo-velocities, those of
+    /// closed joints are kept at zero. Stiffness (kg) of rows whose error is moved out, and of all others.
+    struct PushStiffness {
+        double apart, closed;
+    };
+    /// Sets targets that move `share` of each error out in the step. Returns whether there are such errors.
+    bool start_push(const JointIsland& island, double share, PushStiffness stiffness);
+    void add_push(std::vector<double>& push) const;  // push += J^T (e + weight b)
+    void add_weights(BlockCholesky& matrix) const;   // H += weight J^T J
+    /// Moves the targets of closed joints by their errors at `ends`, the poses with the push. Returns the largest error,
+    /// in sizes of the joint.
+    double close_push(const JointIsland& island, std::span<const JointSide> ends, const std::vector<double>& push);
 
     /// For account(): the velocities at the start of the step (`first`), or of a later substep.
     void keep_velocities(const JointIsland& island, bool first);
@@ -165,7 +174,10 @@ private:
     void add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law);
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
-    JointSide end_of(const JointIsland& island, std::span<const JointSide> ends, std::uint32_t body, int place) const;
+    JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
+    JointGeometry measure_end(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
+    double value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
+                    std::span<const JointSide> ends) const;
     BodyVelocity mean_velocity(const JointIsland& island, std::uint32_t body, int place, const Vec3& point) const;
 
     bool geared_forest(const JointIsland& island) const;
