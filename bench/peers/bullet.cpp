@@ -103,7 +103,10 @@ private:
             rigid->setCcdMotionThreshold(btScalar(0.5 * radius));
             rigid->setCcdSweptSphereRadius(btScalar(0.9 * radius));
         }
-        world_.addRigidBody(rigid.get());
+        if (scene_.contacts)
+            world_.addRigidBody(rigid.get());
+        else
+            world_.addRigidBody(rigid.get(), btBroadphaseProxy::DefaultFilter, 0);
         bodies_.push_back(std::move(rigid));
     }
 
@@ -154,6 +157,26 @@ std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
     return make(scene, rate, settings);
 }
 
+JointWay joined(const std::string& name, std::vector<JointTask> tasks, int iterations, bool sleep,
+                bool direct = false) {
+    Settings settings;
+    settings.elastic = false;
+    settings.iterations = iterations;
+    settings.sleep = sleep;
+    settings.direct = direct;
+    const std::size_t most = direct ? 100 : 100000;  // its dense matrix takes minutes for more bodies
+    return {name, std::move(tasks),
+            [=](const Scene& scene, double rate) {
+                return bullet_can_join(scene) ? make(scene, rate, settings) : nullptr;
+            },
+            most};
+}
+
+JointWay multibody(const std::string& name, std::vector<JointTask> tasks, const MultibodySettings& settings) {
+    return {name, std::move(tasks),
+            [=](const Scene& scene, double rate) { return make_bullet_multibody(scene, rate, settings); }};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -161,7 +184,7 @@ int main(int argc, char** argv) {
 #ifdef BT_USE_DOUBLE_PRECISION
     // The choice of the gyroscopic term matters in flight alone.
     const int body = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    Peer peer{"Bullet", {}, {}, {}};
+    Peer peer{"Bullet", {}, {}, {}, {}};
     peer.accuracy = {variant("gyro implicit body", {body}, {Demand::flight}),
                      variant("gyro implicit world", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}, {Demand::flight}),
                      variant("gyro explicit", {BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}, {Demand::flight}),
@@ -171,9 +194,20 @@ int main(int argc, char** argv) {
     peer.contact = {way("f64, default", {Task::pile}, 10, false), way("f64, sleep", sleeping, 10, true),
                     way("f64, 50 iterations", {Task::spheres, Task::tower}, 50, false)};
     peer.stability = {{"f64, 50 iterations", true, make_steady}};
+    using enum JointTask;
+    peer.joints = {joined("constraints, 10 iterations", {precision, load, speed, settling}, 10, false),
+                   joined("constraints, 100 iterations", {load}, 100, false),
+                   joined("constraints, Dantzig", {precision, load}, 10, false, true),
+                   joined("constraints, sleep", {settling}, 10, true),
+                   multibody("multibody", {precision, load, speed, settling}, {10, false}),
+                   multibody("multibody, RK4", {precision}, {10, true})};
 #else
-    Peer peer{"Bullet", {}, {}, {}};
+    Peer peer{"Bullet", {}, {}, {}, {}};
     peer.contact = {way("f32, default", all, 10, false), way("f32, sleep", sleeping, 10, true)};
+    using enum JointTask;
+    peer.joints = {joined("f32, constraints, 10 iterations", {speed, settling}, 10, false),
+                   joined("f32, constraints, sleep", {settling}, 10, true),
+                   multibody("f32, multibody", {speed, settling}, {10, false})};
 #endif
     return run_peer(argc, argv, peer);
 }

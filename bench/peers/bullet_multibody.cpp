@@ -108,7 +108,7 @@ private:
         for (const Node& node : nodes) {
             const int at = places_[node.body].link;
             if (at >= 0) set_motion(m, at, node);
-            if (scene_.contacts) add_collider(m, at, scene_.bodies[node.body]);
+            add_collider(m, at, scene_.bodies[node.body]);  // constraints on links without one are not solved
         }
         btAlignedObjectArray<btQuaternion> scratch_q;
         btAlignedObjectArray<btVector3> scratch_v;
@@ -165,7 +165,8 @@ private:
         made->setFriction(btScalar(std::sqrt(body.friction)));
         made->setRestitution(btScalar(body.restitution));
         (link < 0 ? m.setBaseCollider(made.get()) : void(m.getLink(link).m_collider = made.get()));
-        world_.addCollisionObject(made.get(), btBroadphaseProxy::DefaultFilter, btBroadphaseProxy::AllFilter);
+        world_.addCollisionObject(made.get(), btBroadphaseProxy::DefaultFilter,
+                                  scene_.contacts ? btBroadphaseProxy::AllFilter : 0);
         colliders_.push_back(std::move(made));
     }
 

@@ -44,6 +44,7 @@ public:
                 bodies_[i]->addExtTorque(vec(w.torque), false);
             }
         }
+        for (const auto& [joint, speed] : motors_) joint->setCommand(0, speed);  // a step clears them
         world_->step();
     }
 
@@ -128,18 +129,23 @@ private:
         const SceneJoint& joint = scene_.joints[node.joint];
         const Eigen::Vector3d axis = vec(axis_for(joint, node.body));
         std::pair<dart::dynamics::Joint*, BodyNode*> made;
-        const auto as = [](auto pair) { return std::pair<dart::dynamics::Joint*, BodyNode*>(pair); };
-        if (joint.kind == JointKind::ball) made = as(skeleton.createJointAndBodyNodePair<BallJoint>(parent));
-        if (joint.kind == JointKind::fixed) made = as(skeleton.createJointAndBodyNodePair<WeldJoint>(parent));
+        const std::string name = std::to_string(node.body);  // names that occur twice print messages
+        const BodyNode::Properties properties{BodyNode::AspectProperties(name)};
+        const auto create = [&](auto type, auto&& of_joint) {
+            of_joint.mName = name;
+            using Type = typename decltype(type)::type;
+            return std::pair<dart::dynamics::Joint*, BodyNode*>(
+                skeleton.createJointAndBodyNodePair<Type>(parent, of_joint, properties));
+        };
+        if (joint.kind == JointKind::ball) made = create(std::type_identity<BallJoint>{}, BallJoint::Properties{});
+        if (joint.kind == JointKind::fixed) made = create(std::type_identity<WeldJoint>{}, WeldJoint::Properties{});
         if (joint.kind == JointKind::hinge) {
-            const auto pair = skeleton.createJointAndBodyNodePair<RevoluteJoint>(parent);
-            pair.first->setAxis(axis);
-            made = as(pair);
+            made = create(std::type_identity<RevoluteJoint>{}, RevoluteJoint::Properties{});
+            static_cast<RevoluteJoint*>(made.first)->setAxis(axis);
         }
         if (joint.kind == JointKind::slider) {
-            const auto pair = skeleton.createJointAndBodyNodePair<PrismaticJoint>(parent);
-            pair.first->setAxis(axis);
-            made = as(pair);
+            made = create(std::type_identity<PrismaticJoint>{}, PrismaticJoint::Properties{});
+            static_cast<PrismaticJoint*>(made.first)->setAxis(axis);
         }
         Place at = Place::Identity();
         at.translation() = vec(joint.anchor);
@@ -166,7 +172,7 @@ private:
             made.setActuatorType(dart::dynamics::Joint::SERVO);
             made.setForceUpperLimit(0, joint.strength);
             made.setForceLowerLimit(0, -joint.strength);
-            made.setCommand(0, *joint.speed);
+            motors_.push_back({&made, *joint.speed});
         }
     }
 
@@ -197,6 +203,7 @@ private:
     dart::simulation::WorldPtr world_;
     std::vector<dart::dynamics::SkeletonPtr> skeletons_;
     std::vector<dart::dynamics::BodyNode*> bodies_;
+    std::vector<std::pair<dart::dynamics::Joint*, double>> motors_;  // rad/s or m/s
 };
 
 // Boxes and spheres only; no distances, cones, breaking joints, and no sliders that close loops.
@@ -233,7 +240,16 @@ int main(int argc, char** argv) {
                         [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
                             return std::make_unique<DartSimulator>(scene, rate, true);
                         }};
-    return run_peer(
-        argc, argv,
-        {"DART", {euler}, {way("Dantzig", {Task::spheres, Task::tower})}, {{"Dantzig", true, make_steady, 60}}});
+    using enum JointTask;
+    const JointWay joined{"Dantzig", {precision, load, speed},
+                          [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+                              if (!can_represent(scene)) return nullptr;
+                              return std::make_unique<DartSimulator>(scene, rate, false);
+                          }};
+    return run_peer(argc, argv,
+                    {"DART",
+                     {euler},
+                     {way("Dantzig", {Task::spheres, Task::tower})},
+                     {{"Dantzig", true, make_steady, 60}},
+                     {joined}});
 }

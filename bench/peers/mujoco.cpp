@@ -148,7 +148,7 @@ void complain(const char* text) { throw std::runtime_error(text); }
 
 int main(int argc, char** argv) {
     mju_user_error = mju_user_warning = complain;
-    Peer peer{"MuJoCo", {variant("Euler"), variant("RK4")}, {}, {}};
+    Peer peer{"MuJoCo", {variant("Euler"), variant("RK4")}, {}, {}, {}};
     peer.contact = {way("CG, stiff", {Task::spheres}, {"Euler", "CG", true}),
                     way("Newton", {Task::tower}, {"Euler", "Newton", false}),
                     way("Newton, stiff", {Task::tower}, {"Euler", "Newton", true})};
@@ -158,5 +158,16 @@ int main(int argc, char** argv) {
         };
     };
     peer.stability = {{"Newton, stiff", true, steady("Euler"), 200}, {"RK4", false, steady("RK4"), 200}};
+    using enum JointTask;
+    const auto joined = [](const Settings& settings) {
+        return [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+            if (!mujoco_can_represent(scene, forest_of(scene))) return nullptr;
+            return std::make_unique<MujocoSimulator>(scene, rate, settings);
+        };
+    };
+    peer.joints = {{"Euler", {precision, load, speed}, joined({"Euler", "Newton", true}), 1000},
+                   {"implicit", {precision, load}, joined({"implicit", "Newton", true}), 1000},
+                   {"RK4", {precision, load, speed}, joined({"RK4", "Newton", true}), 1000},
+                   {"CG", {settling}, joined({"Euler", "CG", true}), 2000}};
     return run_peer(argc, argv, peer);
 }

@@ -262,7 +262,7 @@ int main(int argc, char** argv) {
     dSetErrorHandler(fail);
     dSetDebugHandler(fail);
     dSetMessageHandler(be_silent);
-    Peer peer{"ODE", {}, {}, {}};
+    Peer peer{"ODE", {}, {}, {}, {}};
     // The full step (dWorldStep) is excluded elsewhere: in flight it is the quick step, in crowds its dense matrix
     // takes minutes, and on rows its LCP solver fails ("internal error, s <= 0").
     peer.accuracy = {{"quickstep", [](Demand) { return true; },
@@ -274,7 +274,14 @@ int main(int argc, char** argv) {
                     way("sleep", {Task::pile, Task::sleeping}, sleep, 100000),
                     way("full step", {Task::tower}, full, 30)};  // its dense matrix takes minutes for more bodies
     peer.stability = {{"quickstep", true, make_steady}};
-    const int code = run_peer(argc, argv, peer);
-    dCloseODE();
-    return code;
+    using enum JointTask;
+    const auto joined = [](const Settings& settings) {
+        return [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+            return std::make_unique<OdeSimulator>(scene, rate, settings);
+        };
+    };
+    peer.joints = {{"full step", {precision, load, speed}, joined(full), 200},
+                   {"quickstep", {precision, load, speed, settling}, joined(rest)},
+                   {"sleep", {settling}, joined(sleep)}};
+    return run_peer(argc, argv, peer);  // without dCloseODE(), which fails after an error in a step
 }
