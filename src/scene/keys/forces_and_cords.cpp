@@ -2,6 +2,8 @@
 
 #include "core/safe_text.h"
 #include "scene/keys/body_index.h"
+#include "scene/keys/joint_pins.h"
+#include "scene/keys/joints.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -70,8 +72,14 @@ void read_forces(const TomlTable& root, SceneDescription& scene) {
 }
 
 void add_cords_of_joints(SceneDescription& scene) {
-    for (const JointDescription& joint : scene.joints) {
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        const JointDescription& joint = scene.joints[i];
         if (!joint.visible) continue;
+        if (joint.type != JointType::distance) {
+            const std::vector<CordDescription> pins = pins_of(scene, i);
+            scene.cords.insert(scene.cords.end(), pins.begin(), pins.end());
+            continue;
+        }
         CordDescription cord;
         place_between_anchors(joint, scene.joints, cord);
         scene.cords.push_back(cord);

@@ -74,7 +74,7 @@ constexpr KeyOfTypes joint_keys[] = {
     {"break_impulse", all_types},
     {"collide", all_types | of_gear},
     {"enabled", all_types | of_gear},
-    {"visible", of_distance},
+    {"visible", of_hinge | of_ball | of_slider | of_universal | of_cylindrical | of_distance},
 };
 
 std::string names_of(unsigned types) {

@@ -121,6 +121,18 @@ double JointRows::gear_error(const JointIsland& island, const Block& block, std:
     return measure_gear(joint(block), *joints_, end).error;
 }
 
+JointGeometry JointRows::measure_end(const JointIsland& island, const Block& block,
+                                     std::span<const JointSide> ends) const {
+    if (block.gear) return {};
+    const Joint& j = joint(block);
+    return measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+}
+
+double JointRows::value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
+                           std::span<const JointSide> ends) const {
+    return block.gear ? gear_error(island, block, ends) : g.coordinates[row.coordinate].value;
+}
+
 // Equal and opposite, about one point for each of the two joints.
 void JointRows::store_gear(const JointIsland& island, const Block& block) {
     std::vector<Body>& bodies = island.problem.bodies;

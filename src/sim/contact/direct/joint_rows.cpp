@@ -179,18 +179,6 @@ JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int p
     return side;
 }
 
-JointGeometry JointRows::measure_end(const JointIsland& island, const Block& block,
-                                     std::span<const JointSide> ends) const {
-    if (block.gear) return {};
-    const Joint& j = joint(block);
-    return measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
-}
-
-double JointRows::value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
-                           std::span<const JointSide> ends) const {
-    return block.gear ? gear_error(island, block, ends) : g.coordinates[row.coordinate].value;
-}
-
 double JointRows::close(const JointIsland& island, std::span<const JointSide> ends) {
     double worst = 0.0;
     for (const Block& block : blocks_) {
