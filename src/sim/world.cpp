@@ -215,7 +215,8 @@ void World::State::solve_contacts(const StepContext& step) {
 void World::State::close_clamped_joints(const StepContext& step) {
     const std::span<const std::size_t> clamped = motion->clamped_islands();
     if (clamped.empty()) return;
-    const ContactProblem problem{set.bodies, detection.manifolds(), set.old_velocities, {step.h, 0.0}, nullptr, &joints};
+    const ContactProblem problem{set.bodies, detection.manifolds(), set.old_velocities, {step.h, 0.0}, nullptr,
+                                 &joints};
     for (const std::size_t k : clamped) contact_solver.close_joints(problem, detection.islands(), k);
 }
 

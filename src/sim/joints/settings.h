@@ -18,7 +18,7 @@ inline constexpr double joint_closed = 1e-13;
 
 /// Residual of Newton's steps, as a share of the fastest speed, that may be rounding: the stiffness of rigid rows times
 /// the rounding of speeds. Not fitted: rounding.
-inline constexpr double joint_stall = 1e-6;
+inline constexpr double joint_stall = 1e-9;
 
 /// Largest phase, rad, of a link's swing under tension in a step: the direction of the force is that of the step's start,
 /// and the motion grows without bound from a phase of 1 to 2 on. Related test: JointStatics.AWreckingBall.
@@ -70,9 +70,12 @@ inline constexpr double joint_flight_over = 1.1;
 /// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_singular = 0.2;
 
-/// Factor of the tolerance of Newton's steps for joints in contact, and their number in the first round. Not fitted: cost.
+/// Factor of the tolerance of Newton's steps for joints in contact, and their number: in the first and each later round,
+/// and in the trial with stiff friction. Not fitted: cost.
 inline constexpr double joint_contact_tolerance = 100.0;
 inline constexpr int joint_first_newton_steps = 100;
+inline constexpr int joint_newton_steps = 40;
+inline constexpr int joint_trial_newton_steps = 12;
 
 /// Error, in sizes of the joint, at which the joints of an island in contact count as closed after
 /// tuning::direct_rounds rounds. Not fitted: the next step closes the rest.

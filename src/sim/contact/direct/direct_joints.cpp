@@ -32,16 +32,19 @@ bool DirectSolver::push_joined(const JointIsland& island, bool moved) {
     }
     const std::vector<double> contacts = push_;
     double last = infinity;
-    for (int pass = 0;; ++pass) {
+    for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
         push_ = contacts;
         joints_.add_push(push_);
         matrix_.solve(push_);
-        if (pass == tuning::joint_rounds) return true;
         predict_ends(island, moved);
         const double error = joints_.close_push(island, ends_, push_);
         if (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
+        if (!(error < last)) break;
         last = error;
     }
+    // Overlaps and violated limits that cannot be moved out with closed joints stay.
+    std::fill(push_.begin(), push_.end(), 0.0);
+    return false;
 }
 
 // Factors the matrix, unless it is that of the last factorization: with joints alone, the passes of a step share one.
@@ -95,20 +98,22 @@ bool DirectSolver::step_linear() {
     return factored_;
 }
 
-// Beside contacts, the friction of joints starts soft as that of contacts does.
+// Beside contacts, and where Newton's method stalls on its bounds, the friction of joints starts soft as that of contacts.
 void DirectSolver::set_friction_compliance(double compliance) {
     friction_compliance_ = compliance;
-    if (!constraints_.empty()) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
+    if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
 }
 
 // Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
 // the last solution.
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
+    joint_friction_softens_ = !constraints_.empty();
     set_friction_compliance(tuning::direct_friction_soft * compliance_);
     start();
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
     const double noise = joints_.rounding(fastest_);  // N s
     const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
+    const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
     consistent_ = true;
     limits_held_ = false;
     double last = infinity;
@@ -116,12 +121,22 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     bool found = false;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
         if (found) kept_ = velocity_;
-        if (!step_linear() && !minimize(found ? tuning::direct_newton_steps : tuning::joint_first_newton_steps)) {
+        const bool trial = !joint_friction_softens_ && joints_.any_friction();
+        const int most_steps = found   ? tuning::joint_newton_steps
+                               : trial ? tuning::joint_trial_newton_steps
+                                       : tuning::joint_first_newton_steps;
+        if (!step_linear() && !minimize(most_steps)) {
             if (found) {
                 velocity_ = kept_;
                 joints_.keep_estimates();
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
+            }
+            if (!found && trial) {
+                joint_friction_softens_ = true;
+                set_friction_compliance(tuning::direct_friction_soft * compliance_);
+                start();
+                continue;
             }
             consistent_ = found;
             return found && last < rounding ? Closing::closed : Closing::stuck;
@@ -140,7 +155,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         // Friction may change slowly from round to round; the joints are closed all the same.
         if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;
-        slow = error > rounding && error >= 0.5 * last ? slow + 1 : 0;
+        slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
         if (slow >= 3) {
             if (constraints_.empty() || limits_held_) return Closing::open;
             limits_held_ = true;

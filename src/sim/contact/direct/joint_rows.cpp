@@ -157,6 +157,10 @@ std::pair<double, double> JointRows::next_round(bool follow) {
     return {change, largest};
 }
 
+bool JointRows::any_friction() const {
+    return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.law == Joint::friction; });
+}
+
 void JointRows::soften_friction(double factor) {
     for (Row& row : rows_)
         if (row.law == Joint::friction) row.compliance = factor * compliance_;

@@ -116,6 +116,7 @@ public:
     /// largest impulse, N s.
     std::pair<double, double> next_round(bool follow);
     void keep_estimates();
+    bool any_friction() const;
     /// Makes the rows of friction `factor` times as compliant as rigid rows.
     void soften_friction(double factor);
     /// Moves the targets such that the errors at the end of the step vanish, given the poses there. Returns the largest
