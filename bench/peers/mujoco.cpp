@@ -78,8 +78,10 @@ private:
             return;
         }
         const Joint& joint = scene_.joints[node.joint];
-        const Vector axis = axis_for(joint, node.body), spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
-                     slip = velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
+        const Vector axis = axis_for(joint, node.body),
+                     spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
+                     slip =
+                         velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
         if (joint.kind == JointKind::ball) put(v, local(spin));
         if (joint.kind == JointKind::hinge) v[0] = dot(axis, spin);
         if (joint.kind == JointKind::slider) v[0] = dot(axis, slip);

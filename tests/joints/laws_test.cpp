@@ -46,6 +46,27 @@ TEST(JointLaws, AMotorOpensADoorToItsLimit) {
     EXPECT_NEAR(world.joint_states()[0].position[3], 0.5 * std::numbers::pi, 1e-12);
 }
 
+// At 100 rad/s and 60 steps a second the limit comes in the first step, which starts with velocities that fit the joint.
+TEST(JointLaws, AFastRodStopsAtItsLimit) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi, 1);
+    scene.simulation.gravity = Vec3::Zero();
+    scene.bodies[0].angular_velocity = {0.0, 0.0, 100.0};
+    scene.bodies[0].velocity = {0.0, 50.0, 0.0};
+    JointAxis& angle = scene.joints[0].turn[0];
+    angle.motion = JointAxis::Motion::limited;
+    angle.lower = -0.5 * std::numbers::pi;
+    for (const double limit : {0.5, 5.0}) {
+        angle.upper = limit * std::numbers::pi;
+        World world(scene);
+        for (int step = 0; step < 12; ++step) {
+            world.step();
+            ASSERT_LT(largest_gap(world), 1e-12);
+            ASSERT_LT(world.joint_states()[0].position[3], angle.upper + 1e-9);
+        }
+        EXPECT_NEAR(world.joint_states()[0].position[3], angle.upper, 1e-9);
+    }
+}
+
 TEST(JointLaws, ALimitWithRestitutionReturnsTheSpeed) {
     SceneDescription scene = door_scene(16);
     scene.bodies[0].angular_velocity = {0.0, 2.0, 0.0};

@@ -100,7 +100,8 @@ DrawMesh make_cylinder(int sides) {
         }
         for (auto i = first + 1; i + 1 < first + std::uint32_t(sides); ++i) {
             const bool high = end > 0.0;
-            for (const std::uint32_t corner : {first, high ? i : i + 1, high ? i + 1 : i}) mesh.indices.push_back(corner);
+            for (const std::uint32_t corner : {first, high ? i : i + 1, high ? i + 1 : i})
+                mesh.indices.push_back(corner);
         }
     }
     return mesh;

@@ -44,10 +44,7 @@ std::optional<PinSide> side_of_pin(const SceneDescription& scene, const std::opt
 class PinMaker {
 public:
     PinMaker(std::size_t joint, const PinSide& holder, const PinSide& smaller)
-        : joint_(joint),
-          holder_(holder),
-          smaller_(smaller),
-          radius_(thickness * smaller.bounds.extent().minCoeff()) {}
+        : joint_(joint), holder_(holder), smaller_(smaller), radius_(thickness * smaller.bounds.extent().minCoeff()) {}
 
     /// Through the smaller body along an axis of the joint, and by `further` (m) more at both ends, up to the body that
     /// holds it.
