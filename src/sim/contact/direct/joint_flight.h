@@ -58,6 +58,8 @@ private:
     std::vector<RigidState> starts_;      // of a stage's drift, by body
     std::vector<double> change_, asked_;  // du; by row: the change of J u that is asked for
     std::vector<double> given_;           // N s, by row: impulses of the stage
+    bool loaded_ = false;                 // rows and matrix are those of the present poses
+    double closed_ = 0.0;                 // largest error of closed joints, in sizes of the joint
     double swing_ = 0.0, compliance_ = 0.0, total_mass_ = 0.0;
 };
 

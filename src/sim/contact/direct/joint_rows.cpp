@@ -210,15 +210,23 @@ double JointRows::rounding(double fastest) const {
     return 4.0 * std::numeric_limits<double>::epsilon() * fastest / compliance_;
 }
 
-double JointRows::rounding(const JointIsland& island, double fastest, double lightest) const {
-    double size = infinity, farthest = 0.0;
+double JointRows::smallest_size() const {
+    double size = infinity;
+    for (const Block& block : blocks_) size = std::min(size, joint(block).size);
+    return size;
+}
+
+double JointRows::place_rounding() const {
+    double farthest = 0.0;
     for (const Block& block : blocks_) {
-        if (block.gear) farthest = std::max(farthest, joint(block).size * block.gear->value);
-        size = std::min(size, joint(block).size);
         farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+        if (block.gear) farthest = std::max(farthest, joint(block).size * block.gear->value);
     }
-    const double places = 2.0 * std::numeric_limits<double>::epsilon() * farthest;
-    return (places + island.problem.settings.h * rounding(fastest) / lightest) / size;
+    return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest_size();
+}
+
+double JointRows::rounding(const JointIsland& island, double fastest, double lightest) const {
+    return place_rounding() + island.problem.settings.h * rounding(fastest) / (lightest * smallest_size());
 }
 
 bool JointRows::give_way() {
@@ -301,7 +309,12 @@ void JointRows::store(const JointIsland& island, bool apply) {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
-            j.impulse[row.coordinate][row.law] = amount;
+            // The friction of a ball acts along axes that follow the motion: it is kept along those of the joint.
+            if (row.law == Joint::friction && row.turns() && j.turns_alike())
+                for (std::size_t i = 0; i < 3; ++i)
+                    j.impulse[3 + i][Joint::friction] += amount * row.direction.dot(block.axes[i]);
+            else
+                j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
         }

@@ -74,7 +74,7 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        Vec3 axes[3] = {};  // world: about which the bodies turn against each other
+        Vec3 axes[3] = {};  // world: about which the bodies turn against each other; of a ball, those of A's joint frame
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
         Gear* gear = nullptr;
@@ -125,6 +125,8 @@ public:
 
     /// Rounding of the impulses (N s) at speeds up to `fastest` (m/s), over the compliance.
     double rounding(double fastest) const;
+    /// Rounding of the coordinates, in sizes of the joint.
+    double place_rounding() const;
     /// Rounding of the closed errors, in sizes of the joint: that of the coordinates, and that of the impulses on the
     /// lightest body (kg).
     double rounding(const JointIsland& island, double fastest, double lightest) const;
@@ -188,6 +190,7 @@ private:
     void store_gear(const JointIsland& island, const Block& block);
     void account_gear(const JointIsland& island, const Block& block);
     void push_row(const Row& row);
+    double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
 
     std::vector<Joint>* joints_ = nullptr;
