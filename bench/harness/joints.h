@@ -15,8 +15,8 @@ struct JointForest {
         std::size_t body = 0;
         std::size_t parent = the_world;  // a body, or the world
         std::size_t joint = the_world;   // index of the joint to the parent; `the_world`: none, the body is free
-        std::size_t root = 0;        // the first body of its tree; each body that is joined to the world is a root
-        std::size_t depth = 0;       // 0: a root
+        std::size_t root = 0;            // the first body of its tree; each body that is joined to the world is a root
+        std::size_t depth = 0;           // 0: a root
     };
     std::vector<Node> nodes;         // all moving bodies, tree by tree, a parent before its children
     std::vector<std::size_t> loops;  // indices of the joints that close loops

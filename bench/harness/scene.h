@@ -105,8 +105,8 @@ struct Scene {
     double gravity = g;  // m/s^2, downwards
     std::vector<Body> bodies;
     std::vector<Joint> joints;
-    bool contacts = true;  // false: no bodies touch each other, and a program may leave out its search for contacts
-    std::optional<Air> air;          // acts on all moving bodies
+    bool contacts = true;    // false: no bodies touch each other, and a program may leave out its search for contacts
+    std::optional<Air> air;  // acts on all moving bodies
     std::optional<PointForce> push;  // acts on body 0
 };
 

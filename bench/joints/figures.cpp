@@ -15,7 +15,8 @@ constexpr double density = 1000.0;  // kg/m^3
 class Figure {
 public:
     std::size_t add(const Vector& size, const Vector& position) {
-        Body body = box({size.x, size.z, size.y}, density * size.x * size.y * size.z, up(position.x, position.y, position.z));
+        Body body =
+            box({size.x, size.z, size.y}, density * size.x * size.y * size.z, up(position.x, position.y, position.z));
         body.friction = 0.5;
         body.restitution = 0.0;
         bodies.push_back(body);

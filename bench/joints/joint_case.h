@@ -28,8 +28,8 @@ struct JointCase {
     std::string name;
     JointTask task = JointTask::precision;
     Scene scene;
-    double seconds = 1.0;       // simulated
-    std::vector<double> rates;  // steps per second
+    double seconds = 1.0;        // simulated
+    std::vector<double> rates;   // steps per second
     double quick_seconds = 0.0;  // in the smoke test; 0: as long as in the full form
     std::vector<double> quick_rates;
     double look_every = 0.0;  // s; 0: every step

@@ -131,8 +131,7 @@ JointCase leaning_tower() {
 void add_loads(std::vector<JointCase>& cases) {
     // J5 and J6. Sag of the lowest joint in m and force at the end in N, of 30 digits.
     const std::vector<double> even(20, 1.0);
-    cases.push_back(
-        hanging_case("hanging chain", even, 0.1, 0.02, 1.0, 0.79827310891563972, 100.651790329227215));
+    cases.push_back(hanging_case("hanging chain", even, 0.1, 0.02, 1.0, 0.79827310891563972, 100.651790329227215));
     std::vector<double> loaded(21, 1.0);
     loaded[10] = 1000.0;
     cases.push_back(

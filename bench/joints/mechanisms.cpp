@@ -32,7 +32,7 @@ JointCase four_bars(int loops, double x, double height) {
         c.scene.joints.push_back(hinge_joint(std::size_t(i + 1), body, up(i + 1, 1.0, 0.0), axis));
     }
     c.seconds = 10.0;
-    c.quick_seconds = 0.5;
+    c.quick_seconds = 0.1;
     c.rates = {120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0};
     c.quick_rates = {240.0};
     const Scene scene = c.scene;
@@ -55,22 +55,19 @@ JointCase bricard() {
     for (std::size_t i = 0; i < 5; ++i) {
         const Vector d = corners[i + 1] - corners[i];
         const auto size = [](double length) { return std::max(0.1, std::fabs(length)); };
-        c.scene.bodies.push_back(
-            box({size(d.x), size(d.y), size(d.z)}, 1.0, 0.5 * (corners[i] + corners[i + 1])));
+        c.scene.bodies.push_back(box({size(d.x), size(d.y), size(d.z)}, 1.0, 0.5 * (corners[i] + corners[i + 1])));
     }
     for (std::size_t i = 0; i < 6; ++i)
-        c.scene.joints.push_back(
-            hinge_joint(i == 0 ? the_world : i - 1, i == 5 ? the_world : i, corners[i], axes[i]));
+        c.scene.joints.push_back(hinge_joint(i == 0 ? the_world : i - 1, i == 5 ? the_world : i, corners[i], axes[i]));
     c.seconds = 2.0;
     c.rates = {60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0};
     c.quick_rates = {60.0, 240.0};
     const Scene scene = c.scene;
     const Vector from = corners[3], there = up(-0.9693403447777, -1.2212468949563, 0.7542780107798);
-    c.watch = watch_end(EndError{"m",
-                                 [=](const Simulator&, const std::vector<Motion>& m) {
-                                     return norm(moved(scene, 2, m[2], from) - there);
-                                 }},
-                        5.0 * g);
+    c.watch = watch_end(
+        EndError{"m", [=](const Simulator&,
+                          const std::vector<Motion>& m) { return norm(moved(scene, 2, m[2], from) - there); }},
+        5.0 * g);
     return c;
 }
 
@@ -89,7 +86,9 @@ public:
         end_ = std::fabs(angle - limit);
     }
     std::vector<Quantity> tell() const override {
-        return {{"error", error_, "rad"}, {"beyond the limit", beyond_, "rad"}, {"off the limit at the end", end_, "rad"},
+        return {{"error", error_, "rad"},
+                {"beyond the limit", beyond_, "rad"},
+                {"off the limit at the end", end_, "rad"},
                 {"gap", gap_, "m"}};
     }
 

@@ -75,8 +75,8 @@ JointCase double_pendulum(double seconds, double first, double second) {
 
 struct Top {
     std::string name;
-    double lean;              // rad from up
-    double rate, spin;        // rad/s: angular velocity rate (up - cos lean e) + spin e
+    double lean;                   // rad from up
+    double rate, spin;             // rad/s: angular velocity rate (up - cos lean e) + spin e
     double seconds, end, azimuth;  // the axis after these seconds: rad from up, and rad of turn
 };
 
@@ -98,11 +98,10 @@ JointCase top(const Top& t) {
     for (int steps = 64; steps <= 16384; steps *= 2) c.rates.push_back(steps / t.seconds);
     c.quick_rates = {512 / t.seconds, 4096 / t.seconds};
     const Vector there{std::sin(t.end) * std::cos(t.azimuth), std::sin(t.end) * std::sin(t.azimuth), std::cos(t.end)};
-    c.watch = watch_end(EndError{"rad",
-                                 [=](const Simulator&, const std::vector<Motion>& m) {
-                                     return norm(rotate(m[0].orientation, z) - there);
-                                 }},
-                        0.1 * g);
+    c.watch = watch_end(
+        EndError{"rad", [=](const Simulator&,
+                            const std::vector<Motion>& m) { return norm(rotate(m[0].orientation, z) - there); }},
+        0.1 * g);
     return c;
 }
 

@@ -117,7 +117,7 @@ enum class Ending { done, cut, absent, failed };
 
 // One step of one way, in a process of its own: a peer may end it by a failed assertion. `spent`: CPU s.
 Ending measure_apart(const JointCase& c, const std::string& program, const JointWay& way, double rate,
-                      const Options& options, double& spent) {
+                     const Options& options, double& spent) {
     std::fflush(stdout);
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("cannot start a process");

@@ -19,8 +19,8 @@ int main(int argc, char** argv) {
     asleep.sleep = true;
     splitting.integrator = tumble::IntegratorKind::splitting;
     exact.integrator = tumble::IntegratorKind::exact;
-    return run_joints(argc, argv, "Tumble",
-                      {way("default", {precision, load, speed, settling}, one),
-                       way("two threads", {settling}, two), way("sleep", {settling}, asleep),
-                       way("splitting", {precision}, splitting), way("exact", {precision}, exact)});
+    return run_joints(
+        argc, argv, "Tumble",
+        {way("default", {precision, load, speed, settling}, one), way("two threads", {settling}, two),
+         way("sleep", {settling}, asleep), way("splitting", {precision}, splitting), way("exact", {precision}, exact)});
 }

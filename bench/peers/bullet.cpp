@@ -165,11 +165,10 @@ JointWay joined(const std::string& name, std::vector<JointTask> tasks, int itera
     settings.sleep = sleep;
     settings.direct = direct;
     const std::size_t most = direct ? 100 : 100000;  // its dense matrix takes minutes for more bodies
-    return {name, std::move(tasks),
-            [=](const Scene& scene, double rate) {
-                return bullet_can_join(scene) ? make(scene, rate, settings) : nullptr;
-            },
-            most};
+    return {
+        name, std::move(tasks),
+        [=](const Scene& scene, double rate) { return bullet_can_join(scene) ? make(scene, rate, settings) : nullptr; },
+        most};
 }
 
 JointWay multibody(const std::string& name, std::vector<JointTask> tasks, const MultibodySettings& settings) {

@@ -58,8 +58,8 @@ std::unique_ptr<btTypedConstraint> constraint_of(const Joint& joint, btRigidBody
     if (joint.kind == JointKind::hinge) made = hinge(joint, first, second, h);
     if (joint.kind == JointKind::slider) made = slider(joint, first, second);
     if (joint.kind == JointKind::fixed)
-        made = std::make_unique<btFixedConstraint>(first, second, frame_in(first, joint, x),
-                                                   frame_in(second, joint, x));
+        made =
+            std::make_unique<btFixedConstraint>(first, second, frame_in(first, joint, x), frame_in(second, joint, x));
     if (joint.break_force > 0.0) made->setBreakingImpulseThreshold(btScalar(joint.break_force * h));
     return made;
 }

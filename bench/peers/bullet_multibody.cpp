@@ -77,10 +77,9 @@ private:
         const bool grounded = nodes[0].joint != the_world;
         const Body& first = scene_.bodies[nodes[0].body];
         const int links = int(nodes.size()) - (grounded ? 0 : 1);
-        auto made = grounded
-                        ? std::make_unique<btMultiBody>(links, btScalar(0), btVector3(0, 0, 0), true, false)
-                        : std::make_unique<btMultiBody>(links, btScalar(first.mass), vec(first.principal_inertia()),
-                                                        false, false);
+        auto made = grounded ? std::make_unique<btMultiBody>(links, btScalar(0), btVector3(0, 0, 0), true, false)
+                             : std::make_unique<btMultiBody>(links, btScalar(first.mass),
+                                                             vec(first.principal_inertia()), false, false);
         btMultiBody& m = *made;
         multibodies_.push_back(std::move(made));
         int link = grounded ? 0 : -1;
@@ -119,12 +118,13 @@ private:
         const Body& body = scene_.bodies[node.body];
         const Joint& joint = scene_.joints[node.joint];
         const btTransform here = pose(body.orientation, body.position),
-                          there = node.parent == the_world
-                                      ? btTransform::getIdentity()
-                                      : pose(scene_.bodies[node.parent].orientation, scene_.bodies[node.parent].position);
+                          there = node.parent == the_world ? btTransform::getIdentity()
+                                                           : pose(scene_.bodies[node.parent].orientation,
+                                                                  scene_.bodies[node.parent].position);
         const int parent = node.parent == the_world ? -1 : places_[node.parent].link;
         const btQuaternion to_this = here.getRotation().inverse() * there.getRotation();
-        const btVector3 anchor = vec(joint.anchor), pivot = there.inverse() * anchor, center = -(here.inverse() * anchor),
+        const btVector3 anchor = vec(joint.anchor), pivot = there.inverse() * anchor,
+                        center = -(here.inverse() * anchor),
                         axis = here.getBasis().transpose() * vec(axis_for(joint, node.body)),
                         inertia = vec(body.principal_inertia());
         const btScalar mass = btScalar(body.mass);
@@ -140,8 +140,10 @@ private:
     // The link's velocity relative to its parent, limits and motor.
     void set_motion(btMultiBody& m, int link, const Node& node) {
         const Joint& joint = scene_.joints[node.joint];
-        const Vector axis = axis_for(joint, node.body), spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
-                     slip = velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
+        const Vector axis = axis_for(joint, node.body),
+                     spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
+                     slip =
+                         velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
         if (joint.kind == JointKind::ball) {
             const Vector local = rotate_back(scene_.bodies[node.body].orientation, spin);
             btScalar speed[3] = {btScalar(local.x), btScalar(local.y), btScalar(local.z)};

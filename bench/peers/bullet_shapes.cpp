@@ -4,8 +4,7 @@ namespace tumble::bench {
 
 btCollisionShape* BulletShapes::make(const Body& body) {
     std::unique_ptr<btCollisionShape> shape;
-    if (body.kind == Kind::plane)
-        shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), btScalar(body.offset));
+    if (body.kind == Kind::plane) shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), btScalar(body.offset));
     if (body.kind == Kind::box) shape = std::make_unique<btBoxShape>(vec(0.5 * body.size));
     if (body.kind == Kind::sphere) shape = std::make_unique<btSphereShape>(btScalar(body.radius));
     if (body.kind == Kind::hexahedron) {

@@ -159,7 +159,8 @@ private:
         const SceneJoint& joint = scene_.joints[node.joint];
         const Vector axis = axis_for(joint, node.body),
                      spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
-                     slip = velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
+                     slip =
+                         velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
         if (joint.kind == JointKind::ball) made.setVelocities(vec(spin));
         if (joint.kind == JointKind::hinge) made.setVelocity(0, dot(axis, spin));
         if (joint.kind == JointKind::slider) made.setVelocity(0, dot(axis, slip));
@@ -241,13 +242,13 @@ int main(int argc, char** argv) {
                             return std::make_unique<DartSimulator>(scene, rate, true);
                         }};
     using enum JointTask;
-    const JointWay joined{"Dantzig", {precision, load, speed},
-                          [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
-                              if (!can_represent(scene)) return nullptr;
-                              // A step of more loops takes a minute.
-                              if (forest_of(scene).loops.size() > 200) return nullptr;
-                              return std::make_unique<DartSimulator>(scene, rate, false);
-                          }};
+    const JointWay joined{
+        "Dantzig", {precision, load, speed}, [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+            if (!can_represent(scene)) return nullptr;
+            // A step of more loops takes a minute.
+            if (forest_of(scene).loops.size() > 200) return nullptr;
+            return std::make_unique<DartSimulator>(scene, rate, false);
+        }};
     return run_peer(argc, argv,
                     {"DART",
                      {euler},

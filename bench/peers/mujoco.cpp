@@ -78,8 +78,10 @@ private:
             return;
         }
         const Joint& joint = scene_.joints[node.joint];
-        const Vector axis = axis_for(joint, node.body), spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
-                     slip = velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
+        const Vector axis = axis_for(joint, node.body),
+                     spin = spin_of(scene_, node.body) - spin_of(scene_, node.parent),
+                     slip =
+                         velocity_at(scene_, node.body, joint.anchor) - velocity_at(scene_, node.parent, joint.anchor);
         if (joint.kind == JointKind::ball) put(v, local(spin));
         if (joint.kind == JointKind::hinge) v[0] = dot(axis, spin);
         if (joint.kind == JointKind::slider) v[0] = dot(axis, slip);
@@ -165,9 +167,9 @@ int main(int argc, char** argv) {
             return std::make_unique<MujocoSimulator>(scene, rate, settings);
         };
     };
-    peer.joints = {{"Euler", {precision, load, speed}, joined({"Euler", "Newton", true}), 1000},
-                   {"implicit", {precision, load}, joined({"implicit", "Newton", true}), 1000},
-                   {"RK4", {precision, load, speed}, joined({"RK4", "Newton", true}), 1000},
-                   {"CG", {settling}, joined({"Euler", "CG", true}), 2000}};
+    peer.joints = {{"Euler", {precision, load, speed}, joined({"Euler", "Newton", true}), 300},
+                   {"implicit", {precision, load}, joined({"implicit", "Newton", true}), 300},
+                   {"RK4", {precision, load, speed}, joined({"RK4", "Newton", true}), 300},
+                   {"CG", {settling}, joined({"Euler", "CG", true}), 300}};
     return run_peer(argc, argv, peer);
 }

@@ -54,9 +54,11 @@ std::string head_of(const Scene& scene, double h, const MujocoSettings& settings
                       rows = (rough ? 3 : 1) * contacts + 6 * scene.joints.size();
     std::ostringstream xml;
     xml.precision(17);
-    xml << "<mujoco><compiler angle='radian'/><option timestep='" << h << "' gravity='0 0 " << -scene.gravity << "' integrator='"
-        << settings.integrator << "' solver='" << settings.solver << "' cone='elliptic' iterations='" << settings.iterations << "'>" << flags_of(scene) << "</option><size nconmax='" << contacts
-        << "' njmax='" << rows << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
+    xml << "<mujoco><compiler angle='radian'/><option timestep='" << h << "' gravity='0 0 " << -scene.gravity
+        << "' integrator='" << settings.integrator << "' solver='" << settings.solver
+        << "' cone='elliptic' iterations='" << settings.iterations << "'>" << flags_of(scene)
+        << "</option><size nconmax='" << contacts << "' njmax='" << rows
+        << "' nstack='20000000'/><default><geom condim='" << (rough ? 3 : 1) << "' solref='"
         << solref(scene, h, settings.stiff) << "'" << solimp(scene, settings.stiff) << "/></default><asset>";
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].kind != Kind::hexahedron) continue;

@@ -132,8 +132,7 @@ SceneDescription described(const Scene& scene, double rate, const TumbleSettings
     d.simulation.contact_solver = settings.contact_solver;
     d.simulation.sleep = settings.sleep;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) d.bodies.push_back(described(scene.bodies[i], i));
-    for (std::size_t j = 0; j < scene.joints.size(); ++j)
-        d.joints.push_back(described(scene, scene.joints[j], j));
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) d.joints.push_back(described(scene, scene.joints[j], j));
     if (scene.air) d.wind = WindDescription{vec(scene.air->velocity), scene.air->density, scene.air->drag};
     if (scene.push)
         d.forces.push_back(
