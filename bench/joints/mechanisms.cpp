@@ -32,7 +32,7 @@ JointCase four_bars(int loops, double x, double height) {
         c.scene.joints.push_back(hinge_joint(std::size_t(i + 1), body, up(i + 1, 1.0, 0.0), axis));
     }
     c.seconds = 10.0;
-    c.quick_seconds = 0.5;
+    c.quick_seconds = 0.1;
     c.rates = {120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0};
     c.quick_rates = {240.0};
     const Scene scene = c.scene;

@@ -3,9 +3,14 @@
 #include "harness/clock.h"
 #include "harness/options.h"
 
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <stdexcept>
 
 namespace tumble::bench {
 namespace {
@@ -31,11 +36,9 @@ public:
 
     /// The quantities; empty where the program cannot represent the scene.
     std::vector<Quantity> take(bool timed) {
-        const double begin = cpu_seconds();
         const auto watch = case_.watch(case_.scene, seconds_);
         Spending run;
         if (!watched_run(*watch, run)) return {};
-        spent_ = cpu_seconds() - begin;
         cut_ = run.steps < steps_;
         if (timed && !cut_ && case_.task == JointTask::precision && run.cpu < long_enough) repeat(run);
         const double simulated = double(run.steps) / rate_;
@@ -49,7 +52,6 @@ public:
             if (!cut_ || q.name != "error") all.push_back(q);
         return all;
     }
-    double spent() const { return spent_; }
     bool cut() const { return cut_; }
 
 private:
@@ -99,7 +101,7 @@ private:
     const JointWay& way_;
     double rate_, seconds_;
     long steps_;
-    double patience_, spent_ = 0.0;
+    double patience_;
     bool cut_ = false;
 };
 
@@ -111,24 +113,45 @@ void write_figures(const std::string& name, const std::string& program, const Jo
     std::fflush(stdout);
 }
 
-// From coarse to fine, while the next step is likely to be done in time.
-void climb_rates(const JointCase& c, const std::string& program, const JointWay& way, const Options& options) {
-    double spent = 0.0, last_rate = 0.0;
-    for (const double rate : options.quick ? c.quick_rates : c.rates) {
-        if (last_rate > 0.0 && spent * rate / last_rate > options.patience) return;
+enum class Ending { done, cut, absent, failed };
+
+// One step of one way, in a process of its own: a peer may end it by a failed assertion. `spent`: CPU s.
+Ending measure_apart(const JointCase& c, const std::string& program, const JointWay& way, double rate,
+                     const Options& options, double& spent) {
+    std::fflush(stdout);
+    const pid_t child = fork();
+    if (child < 0) throw std::runtime_error("cannot start a process");
+    if (child == 0) {
+        Ending ending = Ending::failed;
         try {
             Measurement measurement(c, way, rate, options);
             const std::vector<Quantity> all = measurement.take(!options.quick);
-            if (all.empty()) return;
             write_figures(c.name, program, way, rate, all);
-            if (measurement.cut()) return;
-            spent = measurement.spent();
-            last_rate = rate;
+            ending = all.empty() ? Ending::absent : measurement.cut() ? Ending::cut : Ending::done;
         } catch (const std::exception& e) {  // a world that diverged
             std::fprintf(stderr, "%s, %s, %s, 1/%g s: %s\n", c.name.c_str(), program.c_str(), way.name.c_str(), rate,
                          e.what());
-            write_figures(c.name, program, way, rate, {{"ended by an error", 1.0, ""}});
         }
+        std::fflush(stdout);
+        _exit(int(ending));
+    }
+    int status = 0;
+    rusage usage{};
+    wait4(child, &status, 0, &usage);
+    spent = double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
+    return WIFEXITED(status) ? Ending(WEXITSTATUS(status)) : Ending::failed;
+}
+
+// From coarse to fine.
+void climb_rates(const JointCase& c, const std::string& program, const JointWay& way, const Options& options) {
+    double spent = 0.0, last_rate = 0.0;
+    for (const double rate : options.quick ? c.quick_rates : c.rates) {
+        const bool slow = last_rate > 0.0 && spent * rate / last_rate > options.patience;
+        if (slow && c.task == JointTask::precision) return;  // it would be cut short, without an error
+        const Ending ending = measure_apart(c, program, way, rate, options, spent);
+        if (ending == Ending::absent || ending == Ending::cut) return;
+        if (ending == Ending::failed) write_figures(c.name, program, way, rate, {{"ended by an error", 1.0, ""}});
+        last_rate = ending == Ending::done ? rate : 0.0;
     }
 }
 

@@ -89,11 +89,11 @@ private:
             ++link;
         }
         m.setBaseWorldTransform(grounded ? btTransform::getIdentity() : pose(first.orientation, first.position));
+        m.finalizeMultiDof();
         if (!grounded) {
             m.setBaseVel(vec(first.velocity));
             m.setBaseOmega(vec(first.angular_velocity));
         }
-        m.finalizeMultiDof();
         m.setLinearDamping(0);
         m.setAngularDamping(0);
         m.setUseGyroTerm(true);
@@ -101,7 +101,6 @@ private:
         m.setHasSelfCollision(true);
         m.useRK4Integration(settings_.rk4);
         m.useGlobalVelocities(false);
-        m.setMaxCoordinateVelocity(BT_LARGE_FLOAT);  // default 100 m/s
         m.setMaxAppliedImpulse(BT_LARGE_FLOAT);
         world_.addMultiBody(&m);
         for (const Node& node : nodes) {
@@ -217,6 +216,9 @@ private:
             auto& rows = velocities_[m.get()];
             rows.resize(std::size_t(m->getNumLinks()) + 1);
             btAlignedObjectArray<btVector3> spin, velocity;
+            btAlignedObjectArray<btQuaternion> scratch_q;
+            btAlignedObjectArray<btVector3> scratch_v;
+            m->forwardKinematics(scratch_q, scratch_v);  // after a step the poses of the links are those of its start
             spin.resize(m->getNumLinks() + 1);
             velocity.resize(m->getNumLinks() + 1);
             m->compTreeLinkVelocities(&spin[0], &velocity[0]);

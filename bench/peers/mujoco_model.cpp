@@ -48,7 +48,9 @@ std::string head_of(const Scene& scene, double h, const MujocoSettings& settings
     for (const Body& body : scene.bodies) rough |= body.friction > 0.0;
     std::size_t shapes = 0;
     for (const Body& body : scene.bodies) shapes += std::max<std::size_t>(1, 2 * body.parts.size());
-    const std::size_t contacts = std::max<std::size_t>(100, 8 * shapes),
+    // Its memory grows with rows times degrees of freedom.
+    const std::size_t each = scene.joints.empty() ? 8 : 3;
+    const std::size_t contacts = scene.contacts ? std::max<std::size_t>(100, each * shapes) : 1,
                       rows = (rough ? 3 : 1) * contacts + 6 * scene.joints.size();
     std::ostringstream xml;
     xml.precision(17);

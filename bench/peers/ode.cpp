@@ -87,11 +87,11 @@ public:
     }
 
     std::optional<Vector> joint_force(std::size_t joint) const override {
-        const bool turned = dJointGetBody(joints_[joint], 0) != body_of(scene_.joints[joint].first);
-        const dReal* f = turned ? feedback_[joint].f1 : feedback_[joint].f2;
-        if (scene_.joints[joint].second == the_world)  // there is no second body: the opposite of the first one's
-            return Vector{-feedback_[joint].f1[0], -feedback_[joint].f1[1], -feedback_[joint].f1[2]};
-        return Vector{f[0], f[1], f[2]};
+        // The first force is that on the body in place of a first one that is the world.
+        const dReal *f1 = feedback_[joint].f1, *f2 = feedback_[joint].f2;
+        if (scene_.joints[joint].first == the_world) return Vector{f1[0], f1[1], f1[2]};
+        if (scene_.joints[joint].second == the_world) return Vector{-f1[0], -f1[1], -f1[2]};
+        return Vector{f2[0], f2[1], f2[2]};
     }
 
     Motion motion(std::size_t i) const override {
