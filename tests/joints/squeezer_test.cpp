@@ -97,15 +97,23 @@ Squeezed squeeze(int steps, IntegratorKind integrator) {
     const double start[] = {beta, 0.0, gamma, delta, epsilon, phi, omega};
     for (std::size_t k = 0; k < 7; ++k) {
         const double angle = start[k] + joints[k].position[3];
-        std::printf("%zu %.17g %.3g\n", k, angle, angle - expected[k]);
         result.error = std::max(result.error, std::abs(angle - expected[k]));
     }
-    std::printf("steps %d error %.3g gap %.3g\n", steps, result.error, result.gap);
     return result;
 }
 
-TEST(Squeezer, Runs) {
-    for (const int steps : {360, 720, 1440, 2880}) squeeze(steps, IntegratorKind::symplectic_euler);
+TEST(JointReference, AndrewsSqueezer) {
+    const Squeezed squeezed = squeeze(360, IntegratorKind::exact);
+    EXPECT_LT(squeezed.error, 1e-11);
+    EXPECT_LT(squeezed.gap, 1e-14);
+}
+
+TEST(JointReference, AndrewsSqueezerWithDefaultFlight) {
+    const Squeezed coarse = squeeze(720, IntegratorKind::symplectic_euler);
+    const Squeezed fine = squeeze(1440, IntegratorKind::symplectic_euler);  // 1/48,000 s
+    EXPECT_LT(fine.error, 3e-4);
+    EXPECT_NEAR(coarse.error / fine.error, 4.0, 0.1);
+    EXPECT_LT(fine.gap, 1e-14);
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        Vec3 axes[3] = {};  // world: about which the bodies turn against each other; of a ball, those of A's joint frame
+        Vec3 axes[3] =
+            {};  // world: about which the bodies turn against each other; of a ball, those of A's joint frame
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
         Gear* gear = nullptr;
