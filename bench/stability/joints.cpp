@@ -11,7 +11,7 @@ namespace {
 
 constexpr double gap_limit = 1e-3;  // m
 
-// The gap over its limit, or the gain of energy over one percent of `scale` (J), whichever is larger.
+// The larger of the gap over its limit and the gain of energy over one percent of `scale` (J).
 auto gap_and_gain(const Scene& scene, double scale) {
     const auto start = std::make_shared<double>(HUGE_VAL);
     return [=](double, const std::vector<Motion>& motions) {

@@ -215,6 +215,20 @@ TEST(JointLaws, FrictionTakesItsTorqueTimesTheAngle) {
 }
 
 // The hinge of a rod from 90 degrees breaks at 15 N: at 0.918177608833369149 rad, 0.300354695438428074 s.
+TEST(JointLaws, FrictionOfABallActsAgainstItsSpinAboutAnyAxis) {
+    SceneDescription scene = empty_scene();
+    BodyDescription& cube = add_box(scene, {0.6, 0.6, 0.6}, Vec3::Zero());  // 1 kg: I = 0.06 kg m^2
+    const Vec3 spin = Vec3(1.0, 2.0, -2.0) / 3.0;
+    cube.angular_velocity = 6.0 * spin;
+    JointDescription& ball = add_joint(scene, JointType::ball, std::nullopt, 0, Vec3::Zero());
+    for (JointAxis& turn : ball.turn) turn.friction = 0.12;  // 2 rad/s^2
+    World world(scene);
+    for (int k = 0; k < 60; ++k) world.advance_frame();
+    EXPECT_LT((world.snapshot().bodies[0].angular_velocity - 4.0 * spin).norm(), 1e-9);
+    for (int k = 0; k < 150; ++k) world.advance_frame();
+    EXPECT_LT(world.snapshot().bodies[0].angular_velocity.norm(), 1e-12);
+}
+
 TEST(JointLaws, BreaksAtItsStrength) {
     SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
     scene.joints[0].break_force = 15.0;

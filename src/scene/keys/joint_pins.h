@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-/// What is drawn of a joint other than a distance joint: cylinders fixed in one of its bodies.
+/// The drawing of a joint other than a distance joint: cylinders fixed in one of its bodies.
 std::vector<CordDescription> pins_of(const SceneDescription& scene, std::size_t joint);
 
 }  // namespace tumble

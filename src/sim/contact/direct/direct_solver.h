@@ -96,6 +96,7 @@ private:
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem) const;
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
+    static int turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds);
     bool push_joined(const JointIsland& island, bool moved);
 
     struct Mass {

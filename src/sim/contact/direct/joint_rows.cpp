@@ -73,8 +73,26 @@ void JointRows::evaluate_changes(const std::vector<double>& du) {
             rows_[k].change = dot(block, rows_[k], du);
 }
 
+// f = y where |y| <= most, else most y / |y|; y = e + (b - J u) / R.
+JointRows::BallFriction JointRows::ball_friction(const Row* row, double along) {
+    BallFriction ball;
+    for (Eigen::Index i = 0; i < 3; ++i)
+        ball.wanted[i] = row[i].estimate + (row[i].target - row[i].speed - along * row[i].change) / row[i].compliance;
+    const double size = ball.wanted.norm();
+    ball.slides = size > row->most;
+    ball.scale = ball.slides ? row->most / size : 1.0;
+    return ball;
+}
+
 void JointRows::evaluate(double along) {
-    for (Row& row : rows_) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        Row& row = rows_[k];
+        if (row.starts_ball) {
+            const BallFriction ball = ball_friction(&row, along);
+            for (Eigen::Index i = 0; i < 3; ++i) rows_[k++].impulse = ball.scale * ball.wanted[i];
+            --k;
+            continue;
+        }
         const double y = row.estimate + (row.target - row.speed - along * row.change) / row.compliance;
         row.impulse = std::clamp(y, row.least, row.most);
     }
@@ -82,7 +100,20 @@ void JointRows::evaluate(double along) {
 
 void JointRows::evaluate_with_weights() {
     weights_changed_ = false;
-    for (Row& row : rows_) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        Row& row = rows_[k];
+        if (row.starts_ball) {
+            const BallFriction ball = ball_friction(&row, 0.0);
+            // The weights of friction that slides turn with its direction.
+            weights_changed_ = weights_changed_ || ball.slides || row.bound != 0;
+            for (Eigen::Index i = 0; i < 3; ++i, ++k) {
+                rows_[k].impulse = ball.scale * ball.wanted[i];
+                rows_[k].bound = std::int8_t(ball.slides);
+                rows_[k].weight = ball.scale / rows_[k].compliance;
+            }
+            --k;
+            continue;
+        }
         const double y = row.estimate + (row.target - row.speed) / row.compliance;
         row.impulse = std::clamp(y, row.least, row.most);
         const auto bound = std::int8_t((y > row.most || row.least == row.most) - (y < row.least));
@@ -103,7 +134,14 @@ double JointRows::objective(const std::vector<double>& u) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            const double y = row.estimate + (row.target - row.offset - dot(block, row, u)) / row.compliance;
+            double y = row.estimate + (row.target - row.offset - dot(block, row, u)) / row.compliance;
+            if (row.starts_ball) {  // Huber's function of the length
+                for (std::size_t i = 1; i < 3; ++i) {
+                    const Row& next = rows_[++k];
+                    y = std::hypot(y,
+                                   next.estimate + (next.target - next.offset - dot(block, next, u)) / next.compliance);
+                }
+            }
             const double f = std::clamp(y, row.least, row.most);
             sum += row.compliance * f * (y - 0.5 * f);  // Huber's function
         }
@@ -124,8 +162,20 @@ void JointRows::add_estimates(std::vector<double>& g) const {
 
 void JointRows::add_weights(BlockCholesky& matrix) const {
     for (const Block& block : blocks_)
-        for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (rows_[k].weight != 0.0) add_square(matrix, block, rows_[k], rows_[k].weight);
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            if (row.weight == 0.0) continue;
+            add_square(matrix, block, row, row.weight);
+            if (!row.starts_ball || row.bound != 1) continue;
+            // Friction that slides is stiff across its direction alone: less the square along it.
+            const Vec3 along = ball_friction(&row, 0.0).wanted.normalized();
+            Row sum = row;
+            for (int i = 0; i < 6; ++i) {
+                sum.on_a[i] = along[0] * row.on_a[i] + along[1] * (&row)[1].on_a[i] + along[2] * (&row)[2].on_a[i];
+                sum.on_b[i] = along[0] * row.on_b[i] + along[1] * (&row)[1].on_b[i] + along[2] * (&row)[2].on_b[i];
+            }
+            add_square(matrix, block, sum, -row.weight);
+        }
 }
 
 double JointRows::demand(const std::vector<double>& u) const {
@@ -137,8 +187,8 @@ double JointRows::demand(const std::vector<double>& u) const {
             if (row.law == Joint::lock) most = std::max(most, std::abs(missing));
             if (row.least == 0.0) most = std::max(most, missing);
             if (row.most == 0.0) most = std::max(most, -missing);
-            // A drive changes the speed by no more than its force allows.
-            if (row.law == Joint::motor || row.law == Joint::spring)
+            // Drives and friction change the speed by no more than their force allows.
+            if (row.law == Joint::motor || row.law == Joint::spring || row.law == Joint::friction)
                 most = std::max(most, std::min(std::abs(missing), row.most / total_mass_));
         }
     return most;
@@ -246,7 +296,7 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             row.least = row.most = row.estimate = row.impulse / over;
-            row.closes = row.soft = false;
+            row.closes = row.soft = row.starts_ball = false;
         }
     }
     return any;
@@ -309,12 +359,7 @@ void JointRows::store(const JointIsland& island, bool apply) {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
-            // The friction of a ball acts along axes that follow the motion: it is kept along those of the joint.
-            if (row.law == Joint::friction && row.turns() && j.turns_alike())
-                for (std::size_t i = 0; i < 3; ++i)
-                    j.impulse[3 + i][Joint::friction] += amount * row.direction.dot(block.axes[i]);
-            else
-                j.impulse[row.coordinate][row.law] = amount;
+            j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
         }

@@ -7,7 +7,7 @@
 //   limit   f >= 0 (lower) or f <= 0 (upper); b = -distance / h
 //   spring  R = 1 / (h (h K + C)), b = (K (rest - value) + C v) / (h K + C), e = 0: implicit, stable for any K and C
 //   motor   as a spring to its target, or b = speed; bounds: its largest force times h
-//   friction b = 0; bounds: its force times h
+//   friction b = 0; bounds: its force times h; of a ball, one for the length of the vector of three rows
 // Rows of angles are scaled by the island's length, as the angular velocities are: all rows are in m/s and N s.
 #pragma once
 
@@ -51,8 +51,9 @@ public:
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
-        bool closes = false;  // takes part in close()
-        bool soft = false;    // a spring: its estimate stays 0
+        bool closes = false;       // takes part in close()
+        bool soft = false;         // a spring: its estimate stays 0
+        bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
     /// A gear, which has one row: where it acts.
@@ -74,8 +75,7 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        Vec3 axes[3] =
-            {};  // world: about which the bodies turn against each other; of a ball, those of A's joint frame
+        Vec3 axes[3] = {};  // world: about which the bodies turn against each other
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
         Gear* gear = nullptr;
@@ -179,6 +179,12 @@ private:
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
     JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
+    struct BallFriction {
+        Vec3 wanted = Vec3::Zero();  // N s, without the bound
+        double scale = 1.0;          // from that to the impulse
+        bool slides = false;
+    };
+    static BallFriction ball_friction(const Row* row, double along);
     JointGeometry measure_end(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
     double value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
                     std::span<const JointSide> ends) const;
