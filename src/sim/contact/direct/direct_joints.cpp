@@ -227,6 +227,19 @@ void DirectSolver::move_contact(ConstraintRows& constraint, const ContactProblem
     rewrite(constraint.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b);
 }
 
+// Whether the rows are fulfilled without impulses: at the present velocities, and at the end of the step.
+bool DirectSolver::moves_freely(const JointIsland& island) {
+    if (speed_scale_ > tuning::direct_rounding * fastest_) return false;
+    velocity_ = free_;
+    consistent_ = true;
+    joints_.evaluate_speeds(velocity_);
+    predict_ends(island, false);
+    if (joints_.close(island, ends_) <= std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_)))
+        return true;
+    speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
+    return false;
+}
+
 // Gives the solution to the bodies: the impulses, equal and opposite. Where Newton's steps stopped on the way they do not
 // fit the velocities, which are nearer to the solution.
 void DirectSolver::apply_solution(const JointIsland& island) {
@@ -294,10 +307,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         joints_.keep_velocities(now, substep == 0);
         load_substep(now, substep, substeps);
         structure(step, island.bodies, manifolds);
-        if (speed_scale_ <= tuning::direct_rounding * fastest_) {
-            velocity_ = free_;
-            consistent_ = true;
-        } else {
+        if (!moves_freely(now)) {
             do {
                 const Closing closing = close_joints(now);
                 // Shorter steps help the joints, seldom the contacts.

@@ -81,6 +81,7 @@ private:
     bool fly(const JointIsland& island, int& substeps);
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
+    bool moves_freely(const JointIsland& island);
     void predict_ends(const JointIsland& island, bool moved);
     std::pair<double, double> next_round();
     bool factored();
