@@ -202,11 +202,13 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     }
     joint.impulse = {};
     joint.curving = {};
+    joint.constraint_rate = {};
     const Sample& end = samples_[k];
     for (std::size_t c = 0; c < joint.count(); ++c) {
         if (!joint.locked(c)) continue;
-        joint.constraint_force[c] = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);
-        joint.impulse[c][Joint::lock] = joint.constraint_force[c] * h;
+        const double force = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);
+        joint.constraint_force[c] = 0.5 * force;
+        joint.impulse[c][Joint::lock] = force * h;
     }
     const bool on_ground = tree_.parent_of(index) == TreeNode::no_body;
     const double on_child = behind.work, on_parent = on_ground ? 0.0 : -behind.work;

@@ -3,6 +3,7 @@
 namespace tumble {
 
 bool only_locks(const Joint& joint, const std::vector<Body>& bodies) {
+    if (joint.gear()) return false;
     for (std::size_t c = 0; c < joint.count(); ++c) {
         const JointAxis& axis = joint.axis(c);
         if (axis.spring || axis.motor || axis.friction > 0.0) return false;

@@ -19,10 +19,10 @@
 #pragma once
 
 #include "sim/articulation/tree_flight.h"
-#include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_flight.h"
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/math/block_cholesky.h"
 
 #include <cstdint>
 #include <span>
@@ -84,6 +84,7 @@ private:
     TreeFlight::Outcome fly_tree(const JointIsland& island);
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
+    bool moves_freely(const JointIsland& island);
     void predict_ends(const JointIsland& island, bool moved);
     std::pair<double, double> next_round();
     bool factored();
@@ -98,6 +99,7 @@ private:
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem) const;
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
+    static int turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds);
     bool push_joined(const JointIsland& island, bool moved);
 
     struct Mass {
