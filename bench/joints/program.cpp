@@ -15,9 +15,9 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double long_enough = 0.1;     // CPU s of stepping, which makes the clock's own cost negligible
-constexpr int most_repetitions = 500;   // of a short run
-constexpr double joints_patience = 10;  // CPU s, unless --patience is given
+constexpr double long_enough = 0.1;      // CPU s of stepping, which makes the clock's own cost negligible
+constexpr int most_repetitions = 500;    // of a short run
+constexpr double joints_patience = 6.0;  // CPU s, unless --patience is given
 
 struct Spending {
     double cpu = 0.0, wall = 0.0;
