@@ -115,6 +115,7 @@ struct World::State {
     void begin_joints(const StepContext& step);
     void apply_forces(const StepContext& step);
     void solve_contacts(const StepContext& step);
+    void close_clamped_joints(const StepContext& step);
     void list_asleep();
     void log_skipped(std::int64_t skipped);
     void fall_asleep();
@@ -132,6 +133,7 @@ void World::State::run_stages(const StepContext& step) {
     solve_contacts(step);              // non-penetration, friction and joints
     joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
+    close_clamped_joints(step);
 }
 
 // Joints that begin or end to hold in this step, or are driven in it, wake their bodies.
@@ -207,6 +209,15 @@ void World::State::solve_contacts(const StepContext& step) {
         for (std::size_t k = 0; k < detection.islands().size(); ++k)
             log->add_contacts(detection.islands().manifolds(k), problem, totals);
     impacts.limit_warm_start(step, detection);
+}
+
+// Where CCD stops joined bodies within the step, their joints are open to second order in the step.
+void World::State::close_clamped_joints(const StepContext& step) {
+    const std::span<const std::size_t> clamped = motion->clamped_islands();
+    if (clamped.empty()) return;
+    const ContactProblem problem{set.bodies, detection.manifolds(), set.old_velocities, {step.h, 0.0}, nullptr,
+                                 &joints};
+    for (const std::size_t k : clamped) contact_solver.close_joints(problem, detection.islands(), k);
 }
 
 void World::State::fall_asleep() {

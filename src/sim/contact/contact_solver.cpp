@@ -221,4 +221,11 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
             keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h);
 }
 
+void ContactSolver::close_joints(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
+    const auto bodies = islands.bodies(island);
+    Memory& memory = memory_[bodies[0]];
+    if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
+    memory.solver->close_poses(problem, bodies, islands.joints(island));
+}
+
 }  // namespace tumble

@@ -31,6 +31,9 @@ public:
 
     void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 
+    /// Closes the joints of an island at the present poses: see JointFlight::close_poses().
+    void close_joints(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
+
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {

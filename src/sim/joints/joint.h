@@ -38,9 +38,10 @@ struct Joint {
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
     std::array<double, coordinates>
         curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
-    std::array<double, coordinates> constraint_force{};  // N and N m, of the locked coordinates, of the last flight
-    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();    // N and N m, on B at `point`, mean over the last step
-    Vec3 point = Vec3::Zero();                           // m, world: where the force acts
+    // Half of the forces (N and N m) of the locked coordinates at the end of the last flight, and their rate of change (1/s).
+    std::array<double, coordinates> constraint_force{}, constraint_rate{};
+    Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
+    Vec3 point = Vec3::Zero();                         // m, world: where the force acts
     JointAccount account;
 
     bool distance() const { return description.type == JointType::distance; }
@@ -56,10 +57,11 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps, active, broken,
-               broken_at, value, impulse, curving, constraint_force, force, torque, point, account] = self;
+               broken_at, value, impulse, curving, constraint_force, constraint_rate, force, torque, point, account] =
+            self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
-        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, force, torque,
-                     point, account);
+        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rate,
+                     force, torque, point, account);
     }
 };
 

@@ -18,7 +18,7 @@ inline constexpr double joint_closed = 1e-13;
 
 /// Residual of Newton's steps, as a share of the fastest speed, that may be rounding: the stiffness of rigid rows times
 /// the rounding of speeds. Not fitted: rounding.
-inline constexpr double joint_stall = 1e-6;
+inline constexpr double joint_stall = 1e-9;
 
 /// Largest phase, rad, of a link's swing under tension in a step: the direction of the force is that of the step's start,
 /// and the motion grows without bound from a phase of 1 to 2 on. Related test: JointStatics.AWreckingBall.
@@ -34,13 +34,29 @@ inline constexpr int joint_stuck_substeps = 4;
 /// the cost alone.
 inline constexpr int joint_easy_rounds = 6;
 
-/// Stiffness of the joints in the position correction, over the bodies' mean mass. Near a singular position, as of a taut
-/// chain, an error is closed by displacements up to half the square root of this times as large.
-inline constexpr double joint_push_stiffness = 1e3;
+/// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
+/// a singular position, as of a taut chain, it is closed by displacements up to half the square root of this times as
+/// large.
+inline constexpr double joint_push_apart = 1e3;
+
+/// Stiffness of closed joints there, over the mass of the island: a hundred times that of contacts, so that each pass
+/// makes their errors up to a hundred times smaller.
+inline constexpr double joint_push_closed = 1e4;
+
+/// Errors below this share of the smaller body are moved out by rigid rows: the displacements stay small near singular
+/// positions too. Not fitted: below any visible size.
+inline constexpr double joint_push_small = 1e-6;
 
 /// Convergence of the rounds without contacts, relative to the impulses. Related test:
 /// JointLaws.AMotorOpensADoorToItsLimit.
 inline constexpr double joint_round_tolerance = 1e-8;
+
+/// Compliance of the rows of a tree in flight, over the island's mass and its number of joints: each pass of a projection
+/// makes the rest ten thousand times smaller. Not fitted: passes refine the rounding, which is larger for smaller values.
+inline constexpr double joint_flight_compliance = 1e-3;
+
+/// The velocities fit the joints at this share of the fastest one. Not fitted: rounding.
+inline constexpr double joint_flight_fits = 1e-15;
 
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
@@ -48,6 +64,10 @@ inline constexpr double joint_flight_closed = 4e-16;
 /// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
 /// JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_flight_open = 1e-5;
+
+/// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
+/// that turn by a radian in a step open their joints by less.
+inline constexpr double joint_clamped_open = 0.1;
 
 /// Share of its strength that a joint may carry in the step of a flight in which it breaks. Above, the step is solved such
 /// that it carries no more than its strength. Not fitted: the load of a free motion changes little in a step.
@@ -57,9 +77,12 @@ inline constexpr double joint_flight_over = 1.1;
 /// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_singular = 0.2;
 
-/// Factor of the tolerance of Newton's steps for joints in contact, and their number in the first round. Not fitted: cost.
+/// Factor of the tolerance of Newton's steps for joints in contact, and their number: in the first and each later round,
+/// and in the trial with stiff friction. Not fitted: cost.
 inline constexpr double joint_contact_tolerance = 100.0;
 inline constexpr int joint_first_newton_steps = 100;
+inline constexpr int joint_newton_steps = 40;
+inline constexpr int joint_trial_newton_steps = 12;
 
 /// Error, in sizes of the joint, at which the joints of an island in contact count as closed after
 /// tuning::direct_rounds rounds. Not fitted: the next step closes the rest.

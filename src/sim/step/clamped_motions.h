@@ -8,6 +8,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -37,15 +39,18 @@ public:
                                            const FindPairs& find_pairs, const TurnsFreely& turns_freely = nullptr) {
         const auto& limits = clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely},
                                            find_pairs, touch_depth(detection.manifolds(), step.set.bodies));
+        clamped_islands_.clear();
         return any_fast_ && detection.islands().any_joints() ? joined(limits, detection.islands()) : limits;
     }
+    /// Islands with joints that move for a fraction of the step, by the last limits().
+    std::span<const std::size_t> clamped_islands() const { return clamped_islands_; }
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [clamp, any_fast, joined] = self;
+        auto& [clamp, any_fast, joined, clamped_islands] = self;
         archive.keep(clamp);
-        archive.scratch(any_fast, joined);
+        archive.scratch(any_fast, joined, clamped_islands);
     }
 
 private:
@@ -57,6 +62,7 @@ private:
             double share = 1.0;
             for (const std::uint32_t i : islands.bodies(k)) share = std::min(share, limits[i].share);
             if (share == 1.0) continue;
+            clamped_islands_.push_back(k);
             for (const std::uint32_t i : islands.bodies(k)) joined_[i] = {.share = share};
         }
         return joined_;
@@ -65,6 +71,7 @@ private:
     CcdClamp clamp_;
     std::vector<CcdFraction> joined_;    // by body
     std::atomic<bool> any_fast_{false};  // set by each body's own thread
+    std::vector<std::size_t> clamped_islands_;
 };
 
 }  // namespace tumble

@@ -22,6 +22,7 @@ public:
     bool has_ballistic_bodies() const override { return true; }
     double least_rebound(const StepContext&) const override { return 0.0; }
     void advance(const StepContext& step, ContactDetection& detection) override;
+    std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext& step) override { events_.lay_down(step.set.bodies, step.index); }
     void save(CheckpointWriter& writer) const override;
     void restore(CheckpointReader& reader) override;

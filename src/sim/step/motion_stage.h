@@ -35,6 +35,8 @@ public:
 
     /// x and q to t_n+1, at the velocities of the solved contacts.
     virtual void advance(const StepContext& step, ContactDetection& detection) = 0;
+    /// Islands with joints that CCD has stopped before the end of the step: their joints are not closed.
+    virtual std::span<const std::size_t> clamped_islands() const = 0;
 
     /// Called after bodies have fallen asleep; the context is that of the coming step.
     virtual void bodies_fell_asleep(const StepContext& step) = 0;

@@ -18,8 +18,33 @@ namespace tumble {
 
 using namespace contact_rows;
 
-double DirectSolver::joint_push_stiffness() const {
-    return tuning::joint_push_stiffness * total_mass_ / double(masses_.size());
+// Position correction: push_out() for islands with joints. Contacts push, closed joints stay closed, at the end of the
+// step and to rounding: passes as for the velocities.
+bool DirectSolver::push_joined(const JointIsland& island, bool moved) {
+    const bool overlaps = push_out(island.problem.settings.h);
+    const double mean = total_mass_ / double(masses_.size());
+    const bool apart = joints_.start_push(island, tuning::joint_push_share,
+                                          {tuning::joint_push_apart * mean, tuning::joint_push_closed * total_mass_});
+    if (!overlaps && !apart) return false;
+    if (!factor(true)) {
+        std::fill(push_.begin(), push_.end(), 0.0);
+        return false;
+    }
+    const std::vector<double> contacts = push_;
+    double last = infinity;
+    for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
+        push_ = contacts;
+        joints_.add_push(push_);
+        matrix_.solve(push_);
+        predict_ends(island, moved);
+        const double error = joints_.close_push(island, ends_, push_);
+        if (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
+        if (!(error < last)) break;
+        last = error;
+    }
+    // Overlaps and violated limits that cannot be moved out with closed joints stay.
+    std::fill(push_.begin(), push_.end(), 0.0);
+    return false;
 }
 
 // Factors the matrix, unless it is that of the last factorization: with joints alone, the passes of a step share one.
@@ -31,21 +56,28 @@ bool DirectSolver::factored() {
     return factored_;
 }
 
-// Poses at the end of the step, moved by the velocities of the solve as the bodies will be.
-void DirectSolver::predict_ends(const JointIsland& island) {
+// Poses at the end of the step, moved by the velocities of the solve and the push as the bodies will be; `moved`: they
+// have been moved, but for the push.
+void DirectSolver::predict_ends(const JointIsland& island, bool moved) {
     const double h = island.problem.settings.h;
     ends_.resize(island.bodies.size());
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = island.problem.bodies[island.bodies[k]];
+        const Vec3 push = three(push_, 6 * k), push_turn = three(push_, 6 * k + 3) / length_;
+        if (moved) {
+            ends_[k] = {body.position + h * push,
+                        (from_rotation_vector(h * push_turn) * body.orientation).normalized()};
+            continue;
+        }
         const Vec3 omega = three(velocity_, 6 * k + 3) / length_ - body.gyration;
         // The gyroscopic correction is that of the new angular velocity.
         const Vec3 omega_before = body.angular_velocity, momentum_before = body.angular_momentum;
         body.angular_velocity = omega;
         body.angular_momentum = length_ * length_ * (masses_[k].inertia * omega);
-        const Vec3 turn = omega + gyration(body, h);
+        const Vec3 turn = omega + gyration(body, h) + push_turn;
         body.angular_velocity = omega_before;
         body.angular_momentum = momentum_before;
-        ends_[k].position = body.position + h * three(velocity_, 6 * k);
+        ends_[k].position = body.position + h * (three(velocity_, 6 * k) + push);
         ends_[k].orientation = (from_rotation_vector(h * turn) * body.orientation).normalized();
     }
 }
@@ -66,26 +98,45 @@ bool DirectSolver::step_linear() {
     return factored_;
 }
 
+// Beside contacts, and where Newton's method stalls on its bounds, the friction of joints starts soft as that of contacts.
+void DirectSolver::set_friction_compliance(double compliance) {
+    friction_compliance_ = compliance;
+    if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
+}
+
 // Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
 // the last solution.
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
-    friction_compliance_ = tuning::direct_friction_soft * compliance_;
+    joint_friction_softens_ = !constraints_.empty();
+    set_friction_compliance(tuning::direct_friction_soft * compliance_);
     start();
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
     const double noise = joints_.rounding(fastest_);  // N s
     const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
+    const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
     consistent_ = true;
+    limits_held_ = false;
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
         if (found) kept_ = velocity_;
-        if (!step_linear() && !minimize(found ? tuning::direct_newton_steps : tuning::joint_first_newton_steps)) {
+        const bool trial = !joint_friction_softens_ && joints_.any_friction();
+        const int most_steps = found   ? tuning::joint_newton_steps
+                               : trial ? tuning::joint_trial_newton_steps
+                                       : tuning::joint_first_newton_steps;
+        if (!step_linear() && !minimize(most_steps)) {
             if (found) {
                 velocity_ = kept_;
                 joints_.keep_estimates();
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
+            }
+            if (!found && trial) {
+                joint_friction_softens_ = true;
+                set_friction_compliance(tuning::direct_friction_soft * compliance_);
+                start();
+                continue;
             }
             consistent_ = found;
             return found && last < rounding ? Closing::closed : Closing::stuck;
@@ -93,7 +144,8 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         found = true;
         rounds_ = std::max(rounds_, round + 1);
         const auto [change, largest] = next_round();
-        predict_ends(island);
+        std::fill(push_.begin(), push_.end(), 0.0);
+        predict_ends(island, false);
         const double error = joints_.close(island, ends_);
         if (!std::isfinite(error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
@@ -103,11 +155,15 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         // Friction may change slowly from round to round; the joints are closed all the same.
         if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;
-        slow = error > rounding && error >= 0.5 * last ? slow + 1 : 0;
-        if (slow >= 3) return Closing::open;
+        slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
+        if (slow >= 3) {
+            if (constraints_.empty() || limits_held_) return Closing::open;
+            limits_held_ = true;
+            slow = 0;
+        }
         last = error;
-        friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
-                                        tuning::direct_friction_stiff * compliance_);
+        set_friction_compliance(std::max(friction_compliance_ * tuning::direct_friction_stiffening,
+                                         tuning::direct_friction_stiff * compliance_));
     }
     return last < rounding ? Closing::closed : Closing::open;
 }
@@ -134,13 +190,41 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (substeps == 1) return;
-    for (ConstraintRows& constraint : constraints_)
+    for (ConstraintRows& constraint : constraints_) {
+        if (substep > 0) move_contact(constraint, problem);
         for (int i = 0; i < constraint.count; ++i) {
             Row& row = constraint.normal[i];
-            const double gap = -constraint.overlap[i] + dot(constraint, row, displacement_) + substep * d * row.offset;
-            row.target = std::min(0.0, -gap / d);
+            row.target = std::min(0.0, constraint.overlap[i] / d);
             if (substep == 0 && constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
         }
+    }
+}
+
+// Rows of a contact at the present positions: it acts at the same point of the body, halfway between two moving ones.
+void DirectSolver::move_contact(ConstraintRows& constraint, const ContactProblem& problem) {
+    const Manifold& m = problem.manifolds[constraint.manifold];
+    const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
+    const double share = constraint.a == none ? 1.0 : constraint.b == none ? 0.0 : 0.5;  // of B
+    const auto move = [&](Vec3& arm_a, Vec3& arm_b) {
+        const Vec3 apart = (b.position + arm_b) - (a.position + arm_a);
+        arm_a += share * apart;
+        arm_b = a.position + arm_a - b.position;
+    };
+    const RowBodies bodies{constraint, a, b, length_};
+    const auto rewrite = [&](Row& row, const Vec3& direction, const Vec3& arm_a, const Vec3& arm_b) {
+        const double offset = row.offset;
+        set_row(row, direction, arm_a, arm_b, bodies);
+        row.offset = offset;
+    };
+    ContactConstraint& geometry = constraint.geometry;
+    for (int i = 0; i < constraint.count; ++i) {
+        ContactConstraint::Point& p = geometry.points[std::size_t(i)];
+        move(p.arm_a, p.arm_b);
+        rewrite(constraint.normal[i], geometry.normal, p.arm_a, p.arm_b);
+    }
+    move(geometry.friction_arm_a, geometry.friction_arm_b);
+    rewrite(constraint.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b);
+    rewrite(constraint.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b);
 }
 
 // Gives the solution to the bodies: the impulses, equal and opposite. Where Newton's steps stopped on the way they do not
@@ -172,9 +256,12 @@ void DirectSolver::move(const JointIsland& island) {
         Body& body = island.problem.bodies[island.bodies[k]];
         turn_exactly(body, body.velocity, body.angular_velocity + gyration(body, d), d);
         body.derive();
-        three(displacement_, 6 * k) += d * three(velocity_, 6 * k);
-        three(displacement_, 6 * k + 3) += d * three(velocity_, 6 * k + 3);
     }
+    for (ConstraintRows& constraint : constraints_)
+        for (int i = 0; i < constraint.count; ++i) {
+            const Row& row = constraint.normal[i];
+            constraint.overlap[i] -= d * (row.offset + dot(constraint, row, velocity_));
+        }
 }
 
 // Changes momenta and, in several substeps, poses. Returns false where substeps are too long.
@@ -189,7 +276,6 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     driven_ = true;
     factored_ = false;
     compliance_ = tuning::direct_compliance / total_mass_;
-    displacement_.assign(substeps > 1 ? 6 * island.bodies.size() : 0, 0.0);
     if (substeps > 1) {
         for (ConstraintRows& constraint : constraints_)
             each_row(constraint, [&](Row& row) { row.estimate /= substeps; });
@@ -318,8 +404,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     const bool easy =
         swing_ < 0.4 * tuning::joint_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
     for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
-    displacement_.clear();
-    const bool pushed = !flown && push_out(h);
+    const bool pushed = !flown && push_joined(island, substeps > 1);
     store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
@@ -327,8 +412,13 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         body.push_angular_velocity.setZero();
         if (flown || substeps > 1) {
             // Back to the start: the step's velocities move the body to the end of the substeps.
-            const Vec3 moved = body.position - starts_[k].position;
-            const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());
+            Vec3 moved = body.position - starts_[k].position;
+            Quat end = body.orientation;
+            if (pushed) {
+                moved += h * three(push_, 6 * k);
+                end = (from_rotation_vector(h / length_ * three(push_, 6 * k + 3)) * end).normalized();
+            }
+            const Vec3 turned = rotation_vector(end * starts_[k].orientation.conjugate());
             body.position = starts_[k].position;
             body.orientation = starts_[k].orientation;
             body.rotation = starts_[k].rotation;
@@ -336,14 +426,21 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
             find_gyration(body, h);
             body.push_velocity = moved / h - body.velocity;
             body.push_angular_velocity = turned / h - body.angular_velocity - body.gyration;
+        } else if (pushed) {
+            body.push_velocity = three(push_, 6 * k);
+            body.push_angular_velocity = three(push_, 6 * k + 3) / length_;
         }
-        if (!pushed) continue;
-        body.push_velocity += Vec3::Map(push_.data() + 6 * k);
-        body.push_angular_velocity += Vec3::Map(push_.data() + 6 * k + 3) / length_;
     }
     return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
         return problem.bodies[i].momentum.allFinite() && problem.bodies[i].angular_momentum.allFinite();
     });
+}
+
+void DirectSolver::close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                               std::span<const std::uint32_t> joints) {
+    double length = 0.0;
+    for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
+    flight_.close_poses({problem, bodies, joints, length, problem.joints->from(), problem.joints->to()});
 }
 
 }  // namespace tumble

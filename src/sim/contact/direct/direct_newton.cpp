@@ -173,10 +173,7 @@ bool DirectSolver::factor(bool pushing) {
         for (int i = 0; i < 3; ++i)
             for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
     }
-    if (pushing)
-        joints_.add_push_to(joint_push_stiffness(), matrix_);
-    else
-        joints_.add_to(matrix_);
+    joints_.add_weights(matrix_);
     return matrix_.factor();
 }
 
@@ -288,14 +285,14 @@ void DirectSolver::start() {
 
 // Takes the impulses as the next estimates. Returns the largest change and the largest impulse, N s.
 std::pair<double, double> DirectSolver::next_round() {
-    auto [change, largest] = joints_.next_round();
+    auto [change, largest] = joints_.next_round(!limits_held_);
     for (ConstraintRows& constraint : constraints_) {
         each_row(constraint, [&](Row& row) {
             change = std::max(change, std::abs(row.impulse - row.estimate));
             largest = std::max(largest, std::abs(row.impulse));
             row.estimate = row.impulse;
         });
-        set_limits(constraint);
+        if (!limits_held_) set_limits(constraint);
     }
     return {change, largest};
 }

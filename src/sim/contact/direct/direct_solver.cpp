@@ -342,8 +342,8 @@ bool DirectSolver::push_out(double h) {
             add(constraint, constraint.normal[i], stiffness * speed, push_);
         }
     }
-    const bool joints_apart = joints_.add_push(joint_push_stiffness(), tuning::joint_push_share / h, push_);
-    if (!(any || joints_apart) || !factor(true)) return false;
+    if (!joints_.empty()) return any;
+    if (!any || !factor(true)) return false;
     matrix_.solve(push_);
     return true;
 }

@@ -37,6 +37,10 @@ public:
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints = {});
 
+    /// Closes the joints at the present poses: see JointFlight::close_poses().
+    void close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                     std::span<const std::uint32_t> joints);
+
     /// Block operations of a factorization for this island.
     std::size_t factor_work(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                             std::span<const std::uint32_t> manifolds);
@@ -72,10 +76,12 @@ private:
     void load_substep(const JointIsland& island, int substep, int substeps);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island);
+    void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
     void apply_solution(const JointIsland& island);
-    void predict_ends(const JointIsland& island);
+    void set_friction_compliance(double compliance);
+    void predict_ends(const JointIsland& island, bool moved);
     std::pair<double, double> next_round();
     bool factored();
     bool step_linear();
@@ -89,7 +95,7 @@ private:
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem) const;
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
-    double joint_push_stiffness() const;
+    bool push_joined(const JointIsland& island, bool moved);
 
     struct Mass {
         double mass = 0.0;                                            // kg
@@ -118,7 +124,9 @@ private:
     double swing_ = 0.0;      // rad, largest phase of a swing in a substep
     int rounds_ = 0;          // most passes of a substep
     bool consistent_ = true;  // the impulses fit the velocities
-    bool factored_ = false;   // the matrix is that of the rows' weights
+    bool joint_friction_softens_ = false;
+    bool limits_held_ = false;  // friction's limits no longer follow the loads: the rounds did not settle
+    bool factored_ = false;     // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };

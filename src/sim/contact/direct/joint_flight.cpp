@@ -1,5 +1,6 @@
 #include "sim/contact/direct/joint_flight.h"
 
+#include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/joints/settings.h"
 
@@ -94,7 +95,8 @@ void JointFlight::load(const JointIsland& island) {
         fastest = std::max(fastest, (spin(joint.b) - spin(joint.a)).norm());
     }
     const double turn = island.problem.settings.h * fastest;
-    compliance_ = tuning::joint_compliance / (total_mass_ * double(island.joints.size()));
+    compliance_ = (rows_.tree() ? tuning::joint_flight_compliance : tuning::joint_compliance) /
+                  (total_mass_ * double(island.joints.size()));
     compliance_ = std::max(
         compliance_, tuning::joint_singular * turn * turn * turn * turn / total_mass_ * double(island.bodies.size()));
     for (const JointRows::Block& block : rows_.blocks())
@@ -187,14 +189,32 @@ bool JointFlight::close(const JointIsland& island) {
         drift(island, h);
         const double error = errors(island, h);
         if (!std::isfinite(error)) return false;
-        if (error <= tuning::joint_flight_closed || (error < tuning::joint_rounding && error >= 0.5 * last))
-            return true;
+        if (error <= closed_ || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
         // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
         if (pass > 4 && error >= 0.9 * last) return error < tuning::joint_flight_open;
         last = error;
         if (!impulses()) return false;
     }
     return last < tuning::joint_flight_open;
+}
+
+void JointFlight::close_poses(const JointIsland& island) {
+    std::vector<Body>& bodies = island.problem.bodies;
+    prepare(island);
+    double last = infinity;
+    for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
+        load(island);
+        const double error = errors(island, 1.0);
+        if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) return;
+        last = error;
+        given_.assign(rows_.rows().size(), 0.0);
+        if (!matrix_.factor() || !impulses()) return;
+        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+            Body& body = bodies[island.bodies[k]];
+            turn_exactly(body, Vec3::Map(&change_[6 * k]), Vec3::Map(&change_[6 * k + 3]) / rows_.length(), 1.0);
+            body.derive();
+        }
+    }
 }
 
 // Makes the velocities fit the joints at the present poses.
@@ -219,7 +239,7 @@ bool JointFlight::fit(const JointIsland& island) {
                 asked_[k] = is_lock(row) ? -JointRows::dot(block, row, velocity) : 0.0;
                 worst = std::max(worst, std::abs(asked_[k]));
             }
-        if (!(worst > 2e-16 * fastest) || worst >= 0.5 * last) return std::isfinite(worst);
+        if (!(worst > tuning::joint_flight_fits * fastest) || worst >= 0.5 * last) return std::isfinite(worst);
         last = worst;
         if (!impulses()) return false;
     }
@@ -241,9 +261,12 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
         for (std::size_t k = 0; k < island.bodies.size(); ++k) starts_[k] = state_of(bodies[island.bodies[k]]);
     };
     begin();
-    load(island);
-    if (!matrix_.factor() || rows_.apart(tuning::joint_flight_open)) return false;
-    // The force of the last stage is the first estimate.
+    if (!loaded_) {
+        load(island);
+        if (!matrix_.factor() || rows_.apart(tuning::joint_flight_open)) return false;
+        closed_ = std::max(tuning::joint_flight_closed, 2.0 * rows_.place_rounding());
+    }
+    // The force that fitted the velocities at these poses is the first estimate.
     given_.assign(rows_.rows().size(), 0.0);
     const double h = island.problem.settings.h;
     for (const JointRows::Block& block : rows_.blocks()) {
@@ -273,9 +296,27 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
     }
     begin();
     load(island);
-    if (!matrix_.factor()) return false;
+    loaded_ = matrix_.factor();
+    if (!loaded_) return false;
     given_.assign(rows_.rows().size(), 0.0);
+    const auto each_lock = [&](auto&& visit) {
+        for (const JointRows::Block& block : rows_.blocks())
+            for (std::size_t k = block.first; k < block.first + block.count; ++k)
+                if (const JointRows::Row& row = rows_.rows()[k]; is_lock(row)) {
+                    Joint& joint = island.problem.joints->joints()[block.joint];
+                    visit(k, row.turns() ? rows_.length() : 1.0, joint.constraint_force[row.coordinate],
+                          joint.constraint_rate[row.coordinate]);
+                }
+    };
+    if (rows_.tree())
+        each_lock(
+            [&](std::size_t k, double unit, double force, double rate) { given_[k] = h / unit * (force + h * rate); });
     if (!fit(island)) return false;
+    each_lock([&](std::size_t k, double unit, double& force, double& rate) {
+        const double last = force;
+        force = unit / h * given_[k];
+        rate = (force - last) / h;
+    });
     add_up(island);
     return true;
 }
@@ -305,11 +346,16 @@ void JointFlight::add_up(const JointIsland& island) {
     }
 }
 
-bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps) {
+void JointFlight::prepare(const JointIsland& island) {
     swing_ = total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     starts_.resize(island.bodies.size());
     change_.resize(6 * island.bodies.size());
+}
+
+bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps) {
+    prepare(island);
+    loaded_ = false;
     const double h = island.problem.settings.h;
     for (const std::uint32_t k : island.joints) {
         Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
@@ -345,7 +391,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         joint.curving = {};
         joint.point = block.point;
         for (std::size_t c = 0; c < joint.count(); ++c)
-            if (joint.locked(c)) joint.impulse[c][Joint::lock] = joint.constraint_force[c] * h;
+            if (joint.locked(c)) joint.impulse[c][Joint::lock] = 2.0 * joint.constraint_force[c] * h;
     }
     return true;
 }

@@ -32,10 +32,15 @@ public:
     /// Returns false, and leaves the bodies in any state, where the passes do not converge, a limit is met or a joint
     /// breaks.
     bool advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps);
+    /// Moves the bodies by the least displacements, in the metric of their masses, that close the locked coordinates at
+    /// the present poses. Momenta stay, and so does the center of mass of a free island. Joints that are wide open, as
+    /// those that are pulled in, stay as they are.
+    void close_poses(const JointIsland& island);
     /// Largest phase (rad) of a link's swing in a substep of the last advance().
     double swing() const { return swing_; }
 
 private:
+    void prepare(const JointIsland& island);
     bool stage(const JointIsland& island, std::span<const StepForce> forces, double share);
     void load(const JointIsland& island);
     bool close(const JointIsland& island);
@@ -53,6 +58,8 @@ private:
     std::vector<RigidState> starts_;      // of a stage's drift, by body
     std::vector<double> change_, asked_;  // du; by row: the change of J u that is asked for
     std::vector<double> given_;           // N s, by row: impulses of the stage
+    bool loaded_ = false;                 // rows and matrix are those of the present poses
+    double closed_ = 0.0;                 // largest error of closed joints, in sizes of the joint
     double swing_ = 0.0, compliance_ = 0.0, total_mass_ = 0.0;
 };
 

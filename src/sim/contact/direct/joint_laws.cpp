@@ -162,6 +162,8 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
         return body == Joint::world ? Vec3(Vec3::Zero()) : island.problem.bodies[body].angular_velocity;
     };
     const Vec3 relative = spin(j.b) - spin(j.a);
+    Vec3 last = Vec3::Zero();  // N m s, of friction
+    for (std::size_t i = 0; i < 3; ++i) last += j.impulse[3 + i][Joint::friction] * g.axes.col(Eigen::Index(i));
     for (std::size_t i = 0; i < 3; ++i) {
         if (axis.spring) {
             const JointSpring& s = j.springs[3];
@@ -182,6 +184,7 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
         r.most = axis.friction * h_ / length_;
         r.least = -r.most;
         push_row(r);
+        rows_.back().estimate = std::clamp(basis[i].dot(last) / length_, r.least, r.most);
     }
 }
 
@@ -215,7 +218,10 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
             add_laws(island, g, k, row);
         }
     }
-    if (isotropic) add_ball_laws(island, g, block);
+    if (isotropic) {
+        for (int k = 0; k < 3; ++k) block.axes[k] = g.axes.col(k);
+        add_ball_laws(island, g, block);
+    }
     if (ball && j.description.swing)
         add_limit(island, make_row(island, block, g.swing.direction, 4), g.swing.value, g.swing_limit, Joint::cone);
     block.count = rows_.size() - block.first;

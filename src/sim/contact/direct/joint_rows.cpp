@@ -118,7 +118,7 @@ void JointRows::add_estimates(std::vector<double>& g) const {
             if (rows_[k].estimate != 0.0) add(block, rows_[k], rows_[k].estimate, g);
 }
 
-void JointRows::add_to(BlockCholesky& matrix) const {
+void JointRows::add_weights(BlockCholesky& matrix) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k)
             if (rows_[k].weight != 0.0) add_square(matrix, block, rows_[k], rows_[k].weight);
@@ -140,7 +140,7 @@ double JointRows::demand(const std::vector<double>& u) const {
     return most;
 }
 
-std::pair<double, double> JointRows::next_round() {
+std::pair<double, double> JointRows::next_round(bool follow) {
     double change = 0.0, largest = 0.0;
     for (Row& row : rows_) {
         largest = std::max(largest, std::abs(row.impulse));
@@ -149,8 +149,17 @@ std::pair<double, double> JointRows::next_round() {
         row.estimate = row.impulse;
     }
     for (const Block& block : blocks_)
-        if (!block.breaks) follow_load(block);
+        if (follow && !block.breaks) follow_load(block);
     return {change, largest};
+}
+
+bool JointRows::any_friction() const {
+    return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.law == Joint::friction; });
+}
+
+void JointRows::soften_friction(double factor) {
+    for (Row& row : rows_)
+        if (row.law == Joint::friction) row.compliance = factor * compliance_;
 }
 
 void JointRows::keep_estimates() {
@@ -158,21 +167,23 @@ void JointRows::keep_estimates() {
         if (!row.soft) row.impulse = row.estimate;
 }
 
+JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int place,
+                            std::span<const JointSide> ends) const {
+    if (body == Joint::world) return {};
+    if (place != none) return ends[std::size_t(place)];
+    const Body& b = island.problem.bodies[body];
+    JointSide side{b.position + h_ * b.velocity, b.orientation};
+    if (!b.angular_velocity.isZero(0.0))
+        side.orientation = (from_rotation_vector(h_ * b.angular_velocity) * b.orientation).normalized();
+    return side;
+}
+
 double JointRows::close(const JointIsland& island, std::span<const JointSide> ends) {
     double worst = 0.0;
-    const auto end_of = [&](std::uint32_t body, int place) -> JointSide {
-        if (body == Joint::world) return {};
-        if (place != none) return ends[std::size_t(place)];
-        const Body& b = island.problem.bodies[body];
-        JointSide side{b.position + h_ * b.velocity, b.orientation};
-        if (!b.angular_velocity.isZero(0.0))
-            side.orientation = (from_rotation_vector(h_ * b.angular_velocity) * b.orientation).normalized();
-        return side;
-    };
     for (const Block& block : blocks_) {
         if (block.breaks) continue;
         const Joint& j = joint(block);
-        const JointGeometry g = measure(j, end_of(j.a, block.a), end_of(j.b, block.b));
+        const JointGeometry g = measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (!row.closes) continue;
@@ -194,14 +205,20 @@ double JointRows::rounding(double fastest) const {
     return 4.0 * std::numeric_limits<double>::epsilon() * fastest / compliance_;
 }
 
+double JointRows::smallest_size() const {
+    double size = infinity;
+    for (const Block& block : blocks_) size = std::min(size, joint(block).size);
+    return size;
+}
+
+double JointRows::place_rounding() const {
+    double farthest = 0.0;
+    for (const Block& block : blocks_) farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+    return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest_size();
+}
+
 double JointRows::rounding(const JointIsland& island, double fastest, double lightest) const {
-    double size = infinity, farthest = 0.0;
-    for (const Block& block : blocks_) {
-        size = std::min(size, joint(block).size);
-        farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
-    }
-    const double places = 2.0 * std::numeric_limits<double>::epsilon() * farthest;
-    return (places + island.problem.settings.h * rounding(fastest) / lightest) / size;
+    return place_rounding() + island.problem.settings.h * rounding(fastest) / (lightest * smallest_size());
 }
 
 bool JointRows::give_way() {
@@ -227,29 +244,50 @@ bool JointRows::give_way() {
     return any;
 }
 
-bool JointRows::add_push(double stiffness, double rate, std::vector<double>& push) const {
+bool JointRows::start_push(const JointIsland& island, double share, PushStiffness stiffness) {
     bool any = false;
-    for (const Block& block : blocks_) {
+    for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const Row& row = rows_[k];
-            if (!row.closes) continue;
-            const double wanted = (row.turns() ? length_ : 1.0) * rate * (row.goal - row.reference);
-            if (wanted == 0.0) continue;
-            any = true;
-            add(block, row, stiffness * wanted, push);
+            Row& row = rows_[k];
+            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
+            const bool held = row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference));
+            const double wanted = row.closes ? share * (row.goal - row.reference) : 0.0;
+            const double small = tuning::joint_push_small * (row.turns() ? 1.0 : joint(block).size);
+            any = any || wanted != 0.0;
+            row.soft = std::abs(wanted) > small;
+            row.weight = !held ? 0.0 : row.soft ? stiffness.apart : stiffness.closed;
+            row.goal = row.reference + wanted;
+            row.estimate = 0.0;
+            row.target = (row.turns() ? length_ : 1.0) * wanted / island.problem.settings.h;
         }
-    }
     return any;
 }
 
-void JointRows::add_push_to(double stiffness, BlockCholesky& matrix) const {
+void JointRows::add_push(std::vector<double>& push) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const Row& row = rows_[k];
-            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
-            if (row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference)))
-                add_square(matrix, block, row, stiffness);
+            const double amount = rows_[k].estimate + rows_[k].weight * rows_[k].target;
+            if (amount != 0.0) add(block, rows_[k], amount, push);
         }
+}
+
+double JointRows::close_push(const JointIsland& island, std::span<const JointSide> ends,
+                             const std::vector<double>& push) {
+    const double h = island.problem.settings.h;  // s: the step, where the rows are those of its last substep
+    double worst = 0.0;
+    for (const Block& block : blocks_) {
+        const Joint& j = joint(block);
+        const JointGeometry g = measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            if (row.law != Joint::lock || row.soft) continue;
+            const double speed = dot(block, row, push), error = g.coordinates[row.coordinate].value - row.goal;
+            worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : j.size));
+            row.estimate += row.weight * (row.target - speed);
+            row.target = speed - (row.turns() ? length_ : 1.0) * error / h;
+        }
+    }
+    return worst;
 }
 
 void JointRows::store(const JointIsland& island, bool apply) {
@@ -263,7 +301,12 @@ void JointRows::store(const JointIsland& island, bool apply) {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
-            j.impulse[row.coordinate][row.law] = amount;
+            // The friction of a ball acts along axes that follow the motion: it is kept along those of the joint.
+            if (row.law == Joint::friction && row.turns() && j.turns_alike())
+                for (std::size_t i = 0; i < 3; ++i)
+                    j.impulse[3 + i][Joint::friction] += amount * row.direction.dot(block.axes[i]);
+            else
+                j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
         }

@@ -59,7 +59,7 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        Vec3 axes[3] = {};  // world: about which the bodies turn against each other
+        Vec3 axes[3] = {};  // world: about which the bodies turn against each other; of a ball, those of A's joint frame
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
     };
@@ -92,20 +92,24 @@ public:
     double objective(const std::vector<double>& u) const;            // J: the rows' part of the minimized function at u
     void add_impulses(double factor, std::vector<double>& g) const;  // g += factor J^T f
     void add_estimates(std::vector<double>& g) const;                // g += J^T e
-    void add_to(BlockCholesky& matrix) const;                        // H += J^T J / R
     /// Fastest speed (m/s) that the rigid rows demand of velocities u.
     double demand(const std::vector<double>& u) const;
 
-    /// Takes the impulses as the next estimates, and follows the load of bearings. Returns the largest change and the
+    /// Takes the impulses as the next estimates; friction follows the load of bearings if `follow`. Returns the largest change and the
     /// largest impulse, N s.
-    std::pair<double, double> next_round();
+    std::pair<double, double> next_round(bool follow);
     void keep_estimates();
+    bool any_friction() const;
+    /// Makes the rows of friction `factor` times as compliant as rigid rows.
+    void soften_friction(double factor);
     /// Moves the targets such that the errors at the end of the step vanish, given the poses there. Returns the largest
     /// error, in sizes of the joint.
     double close(const JointIsland& island, std::span<const JointSide> ends);
 
     /// Rounding of the impulses (N s) at speeds up to `fastest` (m/s), over the compliance.
     double rounding(double fastest) const;
+    /// Rounding of the coordinates, in sizes of the joint.
+    double place_rounding() const;
     /// Rounding of the closed errors, in sizes of the joint: that of the coordinates, and that of the impulses on the
     /// lightest body (kg).
     double rounding(const JointIsland& island, double fastest, double lightest) const;
@@ -113,10 +117,18 @@ public:
     /// Joints whose load is above their strength: their impulses are set to the strength. Returns whether any is new.
     bool give_way();
 
-    /// For the position correction: adds `stiffness` J^T of the speeds that move errors out at `rate` (1/s), and stiffness
-    /// J^T J. Returns whether there are such errors.
-    bool add_push(double stiffness, double rate, std::vector<double>& push) const;
-    void add_push_to(double stiffness, BlockCholesky& matrix) const;
+    /// Position correction, after the last use of the impulses: errors are moved out by pseudo-velocities, those of
+    /// closed joints are kept at zero. Stiffness (kg) of rows whose error is moved out, and of all others.
+    struct PushStiffness {
+        double apart, closed;
+    };
+    /// Sets targets that move `share` of each error out in the step. Returns whether there are such errors.
+    bool start_push(const JointIsland& island, double share, PushStiffness stiffness);
+    void add_push(std::vector<double>& push) const;  // push += J^T (e + weight b)
+    void add_weights(BlockCholesky& matrix) const;   // H += weight J^T J
+    /// Moves the targets of closed joints by their errors at `ends`, the poses with the push. Returns the largest error,
+    /// in sizes of the joint.
+    double close_push(const JointIsland& island, std::span<const JointSide> ends, const std::vector<double>& push);
 
     /// For account(): the velocities at the start of the step (`first`), or of a later substep.
     void keep_velocities(const JointIsland& island, bool first);
@@ -148,7 +160,9 @@ private:
     void add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law);
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
+    JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
     void push_row(const Row& row);
+    double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
 
     std::vector<Joint>* joints_ = nullptr;
