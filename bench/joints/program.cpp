@@ -32,7 +32,7 @@ public:
           rate_(rate),
           seconds_(options.quick && c.quick_seconds > 0.0 ? c.quick_seconds : c.seconds),
           steps_(std::max(1L, std::lround(seconds_ * rate))),
-          patience_(options.patience) {}
+          patience_(c.task == JointTask::settling ? 5.0 * options.patience : options.patience) {}
 
     /// The quantities; empty where the program cannot represent the scene.
     std::vector<Quantity> take(bool timed) {
