@@ -227,6 +227,7 @@ Way way(const std::string& name, std::vector<Task> tasks) {
 }
 
 std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
+    if (!can_represent(scene)) return nullptr;
     bool elastic = false;
     for (const Body& body : scene.bodies) elastic |= body.moves() && body.restitution > 0.0;
     return std::make_unique<DartSimulator>(scene, rate, elastic);

@@ -156,6 +156,7 @@ int main(int argc, char** argv) {
                     way("Newton, stiff", {Task::tower}, {"Euler", "Newton", true})};
     const auto steady = [](const std::string& integrator) {
         return [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+            if (!mujoco_can_represent(scene, forest_of(scene))) return nullptr;
             return std::make_unique<MujocoSimulator>(scene, rate, Settings{integrator, "Newton", true});
         };
     };

@@ -134,6 +134,7 @@ void World::State::run_stages(const StepContext& step) {
     joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
     close_clamped_joints(step);
+    joints.take_events();
 }
 
 // Joints that begin or end to hold in this step, or are driven in it, wake their bodies.
@@ -164,6 +165,7 @@ void World::State::advance(std::int64_t to) {
     while (steps < to) {
         if (log) list_asleep();
         const std::int64_t reached = motion->skip_steps(context(), to);
+        joints.take_events();
         if (reached == steps) {
             step();
         } else {
@@ -242,7 +244,15 @@ void World::State::with_present_contacts(Use&& use) const {
 void World::State::finish_records(double duration) {
     for (const Joint& joint : joints.joints()) {
         const JointAccount::Span& frame = joint.account.frame;
-        log->add_joint(joint.a, joint.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+        if (!joint.gear()) {
+            log->add_joint(joint.a, joint.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+            continue;
+        }
+        const Joint &first = joints.joints()[joint.description.geared[0]],
+                    &second = joints.joints()[joint.description.geared[1]];
+        log->add_joint(first.a, first.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+        log->add_joint(second.a, second.b, {frame.second_load.force, frame.second_load.moment}, frame.second_work_a,
+                       frame.second_work_b);
     }
     with_present_contacts([&](const std::vector<Manifold>& found) {
         records = log->finish_frame(set.bodies, forces.field(), found, duration);

@@ -1,5 +1,5 @@
 // The factorization by blocks against Eigen's of the same matrix, dense.
-#include "sim/contact/direct/block_cholesky.h"
+#include "sim/math/block_cholesky.h"
 #include "sim/random_shapes.h"
 
 #include <gtest/gtest.h>

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -32,6 +33,7 @@ bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vect
         taken_off_.push_back(i);
         any = true;
     }
+    if (!groups_.empty()) take_off_groups(bodies, forces, step);
     return any;
 }
 
@@ -85,7 +87,7 @@ void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t s
 }
 
 // Bodies in contact that the impact released are ballistic from now on, not from the next step.
-void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const EventTime& now) {
+void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     const auto& receivers = cluster_.impulse_receivers();
     if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
     held_.resize(bodies.size());
@@ -98,6 +100,7 @@ void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const Event
         // Gravity of the whole step has acted already; the flight adds that of its rest once more.
         if (log_) log_->add_gravity(k, bodies[k], -clock_.between(now, {now.step + 1, 0.0}), bodies[k].position);
     }
+    if (!groups_.empty()) release_groups(bodies, forces, now);
 }
 
 void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMonitor& sleep, const EventTime& now) {
@@ -129,11 +132,23 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
             for (const std::uint32_t k : {c.a, c.b})
                 if (bodies[k].flying) switching.push_back(k);
         }
+        for (std::size_t i = switching.size(); i-- > 0;)
+            if (const std::uint32_t g = groups_.group(switching[i]); g != GroupFlights::none)
+                switching.insert(switching.end(), groups_.groups()[g].bodies.begin(), groups_.groups()[g].bodies.end());
         sort_unique(switching);
         for (const std::uint32_t k : switching) bodies[k].flying = false;
         switched.insert(switched.end(), switching.begin(), switching.end());
     } while (!switching.empty());
-    if (switched.empty()) return;
+    const auto& receivers = cluster_.impulse_receivers();
+    const bool joined = !groups_.empty() && std::any_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) {
+        return groups_.group(k) != GroupFlights::none && !bodies[k].flying;
+    });
+    if (!switched.empty() || joined) solve_rest(switched, bodies, forces, now);
+}
+
+// The rest of the step for bodies that have landed, and for struck bodies of stepped groups: their joints must close.
+void EventDrivenMotion::solve_rest(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies,
+                                   const ForceField& forces, const EventTime& now) {
     until_ = std::min(until_, now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     if (!(rest > 0.0)) return;
@@ -145,43 +160,67 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
         for (const std::uint32_t k : {m.a, m.b})
             if (bodies[k].dynamic() && !bodies[k].asleep) touched.push_back(k);
     }
+    std::vector<std::uint32_t> joined;  // groups
+    if (!groups_.empty()) {
+        for (const std::vector<std::uint32_t>* list : {&landed, &std::as_const(touched), &cluster_.impulse_receivers()})
+            for (const std::uint32_t k : *list)
+                if (groups_.group(k) != GroupFlights::none && !bodies[k].flying) joined.push_back(groups_.group(k));
+        sort_unique(joined);
+        for (const std::uint32_t g : joined)
+            for (const std::uint32_t k : groups_.groups()[g].bodies)
+                if (!bodies[k].asleep) touched.push_back(k);
+    }
     sort_unique(touched);
     for (const std::uint32_t k : touched) {
         velocities_before_[k] = {bodies[k].velocity, bodies[k].angular_velocity};
         events_[k].spin = unknown;
     }
-    for (const std::uint32_t k : switched) {
-        Body& body = bodies[k];
-        const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
-        const bool pushed = events_[k].pushed;
-        const Wrench wrench = pushed ? forces.fields(body) : forces.throughout(k, body, from, to);
-        const Impulse brief_impulse = pushed ? Impulse{} : forces.brief(k, body, from, to);
-        advance_momenta(body, wrench.force, wrench.torque, rest);
-        advance_momenta(body, brief_impulse);
-        body.derive();
-        if (log_) {
-            const Impulse rest_of_step{rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque};
-            log_->add_gravity(k, body, rest, body.position);
-            log_->add_external(k, rest_of_step + brief_impulse, body.position, {body.velocity, body.angular_velocity});
-        }
-        events_[k].pushed = true;
-    }
-    islands_.find(body_pairs(contact_manifolds_), bodies, touched);
+    for (const std::uint32_t k : landed) give_rest_of_step(k, bodies, forces, now);
+    const bool joints = !joined.empty();
+    islands_.find(body_pairs(contact_manifolds_), bodies, touched,
+                  joints ? std::span<const BodyPair>(groups_.joints().pairs()) : std::span<const BodyPair>());
     const ContactProblem problem{bodies,
                                  contact_manifolds_,
                                  velocities_before_,
                                  {rest, std::numeric_limits<double>::infinity()},
-                                 log_ ? &totals_ : nullptr};
+                                 log_ ? &totals_ : nullptr,
+                                 joints ? &groups_.joints() : nullptr};
     if (log_) totals_.assign(contact_manifolds_.size(), {});
+    std::vector<JointLoad> loads;
+    for (const std::uint32_t g : joined) groups_.keep_loads(g, loads);
     contact_solver_.solve(problem, islands_, alone_);
+    std::size_t next = 0;
+    for (const std::uint32_t g : joined) groups_.take_solve(g, loads, next);
     if (log_)
         for (std::size_t k = 0; k < islands_.size(); ++k) log_->add_contacts(islands_.manifolds(k), problem, totals_);
     for (const std::uint32_t k : touched) {
-        bodies[k].push_velocity.setZero();
-        bodies[k].push_angular_velocity.setZero();
+        if (groups_.group(k) == GroupFlights::none) {  // pushes of joined bodies close their joints
+            bodies[k].push_velocity.setZero();
+            bodies[k].push_angular_velocity.setZero();
+        }
         changed_.push_back(k);
     }
-    for (const std::uint32_t k : switched) changed_.push_back(k);
+    for (const std::uint32_t k : landed) changed_.push_back(k);
+}
+
+// The forces of the rest of the step, on a body that has landed.
+void EventDrivenMotion::give_rest_of_step(std::uint32_t k, std::vector<Body>& bodies, const ForceField& forces,
+                                          const EventTime& now) {
+    Body& body = bodies[k];
+    const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
+    const double rest = clock_.between(now, {now.step + 1, 0.0});
+    const bool pushed = events_[k].pushed;
+    const Wrench wrench = pushed ? forces.fields(body) : forces.throughout(k, body, from, to);
+    const Impulse brief_impulse = pushed ? Impulse{} : forces.brief(k, body, from, to);
+    advance_momenta(body, wrench.force, wrench.torque, rest);
+    advance_momenta(body, brief_impulse);
+    body.derive();
+    if (log_) {
+        const Impulse rest_of_step{rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque};
+        log_->add_gravity(k, body, rest, body.position);
+        log_->add_external(k, rest_of_step + brief_impulse, body.position, {body.velocity, body.angular_velocity});
+    }
+    events_[k].pushed = true;
 }
 
 // Bodies in contact meet fixed bodies, and each other, by steps. Exceptions:
@@ -197,9 +236,11 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
     if (going.empty()) return;
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     motions_.resize(bodies.size());
-    for (const std::uint32_t k : going)
+    for (const std::uint32_t k : going) {
         motions_[k] = {bodies[k].velocity + bodies[k].push_velocity,
                        bodies[k].angular_velocity + bodies[k].push_angular_velocity};
+        if (groups_.group(k) != GroupFlights::none) motions_[k].angular_velocity += gyration(bodies[k], rest);
+    }
     const TouchDepth depth = touch_depth(cluster_.manifolds(), bodies);
     const auto goes = [&](std::uint32_t k) { return std::binary_search(going.begin(), going.end(), k); };
     const std::vector<CcdFraction>* limits = nullptr;
@@ -241,8 +282,18 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
         more = !stopped.empty();
     }
     for (const std::uint32_t k : going) {
-        const CcdFraction& limit = (*limits)[k];
         changed_.push_back(k);
+        if (const std::uint32_t g = groups_.group(k); g != GroupFlights::none) {
+            // Joined bodies move for the same fraction of the time: else their joints would open.
+            CcdFraction all;
+            for (const std::uint32_t member : groups_.groups()[g].bodies)
+                all.share = std::min(all.share, (*limits)[member].share);
+            hold(k, motions_[k], all, bodies, now);
+            bodies[k].push_velocity.setZero();
+            bodies[k].push_angular_velocity.setZero();
+            continue;
+        }
+        const CcdFraction& limit = (*limits)[k];
         if (limit.met != CcdFraction::none && events_[k].meetings < tuning::meetings_in_step) {
             hold(k, motions_[k], {}, bodies, now);
             events_[k].until = later(now, limit.share * rest);

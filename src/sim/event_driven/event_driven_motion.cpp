@@ -107,7 +107,8 @@ MovingBody EventDrivenMotion::moving_body(std::uint32_t i, const std::vector<Bod
     return {&bodies[i], &events_[i].path, clock_.between(events_[i].start, now)};
 }
 
-void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const {
+void EventDrivenMotion::bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) {
+    if (flies_joined(i, bodies)) return groups_.bring(i, clock_.between(events_[i].start, now));
     show(i, bodies, now);
     if (bodies[i].flying && !events_[i].driven) bodies[i].derive();  // the others are derived already
     if (log_ && bodies[i].flying) log_->end_flight(i, bodies[i], events_[i].driven);
@@ -201,7 +202,9 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     const MovingBody self = moving_body(i, bodies, now);
     const auto look = [&](std::uint32_t j) {
         const double limit = std::min(horizon, clock_.between(now, events_[j].until));
-        const TimeOfImpact found = search_.find(self, moving_body(j, bodies, now), limit);
+        TimeOfImpact found = search_.find(self, moving_body(j, bodies, now), limit);
+        if (found.kind == TimeOfImpact::Kind::impact && (flies_joined(i, bodies) || flies_joined(j, bodies)))
+            found = refine(i, j, found, bodies, now, limit);
         if (found.kind == TimeOfImpact::Kind::none || !(found.time < horizon)) return;
         horizon = found.time;
         next = later(now, found.time);
@@ -399,11 +402,15 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     if (meeting)
         for (const std::uint32_t k : {i, j}) events_[k].meetings += bodies[k].dynamic();
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
-    const bool changed = cluster_.resolve(
-        i, j, bodies, neighbor_boxes_, bring_body,
-        {.threshold = threshold, .law = settings_.impact_law, .resting = slow, .friction = true, .complete = true},
-        log_ ? &trace_ : nullptr);
-    if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now));
+    const bool changed = cluster_.resolve(i, j, bodies, neighbor_boxes_, bring_body,
+                                          {.threshold = threshold,
+                                           .law = settings_.impact_law,
+                                           .resting = slow,
+                                           .friction = true,
+                                           .complete = true,
+                                           .span = h_},
+                                          log_ ? &trace_ : nullptr);
+    if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now), cluster_.blows());
     if (!changed && meeting) {  // no more of these in this step
         events_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);
@@ -427,11 +434,13 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         changed_.push_back(k);
     }
     if (meeting) changed_.push_back(i);  // its trajectory ends here, whether or not the impulse has reached it
-    release_receivers(bodies, now);
+    if (!groups_.empty()) end_group_flights(bodies, now);
+    release_receivers(bodies, forces, now);
     switch_to_contact(bodies, forces, now);
     sort_unique(changed_);
+    if (!groups_.empty()) fly_groups(bodies, forces, now);
     for (const std::uint32_t k : changed_)
-        if (bodies[k].flying) fly(k, bodies, forces, now);
+        if (bodies[k].flying && !flies_joined(k, bodies)) fly(k, bodies, forces, now);
     hold_receivers(bodies, forces, now);
     predict_changed(bodies, now);
 }

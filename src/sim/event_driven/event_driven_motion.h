@@ -4,7 +4,8 @@
 // Sigurgeirsson, Stuart, Wan 2001 for the queue). The cost of a scene scales with its impacts, not its steps.
 //
 // Bodies in contact are stepped by World and take part here with their motion through the step. A bounce below the Zeno
-// limit switches to contact; a body that no contact holds any more is released.
+// limit switches to contact; a body that no contact holds any more is released. Groups of joined bodies fly, land and are
+// released as a whole (group_flights.h).
 #pragma once
 
 #include "sim/ccd/ccd_clamp.h"
@@ -16,6 +17,7 @@
 #include "sim/dynamics/forces.h"
 #include "sim/event_driven/event_queue.h"
 #include "sim/event_driven/event_time.h"
+#include "sim/event_driven/group_flights.h"
 #include "sim/event_driven/impact_cluster.h"
 #include "sim/event_driven/neighbor_boxes.h"
 #include "sim/event_driven/settings.h"
@@ -45,6 +47,10 @@ class EventDrivenMotion {
 public:
     EventDrivenMotion(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps);
 
+    /// The joints of the coming step. Both must outlive the run.
+    void join(JointSet& joints, std::vector<Body>& bodies);
+    /// Groups of joined bodies end their flights of the step.
+    void end_flights() { groups_.end_all(); }
     /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
     bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces,
                   std::int64_t step);
@@ -68,14 +74,14 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, cluster, log,
-               trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds, velocities_before,
-               impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
+        auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster,
+               log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
+               velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
         archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands);
         archive.keep_each(balls);
         archive.keep(events, neighbor_boxes, queue, search, cluster, ccd_clamp, contact_solver, velocities_before,
                      impacts_in_frame, frame, until, taken_off, changed);
-        archive.scratch(trace, totals, alone, contact_manifolds, was_asleep, held);
+        archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, held);
     }
 
 private:
@@ -114,13 +120,28 @@ private:
 
     void start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until);
     void fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    /// Whether the body flies with a group of joined bodies.
+    bool flies_joined(std::uint32_t i, const std::vector<Body>& bodies) const {
+        return bodies[i].flying && groups_.group(i) != GroupFlights::none;
+    }
+    bool fly_group(std::uint32_t group, std::vector<Body>& bodies, const EventTime& now);
+    void take_off_groups(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
+    void land_group(std::uint32_t group, std::vector<Body>& bodies);
+    TimeOfImpact refine(std::uint32_t i, std::uint32_t j, TimeOfImpact found, const std::vector<Body>& bodies,
+                        const EventTime& now, double limit);
+    void end_group_flights(std::vector<Body>& bodies, const EventTime& now);
+    void fly_groups(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    void release_groups(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    void solve_rest(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies, const ForceField& forces,
+                    const EventTime& now);
+    void give_rest_of_step(std::uint32_t k, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     EventTime drive_end(std::uint32_t i, const ForceField& forces, const EventTime& now) const;
-    void bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const;
+    void bring(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now);
     void show(std::uint32_t i, std::vector<Body>& bodies, const EventTime& now) const;
     void box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict_changed(const std::vector<Body>& bodies, const EventTime& now);
-    void release_receivers(std::vector<Body>& bodies, const EventTime& now);
+    void release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void hold_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     /// Whether the body's trajectory ends now, at the other body.
@@ -174,7 +195,8 @@ private:
     NeighborBoxes neighbor_boxes_;
     EventQueue queue_;
     ImpactSearch search_;
-    ImpactCluster cluster_;
+    GroupFlights groups_;
+    ImpactCluster cluster_{groups_};
     ContactLog* log_ = nullptr;
     ImpactTrace trace_;                    // of the last impact, for the log
     std::vector<ManifoldImpulse> totals_;  // of a landing, for the log

@@ -2,6 +2,7 @@
 
 #include "sim/ccd/settings.h"
 #include "sim/geometry/settings.h"
+#include "sim/impact/joint_strength.h"
 
 #include <algorithm>
 #include <numeric>
@@ -68,6 +69,14 @@ void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& b
 
 void ImpactCluster::expand(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                            const Bring& bring) {
+    const std::uint32_t group = groups_.group(body);
+    if (group == GroupFlights::none) return expand_body(body, bodies, neighbor_boxes, bring);
+    for (const std::uint32_t k : groups_.groups()[group].bodies)
+        if (!contains(expanded_, k)) expand_body(k, bodies, neighbor_boxes, bring);
+}
+
+void ImpactCluster::expand_body(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
+                                const Bring& bring) {
     expanded_.push_back(body);
     if (add_once(brought_, body)) bring(body);
     if (!bodies[body].dynamic()) return;
@@ -119,10 +128,50 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbo
     return grown;
 }
 
+// The bodies brought so far, with all others of their groups and the joints.
+Island ImpactCluster::island(std::vector<Body>& bodies, const Bring& bring) {
+    Island island;
+    std::vector<std::uint32_t> groups;
+    for (std::size_t i = 0; i < brought_.size(); ++i) {
+        const std::uint32_t group = groups_.group(brought_[i]);
+        if (group == GroupFlights::none || !add_once(groups, group)) continue;
+        for (const std::uint32_t k : groups_.groups()[group].bodies)
+            if (add_once(brought_, k)) bring(k);
+    }
+    std::sort(groups.begin(), groups.end());
+    for (const std::uint32_t group : groups)
+        for (const std::uint32_t k : groups_.groups()[group].joints) {
+            Joint& joint = groups_.joints().joints()[k];
+            if (!joint.broken && !joint.gear()) island.joints.push_back(&joint);
+        }
+    for (const std::uint32_t k : brought_)
+        if (bodies[k].dynamic()) island.bodies.push_back(k);
+    std::sort(island.bodies.begin(), island.bodies.end());
+    island.contacts.resize(contacts_.size());
+    std::iota(island.contacts.begin(), island.contacts.end(), 0u);
+    return island;
+}
+
+// An impact of too much work is one of the bodies without their joints, which answer in the next step.
+void ImpactCluster::resolve_island(Island& island, std::vector<Body>& bodies, const ImpactSettings& settings,
+                                   ImpactTrace* trace) {
+    blows_.clear();
+    broken_.clear();
+    if (trace) *trace = {};
+    if (island.joints.empty()) {
+        resolve_impacts(island, contacts_, bodies, settings, trace);
+        return;
+    }
+    if (resolve_breaking(island, contacts_, bodies, settings, trace, blows_, broken_) != too_large) return;
+    island.joints.clear();
+    resolve_impacts(island, contacts_, bodies, settings, trace);
+}
+
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
                             const NeighborBoxes& neighbor_boxes, const Bring& bring, const ImpactSettings& settings,
                             ImpactTrace* trace) {
     receivers_.clear();
+    broken_.clear();
     // If the manifold misses the contact that the search found, a wider margin finds it.
     for (widening_ = 1.0; widening_ <= 1e4 && receivers_.empty(); widening_ *= 1e2) {
         brought_.clear();
@@ -137,18 +186,12 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
                 return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
             });
             make_contacts(manifolds_, bodies, contacts_);
-            Island island;
-            for (const std::uint32_t k : brought_)
-                if (bodies[k].dynamic()) island.bodies.push_back(k);
-            std::sort(island.bodies.begin(), island.bodies.end());
-            island.contacts.resize(contacts_.size());
-            std::iota(island.contacts.begin(), island.contacts.end(), 0u);
+            Island reached = island(bodies, bring);
             before_.clear();
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
-            if (trace) *trace = {};
-            resolve_impacts(island, contacts_, bodies, settings, trace);
+            resolve_island(reached, bodies, settings, trace);
             note_reach(bodies);
-            for (const std::uint32_t k : island.bodies) bodies[k].derive();  // the velocities before the impact
+            for (const std::uint32_t k : reached.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbor_boxes, bring);
         }
         for (const Contact& c : contacts_) {
@@ -157,7 +200,20 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const std::uint32_t k : {c.a, c.b})
                 if (bodies[k].dynamic()) add_once(receivers_, k);
         }
+        for (const JointBlow& blow : blows_) {
+            if (blow.force.isZero(0.0) && blow.torque.isZero(0.0)) continue;
+            take_blow(blow, bodies);
+            for (const std::uint32_t k : {blow.joint->a, blow.joint->b})
+                if (k != Joint::world && bodies[k].dynamic()) add_once(receivers_, k);
+        }
     }
+    if (!groups_.empty())
+        for (std::size_t i = 0; i < receivers_.size(); ++i) {
+            const std::uint32_t group = groups_.group(receivers_[i]);
+            if (group == GroupFlights::none) continue;
+            for (const std::uint32_t k : groups_.groups()[group].bodies) add_once(receivers_, k);
+        }
+    for (Joint* joint : broken_) joint->broken = true;
     std::sort(receivers_.begin(), receivers_.end());
     for (const std::uint32_t k : brought_)
         if (bodies[k].dynamic()) bodies[k].derive();

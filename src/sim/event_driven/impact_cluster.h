@@ -1,8 +1,10 @@
 // Impact cluster: the contacts that are resolved together in one impact of two bodies. It grows only as far as the
 // impulse reaches: a body's own contacts join when it gets an impulse, or when it has an impact of its own at this very
-// time: sixteen balls that reach the ground under a plate do so together, not one after another.
+// time: sixteen balls that reach the ground under a plate do so together, not one after another. A group of joined
+// bodies takes part as a whole.
 #pragma once
 
+#include "sim/event_driven/group_flights.h"
 #include "sim/event_driven/neighbor_boxes.h"
 #include "sim/geometry/collide.h"
 #include "sim/impact/impacts.h"
@@ -14,13 +16,15 @@ namespace tumble {
 
 class ImpactCluster {
 public:
-    ImpactCluster() { scratch_.choice = AxisChoice::nearest; }
-
     /// Moves a body's state to the time of the impact.
     using Bring = std::function<void(std::uint32_t)>;
 
+    /// `groups`: of joined bodies. It must outlive the cluster.
+    explicit ImpactCluster(GroupFlights& groups) : groups_(groups) { scratch_.choice = AxisChoice::nearest; }
+
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
-    /// whether anything changed. `trace`: gets the impulses on contacts(), or null.
+    /// whether anything changed. Joints whose strength the impact exceeds break (joint_strength.h). `trace`: gets the
+    /// impulses on contacts(), or null.
     bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                  const Bring& bring, const ImpactSettings& settings, ImpactTrace* trace = nullptr);
 
@@ -28,14 +32,19 @@ public:
     const std::vector<Contact>& contacts() const { return contacts_; }
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& impulse_receivers() const { return receivers_; }
+    const std::vector<JointBlow>& blows() const { return blows_; }
+    /// Joints that broke.
+    const std::vector<Joint*>& broken() const { return broken_; }
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach, scratch,
-               widening] = self;
+        auto& [groups, brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach, scratch,
+               widening, broken, blows] = self;
+        archive.rebuilt(groups);
         archive.keep(scratch, widening);
-        archive.scratch(brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach);
+        archive.scratch(brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach, broken,
+                        blows);
     }
 
 private:
@@ -46,6 +55,12 @@ private:
                     const Bring& bring);
     void touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, const Bring& bring);
 
+    void expand_body(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
+                     const Bring& bring);
+    Island island(std::vector<Body>& bodies, const Bring& bring);
+    void resolve_island(Island& island, std::vector<Body>& bodies, const ImpactSettings& settings, ImpactTrace* trace);
+
+    GroupFlights& groups_;
     std::vector<std::uint32_t> brought_, expanded_, looked_at_, receivers_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<Manifold> manifolds_;
@@ -55,6 +70,8 @@ private:
     std::vector<Reach> reach_;    // by contact
     CollisionScratch scratch_;
     double widening_ = 1.0;
+    std::vector<Joint*> broken_;
+    std::vector<JointBlow> blows_;  // of the last resolution
 };
 
 }  // namespace tumble

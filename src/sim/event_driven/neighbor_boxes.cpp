@@ -26,12 +26,26 @@ bool NeighborBoxes::encloses(std::uint32_t body, const Bounds& box) const {
     return (box.min.array() >= held.min.array()).all() && (box.max.array() <= held.max.array()).all();
 }
 
+void NeighborBoxes::keep_apart(std::vector<BodyPair> pairs) {
+    if (pairs == apart_) return;
+    apart_.swap(pairs);
+    for (const auto* changed : {&pairs, &apart_})
+        for (const BodyPair& pair : *changed)
+            for (const std::uint32_t body : {pair.a, pair.b})
+                if (known(body)) enclose(body, Bounds(tree_.box(body)));
+}
+
 void NeighborBoxes::enclose(std::uint32_t body, const Bounds& box) {
     tree_.set(body, box);
     found_.clear();
     tree_.query(box, stack_, [&](std::uint32_t other) {
         if (other != body) found_.push_back(other);
     });
+    if (!apart_.empty())
+        std::erase_if(found_, [&](std::uint32_t other) {
+            return std::binary_search(apart_.begin(), apart_.end(),
+                                      BodyPair{std::min(body, other), std::max(body, other)});
+        });
     std::sort(found_.begin(), found_.end());
     std::vector<std::uint32_t>& mine = moving_[body];
     for (const std::uint32_t other : mine) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/dynamics/body.h"
+#include "sim/geometry/body_pair.h"
 #include "sim/geometry/bounds_tree.h"
 #include "sim/geometry/dynamic_tree.h"
 
@@ -17,6 +18,8 @@ public:
 
     /// Puts the body into this box and finds its neighbors; updates their lists.
     void enclose(std::uint32_t body, const Bounds& box);
+    /// Pairs that are no neighbors, ascending: bodies of joints.
+    void keep_apart(std::vector<BodyPair> pairs);
     bool known(std::uint32_t body) const { return tree_.holds(body); }
     bool encloses(std::uint32_t body, const Bounds& box) const;
 
@@ -29,9 +32,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [half_spaces, fixed, fixed_tree, tree, stack, movers, moving, standing, found] = self;
+        auto& [half_spaces, fixed, fixed_tree, tree, stack, movers, moving, standing, found, apart] = self;
         archive.rebuilt(half_spaces, fixed, fixed_tree, movers);
-        archive.keep(tree, moving, standing);
+        archive.keep(tree, moving, standing, apart);
         archive.scratch(stack, found);
     }
 
@@ -43,6 +46,7 @@ private:
     std::size_t movers_ = 0;
     std::vector<std::vector<std::uint32_t>> moving_, standing_;  // by body
     std::vector<std::uint32_t> found_;
+    std::vector<BodyPair> apart_;
 };
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -99,24 +100,29 @@ bool ActiveSet::solve_component(const std::vector<Demand>& demands, std::vector<
 void ActiveSet::place_bodies() {
     local_.clear();
     std::uint32_t count = 0;
-    const auto place = [&](std::uint32_t body) {
+    const auto place = [&](std::uint32_t body, std::uint32_t bodies) {
         if (body == VelocityRow::none) return body;
-        if (place_[body] == VelocityRow::none) place_[body] = count++;
+        if (place_[body] == VelocityRow::none) {
+            place_[body] = count;
+            count += bodies;
+        }
         return place_[body];
     };
     for (const Demand& demand : *demands_) {
         local_.push_back(rows_[demand.row]);
-        local_.back().a = place(local_.back().a);
-        local_.back().b = place(local_.back().b);
+        VelocityRow& row = local_.back();
+        row.a = place(row.a, row.bodies_a());
+        row.b = place(row.b, row.bodies_b());
     }
     size_ = 6 * Index(count);
     if (bound_.velocity) start_.resize(size_);
     for (const Demand& demand : *demands_) {
         const VelocityRow& row = rows_[demand.row];
         if (bound_.velocity) {
-            for (const std::uint32_t body : {row.a, row.b})
+            for (const auto& [body, bodies] : {std::pair(row.a, row.bodies_a()), std::pair(row.b, row.bodies_b())})
                 if (body != VelocityRow::none && place_[body] != VelocityRow::none)
-                    start_.segment<6>(6 * Index(place_[body])) = bound_.velocity->segment<6>(6 * Index(body));
+                    start_.segment(6 * Index(place_[body]), 6 * Index(bodies)) =
+                        bound_.velocity->segment(6 * Index(body), 6 * Index(bodies));
         }
         if (row.a != VelocityRow::none) place_[row.a] = VelocityRow::none;
         if (row.b != VelocityRow::none) place_[row.b] = VelocityRow::none;
@@ -199,9 +205,7 @@ bool ActiveSet::split(const VelocityRow& row) {
     along_.assign(held_.size(), 0.0);
     for (std::size_t k = 0; k < held_.size(); ++k) {
         const auto q = basis(k);
-        double t = 0.0;  // the row has at most twelve numbers
-        if (row.a != VelocityRow::none) t += row.on_a.dot(q.segment<6>(6 * Index(row.a)));
-        if (row.b != VelocityRow::none) t += row.on_b.dot(q.segment<6>(6 * Index(row.b)));
+        const double t = row.dot(q);  // of at most twelve numbers, but for joined bodies
         along_[k] = t;
         remainder_ -= t * q;
     }

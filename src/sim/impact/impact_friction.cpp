@@ -30,7 +30,7 @@ std::pair<double, double> least_in_disc(double k0, double k1, double g0, double 
 
 }  // namespace
 
-ImpactFriction::Block ImpactFriction::make_block(const ImpactSystem& cluster, std::size_t contact) {
+ImpactFriction::Block ImpactFriction::make_block(ImpactSystem& cluster, std::size_t contact) {
     Contact c = cluster.contact(contact);
     c.arm_a += c.rub;
     c.arm_b += c.rub;
@@ -57,15 +57,25 @@ ImpactFriction::Block ImpactFriction::make_block(const ImpactSystem& cluster, st
     block.second_offset = cluster.offset(c, block.second);
     block.first_compliance = block.first_row.squared_norm();
     block.second_compliance = block.second_row.squared_norm();
+    // Joints may leave no motion along a direction: no friction there.
+    const double normal_compliance = cluster.length(contact) * cluster.length(contact);
+    if (block.first_compliance == 0.0) {
+        block.first_compliance = normal_compliance;
+        block.first_offset = 0.0;
+    }
+    if (block.second_compliance == 0.0) {
+        block.second_compliance = normal_compliance;
+        block.second_offset = 0.0;
+    }
     block.normal_first = cluster.length(contact) * cluster.rows()[contact].dot(block.first_row);
     block.normal_second = cluster.length(contact) * cluster.rows()[contact].dot(block.second_row);
     return block;
 }
 
 // Without a normal impulse there is no friction: most contacts of a heap have none in an impact.
-void ImpactFriction::add_blocks(const ImpactSystem& cluster) {
+void ImpactFriction::add_blocks(ImpactSystem& cluster) {
     const std::size_t before = blocks_.size();
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
+    for (std::size_t i = 0; i < cluster.contacts(); ++i) {
         if (has_block_[i] || !(cluster.impulse(i) > 0.0) || cluster.contact(i).friction <= 0.0) continue;
         has_block_[i] = 1;
         blocks_.push_back(make_block(cluster, i));

@@ -52,8 +52,8 @@ private:
         double kept = 0.0;          // m/s: v_rel before friction
     };
 
-    static Block make_block(const ImpactSystem& cluster, std::size_t contact);
-    void add_blocks(const ImpactSystem& cluster);
+    static Block make_block(ImpactSystem& cluster, std::size_t contact);
+    void add_blocks(ImpactSystem& cluster);
     double relax(ImpactSystem& cluster, Block& block, Normal normal) const;
     double relax_all(ImpactSystem& cluster, Normal normal);
     double tolerance() const;

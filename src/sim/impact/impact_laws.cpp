@@ -11,7 +11,7 @@ namespace tumble {
 namespace {
 
 double restitution_now(const ImpactSystem& cluster, std::size_t i, double threshold) {
-    return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.contact(i).restitution : 0.0;
+    return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.restitution(i) : 0.0;
 }
 
 ActiveSet::Demand demand(const ImpactSystem& cluster, std::size_t i, double least_speed) {
@@ -145,13 +145,20 @@ private:
     double reflection() {
         const double work_before = add_change(cluster_, active_, lambda_, change_);
         double square = 0.0;
-        for (const ActiveSet::Demand& demand : active_)
-            for (const std::uint32_t body : {cluster_.rows()[demand.row].a, cluster_.rows()[demand.row].b}) {
+        const auto count = [&](auto of_body) {
+            square += of_body.squaredNorm();
+            of_body.setZero();  // counts each body once, and leaves all zero for the next use
+        };
+        for (const ActiveSet::Demand& demand : active_) {
+            const VelocityRow& row = cluster_.rows()[demand.row];
+            for (const auto& [body, bodies] : {std::pair(row.a, row.bodies_a()), std::pair(row.b, row.bodies_b())}) {
                 if (body == VelocityRow::none) continue;
-                auto of_body = change_.segment<6>(6 * Eigen::Index(body));
-                square += of_body.squaredNorm();
-                of_body.setZero();  // counts each body once, and leaves all zero for the next use
+                if (bodies == 1)
+                    count(change_.segment<6>(6 * Eigen::Index(body)));
+                else
+                    count(change_.segment(6 * Eigen::Index(body), 6 * Eigen::Index(bodies)));
             }
+        }
         return reflection_factor(work_before, square);
     }
 

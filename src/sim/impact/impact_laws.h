@@ -29,6 +29,7 @@ struct ImpactSettings {
     /// Leaves nothing approaching: contacts that do not bounce are stopped (e = 0). Without it an impact in which
     /// nothing bounces is left to the solver of resting contact.
     bool complete = false;
+    double span = 1.0;  // s: a joint's force in an impact is the mean over this time
 };
 
 /// Whether any contact with restitution approaches fast enough to bounce.

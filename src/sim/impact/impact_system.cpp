@@ -6,99 +6,113 @@
 #include <cmath>
 
 namespace tumble {
-namespace {
-
-// Lower Cholesky factor; a direction without compliance (a nonpositive pivot) gets a column of zeros.
-Mat3 cholesky(const Mat3& m) {
-    Mat3 g = Mat3::Zero();
-    for (int j = 0; j < 3; ++j) {
-        double pivot = m(j, j);
-        for (int k = 0; k < j; ++k) pivot -= g(j, k) * g(j, k);
-        if (!(pivot > 0.0)) continue;
-        g(j, j) = std::sqrt(pivot);
-        for (int i = j + 1; i < 3; ++i) {
-            double sum = m(i, j);
-            for (int k = 0; k < j; ++k) sum -= g(i, k) * g(j, k);
-            g(i, j) = sum / g(j, j);
-        }
-    }
-    return g;
-}
-
-}  // namespace
-
-MassRoot::MassRoot(const Body& body)
-    : translation(std::sqrt(body.inverse_mass)), turn(body.rotation * cholesky(body.inverse_inertia_body)) {}
-
-Vec6 MassRoot::row(const Vec3& arm, const Vec3& direction) const {
-    Vec6 w;
-    w << translation * direction, turn.transpose() * arm.cross(direction);
-    return w;
-}
-
-Vec6 MassRoot::weighted(const Body& body) const {
-    // omega = R G y with G lower: forward substitution.
-    const Mat3 g = body.rotation.transpose() * turn;
-    const Vec3 spin = body.rotation.transpose() * body.angular_velocity;
-    Vec6 y;
-    y.head<3>() = translation > 0.0 ? Vec3(body.velocity / translation) : Vec3::Zero();
-    for (int i = 0; i < 3; ++i) {
-        double sum = spin[i];
-        for (int k = 0; k < i; ++k) sum -= g(i, k) * y[3 + k];
-        y[3 + i] = g(i, i) > 0.0 ? sum / g(i, i) : 0.0;
-    }
-    return y;
-}
-
 ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                            ImpactTrace* trace)
     : body_index_(island.bodies), contacts_(contacts), bodies_(bodies), trace_(trace) {
+    std::vector<std::uint32_t> by_place = island.bodies;
+    if (!island.joints.empty()) {
+        groups_.emplace(island.bodies, island.joints, bodies);
+        for (std::size_t i = 0; i < island.bodies.size(); ++i) by_place[groups_->places()[i]] = island.bodies[i];
+    }
     roots_.reserve(island.bodies.size());
     velocity_.resize(6 * Eigen::Index(island.bodies.size()));
-    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
-        const Body& body = bodies[island.bodies[i]];
+    for (std::size_t i = 0; i < by_place.size(); ++i) {
+        const Body& body = bodies[by_place[i]];
         roots_.emplace_back(body);
         velocity_.segment<6>(6 * Eigen::Index(i)) = roots_.back().weighted(body);
+    }
+    if (groups_) {
+        groups_->load(bodies, roots_);
+        groups_->project(velocity_);
+        pushed_.setZero(velocity_.size());
     }
     start_ = velocity_;
     double fastest = 0.0, largest = 0.0, fastest_wall = 0.0, mass = 0.0;
     for (const std::uint32_t k : island.contacts) {
         const Contact& c = contacts[k];
         if (!c.touching()) continue;
-        VelocityRow row = relative_row(c, c.normal);
+        const VelocityRow row = relative_row(c, c.normal);
         const double length = std::sqrt(row.squared_norm());
         if (!(length > 0.0)) continue;  // the contact has no mobility
-        row.on_a /= length;
-        row.on_b /= length;
         index_.push_back(k);
-        rows_.push_back(row);
-        length_.push_back(length);
-        offset_.push_back(offset(c, c.normal) / length);
+        add_row(row, offset(c, c.normal));
         fastest = std::max(fastest, std::abs(speed(rows_.size() - 1)));
         fastest_wall = std::max(fastest_wall, std::abs(offset_.back()) * length);
         for (const auto& [body, arm] : {std::pair(c.a, c.arm_a), std::pair(c.b, c.arm_b)})
             largest =
                 std::max(largest, bodies[body].velocity.norm() + bodies[body].angular_velocity.norm() * arm.norm());
     }
+    if (groups_) add_limits();
     impulse_.assign(rows_.size(), 0.0);
     for (const std::uint32_t body : island.bodies) mass += bodies[body].mass;
     wall_velocity_ = std::sqrt(mass) * fastest_wall;
     rounding_ = tuning::approach_relative * fastest + tuning::approach_rounding * largest;
 }
 
-std::uint32_t ImpactSystem::place(std::uint32_t body) const {
-    const auto found = std::lower_bound(body_index_.begin(), body_index_.end(), body);
-    return found != body_index_.end() && *found == body ? std::uint32_t(found - body_index_.begin())
-                                                        : VelocityRow::none;
+// A row from a form that is not of unit length, and the velocities of bodies that are not dynamic along it, m/s.
+void ImpactSystem::add_row(const VelocityRow& form, double speed) {
+    const double length = std::sqrt(form.squared_norm());
+    VelocityRow row = form;
+    row.on_a /= length;
+    row.on_b /= length;
+    if (row.joined) {
+        VelocityRow& own = own_[row.joined->own];
+        if (groups_->carried().size() > 0) speed += own.dot(groups_->carried());
+        own.on_a /= length;
+        own.on_b /= length;
+        for (double& number : joined_rows_[row.joined->own].numbers) number /= length;
+    }
+    rows_.push_back(row);
+    length_.push_back(length);
+    offset_.push_back(speed / length);
 }
 
-VelocityRow ImpactSystem::relative_row(const Contact& c, const Vec3& direction) const {
+// The limits that the joints are at are contacts without friction.
+void ImpactSystem::add_limits() {
+    for (std::size_t k = 0; k < groups_->limits().size(); ++k) {
+        const JoinedGroups::Limit& limit = groups_->limits()[k];
+        const VelocityRow row = join(limit.form);
+        if (!(row.squared_norm() > 0.0)) continue;
+        limit_.push_back(k);
+        add_row(row, limit.offset);
+    }
+}
+
+double ImpactSystem::work() const {
+    std::uint32_t longest = 0;
+    for (const VelocityRow& row : rows_) longest = std::max(longest, row.bodies_a() + row.bodies_b());
+    return 6.0 * longest * double(size()) * double(size());
+}
+
+std::uint32_t ImpactSystem::place(std::uint32_t body) const {
+    const auto found = std::lower_bound(body_index_.begin(), body_index_.end(), body);
+    if (found == body_index_.end() || *found != body) return VelocityRow::none;
+    const auto i = std::uint32_t(found - body_index_.begin());
+    return groups_ ? groups_->places()[i] : i;
+}
+
+VelocityRow ImpactSystem::relative_row(const Contact& c, const Vec3& direction) {
     VelocityRow row;
     row.a = place(c.a);
     row.b = place(c.b);
     if (row.a != VelocityRow::none) row.on_a = -roots_[row.a].row(c.arm_a, direction);
     if (row.b != VelocityRow::none) row.on_b = roots_[row.b].row(c.arm_b, direction);
-    return row;
+    if (!groups_ || !(joined(row.a) || joined(row.b))) return row;
+    return join(row);
+}
+
+// The form of the groups; empty where the joints leave it no mobility but for rounding.
+VelocityRow ImpactSystem::join(const VelocityRow& own) {
+    VelocityRow row;
+    joined_rows_.push_back(groups_->project(own, std::uint32_t(own_.size()), row));
+    own_.push_back(own);
+    row.joined = &joined_rows_.back();
+    const double least = tuning::projection_dependent * tuning::projection_dependent * own.squared_norm();
+    return row.squared_norm() > least ? row : VelocityRow{};
+}
+
+void ImpactSystem::push_own(const VelocityRow& row, double amount) {
+    if (row.joined) own_[row.joined->own].add_to(pushed_, row.joined->sign * amount);
 }
 
 double ImpactSystem::offset(const Contact& c, const Vec3& direction) const {
@@ -110,6 +124,7 @@ double ImpactSystem::offset(const Contact& c, const Vec3& direction) const {
 }
 
 void ImpactSystem::announce(std::size_t i, double amount, double restitution) {
+    if (i >= contacts()) return;
     trace_->entries.push_back({index_[i], trace_->passes, speed(i), 0.0, restitution, amount / length_[i]});
     announced_.push_back(i);
 }
@@ -121,19 +136,45 @@ void ImpactSystem::end_pass() {
     ++trace_->passes;
 }
 
-void ImpactSystem::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) const {
-    for (std::size_t i = 0; i < roots_.size(); ++i) {
+std::vector<JointBlow> ImpactSystem::store_velocities(std::vector<Body>& bodies) {
+    std::vector<JointBlow> blows;
+    if (groups_) {
+        // The change that the sums of the impulses make: to rounding that of the rows.
+        blows = groups_->blows(pushed_);
+        for (std::uint32_t i = 0; i < roots_.size(); ++i)
+            if (groups_->joined(i)) {
+                const Eigen::Index first = 6 * Eigen::Index(i);
+                velocity_.segment<6>(first) = start_.segment<6>(first) + pushed_.segment<6>(first);
+            }
+    }
+    for (std::size_t k = 0; k < body_index_.size(); ++k) {
+        const std::size_t i = groups_ ? groups_->places()[k] : k;
         const Vec6 change = (velocity_ - start_).segment<6>(6 * Eigen::Index(i));
         if (change.isZero(0.0)) continue;
-        Body& body = bodies[body_index_[i]];
+        Body& body = bodies[body_index_[k]];
         body.velocity += roots_[i].translation * change.head<3>();
         body.angular_velocity += roots_[i].turn * change.tail<3>();
     }
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
+    for (std::size_t k = 0; k < limit_.size(); ++k) {
+        const JoinedGroups::Limit& limit = groups_->limits()[limit_[k]];
+        const std::size_t row = contacts() + k;
+        const Vec3 impulse = impulse_[row] * limit.size * limit.direction;
+        JointBlow& blow = blows[limit.joint];
+        (limit.turns ? blow.torque : blow.force) += impulse;
+        blow.lost -= 0.5 * impulse_[row] * (speed_at_start(row) + speed(row));
+    }
+    for (JointBlow& blow : blows) find_work(blow, bodies);
+    return blows;
+}
+
+std::vector<JointBlow> ImpactSystem::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) {
+    std::vector<JointBlow> blows = store_velocities(bodies);
+    for (std::size_t i = 0; i < index_.size(); ++i) {
         Contact& c = contacts[index_[i]];
         c.impact = impulse_[i];
         if (c.impact > 0.0) c.bounce_velocity = std::max(0.0, speed(i));
     }
+    return blows;
 }
 
 }  // namespace tumble

@@ -5,6 +5,8 @@
 #include "sim/impact/settings.h"
 
 #include <algorithm>
+#include <deque>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -39,7 +41,7 @@ int resolve_normally(ImpactSystem& cluster, const ImpactSettings& settings) {
 // Friction changes the normal impulses as well: the change belongs to the contact's last pass. Where it would make that
 // pass's impulse negative, the passes before share it.
 void complete_trace(const ImpactSystem& cluster, ImpactTrace& trace) {
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
+    for (std::size_t i = 0; i < cluster.contacts(); ++i) {
         double rest = cluster.impulse(i);
         ImpactTrace::Entry* last = nullptr;
         for (ImpactTrace::Entry& entry : trace.entries) {
@@ -77,9 +79,10 @@ void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactF
 }  // namespace
 
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                    const ImpactSettings& settings, ImpactTrace* trace) {
+                    const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>* blows) {
     if (!may_collide(island, contacts, bodies, settings)) return 0;
     ImpactSystem cluster(island, contacts, bodies, trace);
+    if (!island.joints.empty() && cluster.work() > tuning::impact_joined_work) return too_large;
     const int passes = resolve_normally(cluster, settings);
     if (passes == 0) return 0;
     if (settings.friction) {
@@ -92,7 +95,8 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
             friction.apply(cluster);
         friction.store(cluster, contacts);
     }
-    cluster.store(contacts, bodies);
+    std::vector<JointBlow> of_joints = cluster.store(contacts, bodies);
+    if (blows) *blows = std::move(of_joints);
     if (trace) complete_trace(cluster, *trace);
     return passes;
 }
@@ -110,24 +114,39 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
             if (bodies[i].dynamic()) bounced.bodies.push_back(i);
     }
     if (bounced.contacts.empty()) return;
+    if (!island.joints.empty()) {
+        bounced.bodies = island.bodies;
+        bounced.joints = island.joints;
+    }
     std::sort(bounced.bodies.begin(), bounced.bodies.end());
     bounced.bodies.erase(std::unique(bounced.bodies.begin(), bounced.bodies.end()), bounced.bodies.end());
-    const ImpactSystem cluster(bounced, contacts, bodies);
+    ImpactSystem cluster(bounced, contacts, bodies);
     std::vector<ActiveSet::Demand> demands;
     std::vector<VelocityRow> rows = cluster.rows();
-    std::vector<double> sign(cluster.size(), 1.0);
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
+    std::vector<double> sign(cluster.contacts(), 1.0);
+    std::deque<JoinedRow> joined;
+    for (std::size_t i = 0; i < cluster.contacts(); ++i) {
         const double length = cluster.length(i), faster = cluster.speed(i) - cluster.contact(i).bounce_velocity;
         if (faster > cluster.rounding()) {  // from a ceiling
             sign[i] = -1.0;
             rows[i].on_a = -rows[i].on_a;
             rows[i].on_b = -rows[i].on_b;
+            if (rows[i].joined) {
+                joined.push_back(*rows[i].joined);
+                joined.back().sign = -1.0;
+                rows[i].joined = &joined.back();
+            }
         }
         demands.push_back({std::uint32_t(i), sign[i] * faster / length, cluster.rounding() / length});
     }
     std::vector<double> lambda;
     ActiveSet(rows, cluster.bodies()).solve(demands, lambda);
-    for (std::size_t i = 0; i < cluster.size(); ++i) {
+    if (!island.joints.empty()) {
+        for (std::size_t i = 0; i < cluster.contacts(); ++i)
+            if (lambda[i] > 0.0) cluster.push(i, sign[i] * lambda[i]);
+        for (const JointBlow& blow : cluster.store_velocities(bodies)) take_blow(blow, bodies);
+    }
+    for (std::size_t i = 0; i < cluster.contacts(); ++i) {
         const Contact& c = cluster.contact(i);
         if (lambda[i] > 0.0)
             add_impulse(c, sign[i] * lambda[i] / cluster.length(i) * c.normal, bodies[c.a], bodies[c.b]);

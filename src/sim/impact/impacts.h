@@ -11,8 +11,14 @@ namespace tumble {
 /// momenta are not: add_impact()); sets the impact, impact_friction and bounce_velocity of each contact that takes
 /// part. Returns the number of passes; 0 without impacts.
 /// `trace`: gets every impulse; its entries of a contact add up to the contact's. Null: not asked for.
+/// `blows`: gets the impulses of the island's joints, which change no momenta either: take_blow(). Null: not asked for.
+/// The joints have no strength: resolve_breaking().
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                    const ImpactSettings& settings, ImpactTrace* trace = nullptr);
+                    const ImpactSettings& settings, ImpactTrace* trace = nullptr,
+                    std::vector<JointBlow>* blows = nullptr);
+
+/// In place of the number of passes: an island with joints whose impact takes too much work, and is left as it is.
+inline constexpr int too_large = -1;
 
 /// Restores after the step's forces the v_rel of points that bounced in the step, by the least change of motion: a ball
 /// keeps its bounce speed through the step, from the floor or a ceiling, and with e = 1 retraces its path.

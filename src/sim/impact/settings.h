@@ -54,6 +54,20 @@ inline constexpr double approach_relative = 1e-13;
 /// and those below this share of its largest speed. Not fitted: some ten units of rounding.
 inline constexpr double approach_rounding = 4e-15;
 
+/// Compliance of a joint's locked coordinates at an impact, of unit forms: square root of the rounding of double
+/// precision, where a pass removes all but a share of 1e-8 of an error for the least of the two causes, rounding and the
+/// compliance over the squared singular value (1e-2 for ragdolls, 1e-5 for a chain of a thousand links, 1e-8 for
+/// masses of 1 : 1e8). Not fitted: rounding.
+inline constexpr double impact_lock_compliance = 1e-8;
+
+/// Share of the first error at which the passes end, and the most passes. Not fitted: rounding, and a bound of the cost.
+inline constexpr double impact_lock_rounding = 1e-16;
+inline constexpr int impact_lock_passes = 60;
+
+/// Largest number of products of an impact of joined bodies, contacts squared times the numbers of a group: about 30 ms.
+/// Beyond, the solver of contacts bounces them. Limits the cost.
+inline constexpr double impact_joined_work = 3e7;
+
 /// Passes of a propagating impact, per contact. Most impacts end within three. More are needed for a light ball
 /// between a heavy one and a wall (31415 for masses of 1 : 1e8): their number is proportional to the inverse margin
 /// of the contacts. Sets without a margin are jammed. Related tests: HardInput.LightBallBetweenAHeavyOneAndAWall

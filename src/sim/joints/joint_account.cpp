@@ -44,13 +44,32 @@ void JointSet::end_step() {
         if (account.step.solves == 0) continue;
         joint.force = account.step.load.force / (to_ - from_);
         joint.torque = account.step.load.torque / (to_ - from_);
+        account.second = {};
+        account.second.add(account.step.second_load, 1.0 / (to_ - from_));
         account.frame.load.add(account.step.load);
         account.frame.work_a += account.step.work_a;
         account.frame.work_b += account.step.work_b;
+        account.frame.second_load.add(account.step.second_load);
+        account.frame.second_work_a += account.step.second_work_a;
+        account.frame.second_work_b += account.step.second_work_b;
         ++account.frame.solves;
         account.work.add(account.step.work);
         account.step = {};
         account.holds = true;
+    }
+}
+
+void JointSet::take_events() {
+    for (Joint& joint : joints_) {
+        JointAccount& account = joint.account;
+        if (account.events.solves == 0) continue;
+        joint.force += account.events.load.force / (to_ - from_);
+        joint.torque += account.events.load.torque / (to_ - from_);
+        account.frame.load.add(account.events.load);
+        account.frame.work_a += account.events.work_a;
+        account.frame.work_b += account.events.work_b;
+        account.work.add(account.events.work);
+        account.events = {};
     }
 }
 
@@ -65,6 +84,7 @@ void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
         if (joint.active && rest > 0 && rests(joint.a) && rests(joint.b)) {
             const JointLoad last{joint.force, joint.torque, joint.point.cross(joint.force) + joint.torque};
             account.frame.load.add(last, rest * h);
+            account.frame.second_load.add(account.second, rest * h);
         }
         account.mean = {};
         account.mean.add(account.frame.load, 1.0 / (steps * h));

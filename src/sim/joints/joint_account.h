@@ -54,6 +54,9 @@ struct JointAccount {
     struct Span {
         JointLoad load;
         double work_a = 0.0, work_b = 0.0;  // J, of the joint on each body
+        // Of a gear: the same of its second joint, while the above are of its first.
+        JointLoad second_load;
+        double second_work_a = 0.0, second_work_b = 0.0;
         JointWork work;
         int solves = 0;  // steps, or substeps
 
@@ -66,16 +69,28 @@ struct JointAccount {
             ++solves;
         }
     };
+    /// A flight, or a solve, between events.
+    void take_flight(const Span& span) {
+        events.load.add(span.load);
+        events.work_a += span.work_a;
+        events.work_b += span.work_b;
+        events.work.add(span.work);
+        ++events.solves;
+        holds = true;
+    }
+
     Span step, frame;
+    Span events;         // of impacts, and flights between them, in this step: apart from the solve
     JointLoad mean;      // N and N m, over the last frame
+    JointLoad second;    // N and N m, of a gear on its second joint: mean over the last step
     JointWork work;      // since the start
     bool holds = false;  // has held its bodies: the work of its locks is then no impact
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [step, frame, mean, work, holds] = self;
-        archive.scratch(step, frame);
-        archive.keep(mean, work, holds);
+        auto& [step, frame, events, mean, second, work, holds] = self;
+        archive.scratch(step, frame, events);
+        archive.keep(mean, second, work, holds);
     }
 };
 

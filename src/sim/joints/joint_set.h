@@ -20,7 +20,7 @@ public:
     bool empty() const { return joints_.empty(); }
     std::vector<Joint>& joints() { return joints_; }
     const std::vector<Joint>& joints() const { return joints_; }
-    /// The bodies of each joint that holds in this step, in the order of active().
+    /// The bodies of each joint that holds in this step, in the order of active(); of a gear, one of each of its joints.
     const std::vector<BodyPair>& pairs() const { return pairs_; }
     /// Indices of the joints that hold, ascending.
     const std::vector<std::uint32_t>& active() const { return active_; }
@@ -47,6 +47,8 @@ public:
     void begin_frame();
     /// After the solve of a step, and after the last of the `steps` of a frame, each of `h` s.
     void end_step();
+    /// After the impacts of a step, and flights between them: adds them to the loads and accounts.
+    void take_events();
     void end_frame(int steps, double h, const std::vector<Body>& bodies);
     /// Of the present poses, and since the start of the accounts.
     JointEnergies energies(const std::vector<Body>& bodies) const;

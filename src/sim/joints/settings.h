@@ -30,6 +30,11 @@ inline constexpr int joint_swing_substeps = 1024;
 inline constexpr int joint_open_substeps = 64;
 inline constexpr int joint_stuck_substeps = 4;
 
+/// Largest turn, rad, of a body in contact in a substep, and number of substeps for it. Not fitted: corners sink in by half
+/// its square, and the cost is bounded.
+inline constexpr double joint_turn = 0.05;
+inline constexpr int joint_turning_substeps = 4;
+
 /// Passes up to which a step counts as easy: the next one is tried with half the substeps. Not fitted: the number changes
 /// the cost alone.
 inline constexpr int joint_easy_rounds = 6;
@@ -60,6 +65,10 @@ inline constexpr double joint_flight_fits = 1e-15;
 
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
+
+/// Largest phase, rad, of a spring in a step of flight: the error of a kick is a 24th of its square. Stiffer springs are
+/// rows of the solver. Not fitted: a tenth of a swing.
+inline constexpr double joint_flight_spring = 0.6;
 
 /// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
 /// JointReference.AFourBarPassesItsSingularPosition.

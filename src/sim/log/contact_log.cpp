@@ -118,7 +118,7 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
 
 /// The bodies of an impact: each impulse is subtracted once.
 void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts,
-                            const std::vector<Body>& bodies) {
+                            const std::vector<Body>& bodies, std::span<const JointBlow> blows) {
     const auto at = [&](std::uint32_t body) -> StruckBody& {
         if (struck_[body] == none) {
             struck_[body] = records_.struck.size();
@@ -133,6 +133,12 @@ void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>
         push_before(at(c.a), bodies[c.a], {-j, -c.arm_a.cross(j)});
         push_before(at(c.b), bodies[c.b], {j, c.arm_b.cross(j)});
     }
+    for (const JointBlow& blow : blows)
+        for (const auto& [body, sign] : {std::pair(blow.joint->a, -1.0), std::pair(blow.joint->b, 1.0)}) {
+            if (body == Joint::world || struck_[body] == none) continue;
+            const Vec3 turn = (blow.point - bodies[body].position).cross(blow.force) + blow.torque;
+            push_before(records_.struck[struck_[body]], bodies[body], {sign * blow.force, sign * turn});
+        }
 }
 
 void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, const Vec3& point,
@@ -162,8 +168,8 @@ void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, c
 }
 
 void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts,
-                            const std::vector<Body>& bodies, const ImpactTime& when) {
-    add_struck(trace, contacts, bodies);
+                            const std::vector<Body>& bodies, const ImpactTime& when, std::span<const JointBlow> blows) {
+    add_struck(trace, contacts, bodies, blows);
     for (std::size_t k = 0; k < trace.entries.size(); ++k) {
         const ImpactTrace::Entry& entry = trace.entries[k];
         const Contact& c = contacts[entry.contact];
@@ -415,7 +421,7 @@ ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const F
     add_touching(touching, bodies);
     for (auto& [key, sum] : sums_) records_.contacts.push_back(mean(key, sum, bodies, duration));
     for (std::uint32_t i = 0; i < bodies.size(); ++i)
-        if (bodies[i].flying) end_flight(i, bodies[i], !forces.only_gravity(i));
+        if (bodies[i].flying && !bodies[i].jointed) end_flight(i, bodies[i], !forces.only_gravity(i));
     add_loads(bodies, duration);
     add_corrections(bodies, duration);
     add_losses(bodies);

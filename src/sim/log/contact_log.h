@@ -28,9 +28,9 @@ public:
     void begin_frame(const std::vector<Body>& bodies);
 
     /// Adds one impact with the entries of its trace, at the bodies' poses of the impact. Their velocities are those after
-    /// it.
+    /// it; `blows`: the impulses of joints.
     void add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
-                    const ImpactTime& when);
+                    const ImpactTime& when, std::span<const JointBlow> blows = {});
     /// The same for an impact of one entry without friction, at a point (m) in the bodies' coordinates.
     void add_entry(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
                    const std::vector<Body>& bodies, const ImpactTime& when);
@@ -105,7 +105,8 @@ private:
     };
     void add_record(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
                     const std::vector<Body>& bodies, const ImpactTime& when);
-    void add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies);
+    void add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
+                    std::span<const JointBlow> blows);
     Impulse momenta(const Body& body, const Vec3& place, const Vec3& momentum) const;
     Impulse momenta(const Body& body) const { return momenta(body, body.position, body.momentum); }
     static void add_load(Account& account, const Impulse& impulse);

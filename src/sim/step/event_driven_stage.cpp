@@ -8,6 +8,7 @@ namespace tumble {
 std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t until) {
     std::vector<Body>& bodies = step.set.bodies;
     events_.record_in(step.log);
+    events_.join(step.joints, bodies);
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
     step.check.look_at(step.set.awake, bodies, step.pool);
@@ -23,6 +24,8 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
                                                                 const std::vector<Manifold>& manifolds) {
     std::vector<Body>& bodies = step.set.bodies;
     make_contacts(manifolds, bodies, contacts_);
+    events_.record_in(step.log);
+    events_.join(step.joints, bodies);
     events_.take_off(contacts_, bodies, step.forces.field(), step.index);
     stepped_.clear();
     for (const std::uint32_t i : step.set.awake)
@@ -58,6 +61,7 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
     }
     events_.begin_step(set.bodies, set.motions, limits, step.forces.field(), step.index);
     run_events(step, step.index + 1);
+    events_.end_flights();
 }
 
 void EventDrivenStage::save(CheckpointWriter& writer) const { visit(writer, *this); }

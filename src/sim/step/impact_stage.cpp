@@ -4,6 +4,7 @@
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/geometry/contact_tolerance.h"
+#include "sim/impact/joint_strength.h"
 #include "sim/impact/settings.h"
 #include "sim/log/contact_log.h"
 #include "sim/step/contact_detection.h"
@@ -45,10 +46,13 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
     colliding_.clear();
     contacts_.clear();
     for (std::size_t k = 0; k < islands.size(); ++k) {
-        if (!islands.joints(k).empty()) continue;  // bounces with its joints, in the contact solver
         if (!collides(k, detection, bodies, threshold(step))) continue;
         Island& island = colliding_.emplace_back();
         island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+        for (const std::uint32_t j : islands.joints(k)) {
+            Joint& joint = step.joints.joints()[step.joints.active()[j]];
+            if (!joint.broken && !joint.gear()) island.joints.push_back(&joint);
+        }
         for (const std::uint32_t m : islands.manifolds(k)) {
             struck_.push_back(m);
             impulses_before_.push_back(normal_impulse(manifolds[m]));
@@ -58,15 +62,12 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
         }
     }
     if (struck_.empty()) return;
-    const ImpactSettings impacts{.threshold = threshold(step),
-                                 .slow = tuning::impact_slow * threshold(step),
-                                 .law = step.settings.impact_law,
-                                 .friction = true};
     traces_.assign(step.log ? colliding_.size() : 0, {});
-    step.pool.for_each(colliding_.size(), tuning::parallel_grain, [&](std::size_t i, std::size_t) {
-        resolve_impacts(colliding_[i], contacts_, bodies, impacts, step.log ? &traces_[i] : nullptr);
-    });
-    for (const ImpactTrace& trace : traces_) step.log->add_impact(trace, contacts_, bodies, step.impact_time());
+    blows_.assign(colliding_.size(), {});
+    step.pool.for_each(colliding_.size(), tuning::parallel_grain,
+                       [&](std::size_t i, std::size_t) { resolve_island(step, i); });
+    for (std::size_t i = 0; i < traces_.size(); ++i)
+        step.log->add_impact(traces_[i], contacts_, bodies, step.impact_time(), blows_[i]);
     std::size_t next = 0;
     for (const std::uint32_t k : struck_) {
         for (int i = 0; i < manifolds[k].count; ++i) {
@@ -74,6 +75,30 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
             // Eqs. 9 and 10: the contribution of the impulses to P and L, equal and opposite to the last bit.
             if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
         }
+    }
+    for (const std::vector<JointBlow>& blows : blows_)
+        for (const JointBlow& blow : blows) take_blow(blow, bodies);
+}
+
+// Impacts of too much work are left to the contact solver.
+void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
+    const ImpactSettings impacts{.threshold = threshold(step),
+                                 .slow = tuning::impact_slow * threshold(step),
+                                 .law = step.settings.impact_law,
+                                 .friction = true,
+                                 .span = step.h};
+    Island& island = colliding_[index];
+    ImpactTrace* trace = step.log ? &traces_[index] : nullptr;
+    if (island.joints.empty()) {
+        resolve_impacts(island, contacts_, step.set.bodies, impacts, trace);
+        return;
+    }
+    std::vector<Joint*> broken;
+    resolve_breaking(island, contacts_, step.set.bodies, impacts, trace, blows_[index], broken);
+    for (Joint* joint : broken) {
+        joint->broken = true;
+        joint->broken_at = step.end();
+        std::erase(island.joints, joint);
     }
 }
 

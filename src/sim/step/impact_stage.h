@@ -34,16 +34,19 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [contacts, colliding, struck, traces, impulses_before] = self;
-        archive.scratch(contacts, colliding, struck, traces, impulses_before);
+        auto& [contacts, colliding, struck, traces, blows, impulses_before] = self;
+        archive.scratch(contacts, colliding, struck, traces, blows, impulses_before);
     }
 
 private:
-    std::vector<Contact> contacts_;        // of the colliding islands, point by point
-    std::vector<Island> colliding_;        // islands with impacts in this step
-    std::vector<std::uint32_t> struck_;    // indices of the manifolds of these islands
-    std::vector<ImpactTrace> traces_;      // by entry of colliding_; for the log
-    std::vector<double> impulses_before_;  // N s, by entry of struck_: before the step
+    void resolve_island(const StepContext& step, std::size_t island);
+
+    std::vector<Contact> contacts_;              // of the colliding islands, point by point
+    std::vector<Island> colliding_;              // islands with impacts in this step
+    std::vector<std::uint32_t> struck_;          // indices of the manifolds of these islands
+    std::vector<ImpactTrace> traces_;            // by entry of colliding_; for the log
+    std::vector<std::vector<JointBlow>> blows_;  // by entry of colliding_
+    std::vector<double> impulses_before_;        // N s, by entry of struck_: before the step
 };
 
 }  // namespace tumble

@@ -27,7 +27,7 @@ struct StepContext {
     std::int64_t index;  // number of the step, from 0
     double h;            // s, length of the step
     ContactLog* log;     // null: not asked for
-    const JointSet& joints;
+    JointSet& joints;
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s

@@ -227,6 +227,19 @@ void DirectSolver::move_contact(ConstraintRows& constraint, const ContactProblem
     rewrite(constraint.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b);
 }
 
+// Whether the rows are fulfilled without impulses: at the present velocities, and at the end of the step.
+bool DirectSolver::moves_freely(const JointIsland& island) {
+    if (speed_scale_ > tuning::direct_rounding * fastest_) return false;
+    velocity_ = free_;
+    consistent_ = true;
+    joints_.evaluate_speeds(velocity_);
+    predict_ends(island, false);
+    if (joints_.close(island, ends_) <= std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_)))
+        return true;
+    speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
+    return false;
+}
+
 // Gives the solution to the bodies: the impulses, equal and opposite. Where Newton's steps stopped on the way they do not
 // fit the velocities, which are nearer to the solution.
 void DirectSolver::apply_solution(const JointIsland& island) {
@@ -294,10 +307,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         joints_.keep_velocities(now, substep == 0);
         load_substep(now, substep, substeps);
         structure(step, island.bodies, manifolds);
-        if (speed_scale_ <= tuning::direct_rounding * fastest_) {
-            velocity_ = free_;
-            consistent_ = true;
-        } else {
+        if (!moves_freely(now)) {
             do {
                 const Closing closing = close_joints(now);
                 // Shorter steps help the joints, seldom the contacts.
@@ -347,6 +357,18 @@ bool DirectSolver::fly(const JointIsland& island, int& substeps) {
     return false;
 }
 
+// Contact is solved to first order in the angles: corners that turn fast would sink in.
+int DirectSolver::turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
+    double fastest = 0.0;
+    for (const std::uint32_t k : manifolds)
+        for (const std::uint32_t i : {problem.manifolds[k].a, problem.manifolds[k].b})
+            if (problem.bodies[i].dynamic()) fastest = std::max(fastest, problem.bodies[i].angular_velocity.norm());
+    int substeps = 1;
+    while (substeps < tuning::joint_turning_substeps && fastest * problem.settings.h > tuning::joint_turn * substeps)
+        substeps *= 2;
+    return substeps;
+}
+
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
@@ -368,6 +390,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     int substeps = 1;
     for (const std::uint32_t k : joints) {
         Joint& joint = problem.joints->joints()[problem.joints->active()[k]];
+        if (joint.broken) continue;  // in an impact of this step
         island_joints.push_back(&joint);
         values.push_back(joint.value);
         substeps = std::max(substeps, joint.substeps);
@@ -397,6 +420,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         flown = fly(island, substeps);
         if (!flown) reset();
     }
+    if (!flown && !manifolds.empty()) substeps = std::max(substeps, turning_substeps(problem, manifolds));
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
         substeps *= 2;
         reset();

@@ -18,10 +18,10 @@
 // Lengths are measured in the island's mean radius, so that rotation and translation have equal weight.
 #pragma once
 
-#include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_flight.h"
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/math/block_cholesky.h"
 
 #include <cstdint>
 #include <span>
@@ -81,6 +81,7 @@ private:
     bool fly(const JointIsland& island, int& substeps);
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
+    bool moves_freely(const JointIsland& island);
     void predict_ends(const JointIsland& island, bool moved);
     std::pair<double, double> next_round();
     bool factored();
@@ -95,6 +96,7 @@ private:
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem) const;
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
+    static int turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds);
     bool push_joined(const JointIsland& island, bool moved);
 
     struct Mass {

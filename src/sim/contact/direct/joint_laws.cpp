@@ -1,6 +1,7 @@
 // JointRows: the rows of a joint, by the laws of its coordinates.
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/joints/motor_target.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -13,18 +14,9 @@ struct Target {
     double value = 0.0, speed = 0.0;  // at the end of the step; mean over it
 };
 
-double target_at(const std::vector<JointTarget>& targets, double time) {
-    const auto next = std::upper_bound(targets.begin(), targets.end(), time,
-                                       [](double t, const JointTarget& target) { return t < target.time; });
-    if (next == targets.begin()) return next->value;
-    const JointTarget& last = next[-1];
-    if (next == targets.end()) return last.value;
-    return last.value + (next->value - last.value) * ((time - last.time) / (next->time - last.time));
-}
-
 Target target_of(const JointMotor& motor, double from, double to) {
-    const double end = target_at(motor.targets, to);
-    return {end, (end - target_at(motor.targets, from)) / (to - from)};
+    const double end = motor_target(motor, to);
+    return {end, (end - motor_target(motor, from)) / (to - from)};
 }
 
 }  // namespace
@@ -152,39 +144,33 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
 }
 
 // Spring and friction of a ball act about all axes alike: the spring along the rotation vector, friction against the
-// angular velocity.
+// angular velocity, with one bound for the length of its vector.
 void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block) {
     const Joint& j = joint(block);
     const JointAxis& axis = j.description.turn[0];
-    const bool rubs = axis.friction > 0.0 || j.description.friction_coefficient > 0.0;
-    if (!axis.spring && !rubs) return;
-    const auto spin = [&](std::uint32_t body) -> Vec3 {
-        return body == Joint::world ? Vec3(Vec3::Zero()) : island.problem.bodies[body].angular_velocity;
+    const auto row_about = [&](std::size_t i, Joint::Law law) {
+        Row r = make_row(island, block, g.axes.col(Eigen::Index(i)), 3 + i);
+        r.law = law;
+        return r;
     };
-    const Vec3 relative = spin(j.b) - spin(j.a);
-    Vec3 last = Vec3::Zero();  // N m s, of friction
-    for (std::size_t i = 0; i < 3; ++i) last += j.impulse[3 + i][Joint::friction] * g.axes.col(Eigen::Index(i));
-    for (std::size_t i = 0; i < 3; ++i) {
-        if (axis.spring) {
-            const JointSpring& s = j.springs[3];
-            const double gain = h_ * s.stiffness + s.damping;
-            Row r = make_row(island, block, g.axes.col(Eigen::Index(i)), 3 + i);
-            r.law = Joint::spring;
+    if (axis.spring) {
+        const JointSpring& s = j.springs[3];
+        const double gain = h_ * s.stiffness + s.damping;
+        for (std::size_t i = 0; i < 3 && gain > 0.0; ++i) {
+            Row r = row_about(i, Joint::spring);
             r.soft = true;
             r.compliance = length_ * length_ / (h_ * gain);
             r.target = -length_ * s.stiffness * g.rotation[Eigen::Index(i)] / gain;
-            if (gain > 0.0) push_row(r);
+            push_row(r);
         }
-        if (!rubs) continue;
-        const Vec3 along = relative.norm() > 0.0 ? relative.normalized() : Vec3(g.axes.col(0));
-        const Vec3 across = along.unitOrthogonal();
-        const Vec3 basis[3] = {along, across, along.cross(across)};
-        Row r = make_row(island, block, basis[i], 3 + i);
-        r.law = Joint::friction;
+    }
+    if (!(axis.friction > 0.0 || j.description.friction_coefficient > 0.0)) return;
+    for (std::size_t i = 0; i < 3; ++i) {
+        Row r = row_about(i, Joint::friction);
         r.most = axis.friction * h_ / length_;
         r.least = -r.most;
+        r.starts_ball = i == 0;
         push_row(r);
-        rows_.back().estimate = std::clamp(basis[i].dot(last) / length_, r.least, r.most);
     }
 }
 
@@ -218,10 +204,7 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
             add_laws(island, g, k, row);
         }
     }
-    if (isotropic) {
-        for (int k = 0; k < 3; ++k) block.axes[k] = g.axes.col(k);
-        add_ball_laws(island, g, block);
-    }
+    if (isotropic) add_ball_laws(island, g, block);
     if (ball && j.description.swing)
         add_limit(island, make_row(island, block, g.swing.direction, 4), g.swing.value, g.swing_limit, Joint::cone);
     block.count = rows_.size() - block.first;
@@ -240,14 +223,18 @@ void JointRows::load(const JointIsland& island, double compliance) {
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;
     bool fixed = false;
-    for (const std::uint32_t k : island.joints)
+    std::size_t gears = 0;
+    for (const std::uint32_t k : island.joints) {
+        gears += (*joints_)[set.active()[k]].gear();
         for (const std::uint32_t i : {(*joints_)[set.active()[k]].a, (*joints_)[set.active()[k]].b})
             fixed = fixed || i == Joint::world || !island.problem.bodies[i].dynamic();
+    }
+    gears_.reserve(gears);
     // A connected graph is a tree if it has one edge less than nodes; all that is fixed is one node.
-    tree_ = island.joints.size() + 1 == island.bodies.size() + fixed;
+    tree_ = gears > 0 ? geared_forest(island) : island.joints.size() + 1 == island.bodies.size() + fixed;
     for (const std::uint32_t k : island.joints)
         if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken)
-            add_joint(island, index, compliance);
+            (*joints_)[index].gear() ? add_gear(island, index) : add_joint(island, index, compliance);
 }
 
 void JointRows::follow_load(const Block& block) {

@@ -21,17 +21,20 @@ void six_add(const double* row, double amount, std::vector<double>& to, int body
 }  // namespace
 
 double JointRows::dot(const Block& block, const Row& row, const std::vector<double>& u) {
+    if (block.gear) return block.gear->row.dot(u);
     return (block.a != none ? six_dot(row.on_a, u, block.a) : 0.0) +
            (block.b != none ? six_dot(row.on_b, u, block.b) : 0.0);
 }
 
 void JointRows::add(const Block& block, const Row& row, double amount, std::vector<double>& to) {
+    if (block.gear) return block.gear->row.add(amount, to);
     if (block.a != none) six_add(row.on_a, amount, to, block.a);
     if (block.b != none) six_add(row.on_b, amount, to, block.b);
 }
 
 // H += weight row row^T, in the blocks of both bodies.
 void JointRows::add_square(BlockCholesky& matrix, const Block& block, const Row& row, double weight) {
+    if (block.gear) return block.gear->row.add_square(matrix, weight);
     using Eight = BlockCholesky::Row;
     const auto add_outer_of = [](BlockCholesky::Block& to, const double* left, const Eight& right) {
         for (int k = 0; k < 6; ++k) to.row[k] += left[k] * right;
@@ -50,6 +53,7 @@ void JointRows::add_square(BlockCholesky& matrix, const Block& block, const Row&
 
 void JointRows::add_pairs(std::vector<BlockCholesky::Pair>& pairs) {
     for (Block& block : blocks_) {
+        if (block.gear) block.gear->row.add_pairs(pairs);
         block.pair = std::uint32_t(pairs.size());
         if (block.a != none && block.b != none) pairs.push_back({std::uint32_t(block.a), std::uint32_t(block.b)});
     }
@@ -69,8 +73,26 @@ void JointRows::evaluate_changes(const std::vector<double>& du) {
             rows_[k].change = dot(block, rows_[k], du);
 }
 
+// f = y where |y| <= most, else most y / |y|; y = e + (b - J u) / R.
+JointRows::BallFriction JointRows::ball_friction(const Row* row, double along) {
+    BallFriction ball;
+    for (Eigen::Index i = 0; i < 3; ++i)
+        ball.wanted[i] = row[i].estimate + (row[i].target - row[i].speed - along * row[i].change) / row[i].compliance;
+    const double size = ball.wanted.norm();
+    ball.slides = size > row->most;
+    ball.scale = ball.slides ? row->most / size : 1.0;
+    return ball;
+}
+
 void JointRows::evaluate(double along) {
-    for (Row& row : rows_) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        Row& row = rows_[k];
+        if (row.starts_ball) {
+            const BallFriction ball = ball_friction(&row, along);
+            for (Eigen::Index i = 0; i < 3; ++i) rows_[k++].impulse = ball.scale * ball.wanted[i];
+            --k;
+            continue;
+        }
         const double y = row.estimate + (row.target - row.speed - along * row.change) / row.compliance;
         row.impulse = std::clamp(y, row.least, row.most);
     }
@@ -78,7 +100,20 @@ void JointRows::evaluate(double along) {
 
 void JointRows::evaluate_with_weights() {
     weights_changed_ = false;
-    for (Row& row : rows_) {
+    for (std::size_t k = 0; k < rows_.size(); ++k) {
+        Row& row = rows_[k];
+        if (row.starts_ball) {
+            const BallFriction ball = ball_friction(&row, 0.0);
+            // The weights of friction that slides turn with its direction.
+            weights_changed_ = weights_changed_ || ball.slides || row.bound != 0;
+            for (Eigen::Index i = 0; i < 3; ++i, ++k) {
+                rows_[k].impulse = ball.scale * ball.wanted[i];
+                rows_[k].bound = std::int8_t(ball.slides);
+                rows_[k].weight = ball.scale / rows_[k].compliance;
+            }
+            --k;
+            continue;
+        }
         const double y = row.estimate + (row.target - row.speed) / row.compliance;
         row.impulse = std::clamp(y, row.least, row.most);
         const auto bound = std::int8_t((y > row.most || row.least == row.most) - (y < row.least));
@@ -99,7 +134,14 @@ double JointRows::objective(const std::vector<double>& u) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            const double y = row.estimate + (row.target - row.offset - dot(block, row, u)) / row.compliance;
+            double y = row.estimate + (row.target - row.offset - dot(block, row, u)) / row.compliance;
+            if (row.starts_ball) {  // Huber's function of the length
+                for (std::size_t i = 1; i < 3; ++i) {
+                    const Row& next = rows_[++k];
+                    y = std::hypot(y,
+                                   next.estimate + (next.target - next.offset - dot(block, next, u)) / next.compliance);
+                }
+            }
             const double f = std::clamp(y, row.least, row.most);
             sum += row.compliance * f * (y - 0.5 * f);  // Huber's function
         }
@@ -120,8 +162,20 @@ void JointRows::add_estimates(std::vector<double>& g) const {
 
 void JointRows::add_weights(BlockCholesky& matrix) const {
     for (const Block& block : blocks_)
-        for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (rows_[k].weight != 0.0) add_square(matrix, block, rows_[k], rows_[k].weight);
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            const Row& row = rows_[k];
+            if (row.weight == 0.0) continue;
+            add_square(matrix, block, row, row.weight);
+            if (!row.starts_ball || row.bound != 1) continue;
+            // Friction that slides is stiff across its direction alone: less the square along it.
+            const Vec3 along = ball_friction(&row, 0.0).wanted.normalized();
+            Row sum = row;
+            for (int i = 0; i < 6; ++i) {
+                sum.on_a[i] = along[0] * row.on_a[i] + along[1] * (&row)[1].on_a[i] + along[2] * (&row)[2].on_a[i];
+                sum.on_b[i] = along[0] * row.on_b[i] + along[1] * (&row)[1].on_b[i] + along[2] * (&row)[2].on_b[i];
+            }
+            add_square(matrix, block, sum, -row.weight);
+        }
 }
 
 double JointRows::demand(const std::vector<double>& u) const {
@@ -133,8 +187,8 @@ double JointRows::demand(const std::vector<double>& u) const {
             if (row.law == Joint::lock) most = std::max(most, std::abs(missing));
             if (row.least == 0.0) most = std::max(most, missing);
             if (row.most == 0.0) most = std::max(most, -missing);
-            // A drive changes the speed by no more than its force allows.
-            if (row.law == Joint::motor || row.law == Joint::spring)
+            // Drives and friction change the speed by no more than their force allows.
+            if (row.law == Joint::motor || row.law == Joint::spring || row.law == Joint::friction)
                 most = std::max(most, std::min(std::abs(missing), row.most / total_mass_));
         }
     return most;
@@ -167,6 +221,7 @@ void JointRows::keep_estimates() {
         if (!row.soft) row.impulse = row.estimate;
 }
 
+// Pose at the end of the step: a body of the island has it in `ends`, another one moves by its velocity.
 JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int place,
                             std::span<const JointSide> ends) const {
     if (body == Joint::world) return {};
@@ -183,12 +238,12 @@ double JointRows::close(const JointIsland& island, std::span<const JointSide> en
     for (const Block& block : blocks_) {
         if (block.breaks) continue;
         const Joint& j = joint(block);
-        const JointGeometry g = measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+        const JointGeometry g = measure_end(island, block, ends);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (!row.closes) continue;
             const bool cone = row.law == Joint::cone;
-            const double value = cone ? g.swing.value : g.coordinates[row.coordinate].value;
+            const double value = cone ? g.swing.value : value_of(island, block, row, g, ends);
             const double reference = cone ? std::max(g.swing_limit, row.reference) : row.reference;
             const double unit = row.turns() ? length_ : 1.0, size = row.turns() ? 1.0 : j.size;
             const double error = value - reference;
@@ -213,7 +268,10 @@ double JointRows::smallest_size() const {
 
 double JointRows::place_rounding() const {
     double farthest = 0.0;
-    for (const Block& block : blocks_) farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+    for (const Block& block : blocks_) {
+        farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+        if (block.gear) farthest = std::max(farthest, joint(block).size * block.gear->value);
+    }
     return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest_size();
 }
 
@@ -238,7 +296,7 @@ bool JointRows::give_way() {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             row.least = row.most = row.estimate = row.impulse / over;
-            row.closes = row.soft = false;
+            row.closes = row.soft = row.starts_ball = false;
         }
     }
     return any;
@@ -277,11 +335,11 @@ double JointRows::close_push(const JointIsland& island, std::span<const JointSid
     double worst = 0.0;
     for (const Block& block : blocks_) {
         const Joint& j = joint(block);
-        const JointGeometry g = measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+        const JointGeometry g = measure_end(island, block, ends);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (row.law != Joint::lock || row.soft) continue;
-            const double speed = dot(block, row, push), error = g.coordinates[row.coordinate].value - row.goal;
+            const double speed = dot(block, row, push), error = value_of(island, block, row, g, ends) - row.goal;
             worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : j.size));
             row.estimate += row.weight * (row.target - speed);
             row.target = speed - (row.turns() ? length_ : 1.0) * error / h;
@@ -301,12 +359,7 @@ void JointRows::store(const JointIsland& island, bool apply) {
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
-            // The friction of a ball acts along axes that follow the motion: it is kept along those of the joint.
-            if (row.law == Joint::friction && row.turns() && j.turns_alike())
-                for (std::size_t i = 0; i < 3; ++i)
-                    j.impulse[3 + i][Joint::friction] += amount * row.direction.dot(block.axes[i]);
-            else
-                j.impulse[row.coordinate][row.law] = amount;
+            j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
             (row.turns() ? torque : force) += amount * row.direction;
         }
@@ -317,7 +370,8 @@ void JointRows::store(const JointIsland& island, bool apply) {
             j.broken = true;
             j.broken_at = to_;
         }
-        if (force.isZero(0.0) && torque.isZero(0.0)) continue;
+        if (block.gear) store_gear(island, block);
+        if (block.gear || (force.isZero(0.0) && torque.isZero(0.0))) continue;
         // Equal and opposite, about one point: momentum and angular momentum are kept to the last bit.
         if (block.a != none) {
             Body& a = bodies[j.a];
@@ -351,41 +405,6 @@ bool JointRows::violates_limit(const JointIsland& island, const Block& block) co
         if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
     }
     return false;
-}
-
-double JointRows::swing_rate(const JointIsland& island) {
-    swing_.assign(island.bodies.size(), 0.0);
-    double most = 0.0;
-    for (const Block& block : blocks_) {
-        Vec3 force = Vec3::Zero();
-        for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (!rows_[k].turns()) force += rows_[k].impulse / h_ * rows_[k].direction;
-        const Joint& j = joint(block);
-        for (const auto& [body, place] : {std::pair(j.a, block.a), std::pair(j.b, block.b)}) {
-            if (place == none) continue;
-            const Body& b = island.problem.bodies[body];
-            const Vec3 arm = block.point - b.position;
-            const double lever = arm.norm();
-            if (!(lever > 0.0)) continue;
-            // Compliance against turns about the joint, times the lever across their axis.
-            double gives = 0.0;
-            const auto turn_about = [&](const Vec3& axis) {
-                gives = std::max(gives, axis.cross(arm).norm() * axis.dot(b.inverse_inertia * axis));
-            };
-            if (block.free_turns == 3) {
-                const Vec3 across = arm.unitOrthogonal();
-                turn_about(across);
-                turn_about(arm.cross(across) / lever);
-            } else {
-                for (int k = 0; k < block.free_turns; ++k) turn_about(block.axes[k]);
-            }
-            // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
-            double& sum = swing_[std::size_t(place)];
-            sum += force.norm() * gives / 3.0;
-            most = std::max(most, sum);
-        }
-    }
-    return std::sqrt(most);
 }
 
 }  // namespace tumble

@@ -7,15 +7,17 @@
 //   limit   f >= 0 (lower) or f <= 0 (upper); b = -distance / h
 //   spring  R = 1 / (h (h K + C)), b = (K (rest - value) + C v) / (h K + C), e = 0: implicit, stable for any K and C
 //   motor   as a spring to its target, or b = speed; bounds: its largest force times h
-//   friction b = 0; bounds: its force times h
+//   friction b = 0; bounds: its force times h; of a ball, one for the length of the vector of three rows
 // Rows of angles are scaled by the island's length, as the angular velocities are: all rows are in m/s and N s.
 #pragma once
 
-#include "sim/contact/direct/block_cholesky.h"
 #include "sim/contact/direct/contact_rows.h"
+#include "sim/contact/direct/gear_row.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
+#include "sim/math/block_cholesky.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -49,9 +51,23 @@ public:
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
-        bool closes = false;  // takes part in close()
-        bool soft = false;    // a spring: its estimate stays 0
+        bool closes = false;       // takes part in close()
+        bool soft = false;         // a spring: its estimate stays 0
+        bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
+    };
+    /// A gear, which has one row: where it acts.
+    struct GearSide {
+        std::uint32_t joint = 0;
+        int a = none, b = none;
+        Vec3 point = Vec3::Zero(), direction = Vec3::Zero();
+        bool turns = false;
+        double factor = 0.0;  // of the impulse of the row, in units of the rows of joints
+    };
+    struct Gear {
+        GearRow row;
+        std::array<GearSide, 2> sides;
+        double value = 0.0;  // m or rad: largest term of the relation
     };
     struct Block {
         std::uint32_t joint = 0;
@@ -59,9 +75,10 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        Vec3 axes[3] = {};  // world: about which the bodies turn against each other; of a ball, those of A's joint frame
+        Vec3 axes[3] = {};  // world: about which the bodies turn against each other
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
+        Gear* gear = nullptr;
     };
 
     bool empty() const { return blocks_.empty(); }
@@ -73,6 +90,7 @@ public:
     std::span<Block> blocks() { return blocks_; }
     void clear() {
         blocks_.clear();
+        gears_.clear();
         rows_.clear();
     }
 
@@ -161,12 +179,30 @@ private:
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
     JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
+    struct BallFriction {
+        Vec3 wanted = Vec3::Zero();  // N s, without the bound
+        double scale = 1.0;          // from that to the impulse
+        bool slides = false;
+    };
+    static BallFriction ball_friction(const Row* row, double along);
+    JointGeometry measure_end(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
+    double value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
+                    std::span<const JointSide> ends) const;
+    BodyVelocity mean_velocity(const JointIsland& island, std::uint32_t body, int place, const Vec3& point) const;
+
+    bool geared_forest(const JointIsland& island) const;
+    void add_gear(const JointIsland& island, std::uint32_t index);
+    double gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
+    JointLoad load_of(const Block& block, std::size_t which) const;  // of a gear, on one of its joints
+    void store_gear(const JointIsland& island, const Block& block);
+    void account_gear(const JointIsland& island, const Block& block);
     void push_row(const Row& row);
     double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
 
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
+    std::vector<Gear> gears_;  // of fixed capacity: blocks point to them
     std::vector<Row> rows_;
     std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;         // 1/s^2, by body of the island

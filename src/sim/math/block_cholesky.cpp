@@ -1,4 +1,4 @@
-#include "sim/contact/direct/block_cholesky.h"
+#include "sim/math/block_cholesky.h"
 
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>

@@ -1,0 +1,92 @@
+// Flight of groups of joined bodies between events: in each step from its start, or from an impact, to its end.
+//
+// A group that touches nothing moves by the compositions of RATTLE of order 8 (joint_flight.h). A trajectory (cubic in
+// the centers) through the states at both ends serves the search for impacts; the time of an impact is then refined by
+// flying the group from its start to that time, so it has the accuracy of the flight.
+#pragma once
+
+#include "sim/ccd/trajectory.h"
+#include "sim/contact/direct/joint_flight.h"
+#include "sim/dynamics/forces.h"
+#include "sim/dynamics/integrators/rigid_state.h"
+#include "sim/event_driven/event_time.h"
+#include "sim/joints/joint_groups.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace tumble {
+
+class GroupFlights {
+public:
+    static constexpr std::uint32_t none = UINT32_MAX;
+
+    /// Finds the groups again where joints have begun or ended to hold. Both are kept by reference.
+    void update(JointSet& joints, std::vector<Body>& bodies);
+    /// Finds the groups again, as after a joint has broken. Flights of unchanged groups go on.
+    void find();
+
+    const std::vector<JointGroup>& groups() const { return groups_; }
+    /// The group of a body; none for a free one.
+    std::uint32_t group(std::uint32_t body) const { return body < group_of_.size() ? group_of_[body] : none; }
+    JointSet& joints() const { return *joints_; }
+    bool empty() const { return groups_.empty(); }
+
+    /// Whether the group's motion is free but for its joints and gravity.
+    bool can_fly(std::uint32_t group, const ForceField& forces);
+    /// Flies the group for `span` s from its present state at `now`, under `gravity` (m/s^2), and leaves it there. Returns
+    /// false where a joint comes to a limit, breaks or has no solution in that time.
+    bool start(std::uint32_t group, const EventTime& now, double span, const Vec3& gravity);
+    /// Moves a body of the group to its state `time` s after the start of the flight.
+    void bring(std::uint32_t body, double time) { set_state((*bodies_)[body], at(body, time)); }
+    /// A uniform path from that state, with its velocities.
+    Trajectory path(std::uint32_t body, double time);
+    /// The flight has not begun: its joints and bodies are as before it.
+    void cancel(std::uint32_t group);
+    /// The flight ends `time` s after its start: adds its impulses to the joints' accounts, and leaves the bodies as they
+    /// are.
+    void end(std::uint32_t group, double time);
+    /// The same at the end of its span, for all groups that fly: moves their bodies there.
+    void end_all();
+    /// Around a solve in place of a flight: keeps the loads of the joints, and adds the solve's impulses to their accounts.
+    void keep_loads(std::uint32_t group, std::vector<JointLoad>& loads) const;
+    void take_solve(std::uint32_t group, const std::vector<JointLoad>& loads, std::size_t& next);
+    const RigidState& start_of(std::uint32_t body) const { return flights_[group_of_[body]].first[place_[body]]; }
+    /// State of a body at the end of the flight.
+    const RigidState& end_of(std::uint32_t body) const { return flights_[group_of_[body]].last[place_[body]]; }
+
+private:
+    /// The state of a joint that a flight changes.
+    struct JointMemory {
+        std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{}, constraint_rate{};
+        std::array<std::array<double, Joint::laws>, Joint::coordinates> impulse{};
+        Vec3 point;
+    };
+    struct Flight {
+        EventTime start;
+        Vec3 gravity;
+        double span = 0.0, reached = 0.0;            // s
+        std::vector<RigidState> first, last, there;  // by body of the group: at the start, the end, and at `reached`
+        std::vector<JointMemory> memory;             // by joint of the group: at the start
+        std::vector<JointAccount::Span> accounts;    // by joint: up to `reached`
+        int substeps = 1;
+        bool flies = false;
+    };
+    bool fly(std::uint32_t group, double time);
+    RigidState at(std::uint32_t body, double time);
+    void remember(std::uint32_t group);
+    void restore(std::uint32_t group);
+
+    JointSet* joints_ = nullptr;
+    std::vector<Body>* bodies_ = nullptr;
+    std::uint64_t changes_ = 0;  // of the joint set, at the last update
+    std::vector<JointGroup> groups_;
+    std::vector<std::vector<std::uint32_t>> active_;  // by group: its joints in the set's list of active ones
+    std::vector<std::uint32_t> group_of_, place_;     // by body; place in the group
+    std::vector<Flight> flights_;                     // by group
+    JointFlight flight_;
+    std::vector<Manifold> no_manifolds_;
+    std::vector<BodyVelocity> no_velocities_;
+};
+
+}  // namespace tumble

@@ -1,0 +1,90 @@
+// Groups of joined bodies at an impact: their locked coordinates as equalities over mass-weighted velocities.
+//
+// Each locked coordinate is a unit form g: its rate is length (g . y + offset), and an impact leaves it as it is. With G
+// the forms of a group, the change of velocities lies in the null space of G, so a contact's form w acts as P w, with the
+// projection P = 1 - G^T (G G^T)^+ G. In the dual active set method (Goldfarb and Idnani 1983, section 3) this is the
+// equalities taken in first and never let go: all that follows works on contacts alone, by their forms P w.
+//
+// P is found by the augmented Lagrangian: with a compliance R, (1 + G^T G / R) z = G^T c / R and f = (c - G z) / R
+// remove the rates -c but for a share R / (R + s^2) along a singular value s of G, and are repeated. The matrix has a
+// 6 x 6 block for each body and each joined pair and is factored without fill for trees, so a projection costs a time
+// linear in the links. Redundant rows need no treatment.
+#pragma once
+
+#include "sim/impact/mass_root.h"
+#include "sim/impact/velocity_row.h"
+#include "sim/joints/joint_blow.h"
+#include "sim/math/block_cholesky.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+class JoinedGroups {
+public:
+    /// A limit that the joint is at: its rate must not fall below zero.
+    struct Limit {
+        std::size_t joint;  // index in the list of joints
+        Vec3 direction;     // world, of the rate of B relative to A; points into the allowed range
+        bool turns;         // else it moves
+        double size;        // m, that makes a rate of turning a speed
+        VelocityRow form;   // of the bodies alone; m/s
+        double offset;      // m/s, by bodies that are not dynamic
+        double restitution;
+    };
+
+    /// `bodies`: ascending, with all dynamic bodies of the joints. `joints`: that hold.
+    JoinedGroups(std::span<const std::uint32_t> bodies, const std::vector<Joint*>& joints,
+                 const std::vector<Body>& all);
+
+    /// Places of the bodies in y: each group's are consecutive. In the order of the list of bodies.
+    const std::vector<std::uint32_t>& places() const { return places_; }
+
+    /// Reads the joints at the bodies' present poses. `roots`: by place.
+    void load(const std::vector<Body>& all, const std::vector<MassRoot>& roots);
+
+    /// Makes y fit: G y = 0.
+    void project(Eigen::VectorXd& y);
+    /// y of least length with the rates that moving carriers ask for; empty where none moves.
+    const Eigen::VectorXd& carried() const { return carried_; }
+    const std::vector<Limit>& limits() const { return limits_; }
+
+    /// P w of a form over two bodies; `own` is its index in the caller's list.
+    JoinedRow project(const VelocityRow& form, std::uint32_t own, VelocityRow& row);
+    bool joined(std::uint32_t place) const { return group_of_[place] != VelocityRow::none; }
+
+    /// Makes a change of y fit the joints, and returns their impulses: by joint, without the work.
+    std::vector<JointBlow> blows(Eigen::VectorXd& change);
+
+private:
+    struct Lock {
+        std::size_t joint;  // index in joints_
+        Vec3 direction;     // world
+        bool turns;
+        double length, offset;  // of the rate; offset over the length
+        VelocityRow form;       // unit
+    };
+    struct Group {
+        std::uint32_t first = 0, bodies = 0;  // places
+        std::size_t first_lock = 0, locks = 0;
+        std::vector<std::size_t> joints;   // indices in joints_
+        std::vector<std::uint32_t> pairs;  // by joint: index in the matrix, or none
+        BlockCholesky matrix;
+    };
+    void load_joint(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
+    void factor(Group& group);
+    void fit(Group& group, Eigen::VectorXd& y, bool carriers);
+
+    std::vector<std::uint32_t> bodies_, places_, group_of_;  // ascending; by body; by place
+    std::vector<Joint*> joints_;
+    std::vector<Group> groups_;
+    std::vector<Lock> locks_;
+    std::vector<Vec3> points_;  // by joint: m, world
+    std::vector<Limit> limits_;
+    std::vector<double> given_, asked_, z_;  // by lock: impulses along the forms, rates to remove; work space
+    Eigen::VectorXd carried_, work_;
+};
+
+}  // namespace tumble

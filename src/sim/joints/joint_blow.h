@@ -1,0 +1,31 @@
+// The impulse of a joint in an impact.
+#pragma once
+
+#include "sim/joints/joint.h"
+
+#include <vector>
+
+namespace tumble {
+
+/// Impulses on B, the opposite ones on A, at one point.
+struct JointBlow {
+    Joint* joint = nullptr;
+    Vec3 force = Vec3::Zero();          // N s
+    Vec3 torque = Vec3::Zero();         // N m s
+    Vec3 point = Vec3::Zero();          // m, world
+    double work_a = 0.0, work_b = 0.0;  // J, on each body
+    double lost = 0.0;                  // J, at the joint's limits: by their mean speeds before and after the impact
+
+    bool breaks = false;  // the joint breaks: its work is heat
+
+    /// How far the blow exceeds the joint's strength, at most 1 where it holds. A force is the mean over `h` s.
+    double over(double h) const;
+};
+
+/// Adds the impulses to the momenta, P and L, and to the account of the joint.
+void take_blow(const JointBlow& blow, std::vector<Body>& bodies);
+
+/// The work of the blow, from the bodies' velocities (after it) and momenta (before it).
+void find_work(JointBlow& blow, const std::vector<Body>& bodies);
+
+}  // namespace tumble
