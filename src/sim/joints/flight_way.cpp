@@ -2,16 +2,20 @@
 
 namespace tumble {
 
-bool only_locks(const Joint& joint, const std::vector<Body>& bodies) {
+bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
     if (joint.gear()) return false;
-    for (std::size_t c = 0; c < joint.count(); ++c) {
-        const JointAxis& axis = joint.axis(c);
-        if (axis.spring || axis.motor || axis.friction > 0.0) return false;
-    }
+    for (std::size_t c = 0; c < joint.count(); ++c)
+        if (joint.axis(c).motor || joint.axis(c).friction > 0.0) return false;
     if (joint.description.friction_coefficient > 0.0) return false;
     for (const std::uint32_t i : {joint.a, joint.b})
         if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
     return true;
+}
+
+bool has_springs(const Joint& joint) {
+    for (std::size_t c = 0; c < joint.count(); ++c)
+        if (joint.axis(c).spring) return true;
+    return false;
 }
 
 std::optional<IntegratorKind> tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {

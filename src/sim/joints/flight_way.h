@@ -10,8 +10,10 @@
 
 namespace tumble {
 
-/// Whether the joint does nothing but lock coordinates, or limit them, between bodies whose motion is not prescribed.
-bool only_locks(const Joint& joint, const std::vector<Body>& bodies);
+/// Whether the joint does nothing but lock coordinates, or limit or spring them, between bodies whose motion is not
+/// prescribed.
+bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies);
+bool has_springs(const Joint& joint);
 
 /// The method by which joined bodies move in joint coordinates, if their joints are a tree: extrapolation where one body's
 /// integrator is exact; that of Runge and Kutta where one is, and none is splitting.

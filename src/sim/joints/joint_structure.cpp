@@ -117,8 +117,8 @@ void add_way(const JointGroup& group, bool tree, const JointSet& joints, const s
     for (const std::uint32_t i : group.bodies)
         if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
     for (const std::uint32_t k : group.joints) {
-        if (!only_locks(joints.joints()[k], bodies)) return void(++report.by_rows);
-        tree = tree && !joints.joints()[k].distance();
+        if (!free_but_for_springs(joints.joints()[k], bodies)) return void(++report.by_rows);
+        tree = tree && !joints.joints()[k].distance() && !has_springs(joints.joints()[k]);
     }
     ++(tree && tree_method(bodies, group.bodies) ? report.by_coordinates : report.by_rattle);
 }

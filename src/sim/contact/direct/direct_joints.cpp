@@ -354,10 +354,10 @@ TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
     const auto method = tree_method(problem.bodies, island.bodies);
     if (!method || !problem.forces) return TreeFlight::Outcome::declined;
     std::vector<Joint*> joints;
-    for (const std::uint32_t k : island.joints)
+    for (const std::uint32_t k : island.joints) {
         joints.push_back(&problem.joints->joints()[problem.joints->active()[k]]);
-    for (const Joint* joint : joints)
-        if (!only_locks(*joint, problem.bodies)) return TreeFlight::Outcome::declined;
+        if (has_springs(*joints.back())) return TreeFlight::Outcome::declined;
+    }
     set_back(island);
     return tree_flight_.advance(
         {problem.bodies, island.bodies, joints, *problem.forces, island.from, problem.settings.h, island.length},
