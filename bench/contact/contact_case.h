@@ -1,6 +1,7 @@
 // A case of the contact benchmark: a scene at one step, the interval of observation, and the reported quantities.
 #pragma once
 
+#include "harness/quantity.h"
 #include "harness/simulator.h"
 
 #include <functional>
@@ -9,12 +10,6 @@
 #include <vector>
 
 namespace tumble::bench {
-
-struct Quantity {
-    std::string name;
-    double value = 0.0;
-    std::string unit;
-};
 
 /// Observes the bodies at the start, at intervals, and at the end.
 class Witness {

@@ -81,10 +81,32 @@ struct PointForce {
     Vector point, force;  // m and N, body frame
 };
 
+/// distance: a massless rod between two anchors. The rod's length is their distance at the start.
+enum class JointKind { ball, hinge, fixed, slider, distance };
+inline constexpr std::size_t the_world = std::size_t(-1);  // in place of a body's index
+
+/// Joins two bodies as they lie at the start, where the coordinate of a hinge or slider is 0. The coordinate grows when
+/// the second body turns about the axis, or moves along it, relative to the first.
+struct Joint {
+    JointKind kind = JointKind::ball;
+    std::size_t first = the_world, second = the_world;
+    Vector anchor;                                // m, world frame, at the start; of a distance: of the first body
+    Vector second_anchor;                         // m, of a distance: of the second body
+    Vector axis{0.0, 0.0, 1.0};                   // world frame, at the start; of a ball: the axis of its cone
+    std::optional<std::array<double, 2>> limits;  // rad or m, of a hinge or slider
+    std::optional<double> cone;                   // rad, of a ball: half angle within which the axis stays
+    std::optional<double> speed;                  // rad/s or m/s, of the motor of a hinge or slider
+    double strength = 0.0;                        // N m or N, the largest of the motor
+    double break_force = 0.0;                     // N; 0: never breaks
+    bool collide = false;                         // whether the two bodies collide with each other
+};
+
 struct Scene {
     double gravity = g;  // m/s^2, downwards
     std::vector<Body> bodies;
-    std::optional<Air> air;          // acts on all moving bodies
+    std::vector<Joint> joints;
+    bool contacts = true;    // false: no bodies touch each other, and a program may leave out its search for contacts
+    std::optional<Air> air;  // acts on all moving bodies
     std::optional<PointForce> push;  // acts on body 0
 };
 

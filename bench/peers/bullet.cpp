@@ -1,7 +1,10 @@
 // Bullet 3.24, btDiscreteDynamicsWorld, sequential impulses: in double precision, and (contacts alone) in single.
+#include "peers/bullet_joints.h"
+#include "peers/bullet_multibody.h"
 #include "peers/peer.h"
 
-#include <btBulletDynamicsCommon.h>
+#include <BulletDynamics/MLCPSolvers/btDantzigSolver.h>
+#include <BulletDynamics/MLCPSolvers/btMLCPSolver.h>
 
 namespace {
 
@@ -13,13 +16,8 @@ struct Settings {
     bool elastic = true;  // settings for bounces; else for rest
     int iterations = 50;  // default 10
     bool sleep = false;
+    bool direct = false;  // Dantzig's solver for all constraints at once, in place of sequential impulses
 };
-
-btVector3 vec(const Vector& v) { return {btScalar(v.x), btScalar(v.y), btScalar(v.z)}; }
-btTransform pose(const Orientation& q, const Vector& position) {
-    return btTransform(btQuaternion(btScalar(q.x), btScalar(q.y), btScalar(q.z), btScalar(q.w)), vec(position));
-}
-Vector vector(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 class BulletSimulator : public Simulator {
 public:
@@ -27,15 +25,19 @@ public:
         : scene_(scene),
           h_(1.0 / rate),
           dispatcher_(&configuration_),
-          world_(&dispatcher_, &broad_phase_, &solver_, &configuration_) {
+          solver_(solver_of(settings)),
+          world_(&dispatcher_, &broad_phase_, solver_.get(), &configuration_) {
         world_.setGravity(vec({0.0, 0.0, -scene.gravity}));
         btContactSolverInfo& info = world_.getSolverInfo();
         info.m_restitutionVelocityThreshold = 0.0f;  // default 0.2 m/s: slower impacts do not bounce
         info.m_numIterations = settings.iterations;
         if (settings.elastic) info.m_erp2 = 0.0f;  // no position correction: that adds energy, up to 40-fold in the pit
         for (const Body& body : scene.bodies) add(body, settings);
+        feedback_.resize(scene.joints.size());
+        for (const Joint& joint : scene.joints) add(joint);
     }
     ~BulletSimulator() override {
+        for (const auto& joint : joints_) world_.removeConstraint(joint.get());
         for (const auto& body : bodies_) world_.removeRigidBody(body.get());
     }
 
@@ -54,37 +56,37 @@ public:
     Motion motion(std::size_t i) const override {
         const btRigidBody& body = *bodies_[i];
         const btTransform& pose = body.getWorldTransform();
-        const btQuaternion q = pose.getRotation();
-        return {vector(pose.getOrigin()),
-                {q.w(), q.x(), q.y(), q.z()},
-                vector(body.getLinearVelocity()),
+        return {vector(pose.getOrigin()), orientation(pose.getRotation()), vector(body.getLinearVelocity()),
                 vector(body.getAngularVelocity())};
     }
 
+    std::optional<Vector> joint_force(std::size_t joint) const override {
+        return vector(feedback_[joint].m_appliedForceBodyB);
+    }
+
 private:
+    static std::unique_ptr<btConstraintSolver> solver_of(const Settings& settings) {
+        static btDantzigSolver dantzig;
+        if (settings.direct) return std::make_unique<btMLCPSolver>(&dantzig);
+        return std::make_unique<btSequentialImpulseConstraintSolver>();
+    }
+
+    btRigidBody& side(std::size_t body) {
+        return body == the_world ? btTypedConstraint::getFixedBody() : *bodies_[body];
+    }
+
+    void add(const Joint& joint) {
+        auto made = constraint_of(joint, side(joint.first), side(joint.second), h_);
+        made->setJointFeedback(&feedback_[joints_.size()]);
+        world_.addConstraint(made.get(), !joint.collide);
+        joints_.push_back(std::move(made));
+    }
+
     void add(const Body& body, const Settings& settings) {
-        std::unique_ptr<btCollisionShape> shape;
-        if (body.kind == Kind::plane)
-            shape = std::make_unique<btStaticPlaneShape>(vec(body.normal), btScalar(body.offset));
-        if (body.kind == Kind::box) shape = std::make_unique<btBoxShape>(vec(0.5 * body.size));
-        if (body.kind == Kind::sphere) shape = std::make_unique<btSphereShape>(btScalar(body.radius));
-        if (body.kind == Kind::hexahedron) {
-            auto hull = std::make_unique<btConvexHullShape>();
-            for (const Vector& corner : body.corners) hull->addPoint(vec(corner));
-            hull->setMargin(btScalar(0.001));  // the hull grows by this margin; default 4 cm
-            shape = std::move(hull);
-        }
-        if (body.kind == Kind::compound) {
-            auto whole = std::make_unique<btCompoundShape>();
-            for (const BoxPart& part : body.parts) {
-                parts_.push_back(std::make_unique<btBoxShape>(vec(0.5 * part.size)));
-                whole->addChildShape(pose(part.orientation, part.position), parts_.back().get());
-            }
-            shape = std::move(whole);
-        }
+        btCollisionShape* shape = shapes_.make(body);
         const bool moves = body.moves();
         const btVector3 inertia = moves ? vec(body.principal_inertia()) : btVector3(0, 0, 0);
-        btRigidBody::btRigidBodyConstructionInfo info(btScalar(moves ? body.mass : 0.0), nullptr, shape.get(), inertia);
+        btRigidBody::btRigidBodyConstructionInfo info(btScalar(moves ? body.mass : 0.0), nullptr, shape, inertia);
         info.m_startWorldTransform = pose(body.orientation, body.position);
         info.m_friction = btScalar(std::sqrt(body.friction));           // a pair uses the product
         info.m_restitution = btScalar(moves ? body.restitution : 1.0);  // a pair uses the product
@@ -101,8 +103,10 @@ private:
             rigid->setCcdMotionThreshold(btScalar(0.5 * radius));
             rigid->setCcdSweptSphereRadius(btScalar(0.9 * radius));
         }
-        world_.addRigidBody(rigid.get());
-        shapes_.push_back(std::move(shape));
+        if (scene_.contacts)
+            world_.addRigidBody(rigid.get());
+        else
+            world_.addRigidBody(rigid.get(), btBroadphaseProxy::DefaultFilter, 0);
         bodies_.push_back(std::move(rigid));
     }
 
@@ -111,10 +115,12 @@ private:
     btDefaultCollisionConfiguration configuration_;
     btCollisionDispatcher dispatcher_;
     btDbvtBroadphase broad_phase_;
-    btSequentialImpulseConstraintSolver solver_;
+    std::unique_ptr<btConstraintSolver> solver_;
     btDiscreteDynamicsWorld world_;
-    std::vector<std::unique_ptr<btCollisionShape>> parts_, shapes_;
+    BulletShapes shapes_;
     std::vector<std::unique_ptr<btRigidBody>> bodies_;
+    std::vector<btJointFeedback> feedback_;
+    std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
 
 Variant variant(const std::string& name, const Settings& settings, std::vector<Demand> demands) {
@@ -151,6 +157,25 @@ std::unique_ptr<Simulator> make_steady(const Scene& scene, double rate) {
     return make(scene, rate, settings);
 }
 
+JointWay joined(const std::string& name, std::vector<JointTask> tasks, int iterations, bool sleep,
+                bool direct = false) {
+    Settings settings;
+    settings.elastic = false;
+    settings.iterations = iterations;
+    settings.sleep = sleep;
+    settings.direct = direct;
+    const std::size_t most = direct ? 100 : 100000;  // its dense matrix takes minutes for more bodies
+    return {
+        name, std::move(tasks),
+        [=](const Scene& scene, double rate) { return bullet_can_join(scene) ? make(scene, rate, settings) : nullptr; },
+        most};
+}
+
+JointWay multibody(const std::string& name, std::vector<JointTask> tasks, const MultibodySettings& settings) {
+    return {name, std::move(tasks),
+            [=](const Scene& scene, double rate) { return make_bullet_multibody(scene, rate, settings); }};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -158,7 +183,7 @@ int main(int argc, char** argv) {
 #ifdef BT_USE_DOUBLE_PRECISION
     // The choice of the gyroscopic term matters in flight alone.
     const int body = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
-    Peer peer{"Bullet", {}, {}, {}};
+    Peer peer{"Bullet", {}, {}, {}, {}};
     peer.accuracy = {variant("gyro implicit body", {body}, {Demand::flight}),
                      variant("gyro implicit world", {BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_WORLD}, {Demand::flight}),
                      variant("gyro explicit", {BT_ENABLE_GYROSCOPIC_FORCE_EXPLICIT}, {Demand::flight}),
@@ -168,9 +193,20 @@ int main(int argc, char** argv) {
     peer.contact = {way("f64, default", {Task::pile}, 10, false), way("f64, sleep", sleeping, 10, true),
                     way("f64, 50 iterations", {Task::spheres, Task::tower}, 50, false)};
     peer.stability = {{"f64, 50 iterations", true, make_steady}};
+    using enum JointTask;
+    peer.joints = {joined("constraints, 10 iterations", {precision, load, speed, settling}, 10, false),
+                   joined("constraints, 100 iterations", {load}, 100, false),
+                   joined("constraints, Dantzig", {precision, load}, 10, false, true),
+                   joined("constraints, sleep", {settling}, 10, true),
+                   multibody("multibody", {precision, load, speed, settling}, {10, false}),
+                   multibody("multibody, RK4", {precision}, {10, true})};
 #else
-    Peer peer{"Bullet", {}, {}, {}};
+    Peer peer{"Bullet", {}, {}, {}, {}};
     peer.contact = {way("f32, default", all, 10, false), way("f32, sleep", sleeping, 10, true)};
+    using enum JointTask;
+    peer.joints = {joined("f32, constraints, 10 iterations", {speed, settling}, 10, false),
+                   joined("f32, constraints, sleep", {settling}, 10, true),
+                   multibody("f32, multibody", {speed, settling}, {10, false})};
 #endif
     return run_peer(argc, argv, peer);
 }

@@ -1,10 +1,12 @@
 // ODE 0.16 in double precision, gyroscopic terms on (its default).
+#include "harness/joints.h"
 #include "peers/peer.h"
 
 #include <ode/ode.h>
 
 #include <algorithm>
 #include <cstdarg>
+#include <set>
 #include <stdexcept>
 
 namespace {
@@ -57,6 +59,8 @@ public:
         }
         dWorldSetAutoDisableFlag(world_, settings.sleep);
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) add(i);
+        feedback_.resize(scene.joints.size());
+        for (const Joint& joint : scene.joints) add(joint);
     }
     ~OdeSimulator() override {
         dJointGroupDestroy(contacts_);
@@ -73,9 +77,21 @@ public:
                 dBodyAddTorque(bodies_[i], w.torque.x, w.torque.y, w.torque.z);
             }
         }
-        dSpaceCollide(space_, this, &OdeSimulator::touch);
+        if (scene_.contacts) dSpaceCollide(space_, this, &OdeSimulator::touch);
         full_ ? dWorldStep(world_, h_) : dWorldQuickStep(world_, h_);
         dJointGroupEmpty(contacts_);
+        for (std::size_t j = 0; j < joints_.size(); ++j) {
+            const double most = scene_.joints[j].break_force;
+            if (most > 0.0 && norm(*joint_force(j)) > most) dJointDisable(joints_[j]);
+        }
+    }
+
+    std::optional<Vector> joint_force(std::size_t joint) const override {
+        // The first force is that on the body in place of a first one that is the world.
+        const dReal *f1 = feedback_[joint].f1, *f2 = feedback_[joint].f2;
+        if (scene_.joints[joint].first == the_world) return Vector{f1[0], f1[1], f1[2]};
+        if (scene_.joints[joint].second == the_world) return Vector{-f1[0], -f1[1], -f1[2]};
+        return Vector{f2[0], f2[1], f2[2]};
     }
 
     Motion motion(std::size_t i) const override {
@@ -85,6 +101,58 @@ public:
     }
 
 private:
+    dBodyID body_of(std::size_t body) const { return body == the_world ? nullptr : bodies_[body]; }
+
+    // ODE measures the first body relative to the second, and turns the two around where the first is the world.
+    void add(const Joint& joint) {
+        const dBodyID first = body_of(joint.first), second = body_of(joint.second);
+        const Vector &p = joint.anchor, a = (first ? -1.0 : 1.0) * joint.axis;
+        const auto [lower, upper] = joint.limits.value_or(std::array<double, 2>{-dInfinity, dInfinity});
+        dJointID made = nullptr;
+        if (joint.kind == JointKind::ball) {
+            made = dJointCreateBall(world_, nullptr);
+            dJointAttach(made, first, second);
+            dJointSetBallAnchor(made, p.x, p.y, p.z);
+        }
+        if (joint.kind == JointKind::hinge) {
+            made = dJointCreateHinge(world_, nullptr);
+            dJointAttach(made, first, second);
+            dJointSetHingeAnchor(made, p.x, p.y, p.z);
+            dJointSetHingeAxis(made, a.x, a.y, a.z);
+            set(made, dJointSetHingeParam, joint, lower, upper);
+        }
+        if (joint.kind == JointKind::slider) {
+            made = dJointCreateSlider(world_, nullptr);
+            dJointAttach(made, first, second);
+            dJointSetSliderAxis(made, a.x, a.y, a.z);
+            set(made, dJointSetSliderParam, joint, lower, upper);
+        }
+        if (joint.kind == JointKind::fixed) {
+            made = dJointCreateFixed(world_, nullptr);
+            dJointAttach(made, first, second);
+            dJointSetFixed(made);
+        }
+        if (joint.kind == JointKind::distance) {
+            const Vector& other = joint.second_anchor;
+            made = dJointCreateDBall(world_, nullptr);
+            dJointAttach(made, first, second);
+            dJointSetDBallAnchor1(made, p.x, p.y, p.z);
+            dJointSetDBallAnchor2(made, other.x, other.y, other.z);
+        }
+        dJointSetFeedback(made, &feedback_[joints_.size()]);
+        joints_.push_back(made);
+        if (!joint.collide) apart_.insert(std::minmax(joint.first, joint.second));
+    }
+
+    template <typename Set>
+    static void set(dJointID made, Set parameter, const Joint& joint, double lower, double upper) {
+        parameter(made, dParamLoStop, lower);
+        parameter(made, dParamHiStop, upper);
+        if (!joint.speed) return;
+        parameter(made, dParamVel, *joint.speed);
+        parameter(made, dParamFMax, joint.strength);
+    }
+
     void add(std::size_t i) {
         const Body& body = scene_.bodies[i];
         dGeomID geom = nullptr;
@@ -128,6 +196,11 @@ private:
         dBodySetGyroscopicMode(rigid, 1);
     }
 
+    bool apart(const Body& a, const Body& b) const {
+        const auto index = [&](const Body& body) { return std::size_t(&body - scene_.bodies.data()); };
+        return apart_.count(std::minmax(index(a), index(b))) > 0;
+    }
+
     static void touch(void* self, dGeomID a, dGeomID b) {
         constexpr int most = 8;
         dContact contacts[most];
@@ -135,9 +208,10 @@ private:
         const auto &first = *static_cast<const Body*>(dGeomGetData(a)),
                    &second = *static_cast<const Body*>(dGeomGetData(b));
         if (&first == &second || (!first.moves() && !second.moves())) return;
+        auto* world = static_cast<OdeSimulator*>(self);
+        if (world->apart(first, second)) return;
         const double restitution =
             std::max(first.moves() ? first.restitution : 0.0, second.moves() ? second.restitution : 0.0);
-        auto* world = static_cast<OdeSimulator*>(self);
         for (int i = 0; i < n; ++i) {
             contacts[i].surface = dSurfaceParameters{};
             contacts[i].surface.mode = dContactBounce | dContactApprox1;
@@ -156,6 +230,9 @@ private:
     dJointGroupID contacts_;
     std::vector<dBodyID> bodies_;
     std::vector<std::unique_ptr<Hull>> hulls_;
+    std::vector<dJointID> joints_;
+    std::vector<dJointFeedback> feedback_;
+    std::set<std::pair<std::size_t, std::size_t>> apart_;  // joined bodies that do not collide
 };
 
 Way way(const std::string& name, std::vector<Task> tasks, const Settings& settings, std::size_t most_bodies) {
@@ -185,7 +262,7 @@ int main(int argc, char** argv) {
     dSetErrorHandler(fail);
     dSetDebugHandler(fail);
     dSetMessageHandler(be_silent);
-    Peer peer{"ODE", {}, {}, {}};
+    Peer peer{"ODE", {}, {}, {}, {}};
     // The full step (dWorldStep) is excluded elsewhere: in flight it is the quick step, in crowds its dense matrix
     // takes minutes, and on rows its LCP solver fails ("internal error, s <= 0").
     peer.accuracy = {{"quickstep", [](Demand) { return true; },
@@ -197,7 +274,14 @@ int main(int argc, char** argv) {
                     way("sleep", {Task::pile, Task::sleeping}, sleep, 100000),
                     way("full step", {Task::tower}, full, 30)};  // its dense matrix takes minutes for more bodies
     peer.stability = {{"quickstep", true, make_steady}};
-    const int code = run_peer(argc, argv, peer);
-    dCloseODE();
-    return code;
+    using enum JointTask;
+    const auto joined = [](const Settings& settings) {
+        return [=](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+            return std::make_unique<OdeSimulator>(scene, rate, settings);
+        };
+    };
+    peer.joints = {{"full step", {precision, load, speed}, joined(full), 200},
+                   {"quickstep", {precision, load, speed, settling}, joined(rest)},
+                   {"sleep", {settling}, joined(sleep)}};
+    return run_peer(argc, argv, peer);  // without dCloseODE(), which fails after an error in a step
 }

@@ -9,6 +9,7 @@ std::vector<StabilityCase> stability_cases() {
     add_loads(cases);
     add_spins(cases);
     add_strikes(cases);
+    add_joints(cases);
     return cases;
 }
 

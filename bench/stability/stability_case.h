@@ -34,6 +34,7 @@ std::vector<StabilityCase> stability_cases();
 // The parts of stability_cases(), one file each.
 void add_loads(std::vector<StabilityCase>& cases);    // stacks, mass ratios, scales, far from the origin, 600 s of rest
 void add_spins(std::vector<StabilityCase>& cases);    // spins, inertia ratios, a million steps of tumbling
+void add_joints(std::vector<StabilityCase>& cases);   // chains under load, motors, limits, breaking
 void add_strikes(std::vector<StabilityCase>& cases);  // thin walls, restitution, friction, deep overlap, needles
 
 /// 1/30 ... 1/1920 s.

@@ -63,6 +63,64 @@ BodyDescription described(const Body& body, std::size_t index) {
     return d;
 }
 
+JointType type_of(JointKind kind) {
+    switch (kind) {
+        case JointKind::ball:
+            return JointType::ball;
+        case JointKind::hinge:
+            return JointType::hinge;
+        case JointKind::slider:
+            return JointType::slider;
+        case JointKind::distance:
+            return JointType::distance;
+        default:
+            return JointType::fixed;
+    }
+}
+
+void set_side(const Scene& scene, std::size_t body, const Vector& anchor, const Quat& frame,
+              std::optional<std::size_t>& index, Vec3& at, Quat& in) {
+    at = vec(anchor);
+    in = frame;
+    if (body == the_world) return;
+    const Body& b = scene.bodies[body];
+    index = body;
+    at = vec(rotate_back(b.orientation, anchor - b.position));
+    const Orientation& q = b.orientation;
+    in = Quat(q.w, q.x, q.y, q.z).conjugate() * frame;
+}
+
+JointDescription described(const Scene& scene, const Joint& joint, std::size_t index) {
+    JointDescription d;
+    d.name = std::to_string(index);
+    d.type = type_of(joint.kind);
+    d.collide = joint.collide;
+    const Quat frame = Quat::FromTwoVectors(Vec3::UnitX(), vec(joint.axis));
+    const bool distance = joint.kind == JointKind::distance;
+    set_side(scene, joint.first, joint.anchor, frame, d.first, d.anchor_first, d.frame_first);
+    set_side(scene, joint.second, distance ? joint.second_anchor : joint.anchor, frame, d.second, d.anchor_second,
+             d.frame_second);
+    if (distance) d.length = norm(joint.second_anchor - joint.anchor);
+    if (joint.kind == JointKind::ball)
+        for (JointAxis& turn : d.turn) turn.motion = JointAxis::Motion::free;
+    if (joint.cone) d.swing = {*joint.cone, *joint.cone};
+    if (joint.kind == JointKind::hinge || joint.kind == JointKind::slider) {
+        JointAxis& axis = joint.kind == JointKind::hinge ? d.turn[0] : d.move[0];
+        axis.motion = joint.limits ? JointAxis::Motion::limited : JointAxis::Motion::free;
+        if (joint.limits) {
+            axis.lower = (*joint.limits)[0];
+            axis.upper = (*joint.limits)[1];
+        }
+        if (joint.speed) {
+            axis.motor.emplace();
+            axis.motor->speed = *joint.speed;
+            axis.motor->max_force = joint.strength;
+        }
+    }
+    if (joint.break_force > 0.0) d.break_force = joint.break_force;
+    return d;
+}
+
 SceneDescription described(const Scene& scene, double rate, const TumbleSettings& settings) {
     SceneDescription d;
     d.output.fps = rate;  // one frame per step, so that step-free ways gain no more from frames than from steps
@@ -74,6 +132,7 @@ SceneDescription described(const Scene& scene, double rate, const TumbleSettings
     d.simulation.contact_solver = settings.contact_solver;
     d.simulation.sleep = settings.sleep;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) d.bodies.push_back(described(scene.bodies[i], i));
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) d.joints.push_back(described(scene, scene.joints[j], j));
     if (scene.air) d.wind = WindDescription{vec(scene.air->velocity), scene.air->density, scene.air->drag};
     if (scene.push)
         d.forces.push_back(
@@ -97,6 +156,10 @@ public:
         const BodyState& s = snapshot_.bodies[body];
         const Quat& q = s.orientation;
         return {vector(s.center_of_mass), {q.w(), q.x(), q.y(), q.z()}, vector(s.velocity), vector(s.angular_velocity)};
+    }
+
+    std::optional<Vector> joint_force(std::size_t joint) const override {
+        return vector(world_.joint_states()[joint].force);
     }
 
 private:

@@ -3,6 +3,7 @@
 // units, world frame unless a comment says otherwise, y is up.
 #pragma once
 
+#include "joint_spec.h"
 #include "vector.h"
 
 #include <array>
@@ -25,7 +26,6 @@ enum class ContactSolver { by_island, soft, direct };
 enum class RotationForm { quaternion, matrix };
 enum class BodyType { dynamic, fixed, kinematic };
 enum class Pattern { plain, grid, checker };
-enum class Interpolation { smooth, linear };
 
 struct SimulationSettings {
     double duration = 5.0;          // s
@@ -206,13 +206,14 @@ struct Force {
     double end = std::numeric_limits<double>::infinity();  // s
 };
 
-/// A cosmetic rope from a fixed point to a point of a body.
+/// A cosmetic rope from a fixed point to a point of a body, or between the anchors of a joint.
 struct Cord {
     std::string body;      // its name, or its index as text
     Vec3 point;            // m, body frame, from the body's origin
     Vec3 anchor;           // m
     double radius = 0.01;  // m
     Color color{0x3c, 0x3c, 0x3c};
+    std::string joint = {};  // its name, in place of body, point and anchor
 };
 
 struct SceneSpec {
@@ -223,6 +224,7 @@ struct SceneSpec {
     Light light;
     std::optional<Wind> wind;  // not given: no air
     std::vector<Body> bodies;
+    std::vector<Joint> joints;
     std::vector<Force> forces;
     std::vector<Cord> cords;
     std::string folder;                 // where relative mesh files start; empty: the current folder
@@ -234,6 +236,14 @@ struct SceneSpec {
         bodies.back().shape = static_cast<Shape&&>(shape);
         bodies.back().type = type;
         return bodies.back();
+    }
+
+    /// Appends a joint of two bodies. The reference is valid until the next call.
+    Joint& add_joint(JointType type, const std::string& first, const std::string& second) {
+        joints.emplace_back();
+        joints.back().type = type;
+        joints.back().bodies = {first, second};
+        return joints.back();
     }
 };
 

@@ -1,6 +1,6 @@
 #include "api/spec_text.h"
 
-#include "core/error.h"
+#include "api/joint_text.h"
 
 #include <fmt/format.h>
 
@@ -11,13 +11,6 @@
 namespace tumble::v0 {
 namespace {
 
-template <class Enum, std::size_t n>
-std::string choice(Enum value, const char* type, const std::array<const char*, n>& names) {
-    const auto i = static_cast<std::size_t>(value);
-    if (i >= n) throw InputError(fmt::format("{} has no enumerator of value {}", type, static_cast<long long>(value)));
-    return names[i];
-}
-
 std::string name_of(ContactSolver solver) {
     return choice(solver, "ContactSolver", std::array{"by-island", "soft", "direct"});
 }
@@ -25,42 +18,10 @@ std::string name_of(RotationForm form) { return choice(form, "RotationForm", std
 std::string name_of(Method method) { return choice(method, "Method", std::array{"tumble", "notes"}); }
 std::string name_of(BodyType type) { return choice(type, "BodyType", std::array{"dynamic", "fixed", "kinematic"}); }
 std::string name_of(Pattern pattern) { return choice(pattern, "Pattern", std::array{"plain", "grid", "checker"}); }
-std::string name_of(Interpolation form) { return choice(form, "Interpolation", std::array{"smooth", "linear"}); }
 
-std::string text_of(const std::string& text) {
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            (quoted += '\\') += c;
-        else if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f)
-            quoted += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else
-            quoted += c;
-    }
-    return quoted + "\"";
-}
-
-// 17 digits bring every double back to the bit; a point makes a whole number a double, which keeps the sign of zero.
-std::string text_of(double value) {
-    std::string text = fmt::format("{:.17g}", value);
-    if (text.find_first_of(".en") == std::string::npos) text += ".0";
-    return text;
-}
-
-std::string text_of(bool value) { return value ? "true" : "false"; }
-std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", text_of(v.x), text_of(v.y), text_of(v.z)); }
-std::string text_of(Color c) { return fmt::format("\"#{:02x}{:02x}{:02x}\"", c.r, c.g, c.b); }
-std::string text_of(const Rotation& rotation) {
-    if (const auto* turn = std::get_if<AxisAngle>(&rotation))
-        return fmt::format("{{ axis = {}, angle = {} }}", text_of(turn->axis), text_of(turn->degrees));
-    const Quat& q = std::get<Quat>(rotation);
-    return fmt::format("[{}, {}, {}, {}]", text_of(q.w), text_of(q.x), text_of(q.y), text_of(q.z));
-}
-
-class SpecWriter {
+class SpecWriter : public SpecLines {
 public:
-    /// Remembers the element of that line; 0: of none.
-    explicit SpecWriter(int wanted_line) : wanted_(wanted_line) {}
+    using SpecLines::SpecLines;
 
     void write(const SceneSpec& spec) {
         value("format", "format", std::string("1"));
@@ -73,39 +34,17 @@ public:
         set("shadows", spec.light.shadows);
         if (spec.wind) write(*spec.wind);
         for (std::size_t i = 0; i < spec.bodies.size(); ++i) write(spec.bodies[i], i);
+        for (std::size_t i = 0; i < spec.joints.size(); ++i) write_joint(spec.joints[i], i, *this);
         for (std::size_t i = 0; i < spec.forces.size(); ++i) write(spec.forces[i], i);
         for (std::size_t i = 0; i < spec.cords.size(); ++i) write(spec.cords[i], i);
     }
 
-    SpecText made;
-    std::string element;
+    SpecText finish() {
+        made.text = std::move(text);
+        return std::move(made);
+    }
 
 private:
-    void line(std::string_view content, std::string_view prefix, std::string_view field) {
-        (made.text += content) += '\n';
-        if (++lines_ != wanted_) return;
-        element = prefix;
-        if (!prefix.empty() && !field.empty()) element += '.';
-        element += field;
-    }
-
-    void header(const std::string& content, std::string prefix) {
-        prefix_ = std::move(prefix);
-        line(content, prefix_, "");
-    }
-    void value(std::string_view key, std::string_view field, const std::string& content) {
-        line(fmt::format("{} = {}", key, content), prefix_, field);
-    }
-    template <class T>
-    void set(std::string_view key, const T& content) {
-        value(key, key, text_of(content));
-    }
-    template <class T>
-    void set(std::string_view key, const std::optional<T>& content) {
-        if (content) set(key, *content);
-    }
-    void name(std::string_view key, const std::string& content) { value(key, key, text_of(content)); }
-
     void write(const SimulationSettings& s) {
         header("[simulation]", "simulation");
         set("duration", s.duration);
@@ -127,10 +66,10 @@ private:
 
     void write(const OutputSettings& o) {
         header("[output]", "output");
-        line("size = [", prefix_, "width");  // a line for each, so that an error names the right one
-        line(fmt::format("    {},", o.width), prefix_, "width");
-        line(fmt::format("    {},", o.height), prefix_, "height");
-        line("]", prefix_, "height");
+        line("size = [", prefix(), "width");  // a line for each, so that an error names the right one
+        line(fmt::format("    {},", o.width), prefix(), "width");
+        line(fmt::format("    {},", o.height), prefix(), "height");
+        line("]", prefix(), "height");
         set("fps", o.fps);
         value("samples", "samples", std::to_string(o.samples));
     }
@@ -142,7 +81,7 @@ private:
         set("up", c.up);
         set("vertical_fov", c.vertical_fov);
         if (!c.keyframes.empty() || c.interpolation != Interpolation::smooth)
-            name("interpolation", name_of(c.interpolation));
+            name("interpolation", v0::name_of(c.interpolation));
         set("orbit", c.orbit);
         if (!c.follow.empty()) set("follow", c.follow);
         for (std::size_t i = 0; i < c.keyframes.size(); ++i) {
@@ -189,7 +128,7 @@ private:
         if (b.velocity != Vec3{}) set("velocity", b.velocity);
         if (b.angular_velocity != Vec3{}) set("angular_velocity", b.angular_velocity);
         if (b.integrator) name("integrator", v0::name_of(*b.integrator));
-        if (b.interpolation != Interpolation::smooth) name("interpolation", name_of(b.interpolation));
+        if (b.interpolation != Interpolation::smooth) name("interpolation", v0::name_of(b.interpolation));
         if (b.scale)
             value("scale", "scale", fmt::format("[{}, {}]", text_of(b.scale->smallest), text_of(b.scale->largest)));
         if (!b.colors.empty()) {
@@ -287,9 +226,13 @@ private:
 
     void write(const Cord& c, std::size_t i) {
         header("[[cord]]", fmt::format("cords[{}]", i));
-        set("body", c.body);
-        set("point", c.point);
-        set("anchor", c.anchor);
+        if (c.joint.empty()) {
+            set("body", c.body);
+            set("point", c.point);
+            set("anchor", c.anchor);
+        } else {
+            set("joint", c.joint);
+        }
         set("radius", c.radius);
         set("color", c.color);
     }
@@ -300,8 +243,7 @@ private:
         return entry->second;
     }
 
-    int wanted_, lines_ = 0;
-    std::string prefix_;
+    SpecText made;
     std::unordered_map<const TriangleMesh::Arrays*, std::size_t> index_of_mesh_;  // only looked up
 };
 
@@ -317,7 +259,7 @@ std::string name_of(ImpactLaw law) { return choice(law, "ImpactLaw", std::array{
 SpecText spec_text(const SceneSpec& spec) {
     SpecWriter writer(0);
     writer.write(spec);
-    return std::move(writer.made);
+    return writer.finish();
 }
 
 std::string element_of_line(const SceneSpec& spec, int line) {

@@ -204,7 +204,8 @@ void World::State::solve_contacts(const StepContext& step) {
                                  set.old_velocities,
                                  {step.h, threshold, least_rebound},
                                  log ? &totals : nullptr,
-                                 joints.empty() ? nullptr : &joints};
+                                 joints.empty() ? nullptr : &joints,
+                                 &forces.field()};
     if (log) totals.assign(problem.manifolds.size(), {});
     contact_solver.solve(problem, detection.islands(), pool);
     if (log)
@@ -244,7 +245,15 @@ void World::State::with_present_contacts(Use&& use) const {
 void World::State::finish_records(double duration) {
     for (const Joint& joint : joints.joints()) {
         const JointAccount::Span& frame = joint.account.frame;
-        log->add_joint(joint.a, joint.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+        if (!joint.gear()) {
+            log->add_joint(joint.a, joint.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+            continue;
+        }
+        const Joint &first = joints.joints()[joint.description.geared[0]],
+                    &second = joints.joints()[joint.description.geared[1]];
+        log->add_joint(first.a, first.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+        log->add_joint(second.a, second.b, {frame.second_load.force, frame.second_load.moment}, frame.second_work_a,
+                       frame.second_work_b);
     }
     with_present_contacts([&](const std::vector<Manifold>& found) {
         records = log->finish_frame(set.bodies, forces.field(), found, duration);

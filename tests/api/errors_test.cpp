@@ -70,6 +70,26 @@ TEST(Errors, OfASpecNameTheElement) {
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].shape = Mesh{"nowhere.obj"}; }), "bodies[1].shape.file");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.bodies[1].name = std::string(1, char(0xff)); }), "bodies[1].name");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.simulation.duration = -1.0; }), "simulation.duration");
+    const auto blamed_joint = [](const std::function<void(Joint&)>& change) {
+        return blamed([&](SceneSpec& s) {
+            Joint& joint = s.add_joint(JointType::hinge, "world", "crate");
+            joint.anchor = Vec3{};
+            joint.axis = Vec3{0.0, 1.0, 0.0};
+            change(joint);
+        });
+    };
+    EXPECT_EQ(blamed_joint([](Joint& j) { j.bodies[1] = "nobody"; }), "joints[0].bodies");
+    EXPECT_EQ(blamed_joint([](Joint& j) { j.axis = Vec3{}; }), "joints[0].axis");
+    EXPECT_EQ(blamed_joint([](Joint& j) { j.swing = {10.0, 10.0}; }), "joints[0].swing");
+    EXPECT_EQ(blamed_joint([](Joint& j) { j.start = -1.0; }), "joints[0].start");
+    EXPECT_EQ(blamed_joint([](Joint& j) { j.end = -1.0; }), "joints[0].end");
+    EXPECT_EQ(blamed_joint([](Joint& j) {
+                  j.motor = JointMotor{};
+                  j.motor->stiffness = 1.0;
+                  j.motor->keyframes = {{0.0, 1.0}, {0.0, 2.0}};
+              }),
+              "joints[0].motor.keyframes[1].time");
+    EXPECT_EQ(blamed_joint([](Joint& j) { j.type = JointType::gear; }), "joints[0].bodies");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.simulation.step = 0.03; }), "simulation.step");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.simulation.seed = ~std::uint64_t(0); }), "simulation.seed");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.output.width = 0; }), "output.width");

@@ -79,6 +79,124 @@ TEST(Spec, MovesLikeTheFileWithTheSameValues) {
     EXPECT_EQ(loaded.files().size(), 3u);
 }
 
+/// Bodies joined by each type of joint, with every field at least once.
+SceneSpec everything_joined() {
+    SceneSpec spec = crate_and_ball();
+    spec.simulation.sleep = false;
+    for (int i = 0; i < 12; ++i) {
+        Body& box = spec.add(Box{{0.5, 0.4, 0.3}});
+        box.name = "box " + std::to_string(i);
+        box.position = {double(i), 8.0, 0.0};
+    }
+    const auto box = [](int i) { return "box " + std::to_string(i); };
+    Joint& hinge = spec.add_joint(JointType::hinge, "world", box(0));
+    hinge.name = "wheel";
+    hinge.anchor = {0.0, 0.2, 0.0};
+    hinge.axis = Vec3{0.0, 0.0, 1.0};
+    hinge.frame = JointFrame::second;
+    hinge.start_angle = 5.0;
+    hinge.limits = {-3000.0, 3000.0};
+    hinge.limit_restitution = 0.5;
+    hinge.friction_coefficient = 0.1;
+    hinge.bearing_radius = 0.02;
+    hinge.motor = JointMotor{};
+    hinge.motor->keyframes = {{0.0, 0.0}, {0.1, 50.0}, {0.3, 80.0}};
+    hinge.motor->interpolation = Interpolation::linear;
+    hinge.motor->stiffness = 100.0;
+    hinge.motor->damping = 10.0;
+    hinge.motor->max_torque = 7.0;
+    Joint& slider = spec.add_joint(JointType::slider, "world", box(1));
+    slider.name = "rack";
+    slider.axis = Vec3{0.0, 1.0, 0.0};
+    slider.start_position = 0.1;
+    slider.spring = JointSpring{};
+    slider.spring->frequency = 2.0;
+    slider.spring->damping_ratio = 0.1;
+    slider.spring->rest = 0.2;
+    slider.friction = 0.5;
+    Joint& gear = spec.add_joint(JointType::gear, "", "");
+    gear.joints = {"wheel", "rack"};
+    gear.ratio = 4.0;
+    gear.break_torque = 1e7;
+    gear.start = 0.05;
+    gear.end = 20.0;
+    Joint& ball = spec.add_joint(JointType::ball, box(2), box(3));
+    ball.anchors = {Vec3{0.5, 0.0, 0.0}, Vec3{-0.5, 0.0, 0.0}};
+    ball.axes = {Vec3{1.0, 0.0, 0.0}, Vec3{1.0, 0.1, 0.0}};
+    ball.swing = {60.0, 30.0};
+    ball.twist = {-20.0, 30.0};
+    Joint& universal = spec.add_joint(JointType::universal, box(3), box(4));
+    universal.anchor = Vec3{3.5, 8.0, 0.0};
+    universal.axis = Vec3{0.0, 1.0, 0.0};
+    universal.second_axis = Vec3{0.0, 0.0, 1.0};
+    universal.second_limits = {-40.0, 40.0};
+    universal.collide = true;
+    Joint& cylindrical = spec.add_joint(JointType::cylindrical, "world", box(5));
+    cylindrical.anchor = Vec3{5.0, 8.0, 0.0};
+    cylindrical.axis = Vec3{0.0, 1.0, 0.0};
+    cylindrical.limits = {-0.2, 0.3};
+    cylindrical.turn_limits = {-10.0, 90.0};
+    cylindrical.turn_spring = JointSpring{};
+    cylindrical.turn_spring->stiffness = 3.0;
+    cylindrical.turn_spring->damping = 0.3;
+    cylindrical.turn_motor = JointMotor{};
+    cylindrical.turn_motor->speed = 2.0;
+    cylindrical.turn_motor->max_torque = 1.0;
+    cylindrical.turn_friction = 0.1;
+    Joint& planar = spec.add_joint(JointType::planar, "world", box(6));
+    planar.axis = Vec3{0.0, 0.0, 1.0};
+    Joint& rope = spec.add_joint(JointType::distance, box(6), box(7));
+    rope.anchors = {Vec3{}, Vec3{}};
+    rope.min_length = 0.5;
+    rope.max_length = 1.5;
+    rope.break_force = 500.0;
+    rope.break_impulse = 30.0;
+    rope.visible = true;
+    rope.motor = JointMotor{};
+    rope.motor->target = 0.9;
+    rope.motor->stiffness = 20.0;
+    rope.motor->max_force = 5.0;
+    Joint& rod = spec.add_joint(JointType::distance, box(7), box(8));
+    rod.name = "rod";
+    rod.anchors = {Vec3{}, Vec3{}};
+    rod.length = 1.1;
+    rod.snap = true;
+    Joint& six = spec.add_joint(JointType::six_dof, box(8), box(9));
+    six.anchor = Vec3{8.5, 8.0, 0.0};
+    six.move[1] = JointCoordinate{};
+    six.move[1]->limits = {-0.1, 0.1};
+    six.move[1]->limit_restitution = 0.3;
+    six.move[1]->spring = JointSpring{};
+    six.move[1]->spring->stiffness = 40.0;
+    six.turn[2] = JointCoordinate{};
+    six.turn[2]->friction = 0.2;
+    six.turn[2]->motor = JointMotor{};
+    six.turn[2]->motor->speed = 1.0;
+    spec.add_joint(JointType::fixed, box(10), box(11));
+    Cord cord;
+    cord.joint = "rod";
+    spec.cords.push_back(cord);
+    return spec;
+}
+
+TEST(Spec, JointsMoveLikeThoseOfTheFile) {
+    const SceneSpec spec = everything_joined();
+    const TestFolder folder;
+    const std::string file = folder / "scene.toml";
+    write_text(file, to_toml(spec));
+    const Scene built(spec), loaded = load_scene(file);
+    ASSERT_EQ(built.joint_count(), spec.joints.size());
+    EXPECT_EQ(built.joint_name(0), "wheel");
+    EXPECT_TRUE(same(after(built, 30), after(loaded, 30)));
+    EXPECT_EQ(Renderer(built).render(after(built, 2)), Renderer(loaded).render(after(loaded, 2)));
+    World world(built);
+    for (int n = 0; n < 30; ++n) world.advance_frame();
+    const std::vector<JointState> joints = world.joints();
+    EXPECT_NEAR(joints[0].speed[3] + 4.0 * joints[1].speed[0], 0.0, 1e-9);
+    EXPECT_LT(std::abs(joints[2].gap), 1e-9);
+    EXPECT_TRUE(joints[2].active);
+}
+
 /// A cube as a file writes it.
 struct Cube {
     std::vector<Vec3> vertices;

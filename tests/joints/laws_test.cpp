@@ -1,5 +1,6 @@
 // Limits, motors, springs, friction and breaking against their closed forms.
 #include "joint_scenes.h"
+#include "sim/joints/motor_target.h"
 
 #include <gtest/gtest.h>
 
@@ -45,6 +46,27 @@ TEST(JointLaws, AMotorOpensADoorToItsLimit) {
     EXPECT_NEAR(world.joint_states()[0].position[3], 0.5 * std::numbers::pi, 1e-12);
 }
 
+// At 100 rad/s and 60 steps a second the limit comes in the first step, which starts with velocities that fit the joint.
+TEST(JointLaws, AFastRodStopsAtItsLimit) {
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi, 1);
+    scene.simulation.gravity = Vec3::Zero();
+    scene.bodies[0].angular_velocity = {0.0, 0.0, 100.0};
+    scene.bodies[0].velocity = {0.0, 50.0, 0.0};
+    JointAxis& angle = scene.joints[0].turn[0];
+    angle.motion = JointAxis::Motion::limited;
+    angle.lower = -0.5 * std::numbers::pi;
+    for (const double limit : {0.5, 5.0}) {
+        angle.upper = limit * std::numbers::pi;
+        World world(scene);
+        for (int step = 0; step < 12; ++step) {
+            world.step();
+            ASSERT_LT(largest_gap(world), 1e-12);
+            ASSERT_LT(world.joint_states()[0].position[3], angle.upper + 1e-9);
+        }
+        EXPECT_NEAR(world.joint_states()[0].position[3], angle.upper, 1e-9);
+    }
+}
+
 TEST(JointLaws, ALimitWithRestitutionReturnsTheSpeed) {
     SceneDescription scene = door_scene(16);
     scene.bodies[0].angular_velocity = {0.0, 2.0, 0.0};
@@ -81,6 +103,37 @@ TEST(JointLaws, AStiffSpringIsStable) {
     EXPECT_LT(world.measure().kinetic, 1e-9);
 }
 
+// x = r (1 - cos w t) of a mass on a spring without a damper, which flies.
+TEST(JointLaws, ASpringWithoutADamperSwings) {
+    constexpr double rest = 0.3, rate = 10.0;
+    const auto error = [&](IntegratorKind integrator, int steps) {
+        SceneDescription scene = empty_scene();
+        scene.simulation.integrator = integrator;
+        scene.simulation.steps_per_frame = steps;
+        scene.simulation.sleep = false;
+        add_box(scene, {0.2, 0.2, 0.2}, {0.5, 0.0, 0.0}, 2.0);
+        add_joint(scene, JointType::slider, std::nullopt, 0, {0.5, 0.0, 0.0}).move[0].spring =
+            JointSpring{.stiffness = 2.0 * rate * rate, .rest = rest};
+        World world(scene);
+        world.record_contacts();
+        double worst = 0.0;
+        for (int frame = 1; frame <= 120; ++frame) {
+            world.advance_frame();
+            const double x = world.joint_states()[0].position[0];
+            worst = std::max(worst, std::abs(x - rest * (1.0 - std::cos(rate * frame / scene.output.fps))));
+        }
+        const Measurement m = world.measure();
+        EXPECT_NEAR(world.contact_records().energy.joint_heat, 0.0, 1e-13);
+        EXPECT_NEAR(m.kinetic + m.elastic, rate * rate * rest * rest,
+                    integrator == IntegratorKind::exact ? 1e-9 : 4e-3);
+        return worst;
+    };
+    EXPECT_LT(error(IntegratorKind::exact, 4), 1e-10);
+    const double coarse = error(IntegratorKind::symplectic_euler, 4), fine = error(IntegratorKind::symplectic_euler, 8);
+    EXPECT_LT(fine, 2e-4);
+    EXPECT_NEAR(coarse / fine, 4.0, 0.1);
+}
+
 TEST(JointLaws, AServoHoldsItsTarget) {
     SceneDescription scene = door_scene(16);
     JointMotor motor;
@@ -93,6 +146,48 @@ TEST(JointLaws, AServoHoldsItsTarget) {
     EXPECT_NEAR(world.joint_states()[0].position[3], 0.5, 0.02);
     run(world, scene, 3.0);
     EXPECT_NEAR(world.joint_states()[0].position[3], 1.0, 1e-6);
+}
+
+// The parabola through evenly spaced keys of a parabola, at rest at both ends, without overshoot, and C1.
+TEST(JointLaws, AMotorMovesSmoothlyThroughItsKeyframes) {
+    JointMotor motor;
+    motor.targets = {{1.0, 0.0}, {2.0, 1.0}, {3.0, 4.0}, {4.0, 9.0}, {5.0, 9.0}, {6.0, 5.0}};
+    for (const auto& [time, value] : motor.targets) EXPECT_EQ(motor_target(motor, time), value);
+    EXPECT_EQ(motor_target(motor, 0.0), 0.0);
+    EXPECT_EQ(motor_target(motor, 7.0), 5.0);
+    EXPECT_NEAR(motor_target(motor, 2.3), 1.3 * 1.3, 1e-14);
+    EXPECT_EQ(motor_target(motor, 4.5), 9.0);
+    const auto speed = [&](double time) {
+        return (motor_target(motor, time + 1e-6) - motor_target(motor, time - 1e-6)) / 2e-6;
+    };
+    for (double time = 0.5; time < 6.5; time += 0.01) {
+        EXPECT_NEAR(speed(time + 1e-3), speed(time), 0.1);
+        EXPECT_LE(motor_target(motor, time), 9.0);
+    }
+    EXPECT_NEAR(speed(1.0), 0.0, 1e-5);
+    motor.interpolation = Interpolation::linear;
+    EXPECT_NEAR(motor_target(motor, 2.3), 1.0 + 0.3 * 3.0, 1e-14);
+    EXPECT_NEAR(motor_target(motor, 5.25), 8.0, 1e-14);
+}
+
+// A blow at I / (m l) from the hinge turns the rod about the hinge: nothing across it is left for the hinge to hold.
+TEST(JointLaws, ABlowAtTheCenterOfPercussion) {
+    constexpr double inertia = (1.0 + 0.01) / 12.0 + 0.25, h = 1e-6;
+    for (const double place : {inertia / 0.5, 1.0}) {
+        SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi, 1000);
+        scene.output.fps = 1000.0;
+        scene.simulation.gravity = Vec3::Zero();
+        ForceDescription blow;
+        blow.point = {place - 0.5, 0.0, 0.0};
+        blow.force = {0.0, 1.0 / h, 0.0};  // 1 N s
+        blow.end = h;
+        scene.forces.push_back(blow);
+        World world(scene);
+        world.step();
+        const JointState hinge = world.joint_states()[0];
+        EXPECT_NEAR(hinge.speed[3], place / inertia, 1e-9);
+        EXPECT_NEAR(h * hinge.force.y(), 0.5 * place / inertia - 1.0, 1e-9);
+    }
 }
 
 // Energy falls by the friction torque times the angle, swing by swing.

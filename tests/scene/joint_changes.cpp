@@ -81,6 +81,22 @@ move_z = [-3, 3]
 turn_x = [-4, 4]
 turn_y = [-5, 5]
 turn_z = "locked"
+[[joint]]
+name = "flap"
+type = "hinge"
+bodies = ["cloud.1", "world"]
+anchor = [0, 0, 0]
+axis = [0, 1, 0]
+[[joint]]
+name = "drawer"
+type = "slider"
+bodies = ["cloud.2", "world"]
+axis = [0, 1, 0]
+[[joint]]
+name = "gear"
+type = "gear"
+joints = ["flap", "drawer"]
+ratio = 2.5
 [[chain]]
 name = "rope"
 links = 5
@@ -208,6 +224,8 @@ const std::vector<std::vector<Change>> joint_changes = {
       "type = \"universal\"\nbodies = [\"cloud.2\", \"world\"]\nanchor = [0, 3, 0]\naxis = [1, 0, 0]\n"
       "second_axis = [0, 1, 0]\nsecond_limits = [-40, 40]",
       "type = \"ball\"\nbodies = [\"cloud.2\", \"world\"]\nanchor = [0, 3, 0]", true},
+     {"joints", "\"gear\"", "\"drawer\"", "\"elbow\"", true},
+     {"ratio", "\"gear\"", "ratio = 2.5", "ratio = -2.5", true},
      {"bodies", "[[joint]]", "\"cloud.0\"", "\"world\"", true},
      {"anchor", "[[joint]]", "anchor = [1, 0, 0]", "anchor = [2, 0, 0]", true},
      {"anchors", "\"shoulder\"", "[[0, 0, 0]", "[[0, 1, 0]", true},
@@ -255,6 +273,7 @@ const std::vector<std::vector<Change>> joint_changes = {
     {{"speed", "\"rail\"", "speed = 0.5", "speed = 0.6", true},
      {"target", "[[joint]]", "target = 45", "target = 46", true},
      {"keyframes", "\"rail\"", "{ time = 0.5, value = 0 }, ", "", true},
+     {"interpolation", "\"rail\"", "stiffness = 8", "stiffness = 8, interpolation = \"linear\"", true},
      {"stiffness", "[[joint]]", "stiffness = 11", "stiffness = 12", true},
      {"damping", "[[joint]]", "damping = 12", "damping = 14", true},
      {"max_torque", "[[joint]]", "max_torque = 13", "max_torque = 14", true},

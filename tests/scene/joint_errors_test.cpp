@@ -82,7 +82,6 @@ TEST(JointErrors, OfTypesAndBodies) {
             {"@[[joint]]\nbodies = [\"a\", \"b\"]", "[[joint]] needs \"type\""},
             {"@[[joint]]\ntype = \"fixed\"", "[[joint]] needs \"bodies\""},
             {"[[joint]]\ntype = @\"hing\"", "must be one of \"fixed\", \"hinge\", \"ball\""},
-            {"[[joint]]\ntype = @\"gear\"", "\"gear\" is not supported yet"},
             {"[[joint]]\ntype = \"fixed\"\n@limit = 3",
              "unknown key \"limit\" in [[joint]] (did you mean \"limits\"?)"},
             {"[[joint]]\ntype = \"fixed\"\nbodies = @[\"a\"]", "must be an array of 2 names of bodies"},
@@ -191,6 +190,10 @@ TEST(JointErrors, OfSpringsAndMotors) {
                 {hinge + "motor = { speed = 1, stiffness = @2 }", "is for a motor with a target"},
                 {hinge + "motor = @{ target = 1 }", "a motor needs \"stiffness\""},
                 {hinge + "motor = { keyframes = @[], stiffness = 1 }", "must hold at least one keyframe"},
+                {hinge + "motor = { target = 1, stiffness = 1, interpolation = @\"linear\" }",
+                 "is for a motor with keyframes"},
+                {hinge + "motor = { keyframes = [{ time = 0, value = 0 }], stiffness = 1, interpolation = @\"even\" }",
+                 "must be one of \"smooth\", \"linear\""},
                 {hinge + "motor = { keyframes = [{ time = 1, value = 0 }, { time = @1, value = 2 }], stiffness = 1 }",
                  "must come after the keyframe before, at 1 s"},
                 {hinge + "friction = @-1", "friction must be from 0"},
@@ -212,6 +215,31 @@ TEST(JointErrors, OfBreakingAndTime) {
                                 {hinge + "enabled = [@-1, 2]", "must be from 0"},
                                 {hinge + "collide = @1", "must be true or false"},
                             });
+}
+
+TEST(JointErrors, OfGears) {
+    const std::string joints = hinge + "name = \"wheel\"\n" + slider + "name = \"rack\"\n" + ball + "name = \"eye\"\n";
+    const std::string gear = joints + "[[joint]]\ntype = \"gear\"\nname = \"gear\"\n";
+    const std::string pair = gear + "joints = [\"wheel\", \"rack\"]\n";
+    expect_joint_errors(
+        "", {
+                {joints + "@[[joint]]\ntype = \"gear\"\nratio = 2", "[[joint]] needs \"joints\""},
+                {joints + "@[[joint]]\ntype = \"gear\"\njoints = [\"wheel\", \"rack\"]", "[[joint]] needs \"ratio\""},
+                {gear + "joints = @[\"wheel\"]\nratio = 2", "must be an array of 2 names of joints, hinges or sliders"},
+                {gear + "joints = [\"wheel\", @\"rac\"]\nratio = 2",
+                 "\"rac\" is not the name of a joint (did you mean \"rack\"?)"},
+                {gear + "joints = @[\"wheel\", \"wheel\"]\nratio = 2", "must name two different ones"},
+                {gear + "joints = [@\"eye\", \"rack\"]\nratio = 2",
+                 "must name a hinge or a slider: a gear couples no joint of type \"ball\""},
+                {gear + "joints = [\"wheel\", @\"gear\"]\nratio = 2", "a gear couples no joint of type \"gear\""},
+                {pair + "ratio = @0", "ratio must not be zero"},
+                {pair + "ratio = @1e10", "ratio must be from -1000000000 to 1000000000"},
+                {pair + "ratio = 2\nbodies = @[\"a\", \"b\"]", "is a key of joints of another type"},
+                {pair + "ratio = 2\nmotor = @{ speed = 1 }", "is a key of joints of another type"},
+                {pair + "ratio = 2\nbreak_force = @3", "the first joint, which is a hinge: give break_torque"},
+                {hinge + "ratio = @2", "another type: \"gear\" (given in a joint of type \"hinge\")"},
+                {pair + "ratio = 2\n[[cord]]\njoint = @\"gear\"", "is a gear, which has no anchors"},
+            });
 }
 
 TEST(JointErrors, OfCords) {

@@ -110,13 +110,24 @@ void cord_depths(const CordPlace& place, double radius, const RayRow& rays, doub
     const double start = axis.dot(place.from);
     const Vec3 center = place.from - start * axis;
     const double distance = center.norm();
-    if (!(distance > radius)) return fill_none(rays, depths);
-    round_depths({center, axis, radius * radius, (distance - radius) * (distance + radius)}, rays.x, rays.y, rays.count,
-                 depths);
+    if (distance > radius) {
+        round_depths({center, axis, radius * radius, (distance - radius) * (distance + radius)}, rays.x, rays.y,
+                     rays.count, depths);
+    } else {
+        fill_none(rays, depths);
+    }
     for (std::size_t i = 0; i < rays.count; ++i) {
         if (depths[i] == none) continue;
         const double along = depths[i] * (axis.x() * rays.x[i] + axis.y() * rays.y + axis.z()) - start;
         if (!(along >= 0.0 && along <= length)) depths[i] = none;
+    }
+    // The end that faces the camera.
+    if (start <= 0.0 && start + length >= 0.0) return;
+    const Vec3& end = start > 0.0 ? place.from : place.to;
+    for (std::size_t i = 0; i < rays.count; ++i) {
+        const Vec3 ray(rays.x[i], rays.y, 1.0);
+        const double depth = axis.dot(end) / axis.dot(ray);
+        if (depth > 0.0 && (depth * ray - end).squaredNorm() <= radius * radius) depths[i] = std::min(depths[i], depth);
     }
 }
 

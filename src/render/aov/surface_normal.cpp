@@ -58,6 +58,8 @@ Vec3 part_normal(const ShapeInstance& part, const PartPlace& place, std::uint32_
 Vec3 cord_normal(const CordPlace& place, const Vec3& point) {
     const Vec3 axis = (place.to - place.from).normalized();
     const Vec3 out = point - place.from;
+    const double length = (place.to - place.from).norm(), along = axis.dot(out), near = 1e-9 * length;
+    if (along <= near || along >= length - near) return along <= near ? Vec3(-axis) : axis;
     return (out - axis.dot(out) * axis).normalized();
 }
 

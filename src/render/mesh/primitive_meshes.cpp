@@ -92,6 +92,18 @@ DrawMesh make_cylinder(int sides) {
         const auto low = std::uint32_t(2 * i), next = std::uint32_t(2 * ((i + 1) % sides));
         for (const std::uint32_t corner : {low, next, next + 1, low, next + 1, low + 1}) mesh.indices.push_back(corner);
     }
+    for (const double end : {-1.0, 1.0}) {
+        const auto first = std::uint32_t(mesh.vertices.size());
+        for (int i = 0; i < sides; ++i) {
+            const SinCos angle = sincos(2.0 * pi * i / sides);
+            mesh.vertices.push_back(vertex(Vec3(angle.sin, end, angle.cos), Vec3(0.0, end, 0.0)));
+        }
+        for (auto i = first + 1; i + 1 < first + std::uint32_t(sides); ++i) {
+            const bool high = end > 0.0;
+            for (const std::uint32_t corner : {first, high ? i : i + 1, high ? i + 1 : i})
+                mesh.indices.push_back(corner);
+        }
+    }
     return mesh;
 }
 

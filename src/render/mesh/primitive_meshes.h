@@ -24,7 +24,7 @@ DrawMesh make_face();
 /// A ball of radius 1: an icosahedron whose faces are split into four `level` times (Fuller's geodesic sphere).
 DrawMesh make_ball(int level);
 
-/// The cylinder of radius 1 about the y axis from -1 to 1, without caps (the ends of a cord are hidden).
+/// The cylinder of radius 1 about the y axis from -1 to 1.
 DrawMesh make_cylinder(int sides);
 
 }  // namespace tumble

@@ -6,6 +6,7 @@
 #include "core/color.h"
 #include "core/triangle_mesh.h"
 #include "core/vector.h"
+#include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
 #include "scene/description/overlay.h"
 
@@ -52,9 +53,6 @@ struct OutputSettings {
     double fps = 60.0;               // frames per second
     int samples = 4;                 // samples per pixel
 };
-
-/// Interpolation between keyframes.
-enum class Interpolation { smooth, linear };
 
 struct CameraKeyframe {
     double time = 0.0;  // s, increasing

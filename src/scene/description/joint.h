@@ -3,9 +3,11 @@
 // A joint has a frame fixed in each of its two bodies. The pose of the second frame relative to the first has six
 // coordinates: three displacements along the axes of the first frame, and three angles. Each of them is locked, free or
 // limited. The types of joint are presets of these six; a distance joint has one coordinate, the distance of its anchors.
+// A gear has none: it couples the coordinates of two other joints.
 #pragma once
 
 #include "core/vector.h"
+#include "scene/description/interpolation.h"
 
 #include <array>
 #include <cstddef>
@@ -15,7 +17,7 @@
 
 namespace tumble {
 
-enum class JointType { fixed, hinge, ball, slider, universal, cylindrical, planar, distance, six_dof };
+enum class JointType { fixed, hinge, ball, slider, universal, cylindrical, planar, distance, six_dof, gear };
 
 /// A spring with a damper along one coordinate, implicit in time: stable for any stiffness.
 struct JointSpring {
@@ -34,10 +36,11 @@ struct JointTarget {
 /// A motor along one coordinate: it keeps a speed, or it moves to a target as a spring with a damper.
 struct JointMotor {
     std::optional<double> speed;       // m/s, or rad/s
-    std::vector<JointTarget> targets;  // one: constant; several: keyframes, between which it moves evenly
-    double stiffness = 0.0;            // N/m, or N m/rad; of the motor with a target
-    double damping = 0.0;              // N s/m, or N m s/rad
-    double max_force = infinity;       // N, or N m
+    std::vector<JointTarget> targets;  // one: constant; several: keyframes
+    Interpolation interpolation = Interpolation::smooth;
+    double stiffness = 0.0;       // N/m, or N m/rad; of the motor with a target
+    double damping = 0.0;         // N s/m, or N m s/rad
+    double max_force = infinity;  // N, or N m
 };
 
 /// One coordinate of a joint.
@@ -63,8 +66,11 @@ struct JointDescription {
     std::array<JointAxis, 3> move, turn;                                   // along and about x, y, z of the frame
     std::optional<std::array<double, 2>> swing;  // rad: half angles of the cone of x about y and z; of a ball
     double length = 0.0;                         // m, of a distance joint with a locked length, which is move[0]
-    double friction_coefficient = 0.0;           // of a bearing: its friction is that times its load,
-    double bearing_radius = 0.0;                 // m, times this for rotation
+    // Of a gear: indices of two hinges or sliders, whose coordinates keep theta_1 + ratio theta_2 constant.
+    std::array<std::size_t, 2> geared{};
+    double ratio = 0.0;                 // unit of the first coordinate over that of the second, rad and m
+    double friction_coefficient = 0.0;  // of a bearing: its friction is that times its load,
+    double bearing_radius = 0.0;        // m, times this for rotation
     double break_force = infinity, break_torque = infinity, break_impulse = infinity;  // N, N m, N s
     bool collide = false;                // whether the two bodies collide with each other
     double start = 0.0, end = infinity;  // s: the joint holds in [start, end)

@@ -180,8 +180,8 @@ private:
         add_all(time, value);
     }
     void add_value(const JointMotor& motor) {
-        const auto& [speed, targets, stiffness, damping, max_force] = motor;
-        add_all(speed, targets, stiffness, damping, max_force);
+        const auto& [speed, targets, interpolation, stiffness, damping, max_force] = motor;
+        add_all(speed, targets, interpolation, stiffness, damping, max_force);
     }
     void add_value(const JointAxis& axis) {
         const auto& [motion, lower, upper, restitution, spring, motor, friction] = axis;
@@ -189,11 +189,12 @@ private:
     }
     void add_value(const JointDescription& joint) {
         const auto& [name, type, first, second, anchor_first, anchor_second, frame_first, frame_second, move, turn,
-                     swing, length, friction_coefficient, bearing_radius, break_force, break_torque, break_impulse,
-                     collide, start, end, visible] = joint;
+                     swing, length, geared, ratio, friction_coefficient, bearing_radius, break_force, break_torque,
+                     break_impulse, collide, start, end, visible] = joint;
         add_all(name, type, first, second, anchor_first, anchor_second, frame_first, frame_second, move, turn, swing,
                 length, friction_coefficient, bearing_radius, break_force, break_torque, break_impulse, collide, start,
                 end);
+        if (type == JointType::gear) add_all(geared, ratio);  // other scenes keep their hash
         if (all_) add_value(visible);
     }
     void add_value(const CordDescription& cord) {

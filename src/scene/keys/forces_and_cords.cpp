@@ -2,6 +2,8 @@
 
 #include "core/safe_text.h"
 #include "scene/keys/body_index.h"
+#include "scene/keys/joint_pins.h"
+#include "scene/keys/joints.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -17,17 +19,6 @@ void read_place_of_cord(const TomlTable& table, const BodyIndex& bodies, CordDes
     cord.body = bodies.find(table.require("body"));
     table.read("point", cord.point, limits::coordinate);
     cord.anchor = table.require("anchor").vector(limits::coordinate);
-}
-
-const JointDescription& find_joint(const TomlValue& value, const std::vector<JointDescription>& joints) {
-    const std::string name = value.text();
-    std::vector<std::string_view> known;
-    for (const JointDescription& joint : joints) {
-        if (joint.name == name) return joint;
-        known.push_back(joint.name);
-    }
-    value.origin().fail(fmt::format("\"{}\" is not the name of a joint{}", safe_text(name),
-                                    known.empty() ? ": there is none" : suggestion(name, known)));
 }
 
 /// From the anchor of the one side to that of the other; the first end is a body.
@@ -46,7 +37,9 @@ void read_place_from_joint(const TomlTable& table, const TomlValue& value, const
     for (const char* key : {"body", "point", "anchor"})
         if (const auto given = table.find(key))
             given->origin().fail("and joint exclude each other: the joint gives the place");
-    place_between_anchors(find_joint(value, joints), joints, cord);
+    const JointDescription& joint = find_joint(value, joints);
+    if (joint.type == JointType::gear) value.fail("is a gear, which has no anchors: give one of its joints");
+    place_between_anchors(joint, joints, cord);
 }
 
 }  // namespace
@@ -79,8 +72,14 @@ void read_forces(const TomlTable& root, SceneDescription& scene) {
 }
 
 void add_cords_of_joints(SceneDescription& scene) {
-    for (const JointDescription& joint : scene.joints) {
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        const JointDescription& joint = scene.joints[i];
         if (!joint.visible) continue;
+        if (joint.type != JointType::distance) {
+            const std::vector<CordDescription> pins = pins_of(scene, i);
+            scene.cords.insert(scene.cords.end(), pins.begin(), pins.end());
+            continue;
+        }
         CordDescription cord;
         place_between_anchors(joint, scene.joints, cord);
         scene.cords.push_back(cord);

@@ -144,7 +144,7 @@ private:
 
     void append(const SceneTemplate& content, const BodyDescription& place, bool colored,
                 const SourcePosition& origin) {
-        const std::size_t first = bodies_.size();
+        const std::size_t first = bodies_.size(), first_joint = joints_.size();
         for (BodyDescription body : content.bodies) {
             move(place, body);
             body.name = fmt::format("{}.{}", place.name, body.name);
@@ -157,6 +157,8 @@ private:
             move_side(place, first, joint.second, joint.anchor_second, joint.frame_second);
             joint.name = fmt::format("{}.{}", place.name, joint.name);
             joint_names_.take(joint.name, origin);
+            if (joint.type == JointType::gear)
+                for (std::size_t& geared : joint.geared) geared += first_joint;
             joints_.push_back(std::move(joint));
         }
     }

@@ -1,6 +1,7 @@
 #include "scene/keys/joint_coordinates.h"
 
 #include "core/deterministic_math.h"
+#include "scene/keys/motion.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -102,7 +103,8 @@ JointSpring read_spring(const TomlValue& value, const CoordinateUnit& unit, doub
 JointMotor read_motor(const TomlValue& value, const CoordinateUnit& unit) {
     TomlTable table = value.table();
     table.set_title("a motor");
-    table.expect_keys({"speed", "target", "keyframes", "stiffness", "damping", "max_torque", "max_force"});
+    table.expect_keys(
+        {"speed", "target", "keyframes", "interpolation", "stiffness", "damping", "max_torque", "max_force"});
     const std::string_view way = way_of_motor(table, value);
     JointMotor motor;
     if (way == "speed") {
@@ -114,9 +116,12 @@ JointMotor read_motor(const TomlValue& value, const CoordinateUnit& unit) {
             motor.targets = {{0.0, table.require("target").number(unit.value) * unit.in_si}};
         else
             motor.targets = read_targets(table.require("keyframes"), unit);
+        table.read<Interpolation>("interpolation", motor.interpolation, interpolations);
         motor.stiffness = table.require("stiffness").number(limits::stiffness);
         table.read("damping", motor.damping, limits::damping);
     }
+    if (const auto interpolation = table.find("interpolation"); interpolation && way != "keyframes")
+        interpolation->origin().fail("is for a motor with keyframes");
     if (const auto other = table.find(unit.other_max_key)) {
         other->origin().fail(fmt::format("is not for a motor of a coordinate in {}: give {}", unit.name, unit.max_key));
     }

@@ -47,7 +47,7 @@ void check_start(const TomlValue& limits, const std::array<double, 2>& range, co
 /// `{ stiffness, damping, rest }` or `{ frequency, damping_ratio, rest }`; `rest`: default, in SI units.
 JointSpring read_spring(const TomlValue& value, const CoordinateUnit& unit, double rest);
 
-/// `{ speed | target | keyframes, stiffness, damping, max_torque | max_force }`.
+/// `{ speed | target | keyframes, interpolation, stiffness, damping, max_torque | max_force }`.
 JointMotor read_motor(const TomlValue& value, const CoordinateUnit& unit);
 
 /// Reads the keys of a coordinate that is free, unless its limits are given.

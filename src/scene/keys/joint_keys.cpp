@@ -12,17 +12,19 @@ constexpr Choice<JointType> joint_types[] = {
     {"fixed", JointType::fixed},   {"hinge", JointType::hinge},         {"ball", JointType::ball},
     {"slider", JointType::slider}, {"universal", JointType::universal}, {"cylindrical", JointType::cylindrical},
     {"planar", JointType::planar}, {"distance", JointType::distance},   {"6dof", JointType::six_dof},
+    {"gear", JointType::gear},
 };
 
 // -- Keys of each type
 
 constexpr unsigned bit(JointType type) { return 1u << unsigned(type); }
 
-constexpr unsigned all_types = (bit(JointType::six_dof) << 1) - 1;
+constexpr unsigned all_types = (bit(JointType::six_dof) << 1) - 1;  // but gears, which have no place
 constexpr unsigned of_fixed = bit(JointType::fixed), of_hinge = bit(JointType::hinge), of_ball = bit(JointType::ball),
                    of_slider = bit(JointType::slider), of_universal = bit(JointType::universal),
                    of_cylindrical = bit(JointType::cylindrical), of_planar = bit(JointType::planar),
-                   of_distance = bit(JointType::distance), of_six_dof = bit(JointType::six_dof);
+                   of_distance = bit(JointType::distance), of_six_dof = bit(JointType::six_dof),
+                   of_gear = bit(JointType::gear);
 
 struct KeyOfTypes {
     std::string_view key;
@@ -30,8 +32,10 @@ struct KeyOfTypes {
 };
 
 constexpr KeyOfTypes joint_keys[] = {
-    {"name", all_types},
-    {"type", all_types},
+    {"name", all_types | of_gear},
+    {"type", all_types | of_gear},
+    {"joints", of_gear},
+    {"ratio", of_gear},
     {"bodies", all_types},
     {"anchor", all_types & ~of_distance},
     {"anchors", all_types},
@@ -65,12 +69,12 @@ constexpr KeyOfTypes joint_keys[] = {
     {"turn_x", of_six_dof},
     {"turn_y", of_six_dof},
     {"turn_z", of_six_dof},
-    {"break_force", all_types},
-    {"break_torque", all_types & ~of_distance},
+    {"break_force", all_types | of_gear},
+    {"break_torque", of_gear | (all_types & ~of_distance)},
     {"break_impulse", all_types},
-    {"collide", all_types},
-    {"enabled", all_types},
-    {"visible", of_distance},
+    {"collide", all_types | of_gear},
+    {"enabled", all_types | of_gear},
+    {"visible", of_hinge | of_ball | of_slider | of_universal | of_cylindrical | of_distance},
 };
 
 std::string names_of(unsigned types) {
@@ -102,8 +106,6 @@ JointType read_joint_type(const TomlTable& table) {
     for (const KeyOfTypes& key : joint_keys) known.push_back(key.key);
     table.expect_keys(known);
     const TomlValue value = table.require("type");
-    if (value.is_text() && value.text() == "gear")
-        value.fail("\"gear\" is not supported yet: use a hinge with a motor, or leave it out");
     const JointType type = value.choice<JointType>(joint_types);
     expect_keys_of(table, type);
     return type;

@@ -224,6 +224,8 @@ void read_coordinates(const JointTable& given, JointDescription& joint) {
         case JointType::six_dof:
             read_six(given, joint);
             break;
+        case JointType::gear:
+            break;
     }
     read_restitution(given.table, joint);
 }
@@ -276,12 +278,42 @@ JointDescription read_joint(const TomlTable& table, const BodyIndex& index,
                             const std::vector<BodyDescription>& bodies) {
     JointDescription joint;
     joint.type = read_joint_type(table);
+    if (joint.type == JointType::gear) {
+        read_laws({table, bodies, false, {}}, joint);
+        return joint;
+    }
     read_bodies_of(table, index, bodies, joint);
     JointTable given{table, bodies, false, {}};
     table.read("snap", given.snap);
     given.start = read_places(table, bodies, given.snap, joint);
     read_laws(given, joint);
     return joint;
+}
+
+/// The two joints of a gear: hinges or sliders.
+void read_geared(const TomlTable& table, const std::vector<JointDescription>& joints, JointDescription& gear) {
+    const TomlValue value = table.require("joints");
+    const auto side = value.items(2, "names of joints, hinges or sliders");
+    for (std::size_t s = 0; s < 2; ++s) {
+        const JointDescription& joint = find_joint(side[s], joints);
+        if (joint.type != JointType::hinge && joint.type != JointType::slider) {
+            side[s].fail(fmt::format("must name a hinge or a slider: a gear couples no joint of type \"{}\"",
+                                     type_name(joint.type)));
+        }
+        gear.geared[s] = std::size_t(&joint - joints.data());
+    }
+    if (gear.geared[0] == gear.geared[1]) value.fail("must name two different ones");
+    const TomlValue ratio = table.require("ratio");
+    gear.ratio = ratio.number(limits::gear_ratio);
+    if (std::fabs(gear.ratio) < limits::least_gear_ratio)
+        ratio.fail("must not be zero, 1e-9 or more in size: theta_1 + ratio * theta_2 is constant");
+    for (const char* key : {"break_force", "break_torque"}) {
+        const bool turns = joints[gear.geared[0]].type == JointType::hinge;
+        const auto strength = table.find(key);
+        if (strength && turns != (key == std::string_view("break_torque")))
+            strength->origin().fail(fmt::format("is not the strength at the first joint, which is a {}: give {}",
+                                                turns ? "hinge" : "slider", turns ? "break_torque" : "break_force"));
+    }
 }
 
 }  // namespace
@@ -320,6 +352,17 @@ void check_number_of_joints(std::size_t number, const SourcePosition& origin) {
     }
 }
 
+const JointDescription& find_joint(const TomlValue& name, const std::vector<JointDescription>& joints) {
+    const std::string wanted = name.text();
+    std::vector<std::string_view> known;
+    for (const JointDescription& joint : joints) {
+        if (joint.name == wanted) return joint;
+        known.push_back(joint.name);
+    }
+    name.origin().fail(fmt::format("\"{}\" is not the name of a joint{}", safe_text(wanted),
+                                   known.empty() ? ": there is none" : suggestion(wanted, known)));
+}
+
 JointDescription read_placed_joint(const TomlTable& table, const JointDescription& between, const JointPlace& place,
                                    const std::vector<BodyDescription>& bodies) {
     JointDescription joint = between;
@@ -334,12 +377,16 @@ void read_joints(const TomlTable& root, const std::vector<BodyDescription>& bodi
     if (!list) return;
     const BodyIndex index(bodies);
     JointNames names(joints);
-    for (TomlTable& table : list->tables("; write [[joint]] for each")) {
+    std::vector<TomlTable> tables = list->tables("; write [[joint]] for each");
+    const std::size_t first = joints.size();
+    for (TomlTable& table : tables) {
         table.set_title("[[joint]]");
         check_number_of_joints(joints.size() + 1, table.origin());
         joints.push_back(read_joint(table, index, bodies));
         joints.back().name = names.give(table, joints.size() - 1);
     }
+    for (std::size_t i = 0; i < tables.size(); ++i)  // gears come before or after their joints
+        if (joints[first + i].type == JointType::gear) read_geared(tables[i], joints, joints[first + i]);
 }
 
 }  // namespace tumble

@@ -38,6 +38,9 @@ JointDescription read_placed_joint(const TomlTable& table, const JointDescriptio
 /// The body of that name; empty for "world".
 std::optional<std::size_t> find_side(const TomlValue& name, const BodyIndex& index);
 
+/// The joint of that name.
+const JointDescription& find_joint(const TomlValue& name, const std::vector<JointDescription>& joints);
+
 /// Fails at the origin if a scene with so many joints has too many.
 void check_number_of_joints(std::size_t number, const SourcePosition& origin);
 

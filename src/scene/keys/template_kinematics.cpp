@@ -82,6 +82,7 @@ TemplateKinematics::TemplateKinematics(const SceneTemplate& content)
     for (std::size_t j = 0; j < content.joints.size(); ++j) {
         const JointDescription& joint = content.joints[j];
         start_.emplace_back(joint, content.bodies);
+        if (joint.type == JointType::gear) continue;  // holds at any pose of its joints
         joints_at_[side(joint.first)].push_back(j);
         joints_at_[side(joint.second)].push_back(j);
     }
@@ -99,7 +100,7 @@ TemplateKinematics::TemplateKinematics(const SceneTemplate& content)
     std::vector<char> is_branch(content.joints.size(), 0);
     for (const Branch& branch : branches_) is_branch[branch.joint] = 1;
     for (std::size_t j = 0; j < content.joints.size(); ++j)
-        if (is_branch[j] == 0) closing_.push_back(j);
+        if (is_branch[j] == 0 && content.joints[j].type != JointType::gear) closing_.push_back(j);
 }
 
 // Ropes, rods and springs carry a body along only where no joint of another type does.

@@ -33,7 +33,7 @@ void enlarge_axis(JointAxis& axis, const CoordinateFactors& by, double time) {
     }
 }
 
-void enlarge_joint(JointDescription& joint, double scale, double mass) {
+void enlarge_joint(JointDescription& joint, double scale, double mass, double gear_ratio) {
     const double time = std::sqrt(scale);
     const CoordinateFactors move{scale, mass, mass / scale, mass / scale * time};
     const CoordinateFactors turn{1.0, mass * scale, mass * scale, mass * scale * time};
@@ -42,6 +42,7 @@ void enlarge_joint(JointDescription& joint, double scale, double mass) {
     for (JointAxis& axis : joint.move) enlarge_axis(axis, move, time);
     for (JointAxis& axis : joint.turn) enlarge_axis(axis, turn, time);
     joint.length *= scale;
+    joint.ratio *= gear_ratio;
     joint.bearing_radius *= scale;
     joint.break_force *= mass;
     joint.break_torque *= mass * scale;
@@ -68,7 +69,11 @@ void enlarge(SceneTemplate& content, double scale, double mass_factor, MeshCache
         body.position *= scale;
         for (Keyframe& key : body.keyframes) key.position *= scale;
     }
-    for (JointDescription& joint : content.joints) enlarge_joint(joint, scale, mass_factor);
+    for (JointDescription& joint : content.joints) {
+        const auto length = [&](std::size_t of) { return content.joints[of].type == JointType::slider ? scale : 1.0; };
+        const bool gear = joint.type == JointType::gear;
+        enlarge_joint(joint, scale, mass_factor, gear ? length(joint.geared[0]) / length(joint.geared[1]) : 1.0);
+    }
 }
 
 }  // namespace tumble

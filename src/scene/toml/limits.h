@@ -65,7 +65,9 @@ inline constexpr Range stiffness{0.0, 1e18, "N/m (N m/rad for angles)"};  // dia
 inline constexpr Range damping{0.0, 1e18, "N s/m (N m s/rad for angles)"};
 inline constexpr Range frequency{0.0, 1e9, "Hz", true};  // sound in a crystal's cell
 inline constexpr Range damping_ratio{0.0, 1e3, ""};      // 1 is critical; a thousandfold creeps
-inline constexpr Range joint_force{0.0, 1e15, "N"};      // as of forces
+inline constexpr Range gear_ratio{-1e9, 1e9, ""};
+inline constexpr double least_gear_ratio = 1e-9;     // in size
+inline constexpr Range joint_force{0.0, 1e15, "N"};  // as of forces
 inline constexpr Range joint_torque{0.0, 1e15, "N m"};
 inline constexpr Range strength_force{0.0, 1e15, "N", true};  // 0 would break, or stand still, at once
 inline constexpr Range strength_torque{0.0, 1e15, "N m", true};

@@ -142,7 +142,7 @@ Island ImpactCluster::island(std::vector<Body>& bodies, const Bring& bring) {
     for (const std::uint32_t group : groups)
         for (const std::uint32_t k : groups_.groups()[group].joints) {
             Joint& joint = groups_.joints().joints()[k];
-            if (!joint.broken) island.joints.push_back(&joint);
+            if (!joint.broken && !joint.gear()) island.joints.push_back(&joint);
         }
     for (const std::uint32_t k : brought_)
         if (bodies[k].dynamic()) island.bodies.push_back(k);

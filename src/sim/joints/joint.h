@@ -1,7 +1,7 @@
 // A joint in motion: its two frames, the laws of its coordinates, and the impulses of the last step.
 //
 // The six coordinates are those of the second frame in the first: displacements along its x, y and z, then angles about
-// them. A distance joint has the first alone, the distance of its anchors.
+// them. A distance joint has the first alone, the distance of its anchors. A gear has none (see gear.h).
 #pragma once
 
 #include "scene/description/joint.h"
@@ -16,11 +16,12 @@ namespace tumble {
 struct Joint {
     static constexpr std::uint32_t world = UINT32_MAX;  // in place of a body
     static constexpr std::size_t coordinates = 6;
+    static constexpr std::size_t gear_constant = 0;  // index of a gear's constant in `value`
     /// Laws of a coordinate, each a row of the solver; `cone`: swing of a ball.
     enum Law : std::uint8_t { lock, lower, upper, spring, motor, friction, cone };
     static constexpr std::size_t laws = 7;
 
-    std::uint32_t a = world, b = world;  // indices of the bodies
+    std::uint32_t a = world, b = world;  // indices of the bodies; of a gear: one of each of its joints
     JointDescription description;
     // Frames in the body frame, from the center of mass; in world coordinates for the world.
     Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();        // m
@@ -45,6 +46,7 @@ struct Joint {
     JointAccount account;
 
     bool distance() const { return description.type == JointType::distance; }
+    bool gear() const { return description.type == JointType::gear; }
     const JointAxis& axis(std::size_t coordinate) const {
         return coordinate < 3 ? description.move[coordinate] : description.turn[coordinate - 3];
     }
@@ -52,7 +54,7 @@ struct Joint {
     /// A ball, whose spring and friction act about all axes alike.
     bool turns_alike() const { return description.type == JointType::ball && !locked(3) && !locked(4) && !locked(5); }
     /// Number of coordinates: the others do not exist.
-    std::size_t count() const { return distance() ? 1 : coordinates; }
+    std::size_t count() const { return distance() ? 1 : gear() ? 0 : coordinates; }
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {

@@ -44,9 +44,14 @@ void JointSet::end_step() {
         if (account.step.solves == 0) continue;
         joint.force = account.step.load.force / (to_ - from_);
         joint.torque = account.step.load.torque / (to_ - from_);
+        account.second = {};
+        account.second.add(account.step.second_load, 1.0 / (to_ - from_));
         account.frame.load.add(account.step.load);
         account.frame.work_a += account.step.work_a;
         account.frame.work_b += account.step.work_b;
+        account.frame.second_load.add(account.step.second_load);
+        account.frame.second_work_a += account.step.second_work_a;
+        account.frame.second_work_b += account.step.second_work_b;
         ++account.frame.solves;
         account.work.add(account.step.work);
         account.step = {};
@@ -79,6 +84,7 @@ void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
         if (joint.active && rest > 0 && rests(joint.a) && rests(joint.b)) {
             const JointLoad last{joint.force, joint.torque, joint.point.cross(joint.force) + joint.torque};
             account.frame.load.add(last, rest * h);
+            account.frame.second_load.add(account.second, rest * h);
         }
         account.mean = {};
         account.mean.add(account.frame.load, 1.0 / (steps * h));

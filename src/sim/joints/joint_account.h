@@ -54,6 +54,9 @@ struct JointAccount {
     struct Span {
         JointLoad load;
         double work_a = 0.0, work_b = 0.0;  // J, of the joint on each body
+        // Of a gear: the same of its second joint, while the above are of its first.
+        JointLoad second_load;
+        double second_work_a = 0.0, second_work_b = 0.0;
         JointWork work;
         int solves = 0;  // steps, or substeps
 
@@ -79,14 +82,15 @@ struct JointAccount {
     Span step, frame;
     Span events;         // of impacts, and flights between them, in this step: apart from the solve
     JointLoad mean;      // N and N m, over the last frame
+    JointLoad second;    // N and N m, of a gear on its second joint: mean over the last step
     JointWork work;      // since the start
     bool holds = false;  // has held its bodies: the work of its locks is then no impact
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [step, frame, events, mean, work, holds] = self;
+        auto& [step, frame, events, mean, second, work, holds] = self;
         archive.scratch(step, frame, events);
-        archive.keep(mean, work, holds);
+        archive.keep(mean, second, work, holds);
     }
 };
 

@@ -1,6 +1,7 @@
 #include "sim/joints/joint_set.h"
 
 #include "core/deterministic_math.h"
+#include "sim/joints/gear.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -62,6 +63,7 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
     for (const JointDescription& description : scene.joints) {
         Joint& joint = joints_.emplace_back();
         joint.description = description;
+        if (joint.gear()) continue;
         side(description.first, description.anchor_first, joint.a, joint.anchor_a);
         side(description.second, description.anchor_second, joint.b, joint.anchor_b);
         joint.frame_a = description.frame_first;
@@ -84,7 +86,12 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
             spring.damping = 2.0 * spring.damping_ratio * mass * rate;
         }
     }
-    for (Joint& joint : joints_) joint.active = joint.description.start <= 0.0 && joint.description.end > 0.0;
+    for (Joint& joint : joints_) {
+        joint.active = joint.description.start <= 0.0 && joint.description.end > 0.0;
+        if (joint.gear()) build_gear(joint, joints_, bodies);
+    }
+    for (Joint& joint : joints_)
+        if (joint.gear()) joint.active = joint.active && gear_holds(joint, joints_);
     start_account(bodies);
     list();
 }
@@ -114,8 +121,9 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
     from_ = from;
     to_ = to;
     bool changed = false;
-    for (Joint& joint : joints_) {
-        const bool active = !joint.broken && from >= joint.description.start && from < joint.description.end;
+    const auto begin = [&](Joint& joint) {
+        bool active = !joint.broken && from >= joint.description.start && from < joint.description.end;
+        if (joint.gear()) active = active && gear_holds(joint, joints_);
         bool wakes = active != joint.active || (active && driven(joint, from, to));
         for (const std::uint32_t i : {joint.a, joint.b})
             if (active && i != Joint::world && !bodies[i].dynamic())
@@ -126,6 +134,7 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
         if (active != joint.active) {
             changed = true;
             joint.active = active;
+            if (active && joint.gear()) engage_gear(joint, joints_, bodies);
             joint.account.holds = false;
             const double given = potential(joint, bodies);  // a joint that ends leaves its own as heat
             joint.account.work.stored += given;
@@ -134,10 +143,13 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
             joint.force.setZero();
             joint.torque.setZero();
         }
-        if (!wakes) continue;
+        if (!wakes) return;
         for (const std::uint32_t i : {joint.a, joint.b})
             if (i != Joint::world && bodies[i].asleep) woken.push_back(i);
-    }
+    };
+    for (const bool gears : {false, true})  // a gear holds while its joints hold
+        for (Joint& joint : joints_)
+            if (joint.gear() == gears) begin(joint);
     if (changed) list();
 }
 
@@ -152,7 +164,8 @@ std::vector<BodyPair> JointSet::apart() const {
     std::vector<BodyPair> pairs;
     for (const std::uint32_t k : active_) {
         const Joint& joint = joints_[k];
-        if (joint.description.collide || joint.a == Joint::world || joint.b == Joint::world) continue;
+        if (joint.description.collide || joint.a == Joint::world || joint.b == Joint::world || joint.a == joint.b)
+            continue;
         pairs.push_back({std::min(joint.a, joint.b), std::max(joint.a, joint.b)});
     }
     std::sort(pairs.begin(), pairs.end());
@@ -164,7 +177,9 @@ std::vector<JointState> JointSet::states(const std::vector<Body>& bodies) const 
     std::vector<JointState> result;
     for (const Joint& joint : joints_) {
         JointState& state = result.emplace_back();
-        const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
+        const Joint& placed = joint.gear() ? joints_[joint.description.geared[0]] : joint;
+        const JointGeometry g = measure(placed, side_of(bodies, placed.a), side_of(bodies, placed.b));
+        if (joint.gear() && joint.active) state.gap = gear_gap(joint, joints_, bodies);
         state.point = g.point;
         const auto velocity = [&](std::uint32_t i, bool turns) -> Vec3 {
             if (i == Joint::world) return Vec3::Zero();

@@ -1,10 +1,13 @@
 #include "sim/joints/joint_structure.h"
 
+#include "sim/joints/flight_way.h"
+#include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
 
 #include <Eigen/QR>
 
 #include <algorithm>
+#include <numeric>
 
 namespace tumble {
 namespace {
@@ -15,7 +18,7 @@ constexpr double dependent_share = 1e-9;  // pivots below this share of the larg
 bool is_dynamic(const std::vector<Body>& bodies, std::uint32_t i) { return i != Joint::world && bodies[i].dynamic(); }
 
 std::size_t locked_rows(const Joint& joint) {
-    std::size_t rows = 0;
+    std::size_t rows = joint.gear();
     for (std::size_t k = 0; k < joint.count(); ++k) rows += joint.locked(k);
     return rows;
 }
@@ -26,6 +29,29 @@ std::size_t locked_rows(const JointGroup& group, const JointSet& joints) {
     return rows;
 }
 
+// Joints beyond those of trees, with one node for all that is fixed; gears form none.
+std::size_t loops_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
+    const std::size_t fixed = group.bodies.size();
+    std::vector<std::size_t> parent(fixed + 1);
+    std::iota(parent.begin(), parent.end(), std::size_t(0));
+    const auto root = [&](std::uint32_t body) {
+        std::size_t i = fixed;
+        if (is_dynamic(bodies, body))
+            i = std::size_t(std::lower_bound(group.bodies.begin(), group.bodies.end(), body) - group.bodies.begin());
+        while (parent[i] != i) i = parent[i] = parent[parent[i]];
+        return i;
+    };
+    std::size_t loops = 0;
+    for (const std::uint32_t k : group.joints) {
+        const Joint& joint = joints.joints()[k];
+        if (joint.gear()) continue;
+        const std::size_t a = root(joint.a), b = root(joint.b);
+        loops += a == b;
+        parent[a] = b;
+    }
+    return loops;
+}
+
 // Rank of the rows of the locked coordinates over the velocities of the group's bodies.
 std::size_t rank_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
     const std::size_t rows = locked_rows(group, joints);
@@ -34,20 +60,33 @@ std::size_t rank_of(const JointGroup& group, const JointSet& joints, const std::
     for (const std::uint32_t i : group.bodies) length += bodies[i].radius / double(group.bodies.size());
     Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(Eigen::Index(rows), Eigen::Index(6 * group.bodies.size()));
     Eigen::Index row = 0;
+    const auto add_coordinate = [&](const Joint& joint, const JointGeometry& g, std::size_t k, double factor) {
+        const Vec3 n = factor * g.coordinates[k].direction;
+        for (const auto& [body, sign] : {std::pair(joint.a, -1.0), std::pair(joint.b, 1.0)}) {
+            if (!is_dynamic(bodies, body)) continue;
+            const auto place = std::lower_bound(group.bodies.begin(), group.bodies.end(), body);
+            const Eigen::Index at = 6 * (place - group.bodies.begin());
+            const Vec3 arm = g.point - bodies[body].position;
+            if (k < 3) matrix.block<1, 3>(row, at) += sign * n.transpose();
+            matrix.block<1, 3>(row, at + 3) += sign * (k < 3 ? Vec3(arm.cross(n) / length) : n).transpose();
+        }
+    };
     for (const std::uint32_t index : group.joints) {
         const Joint& joint = joints.joints()[index];
+        if (joint.gear()) {
+            for (std::size_t s = 0; s < 2; ++s) {
+                const Joint& of = joints.joints()[joint.description.geared[s]];
+                const std::size_t k = geared_coordinate(of);
+                const double factor = (s == 0 ? 1.0 : joint.description.ratio) / (k < 3 ? 1.0 : length);
+                add_coordinate(of, measure(of, side_of(bodies, of.a), side_of(bodies, of.b)), k, factor);
+            }
+            ++row;
+            continue;
+        }
         const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
         for (std::size_t k = 0; k < joint.count(); ++k) {
             if (!joint.locked(k)) continue;
-            const Vec3& n = g.coordinates[k].direction;
-            for (const auto& [body, sign] : {std::pair(joint.a, -1.0), std::pair(joint.b, 1.0)}) {
-                if (!is_dynamic(bodies, body)) continue;
-                const auto place = std::lower_bound(group.bodies.begin(), group.bodies.end(), body);
-                const Eigen::Index at = 6 * (place - group.bodies.begin());
-                const Vec3 arm = g.point - bodies[body].position;
-                if (k < 3) matrix.block<1, 3>(row, at) = sign * n.transpose();
-                matrix.block<1, 3>(row, at + 3) = sign * (k < 3 ? Vec3(arm.cross(n) / length) : n).transpose();
-            }
+            add_coordinate(joint, g, k, 1.0);
             ++row;
         }
     }
@@ -64,7 +103,7 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
             report.gap = states[k].gap;
             report.widest = k;
         }
-        if (!is_dynamic(bodies, joint.a) || !is_dynamic(bodies, joint.b)) continue;
+        if (joint.gear() || !is_dynamic(bodies, joint.a) || !is_dynamic(bodies, joint.b)) continue;
         const double a = bodies[joint.a].mass, b = bodies[joint.b].mass, ratio = std::max(a / b, b / a);
         if (!report.heaviest || ratio > report.mass_ratio) {
             report.mass_ratio = ratio;
@@ -73,14 +112,24 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
     }
 }
 
+void add_way(const JointGroup& group, bool tree, const JointSet& joints, const std::vector<Body>& bodies,
+             JointReport& report) {
+    for (const std::uint32_t i : group.bodies)
+        if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
+    for (const std::uint32_t k : group.joints) {
+        if (!free_but_for_springs(joints.joints()[k], bodies)) return void(++report.by_rows);
+        tree = tree && !joints.joints()[k].distance() && !has_springs(joints.joints()[k]);
+    }
+    ++(tree && tree_method(bodies, group.bodies) ? report.by_coordinates : report.by_rattle);
+}
+
 }  // namespace
 
 JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies) {
     JointReport report;
     for (const JointGroup& group : find_joint_groups(joints, bodies)) {
-        const std::size_t rows = locked_rows(group, joints);
-        const std::size_t nodes = group.bodies.size() + group.anchored, columns = 6 * group.bodies.size();
-        const std::size_t loops = group.joints.size() + 1 - nodes;
+        const std::size_t rows = locked_rows(group, joints), loops = loops_of(group, joints, bodies);
+        const std::size_t columns = 6 * group.bodies.size();
         const bool small = rows <= most_rows;
         const std::size_t rank = small ? rank_of(group, joints, bodies) : std::min(rows, columns);
         report.bodies += group.bodies.size();
@@ -90,6 +139,7 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
         report.loops += loops;
         report.rows += rows;
         report.redundant += rows - rank;
+        add_way(group, loops == 0, joints, bodies, report);
         report.counted = report.counted && small;
     }
     find_extremes(joints, bodies, report);

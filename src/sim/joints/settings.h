@@ -66,6 +66,10 @@ inline constexpr double joint_flight_fits = 1e-15;
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
 
+/// Largest phase, rad, of a spring in a step of flight: the error of a kick is a 24th of its square. Stiffer springs are
+/// rows of the solver. Not fitted: a tenth of a swing.
+inline constexpr double joint_flight_spring = 0.6;
+
 /// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
 /// JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_flight_open = 1e-5;

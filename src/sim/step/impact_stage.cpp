@@ -51,7 +51,7 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
         island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
         for (const std::uint32_t j : islands.joints(k)) {
             Joint& joint = step.joints.joints()[step.joints.active()[j]];
-            if (!joint.broken) island.joints.push_back(&joint);
+            if (!joint.broken && !joint.gear()) island.joints.push_back(&joint);
         }
         for (const std::uint32_t m : islands.manifolds(k)) {
             struck_.push_back(m);

@@ -2,6 +2,7 @@
 
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/splitting.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -45,14 +46,7 @@ bool JointFlight::flies(const JointIsland& island) {
         if (bodies[i].integrator == IntegratorKind::explicit_euler) return false;
     for (const std::uint32_t k : island.joints) {
         const Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
-        if (joint.broken) return false;
-        for (std::size_t c = 0; c < joint.count(); ++c) {
-            const JointAxis& axis = joint.axis(c);
-            if (axis.spring || axis.motor || axis.friction > 0.0) return false;
-        }
-        if (joint.description.friction_coefficient > 0.0) return false;
-        for (const std::uint32_t i : {joint.a, joint.b})
-            if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
+        if (joint.broken || !free_but_for_springs(joint, bodies) || !flies_with_springs(island, joint)) return false;
     }
     return true;
 }
@@ -257,6 +251,7 @@ void JointFlight::kick(const JointIsland& island, std::span<const StepForce> for
 bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> forces, double share) {
     std::vector<Body>& bodies = island.problem.bodies;
     kick(island, forces, 0.5 * share);
+    kick_springs(island, 0.5 * island.problem.settings.h);
     const auto begin = [&] {
         for (std::size_t k = 0; k < island.bodies.size(); ++k) starts_[k] = state_of(bodies[island.bodies[k]]);
     };
@@ -294,6 +289,7 @@ bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> fo
         body.rotation = body.orientation.toRotationMatrix();
         body.derive();
     }
+    kick_springs(island, 0.5 * h);
     begin();
     load(island);
     loaded_ = matrix_.factor();
@@ -362,6 +358,8 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         joint.force.setZero();
         joint.torque.setZero();
         joint.account.step = {};
+        joint.account.step.work.springs =
+            JointSet::potential(joint, island.problem.bodies);  // no heat: without dampers
     }
     const std::vector<double> stages = stages_of(order);
     for (int substep = 0; substep < substeps; ++substep)
@@ -375,6 +373,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
     // Limits and strengths are looked at once a step: a step that meets one is left to the solver of contacts.
     for (const JointRows::Block& block : rows_.blocks()) {
         Joint& joint = island.problem.joints->joints()[block.joint];
+        joint.account.step.work.springs -= JointSet::potential(joint, island.problem.bodies);
         joint.force /= h;
         joint.torque /= h;
         if (rows_.violates_limit(island, block)) return false;

@@ -23,7 +23,7 @@ struct StepForce {
 
 class JointFlight {
 public:
-    /// Whether the island's motion is free but for its locked joints and gravity-like forces: no springs, motors or
+    /// Whether the island's motion is free but for its locked joints and gravity-like forces: no dampers, motors or
     /// friction, no limit within reach, and no moving carrier.
     static bool flies(const JointIsland& island);
     static int order(const JointIsland& island);
@@ -47,6 +47,8 @@ private:
     bool fit(const JointIsland& island);
     double errors(const JointIsland& island, double h);
     bool impulses();
+    static bool flies_with_springs(const JointIsland& island, const Joint& joint);
+    void kick_springs(const JointIsland& island, double time);  // s
     void kick(const JointIsland& island, std::span<const StepForce> forces, double share);
     void drift(const JointIsland& island, double h);
     void apply(const JointIsland& island);

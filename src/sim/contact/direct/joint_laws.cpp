@@ -1,6 +1,7 @@
 // JointRows: the rows of a joint, by the laws of its coordinates.
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/joints/motor_target.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -13,18 +14,9 @@ struct Target {
     double value = 0.0, speed = 0.0;  // at the end of the step; mean over it
 };
 
-double target_at(const std::vector<JointTarget>& targets, double time) {
-    const auto next = std::upper_bound(targets.begin(), targets.end(), time,
-                                       [](double t, const JointTarget& target) { return t < target.time; });
-    if (next == targets.begin()) return next->value;
-    const JointTarget& last = next[-1];
-    if (next == targets.end()) return last.value;
-    return last.value + (next->value - last.value) * ((time - last.time) / (next->time - last.time));
-}
-
 Target target_of(const JointMotor& motor, double from, double to) {
-    const double end = target_at(motor.targets, to);
-    return {end, (end - target_at(motor.targets, from)) / (to - from)};
+    const double end = motor_target(motor, to);
+    return {end, (end - motor_target(motor, from)) / (to - from)};
 }
 
 }  // namespace
@@ -231,14 +223,18 @@ void JointRows::load(const JointIsland& island, double compliance) {
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;
     bool fixed = false;
-    for (const std::uint32_t k : island.joints)
+    std::size_t gears = 0;
+    for (const std::uint32_t k : island.joints) {
+        gears += (*joints_)[set.active()[k]].gear();
         for (const std::uint32_t i : {(*joints_)[set.active()[k]].a, (*joints_)[set.active()[k]].b})
             fixed = fixed || i == Joint::world || !island.problem.bodies[i].dynamic();
+    }
+    gears_.reserve(gears);
     // A connected graph is a tree if it has one edge less than nodes; all that is fixed is one node.
-    tree_ = island.joints.size() + 1 == island.bodies.size() + fixed;
+    tree_ = gears > 0 ? geared_forest(island) : island.joints.size() + 1 == island.bodies.size() + fixed;
     for (const std::uint32_t k : island.joints)
         if (const std::uint32_t index = set.active()[k]; !(*joints_)[index].broken)
-            add_joint(island, index, compliance);
+            (*joints_)[index].gear() ? add_gear(island, index) : add_joint(island, index, compliance);
 }
 
 void JointRows::follow_load(const Block& block) {

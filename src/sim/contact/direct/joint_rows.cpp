@@ -21,17 +21,20 @@ void six_add(const double* row, double amount, std::vector<double>& to, int body
 }  // namespace
 
 double JointRows::dot(const Block& block, const Row& row, const std::vector<double>& u) {
+    if (block.gear) return block.gear->row.dot(u);
     return (block.a != none ? six_dot(row.on_a, u, block.a) : 0.0) +
            (block.b != none ? six_dot(row.on_b, u, block.b) : 0.0);
 }
 
 void JointRows::add(const Block& block, const Row& row, double amount, std::vector<double>& to) {
+    if (block.gear) return block.gear->row.add(amount, to);
     if (block.a != none) six_add(row.on_a, amount, to, block.a);
     if (block.b != none) six_add(row.on_b, amount, to, block.b);
 }
 
 // H += weight row row^T, in the blocks of both bodies.
 void JointRows::add_square(BlockCholesky& matrix, const Block& block, const Row& row, double weight) {
+    if (block.gear) return block.gear->row.add_square(matrix, weight);
     using Eight = BlockCholesky::Row;
     const auto add_outer_of = [](BlockCholesky::Block& to, const double* left, const Eight& right) {
         for (int k = 0; k < 6; ++k) to.row[k] += left[k] * right;
@@ -50,6 +53,7 @@ void JointRows::add_square(BlockCholesky& matrix, const Block& block, const Row&
 
 void JointRows::add_pairs(std::vector<BlockCholesky::Pair>& pairs) {
     for (Block& block : blocks_) {
+        if (block.gear) block.gear->row.add_pairs(pairs);
         block.pair = std::uint32_t(pairs.size());
         if (block.a != none && block.b != none) pairs.push_back({std::uint32_t(block.a), std::uint32_t(block.b)});
     }
@@ -217,6 +221,7 @@ void JointRows::keep_estimates() {
         if (!row.soft) row.impulse = row.estimate;
 }
 
+// Pose at the end of the step: a body of the island has it in `ends`, another one moves by its velocity.
 JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int place,
                             std::span<const JointSide> ends) const {
     if (body == Joint::world) return {};
@@ -233,12 +238,12 @@ double JointRows::close(const JointIsland& island, std::span<const JointSide> en
     for (const Block& block : blocks_) {
         if (block.breaks) continue;
         const Joint& j = joint(block);
-        const JointGeometry g = measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+        const JointGeometry g = measure_end(island, block, ends);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (!row.closes) continue;
             const bool cone = row.law == Joint::cone;
-            const double value = cone ? g.swing.value : g.coordinates[row.coordinate].value;
+            const double value = cone ? g.swing.value : value_of(island, block, row, g, ends);
             const double reference = cone ? std::max(g.swing_limit, row.reference) : row.reference;
             const double unit = row.turns() ? length_ : 1.0, size = row.turns() ? 1.0 : j.size;
             const double error = value - reference;
@@ -263,7 +268,10 @@ double JointRows::smallest_size() const {
 
 double JointRows::place_rounding() const {
     double farthest = 0.0;
-    for (const Block& block : blocks_) farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+    for (const Block& block : blocks_) {
+        farthest = std::max(farthest, block.point.cwiseAbs().maxCoeff());
+        if (block.gear) farthest = std::max(farthest, joint(block).size * block.gear->value);
+    }
     return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest_size();
 }
 
@@ -327,11 +335,11 @@ double JointRows::close_push(const JointIsland& island, std::span<const JointSid
     double worst = 0.0;
     for (const Block& block : blocks_) {
         const Joint& j = joint(block);
-        const JointGeometry g = measure(j, end_of(island, j.a, block.a, ends), end_of(island, j.b, block.b, ends));
+        const JointGeometry g = measure_end(island, block, ends);
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (row.law != Joint::lock || row.soft) continue;
-            const double speed = dot(block, row, push), error = g.coordinates[row.coordinate].value - row.goal;
+            const double speed = dot(block, row, push), error = value_of(island, block, row, g, ends) - row.goal;
             worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : j.size));
             row.estimate += row.weight * (row.target - speed);
             row.target = speed - (row.turns() ? length_ : 1.0) * error / h;
@@ -362,7 +370,8 @@ void JointRows::store(const JointIsland& island, bool apply) {
             j.broken = true;
             j.broken_at = to_;
         }
-        if (force.isZero(0.0) && torque.isZero(0.0)) continue;
+        if (block.gear) store_gear(island, block);
+        if (block.gear || (force.isZero(0.0) && torque.isZero(0.0))) continue;
         // Equal and opposite, about one point: momentum and angular momentum are kept to the last bit.
         if (block.a != none) {
             Body& a = bodies[j.a];
@@ -396,41 +405,6 @@ bool JointRows::violates_limit(const JointIsland& island, const Block& block) co
         if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
     }
     return false;
-}
-
-double JointRows::swing_rate(const JointIsland& island) {
-    swing_.assign(island.bodies.size(), 0.0);
-    double most = 0.0;
-    for (const Block& block : blocks_) {
-        Vec3 force = Vec3::Zero();
-        for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (!rows_[k].turns()) force += rows_[k].impulse / h_ * rows_[k].direction;
-        const Joint& j = joint(block);
-        for (const auto& [body, place] : {std::pair(j.a, block.a), std::pair(j.b, block.b)}) {
-            if (place == none) continue;
-            const Body& b = island.problem.bodies[body];
-            const Vec3 arm = block.point - b.position;
-            const double lever = arm.norm();
-            if (!(lever > 0.0)) continue;
-            // Compliance against turns about the joint, times the lever across their axis.
-            double gives = 0.0;
-            const auto turn_about = [&](const Vec3& axis) {
-                gives = std::max(gives, axis.cross(arm).norm() * axis.dot(b.inverse_inertia * axis));
-            };
-            if (block.free_turns == 3) {
-                const Vec3 across = arm.unitOrthogonal();
-                turn_about(across);
-                turn_about(arm.cross(across) / lever);
-            } else {
-                for (int k = 0; k < block.free_turns; ++k) turn_about(block.axes[k]);
-            }
-            // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
-            double& sum = swing_[std::size_t(place)];
-            sum += force.norm() * gives / 3.0;
-            most = std::max(most, sum);
-        }
-    }
-    return std::sqrt(most);
 }
 
 }  // namespace tumble

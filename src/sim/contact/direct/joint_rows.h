@@ -12,10 +12,12 @@
 #pragma once
 
 #include "sim/contact/direct/contact_rows.h"
+#include "sim/contact/direct/gear_row.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
 #include "sim/math/block_cholesky.h"
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -54,6 +56,19 @@ public:
         bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
+    /// A gear, which has one row: where it acts.
+    struct GearSide {
+        std::uint32_t joint = 0;
+        int a = none, b = none;
+        Vec3 point = Vec3::Zero(), direction = Vec3::Zero();
+        bool turns = false;
+        double factor = 0.0;  // of the impulse of the row, in units of the rows of joints
+    };
+    struct Gear {
+        GearRow row;
+        std::array<GearSide, 2> sides;
+        double value = 0.0;  // m or rad: largest term of the relation
+    };
     struct Block {
         std::uint32_t joint = 0;
         int a = none, b = none;
@@ -63,6 +78,7 @@ public:
         Vec3 axes[3] = {};  // world: about which the bodies turn against each other
         int free_turns = 3;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
+        Gear* gear = nullptr;
     };
 
     bool empty() const { return blocks_.empty(); }
@@ -74,6 +90,7 @@ public:
     std::span<Block> blocks() { return blocks_; }
     void clear() {
         blocks_.clear();
+        gears_.clear();
         rows_.clear();
     }
 
@@ -168,12 +185,24 @@ private:
         bool slides = false;
     };
     static BallFriction ball_friction(const Row* row, double along);
+    JointGeometry measure_end(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
+    double value_of(const JointIsland& island, const Block& block, const Row& row, const JointGeometry& g,
+                    std::span<const JointSide> ends) const;
+    BodyVelocity mean_velocity(const JointIsland& island, std::uint32_t body, int place, const Vec3& point) const;
+
+    bool geared_forest(const JointIsland& island) const;
+    void add_gear(const JointIsland& island, std::uint32_t index);
+    double gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
+    JointLoad load_of(const Block& block, std::size_t which) const;  // of a gear, on one of its joints
+    void store_gear(const JointIsland& island, const Block& block);
+    void account_gear(const JointIsland& island, const Block& block);
     void push_row(const Row& row);
     double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
 
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
+    std::vector<Gear> gears_;  // of fixed capacity: blocks point to them
     std::vector<Row> rows_;
     std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;         // 1/s^2, by body of the island

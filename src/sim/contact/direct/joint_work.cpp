@@ -1,5 +1,8 @@
-// JointRows: the work of a step, by row, and the impulses of its joints.
+// JointRows: the work of a step by row, the impulses of its joints, and the swing of its bodies under them.
 #include "sim/contact/direct/joint_rows.h"
+
+#include <algorithm>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -41,21 +44,28 @@ void JointRows::keep_velocities(const JointIsland& island, bool first) {
     }
 }
 
+// Of the body at a point: the mean of before and after the step.
+BodyVelocity JointRows::mean_velocity(const JointIsland& island, std::uint32_t body, int place,
+                                      const Vec3& point) const {
+    if (body == Joint::world) return {Vec3::Zero(), Vec3::Zero()};
+    const Body& b = island.problem.bodies[body];
+    const BodyVelocity of =
+        place == none ? BodyVelocity{b.velocity, b.angular_velocity} : mean_of(before_[std::size_t(place)], b);
+    return {of.velocity + of.angular_velocity.cross(point - b.position), of.angular_velocity};
+}
+
 void JointRows::account(const JointIsland& island) {
-    const std::vector<Body>& bodies = island.problem.bodies;
     const bool first = from_ == island.problem.joints->from();
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
         JointAccount::Span& step = j.account.step;
         if (first) step = {};
-        const auto velocity = [&](std::uint32_t body, int place) -> BodyVelocity {
-            if (body == Joint::world) return {Vec3::Zero(), Vec3::Zero()};
-            const Body& b = bodies[body];
-            const BodyVelocity of =
-                place == none ? BodyVelocity{b.velocity, b.angular_velocity} : mean_of(before_[std::size_t(place)], b);
-            return {of.velocity + of.angular_velocity.cross(block.point - b.position), of.angular_velocity};
-        };
-        const BodyVelocity a = velocity(j.a, block.a), b = velocity(j.b, block.b);
+        if (block.gear) {
+            account_gear(island, block);
+            continue;
+        }
+        const BodyVelocity a = mean_velocity(island, j.a, block.a, block.point),
+                           b = mean_velocity(island, j.b, block.b, block.point);
         const Vec3 apart = b.velocity - a.velocity, turning = b.angular_velocity - a.angular_velocity;
         JointLoad load;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
@@ -78,6 +88,41 @@ void JointRows::account(const JointIsland& island) {
         if (block.b == none) step.work.carriers -= on_b;
         ++step.solves;
     }
+}
+
+double JointRows::swing_rate(const JointIsland& island) {
+    swing_.assign(island.bodies.size(), 0.0);
+    double most = 0.0;
+    for (const Block& block : blocks_) {
+        Vec3 force = Vec3::Zero();
+        for (std::size_t k = block.first; k < block.first + block.count; ++k)
+            if (!rows_[k].turns()) force += rows_[k].impulse / h_ * rows_[k].direction;
+        const Joint& j = joint(block);
+        for (const auto& [body, place] : {std::pair(j.a, block.a), std::pair(j.b, block.b)}) {
+            if (place == none) continue;
+            const Body& b = island.problem.bodies[body];
+            const Vec3 arm = block.point - b.position;
+            const double lever = arm.norm();
+            if (!(lever > 0.0)) continue;
+            // Compliance against turns about the joint, times the lever across their axis.
+            double gives = 0.0;
+            const auto turn_about = [&](const Vec3& axis) {
+                gives = std::max(gives, axis.cross(arm).norm() * axis.dot(b.inverse_inertia * axis));
+            };
+            if (block.free_turns == 3) {
+                const Vec3 across = arm.unitOrthogonal();
+                turn_about(across);
+                turn_about(arm.cross(across) / lever);
+            } else {
+                for (int k = 0; k < block.free_turns; ++k) turn_about(block.axes[k]);
+            }
+            // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
+            double& sum = swing_[std::size_t(place)];
+            sum += force.norm() * gives / 3.0;
+            most = std::max(most, sum);
+        }
+    }
+    return std::sqrt(most);
 }
 
 }  // namespace tumble

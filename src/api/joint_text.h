@@ -1,0 +1,15 @@
+// The text of a joint of a SceneSpec.
+#pragma once
+
+#include "api/spec_lines.h"
+
+#include <cstddef>
+#include <string>
+
+namespace tumble::v0 {
+
+void write_joint(const Joint& joint, std::size_t index, SpecLines& lines);
+
+std::string name_of(Interpolation form);
+
+}  // namespace tumble::v0
