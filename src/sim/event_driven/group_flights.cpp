@@ -46,11 +46,11 @@ void GroupFlights::find() {
     }
 }
 
-bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces) {
+bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces, double span) {
     for (const std::uint32_t k : groups_[group].bodies)
         if (!forces.only_gravity(k) || (*bodies_)[k].asleep) return false;
-    const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {}, nullptr, joints_};
-    return JointFlight::flies({problem, groups_[group].bodies, active_[group], 1.0, 0.0, 0.0});
+    const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {span, infinity, 0.0}, nullptr, joints_};
+    return JointFlight::flies({problem, groups_[group].bodies, active_[group], 1.0, 0.0, span});
 }
 
 void GroupFlights::remember(std::uint32_t group) {

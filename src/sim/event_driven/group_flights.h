@@ -32,8 +32,8 @@ public:
     JointSet& joints() const { return *joints_; }
     bool empty() const { return groups_.empty(); }
 
-    /// Whether the group's motion is free but for its joints and gravity.
-    bool can_fly(std::uint32_t group, const ForceField& forces);
+    /// Whether the group's motion in `span` s is free but for its joints and gravity.
+    bool can_fly(std::uint32_t group, const ForceField& forces, double span);
     /// Flies the group for `span` s from its present state at `now`, under `gravity` (m/s^2), and leaves it there. Returns
     /// false where a joint comes to a limit, breaks or has no solution in that time.
     bool start(std::uint32_t group, const EventTime& now, double span, const Vec3& gravity);
