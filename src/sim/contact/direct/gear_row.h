@@ -1,7 +1,7 @@
 // The row of a gear in the Jacobian: one number per velocity of up to four bodies.
 #pragma once
 
-#include "sim/contact/direct/block_cholesky.h"
+#include "sim/math/block_cholesky.h"
 
 #include <array>
 #include <cstddef>
