@@ -11,7 +11,7 @@ std::string with_commas(int n) {
 }
 
 // Rods of 1 m and 1 kg in a row without gravity, with small fitting speeds of the joints that cancel over the chain.
-// Hinges turn about y and z by turns.
+// Hinges turn about z and y alternately.
 JointCase free_chain_of(int links, JointKind kind) {
     JointCase c;
     c.name = (kind == JointKind::ball ? "ball chain of " : "hinge chain of ") + with_commas(links);

@@ -15,9 +15,9 @@
 namespace tumble::bench {
 namespace {
 
-constexpr double long_enough = 0.1;     // CPU s of stepping, which makes the clock's own cost negligible
-constexpr int most_repetitions = 500;   // of a short run
-constexpr double joints_patience = 10;  // CPU s, unless --patience is given
+constexpr double long_enough = 0.1;      // CPU s of stepping, which makes the clock's own cost negligible
+constexpr int most_repetitions = 500;    // of a short run
+constexpr double joints_patience = 6.0;  // CPU s, unless --patience is given
 
 struct Spending {
     double cpu = 0.0, wall = 0.0;
@@ -32,7 +32,7 @@ public:
           rate_(rate),
           seconds_(options.quick && c.quick_seconds > 0.0 ? c.quick_seconds : c.seconds),
           steps_(std::max(1L, std::lround(seconds_ * rate))),
-          patience_(options.patience) {}
+          patience_(c.task == JointTask::settling ? 5.0 * options.patience : options.patience) {}
 
     /// The quantities; empty where the program cannot represent the scene.
     std::vector<Quantity> take(bool timed) {

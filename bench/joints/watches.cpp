@@ -42,35 +42,41 @@ public:
 
     void see(double time, const Simulator&, const std::vector<Motion>& motions) override {
         Vector p, l;
+        double sum_p = 0.0, sum_l = 0.0;
         for (std::size_t i = 0; i < motions.size(); ++i) {
             const Body& body = scene_.bodies[i];
             if (!body.moves()) continue;
             const Vector own = body.mass * motions[i].velocity;
+            const Vector turning = cross(motions[i].position, own) + angular_momentum(body, motions[i]);
             p = p + own;
-            l = l + cross(motions[i].position, own) + angular_momentum(body, motions[i]);
+            l = l + turning;
+            sum_p += norm(own);
+            sum_l += norm(turning);
         }
         const double now = energy(scene_, motions);
         if (time == 0.0) {
             p_ = p;
             l_ = l;
+            sum_p_ = sum_p;
+            sum_l_ = sum_l;
             start_ = now;
         }
-        raise(momentum_, norm(p - p_));
-        raise(angular_, norm(l - l_));
+        raise(momentum_, norm(p - p_) / sum_p_);
+        raise(angular_, norm(l - l_) / sum_l_);
         raise(energy_, std::fabs(now - start_) / start_);
         raise(gap_, largest_gap(scene_, motions));
     }
     std::vector<Quantity> tell() const override {
         return {{"energy", energy_, ""},
-                {"momentum", momentum_, "kg m/s"},
-                {"angular momentum", angular_, "kg m²/s"},
+                {"momentum", momentum_, ""},
+                {"angular momentum", angular_, ""},
                 {"gap", gap_, "m"}};
     }
 
 private:
     Scene scene_;
     Vector p_, l_;
-    double start_ = 0.0, momentum_ = 0.0, angular_ = 0.0, energy_ = 0.0, gap_ = 0.0;
+    double start_ = 0.0, sum_p_ = 0.0, sum_l_ = 0.0, momentum_ = 0.0, angular_ = 0.0, energy_ = 0.0, gap_ = 0.0;
 };
 
 class CalmWatch : public Watch {

@@ -246,7 +246,7 @@ int main(int argc, char** argv) {
     const JointWay joined{
         "Dantzig", {precision, load, speed}, [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
             if (!can_represent(scene)) return nullptr;
-            // A step of more loops takes a minute.
+            // A step with more loops takes a minute.
             if (forest_of(scene).loops.size() > 200) return nullptr;
             return std::make_unique<DartSimulator>(scene, rate, false);
         }};

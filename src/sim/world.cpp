@@ -204,7 +204,8 @@ void World::State::solve_contacts(const StepContext& step) {
                                  set.old_velocities,
                                  {step.h, threshold, least_rebound},
                                  log ? &totals : nullptr,
-                                 joints.empty() ? nullptr : &joints};
+                                 joints.empty() ? nullptr : &joints,
+                                 &forces.field()};
     if (log) totals.assign(problem.manifolds.size(), {});
     contact_solver.solve(problem, detection.islands(), pool);
     if (log)

@@ -228,7 +228,7 @@ TEST(JointCollision, ABlowBreaksAHinge) {
             const double start = energy_of(world);
             run(world, scene, 0.5);
             EXPECT_EQ(world.joint_states()[1].broken_at.has_value(), !strong);
-            EXPECT_LE(energy_of(world), start + 1e-4);
+            EXPECT_LE(energy_of(world), start * (1.0 + 1e-4));  // RATTLE: (h w)^2
             if (strong) continue;
             // The upper rod gets what the hinge could give, at a meter from its own.
             EXPECT_NEAR(*world.joint_states()[1].broken_at, 0.17, 2.0 / 960.0);

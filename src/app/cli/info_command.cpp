@@ -131,6 +131,20 @@ std::string count_text(std::size_t count, const char* one, const char* several) 
     return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
+/// The way of all groups, or the number of groups for each.
+std::string flight_text(const JointReport& report) {
+    const std::pair<std::size_t, const char*> ways[] = {{report.by_coordinates, "by the articulated-body algorithm"},
+                                                        {report.by_rattle, "by RATTLE"},
+                                                        {report.by_rows, "by the same rows"}};
+    std::string text;
+    for (const auto& [count, way] : ways) {
+        if (count == report.groups) return way;
+        if (count > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count_text(count, "group", "groups"), way);
+    }
+    return text;
+}
+
 void print_joints(const SceneDescription& scene, const World& world) {
     if (scene.joints.empty()) return;
     std::map<JointType, std::size_t> types;
@@ -150,7 +164,7 @@ void print_joints(const SceneDescription& scene, const World& world) {
         put("  masses    {:.4g} : 1 at the most, at joint '{}'\n", report.mass_ratio, name(*report.heaviest));
     put("  gap       {:.3g} m at the start{}\n", report.gap,
         report.widest ? fmt::format(", at joint '{}'", name(*report.widest)) : "");
-    put("  solved    by rows beside contacts; in flight by RATTLE\n");
+    put("  solved    by rows beside contacts; in flight {}\n", flight_text(report));
 }
 
 /// Steps the world for a moment and extrapolates; heaps that form later cost more.

@@ -51,6 +51,8 @@ public:
     /// The air's velocity, m/s.
     Vec3 wind() const { return wind_ ? wind_->velocity : Vec3(Vec3::Zero()); }
 
+    const Vec3& gravity() const { return gravity_; }  // m/s^2
+
     /// Whether nothing but gravity ever acts on the body; and whether forces at points ever act on any body.
     bool only_gravity(std::size_t index) const { return !wind_ && at_points_[index].empty(); }
     bool ever_changes() const { return !pushed_.empty(); }

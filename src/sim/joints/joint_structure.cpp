@@ -1,5 +1,6 @@
 #include "sim/joints/joint_structure.h"
 
+#include "sim/joints/flight_way.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
 
@@ -111,6 +112,17 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
     }
 }
 
+void add_way(const JointGroup& group, bool tree, const JointSet& joints, const std::vector<Body>& bodies,
+             JointReport& report) {
+    for (const std::uint32_t i : group.bodies)
+        if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
+    for (const std::uint32_t k : group.joints) {
+        if (!free_but_for_springs(joints.joints()[k], bodies)) return void(++report.by_rows);
+        tree = tree && !joints.joints()[k].distance() && !has_springs(joints.joints()[k]);
+    }
+    ++(tree && tree_method(bodies, group.bodies) ? report.by_coordinates : report.by_rattle);
+}
+
 }  // namespace
 
 JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies) {
@@ -127,6 +139,7 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
         report.loops += loops;
         report.rows += rows;
         report.redundant += rows - rank;
+        add_way(group, loops == 0, joints, bodies, report);
         report.counted = report.counted && small;
     }
     find_extremes(joints, bodies, report);

@@ -7,6 +7,7 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
 #include "sim/math/keyframe_track.h"
 
@@ -337,17 +338,41 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     return true;
 }
 
+// The bodies at the start of the step, before its forces.
+void DirectSolver::set_back(const JointIsland& island) {
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        Body& body = island.problem.bodies[island.bodies[k]];
+        const Start& start = starts_[k];
+        set_state(body, {start.position, start.orientation, start.momentum - start.push,
+                         start.angular_momentum - start.turn});
+    }
+}
+
+// In joint coordinates, if the joints form a tree and the integrator is one for such coordinates.
+TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
+    const ContactProblem& problem = island.problem;
+    const auto method = tree_method(problem.bodies, island.bodies);
+    if (!method || !problem.forces) return TreeFlight::Outcome::declined;
+    std::vector<Joint*> joints;
+    for (const std::uint32_t k : island.joints) {
+        joints.push_back(&problem.joints->joints()[problem.joints->active()[k]]);
+        if (has_springs(*joints.back())) return TreeFlight::Outcome::declined;
+    }
+    set_back(island);
+    return tree_flight_.advance(
+        {problem.bodies, island.bodies, joints, *problem.forces, island.from, problem.settings.h, island.length},
+        *method);
+}
+
 // The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.
 bool DirectSolver::fly(const JointIsland& island, int& substeps) {
+    swing_ = 0.0;
+    if (const TreeFlight::Outcome outcome = fly_tree(island); outcome != TreeFlight::Outcome::declined)
+        return outcome == TreeFlight::Outcome::flown;
     std::vector<StepForce> forces;
     for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
     for (; substeps <= tuning::joint_swing_substeps; substeps *= 2) {
-        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-            Body& body = island.problem.bodies[island.bodies[k]];
-            const Start& start = starts_[k];
-            set_state(body, {start.position, start.orientation, start.momentum - start.push,
-                             start.angular_momentum - start.turn});
-        }
+        set_back(island);
         if (flight_.advance(island, forces, JointFlight::order(island), substeps)) {
             swing_ = flight_.swing();
             return true;

@@ -18,6 +18,7 @@
 // Lengths are measured in the island's mean radius, so that rotation and translation have equal weight.
 #pragma once
 
+#include "sim/articulation/tree_flight.h"
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_flight.h"
 #include "sim/contact/direct/joint_rows.h"
@@ -79,6 +80,8 @@ private:
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
+    void set_back(const JointIsland& island);
+    TreeFlight::Outcome fly_tree(const JointIsland& island);
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
     bool moves_freely(const JointIsland& island);
@@ -115,6 +118,7 @@ private:
     std::vector<ConstraintRows> constraints_;
     JointRows joints_;
     JointFlight flight_;
+    TreeFlight tree_flight_;
     std::vector<JointSide> ends_;                   // poses at the end of the step
     struct Start {                                  // of a body in a jointed step
         Vec3 position, momentum, angular_momentum;  // after the forces

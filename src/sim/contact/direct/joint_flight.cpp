@@ -2,6 +2,7 @@
 
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/splitting.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -45,15 +46,7 @@ bool JointFlight::flies(const JointIsland& island) {
         if (bodies[i].integrator == IntegratorKind::explicit_euler) return false;
     for (const std::uint32_t k : island.joints) {
         const Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
-        if (joint.broken || joint.gear()) return false;
-        for (std::size_t c = 0; c < joint.count(); ++c) {
-            const JointAxis& axis = joint.axis(c);
-            if (axis.motor || axis.friction > 0.0) return false;
-        }
-        if (!flies_with_springs(island, joint)) return false;
-        if (joint.description.friction_coefficient > 0.0) return false;
-        for (const std::uint32_t i : {joint.a, joint.b})
-            if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
+        if (joint.broken || !free_but_for_springs(joint, bodies) || !flies_with_springs(island, joint)) return false;
     }
     return true;
 }

@@ -1,0 +1,321 @@
+#include "sim/articulation/forward_dynamics.h"
+
+#include "core/deterministic_math.h"
+
+namespace tumble {
+
+using NodeKind = TreeNode::Kind;
+
+namespace {
+
+Quat quaternion_at(const double* q) { return Quat(q[3], q[0], q[1], q[2]).normalized(); }
+Vec3 vector_at(const double* v) { return {v[0], v[1], v[2]}; }
+
+// U D^-1 U^T less, for one column.
+void subtract_column(SpatialInertia& inertia, const SpatialForce& u, double pivot) {
+    inertia.turning.add_outer(-pivot, u.moment);
+    const Vec3 k = pivot * u.force;
+    for (int j = 0; j < 3; ++j) inertia.mixed.col(j) -= k[j] * u.moment;
+    inertia.moving.add_outer(-pivot, u.force);
+}
+
+// moving - mixed^T turning^-1 mixed: a ball passes forces at its point alone.
+Sym3 behind_ball(const SpatialInertia& inertia, const Sym3& inverse) {
+    Vec3 solved[3];
+    for (int j = 0; j < 3; ++j) solved[j] = inverse * inertia.mixed.col(j);
+    const auto part = [&](int i, int j) { return inertia.mixed.col(i).dot(solved[j]); };
+    const Sym3& m = inertia.moving;
+    return {m.xx - part(0, 0), m.xy - part(0, 1), m.xz - part(0, 2),
+            m.yy - part(1, 1), m.yz - part(1, 2), m.zz - part(2, 2)};
+}
+
+// The acceleration of a free body with inertia and effort p: I a = -p.
+SpatialMotion free_acceleration(const SpatialInertia& inertia, const SpatialForce& p) {
+    const Sym3 inverse = inertia.moving.inverse();
+    Sym3 turning = inertia.turning;  // less mixed moving^-1 mixed^T
+    Vec3 rows[3], solved[3];
+    for (int i = 0; i < 3; ++i) {
+        rows[i] = inertia.mixed.row(i);
+        solved[i] = inverse * rows[i];
+    }
+    turning.xx -= rows[0].dot(solved[0]);
+    turning.xy -= rows[0].dot(solved[1]);
+    turning.xz -= rows[0].dot(solved[2]);
+    turning.yy -= rows[1].dot(solved[1]);
+    turning.yz -= rows[1].dot(solved[2]);
+    turning.zz -= rows[2].dot(solved[2]);
+    SpatialMotion a;
+    a.turn = turning.inverse() * (inertia.mixed * (inverse * p.force) - p.moment);
+    a.move = -(inverse * (p.force + inertia.mixed.transpose() * a.turn));
+    return a;
+}
+
+}  // namespace
+
+void ForwardDynamics::move_node(const TreeNode& node, Link& link, const double* q, const double* speed) const {
+    if (node.kind == NodeKind::free) {
+        link.orientation = quaternion_at(q + 3);
+        link.rotation = link.orientation.toRotationMatrix();
+        link.point = vector_at(q);
+        link.velocity = {vector_at(speed), vector_at(speed + 3)};
+        link.bias = {};
+        return;
+    }
+    const Link& parent = above(node);
+    const Mat3& rotation = parent.rotation;
+    if (node.kind == NodeKind::ball) {
+        link.orientation = parent.orientation * quaternion_at(q);
+    } else if (node.kind == NodeKind::revolute) {
+        const auto [sine, cosine] = sincos(0.5 * q[0]);
+        Quat turn;
+        turn.w() = cosine;
+        turn.vec() = sine * node.axis;
+        link.orientation = parent.orientation * (node.turned * turn);
+    } else {
+        link.orientation = parent.orientation * node.turned;
+    }
+    link.rotation = link.orientation.toRotationMatrix();
+    const Vec3 &omega = parent.velocity.turn, &velocity = parent.velocity.move;
+    link.axis = node.kind == NodeKind::revolute ? Vec3(link.rotation * node.axis) : Vec3(rotation * node.axis);
+    link.arm = rotation * node.arm;
+    if (node.kind == NodeKind::prismatic) link.arm += q[0] * link.axis;
+    link.point = parent.point + link.arm;
+    const Vec3 around = omega.cross(link.arm);
+    link.velocity = {omega, velocity + around};
+    link.bias = {Vec3::Zero(), omega.cross(around)};
+    switch (node.kind) {
+        case NodeKind::revolute:
+            link.velocity.turn += speed[0] * link.axis;
+            link.bias.turn = speed[0] * omega.cross(link.axis);
+            break;
+        case NodeKind::prismatic:
+            link.velocity.move += speed[0] * link.axis;
+            link.bias.move += 2.0 * speed[0] * omega.cross(link.axis);
+            break;
+        case NodeKind::ball:  // its speeds are components in the world
+            link.velocity.turn += vector_at(speed);
+            break;
+        default:
+            break;
+    }
+}
+
+// I_i and b_i = (w x I w; m w x (w x c)) of a rigid body about its joint.
+void ForwardDynamics::add_body(const TreeNode& node, Link& link) const {
+    if (node.body == TreeNode::no_body) {
+        link.center = Vec3::Zero();
+        link.inertia = {};
+        link.effort = {};
+        return;
+    }
+    const double m = node.mass;
+    const Vec3 c = link.center = link.rotation * node.center, mc = m * c;
+    Sym3 turning;
+    for (int k = 0; k < 3; ++k) turning.add_outer(node.inertia[k], link.rotation.col(k));
+    const double square = mc.dot(c);
+    turning.add_outer(-m, c);
+    turning.xx += square;
+    turning.yy += square;
+    turning.zz += square;
+    link.inertia.turning = turning;
+    link.inertia.mixed << 0.0, -mc[2], mc[1], mc[2], 0.0, -mc[0], -mc[1], mc[0], 0.0;
+    link.inertia.moving = {m, 0.0, 0.0, m, 0.0, m};
+    const Vec3& w = link.velocity.turn;
+    link.effort = {w.cross(turning * w), w.cross(w.cross(mc))};
+}
+
+void ForwardDynamics::move(const double* coordinates, const double* speeds) {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    links_.resize(nodes.size());
+    ground_.orientation = tree_.ground();
+    ground_.rotation = tree_.ground().toRotationMatrix();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        Link& link = links_[i];
+        move_node(nodes[i], link, coordinates + nodes[i].at, speeds + nodes[i].speed_at);
+        add_body(nodes[i], link);
+        link.drive = 0.0;
+        link.turning.setZero();
+    }
+}
+
+void ForwardDynamics::push(int node, const Wrench& wrench) {
+    Link& link = links_[std::size_t(node)];
+    link.effort.moment -= wrench.torque + link.center.cross(wrench.force);
+    link.effort.force -= wrench.force;
+}
+
+// Articulated inertias from the leaves to the root (Featherstone 2008, equations 7.37 to 7.43, second loop of Table 7.1).
+void ForwardDynamics::sweep_in() {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+        const TreeNode& node = nodes[i];
+        Link& link = links_[i];
+        SpatialInertia& inertia = link.inertia;
+        SpatialForce p = link.effort;
+        const Vec3& s = link.axis;
+        const SpatialMotion& c = link.bias;
+        switch (node.kind) {
+            case NodeKind::free:
+                continue;
+            case NodeKind::ball: {
+                link.inverse = inertia.turning.inverse();
+                link.turning -= p.moment;
+                if (node.parent == TreeNode::ground) continue;
+                SpatialInertia passed;
+                passed.moving = behind_ball(inertia, link.inverse);
+                p.force += passed.moving * c.move + inertia.mixed.transpose() * (link.inverse * link.turning);
+                p.moment += link.turning;  // the drive alone
+                Link& parent = links_[std::size_t(node.parent)];
+                parent.inertia += passed.shifted(link.arm);
+                parent.effort += shifted(p, link.arm);
+                continue;
+            }
+            case NodeKind::revolute:
+                link.column = {inertia.turning * s, inertia.mixed.transpose() * s};
+                link.pivot = 1.0 / s.dot(link.column.moment);
+                link.drive -= s.dot(p.moment);
+                break;
+            case NodeKind::prismatic:
+                link.column = {inertia.mixed * s, inertia.moving * s};
+                link.pivot = 1.0 / s.dot(link.column.force);
+                link.drive -= s.dot(p.force);
+                break;
+            case NodeKind::fixed:
+                break;
+        }
+        if (node.parent == TreeNode::ground) continue;
+        SpatialInertia passed = inertia;
+        if (node.kind != NodeKind::fixed) {
+            subtract_column(passed, link.column, link.pivot);
+            const double k = link.pivot * link.drive;
+            p.moment += k * link.column.moment;
+            p.force += k * link.column.force;
+        }
+        p += passed * c;
+        Link& parent = links_[std::size_t(node.parent)];
+        parent.inertia += passed.shifted(link.arm);
+        parent.effort += shifted(p, link.arm);
+    }
+}
+
+// Accelerations from the root to the leaves (third loop of Table 7.1).
+void ForwardDynamics::sweep_out(const Vec3& base, double* rates) {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    ground_.acceleration.move = base;
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const TreeNode& node = nodes[i];
+        Link& link = links_[i];
+        double* rate = rates + node.speed_at;
+        if (node.kind == NodeKind::free) {
+            link.acceleration = free_acceleration(link.inertia, link.effort);
+            for (int k = 0; k < 3; ++k) {
+                rate[k] = link.acceleration.turn[k];
+                rate[3 + k] = link.acceleration.move[k];
+            }
+            continue;
+        }
+        const SpatialMotion& parent = above(node).acceleration;
+        SpatialMotion a{parent.turn + link.bias.turn, parent.move + parent.turn.cross(link.arm) + link.bias.move};
+        if (node.kind == NodeKind::ball) {
+            const Vec3 turn = link.inverse * (link.turning - link.inertia.mixed * a.move) - a.turn;
+            for (int k = 0; k < 3; ++k) rate[k] = turn[k];
+            a.turn += turn;
+        } else if (node.kind != NodeKind::fixed) {
+            const double along = link.column.moment.dot(a.turn) + link.column.force.dot(a.move);
+            rate[0] = link.pivot * (link.drive - along);
+            (node.kind == NodeKind::revolute ? a.turn : a.move) += rate[0] * link.axis;
+        }
+        link.acceleration = a;
+    }
+}
+
+void ForwardDynamics::accelerate(const Vec3& base, double* rates) {
+    sweep_in();
+    sweep_out(base, rates);
+}
+
+void ForwardDynamics::coordinate_rates(const double* coordinates, const double* speeds, double* rates) const {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (const TreeNode& node : nodes) {
+        const double *q = coordinates + node.at, *speed = speeds + node.speed_at;
+        double* rate = rates + node.at;
+        if (node.kind == NodeKind::revolute || node.kind == NodeKind::prismatic) rate[0] = speed[0];
+        if (node.kind == NodeKind::free) {
+            for (int k = 0; k < 3; ++k) *rate++ = speed[3 + k];
+            q += 3;
+        }
+        if (node.kind != NodeKind::ball && node.kind != NodeKind::free) continue;
+        // dq/dt = w q / 2 with w in the axes of the parent.
+        Vec3 w = vector_at(speed);
+        if (node.kind == NodeKind::ball) w = above(node).rotation.transpose() * w;
+        const Quat turned = Quat(0.0, w.x(), w.y(), w.z()) * Quat(q[3], q[0], q[1], q[2]);
+        for (int k = 0; k < 4; ++k) rate[k] = 0.5 * turned.coeffs()[k];
+    }
+}
+
+// Each node's share of the velocity of the body at the end of its joint, relative to the node before, at the body's point.
+void ForwardDynamics::find_speeds(std::span<const SpatialMotion> bodies, double* speeds) {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (std::size_t i = 0, end = 0; i < nodes.size(); ++i) {
+        if (end < i) end = i;
+        while (nodes[end].body == TreeNode::no_body) ++end;
+        const TreeNode& node = nodes[i];
+        Link& link = links_[i];
+        const Link &body = links_[end], &parent = above(node);
+        const SpatialMotion& given = bodies[std::size_t(nodes[end].body)];
+        const SpatialMotion& before = parent.velocity;
+        const Vec3 turn = given.turn - before.turn;
+        const Vec3 move =
+            given.move - given.turn.cross(body.center) - before.move - before.turn.cross(body.point - parent.point);
+        double* speed = speeds + node.speed_at;
+        link.velocity = {before.turn, before.move + before.turn.cross(link.arm)};
+        switch (node.kind) {
+            case NodeKind::fixed:
+                break;
+            case NodeKind::revolute:
+                speed[0] = link.axis.dot(turn);
+                link.velocity.turn += speed[0] * link.axis;
+                break;
+            case NodeKind::prismatic:
+                speed[0] = link.axis.dot(move);
+                link.velocity.move += speed[0] * link.axis;
+                break;
+            case NodeKind::ball:
+                for (int k = 0; k < 3; ++k) speed[k] = turn[k];
+                link.velocity.turn += turn;
+                break;
+            case NodeKind::free:
+                for (int k = 0; k < 3; ++k) {
+                    speed[k] = given.turn[k];
+                    speed[3 + k] = given.move[k];
+                }
+                link.velocity = given;
+                break;
+        }
+    }
+}
+
+void ForwardDynamics::joint_forces(std::span<const Wrench> pushes, std::vector<SpatialForce>& forces) const {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    forces.assign(nodes.size(), {});
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+        const TreeNode& node = nodes[i];
+        const Link& link = links_[i];
+        if (node.body != TreeNode::no_body) {
+            const Vec3 &w = link.velocity.turn, &turning = link.acceleration.turn, &c = link.center;
+            const auto inertia_times = [&](const Vec3& v) -> Vec3 {
+                return link.rotation * (node.inertia.cwiseProduct(link.rotation.transpose() * v));
+            };
+            Vec3 force = node.mass * (link.acceleration.move + turning.cross(c) + w.cross(w.cross(c)));
+            Vec3 torque = inertia_times(turning) + w.cross(inertia_times(w));
+            if (!pushes.empty()) {
+                force -= pushes[std::size_t(node.body)].force;
+                torque -= pushes[std::size_t(node.body)].torque;
+            }
+            forces[i] += SpatialForce{torque + c.cross(force), force};
+        }
+        if (node.parent != TreeNode::ground) forces[std::size_t(node.parent)] += shifted(forces[i], link.arm);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,96 @@
+// The tree of an island of joined bodies, found from its joints, as a list of nodes from the root to the leaves.
+//
+// A node is a body, or a massless part between two coordinates of one joint, and moves relative to its parent by one
+// primitive joint: a universal joint is two revolute ones, a planar joint two prismatic ones and a revolute one.
+// Coordinates are 0 at the start of a step; those of balls and of a free root are quaternions.
+#pragma once
+
+#include "core/vector.h"
+#include "sim/dynamics/body.h"
+#include "sim/joints/joint.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+struct TreeNode {
+    enum class Kind : std::uint8_t { fixed, revolute, prismatic, ball, free };
+    static constexpr int ground = -1, no_body = -1, no_joint = -1;
+
+    Kind kind = Kind::fixed;
+    int parent = ground;
+    int body = no_body;           // index among the island's bodies
+    int joint = no_joint;         // index among the island's joints; of a free root: none
+    std::uint8_t coordinate = 0;  // of the joint, 0 to 5: of revolute and prismatic nodes
+    double sign = 1.0;            // of the joint's coordinate along the node's own
+    int at = 0, speed_at = 0;     // first of its coordinates and of its speeds
+    // In the parent's frame. A frame is along the principal axes of the body; its reference point is the joint's anchor.
+    Vec3 arm = Vec3::Zero();         // m, from the parent's reference to this one's, at a coordinate of 0
+    Quat turned = Quat::Identity();  // orientation at a coordinate of 0
+    Vec3 axis = Vec3::Zero();        // prismatic: in the parent's frame; revolute: in the node's own
+    // Of the body.
+    double mass = 0.0;                  // kg
+    Vec3 inertia = Vec3::Zero();        // kg m^2, about the center of mass
+    Vec3 center = Vec3::Zero();         // m, from the reference to the center of mass
+    Quat principal = Quat::Identity();  // rotates principal coordinates into body coordinates
+
+    int coordinates() const {
+        constexpr int counts[] = {0, 1, 1, 4, 7};
+        return counts[int(kind)];
+    }
+    int speeds() const {
+        constexpr int counts[] = {0, 1, 1, 3, 6};
+        return counts[int(kind)];
+    }
+};
+
+class JointTree {
+public:
+    /// Whether the joints form a tree of these bodies (indices, ascending), which hangs on at most one joint to the world,
+    /// a fixed or a kinematic body, and all are of types that nodes describe. Then nodes() are those of the present poses.
+    bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints);
+
+    const std::vector<TreeNode>& nodes() const { return nodes_; }
+    bool is_free() const { return nodes_.front().kind == TreeNode::Kind::free; }
+    /// Node of each body of the island.
+    std::span<const int> node_of_body() const { return node_of_; }
+    /// Body at the side of the joint (index among the island's joints) that is farther from the root.
+    int child_of(int joint) const { return child_[std::size_t(joint)]; }
+    /// Body of the parent (index among the island's), by joint; no_body: the ground.
+    int parent_of(int joint) const { return parent_[std::size_t(joint)]; }
+    /// Bodies of the island from the root to the leaves, and the joint that each of them hangs on.
+    struct Link {
+        int body, joint;
+    };
+    std::span<const Link> order() const { return order_; }
+
+    /// Where the root hangs: the side of its joint that does not move, or the center of mass of a free tree.
+    const Vec3& origin() const { return origin_; }
+    const Quat& ground() const { return ground_; }
+
+    int coordinates() const { return coordinates_; }
+    int speeds() const { return speeds_; }
+    /// Coordinates at the start of the step: 0, quaternions, and the place of a free root relative to the origin.
+    void start(double* coordinates) const;
+    /// Largest distance of the bodies' present places from those of the coordinates, in sizes of their joint, as found.
+    double gap() const { return gap_; }
+
+private:
+    bool order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                      std::span<Joint* const> joints);
+    void add_joint(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, Joint& joint,
+                   const Link& link);
+    void set_body(TreeNode& node, int place, const Body& body);
+
+    std::vector<TreeNode> nodes_;
+    std::vector<Link> order_;
+    std::vector<int> node_of_, child_, parent_, first_, next_, ends_;
+    Vec3 origin_ = Vec3::Zero();
+    Quat ground_ = Quat::Identity();
+    double gap_ = 0.0;
+    int coordinates_ = 0, speeds_ = 0;
+};
+
+}  // namespace tumble

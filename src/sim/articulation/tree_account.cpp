@@ -1,0 +1,219 @@
+#include "sim/articulation/tree_account.h"
+
+#include "sim/joints/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+bool beyond_limit(const Joint& joint, const JointGeometry& g) {
+    if (!joint.soft) return false;
+    if (joint.description.swing && g.swing.value > g.swing_limit) return true;
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        const JointAxis& axis = joint.axis(k);
+        if (axis.motion != JointAxis::Motion::limited) continue;
+        if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
+    }
+    return false;
+}
+
+Vec3 anchor_of(const ForwardDynamics::Link& link, const TreeNode& node, const Vec3& anchor) {
+    return link.rotation * (node.principal.conjugate() * anchor);
+}
+
+}  // namespace
+
+TreeAccount::TreeAccount(const JointTree& tree, const TreeStep& step, const FallingFrame& frame)
+    : tree_(tree), step_(step), frame_(frame) {
+    for (const std::uint32_t i : step.island) {
+        const Body& body = step.bodies[i];
+        starts_.push_back({body.position, body.momentum, body.angular_momentum, body.kinetic_energy()});
+    }
+    samples_.resize(step.joints.size());
+    moments_.assign(step.joints.size(), Vec3::Zero());
+    carried_.assign(step.joints.size(), Vec3::Zero());
+    momenta_.resize(starts_.size());
+    pushes_.assign(starts_.size(), Vec3::Zero());
+}
+
+// The force on the joint's second body, about that body's anchor.
+TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, int index, double t) const {
+    const Joint& joint = *step_.joints[std::size_t(index)];
+    const int place = tree_.child_of(index), node = tree_.node_of_body()[std::size_t(place)];
+    const bool second = joint.b == step_.island[std::size_t(place)];
+    const ForwardDynamics::Link& link = dynamics.link(node);
+    const SpatialForce& on_child = forces_[std::size_t(node)];
+    Sample s;
+    if (second) {
+        s = {on_child.force, on_child.moment, link.point, link.velocity.move};
+    } else {
+        s.point.setZero();  // the ground's anchor is the origin
+        s.rate.setZero();
+        if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
+            const int at = tree_.node_of_body()[std::size_t(above)];
+            const ForwardDynamics::Link& parent = dynamics.link(at);
+            const Vec3 anchor = anchor_of(parent, tree_.nodes()[std::size_t(at)], joint.anchor_b);
+            s.point = parent.position() + anchor;
+            s.rate = parent.center_velocity() + parent.velocity.turn.cross(anchor);
+        }
+        s.force = -on_child.force;
+        s.torque = -(on_child.moment + (link.point - s.point).cross(on_child.force));
+    }
+    if (!tree_.is_free()) {
+        s.point -= 0.5 * t * t * frame_.gravity;
+        s.rate -= t * frame_.gravity;
+    }
+    return s;
+}
+
+// Integrals of p x F from the last sample to this one, by Simpson's rule: the force in the middle is that which gives the
+// mean, and the point there follows from both ends and their rates.
+void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes,
+                                  std::span<const Sample> ends, double t) {
+    const double span = t - time_;
+    std::vector<Vec3> impulses(momenta.size());  // of the joint that each body hangs on
+    for (std::size_t i = 0; i < momenta.size(); ++i) impulses[i] = momenta[i] - momenta_[i] - (pushes[i] - pushes_[i]);
+    const auto order = tree_.order();
+    for (std::size_t k = order.size(); k-- > 0;) {
+        const auto [body, index] = order[k];
+        if (index == TreeNode::no_joint) continue;
+        const Vec3 behind = impulses[std::size_t(body)];
+        if (const int above = tree_.parent_of(index); above != TreeNode::no_body)
+            impulses[std::size_t(above)] += behind;
+        const std::size_t j = std::size_t(index);
+        const bool second = step_.joints[j]->b == step_.island[std::size_t(body)];
+        const Sample &a = samples_[j], &b = ends[j];
+        const Vec3 mean = (second ? 1.0 : -1.0) / span * behind;
+        const Vec3 middle = 0.25 * (6.0 * mean - a.force - b.force);
+        const Vec3 point = 0.5 * (a.point + b.point) + 0.125 * span * (a.rate - b.rate);
+        const double third = span / 6.0;
+        moments_[j] += third * (a.point.cross(a.force) + 4.0 * point.cross(middle) + b.point.cross(b.force));
+        carried_[j] += third * (frame_.place(time_).cross(a.force) +
+                                4.0 * frame_.place(0.5 * (time_ + t)).cross(middle) + frame_.place(t).cross(b.force));
+    }
+}
+
+void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
+                         std::span<const PushedImpulse> pushed) {
+    dynamics.joint_forces(pushes, forces_);
+    std::vector<Sample> now(samples_.size());
+    for (std::size_t k = 0; k < now.size(); ++k) now[k] = joint_sample(dynamics, int(k), t);
+    std::vector<Vec3> momenta(starts_.size()), given(starts_.size(), Vec3::Zero());
+    for (std::size_t i = 0; i < momenta.size(); ++i) {
+        const int node = tree_.node_of_body()[i];
+        Vec3 velocity = dynamics.link(node).center_velocity();
+        if (!tree_.is_free()) velocity -= t * frame_.gravity;
+        momenta[i] = tree_.nodes()[std::size_t(node)].mass * velocity;
+        if (!pushed.empty()) given[i] = pushed[i].push;
+    }
+    if (sampled_) add_mean_forces(momenta, given, now, t);
+    samples_.swap(now);
+    momenta_.swap(momenta);
+    pushes_.swap(given);
+    time_ = t;
+    sampled_ = true;
+}
+
+// As for the rows of the direct solver (JointRows::swing_rate): sqrt(4 T / (m l)) for a rod of length l.
+double TreeAccount::swing_rate() const {
+    double most = 0.0;
+    std::vector<double> sums(starts_.size(), 0.0);
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+        const Joint& joint = *step_.joints[k];
+        for (const int place : {tree_.child_of(int(k)), tree_.parent_of(int(k))}) {
+            if (place == TreeNode::no_body) continue;
+            const std::uint32_t i = step_.island[std::size_t(place)];
+            const int at = tree_.node_of_body()[std::size_t(place)];
+            const TreeNode& node = tree_.nodes()[std::size_t(at)];
+            const Vec3 arm = node.principal.conjugate() * (joint.b == i ? joint.anchor_b : joint.anchor_a);
+            // Compliance against turns about the principal axes, times the lever across each.
+            double gives = 0.0;
+            for (int c = 0; c < 3; ++c) gives = std::max(gives, Vec3::Unit(c).cross(arm).norm() / node.inertia[c]);
+            double& sum = sums[std::size_t(place)];
+            sum += samples_[k].force.norm() * gives / 3.0;
+            most = std::max(most, sum);
+        }
+    }
+    return std::sqrt(most);
+}
+
+bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
+    const double h = step_.h;
+    std::vector<Behind> behind(starts_.size());
+    for (std::size_t i = 0; i < starts_.size(); ++i) {
+        const Body& body = step_.bodies[step_.island[i]];
+        const Start& start = starts_[i];
+        const Vec3 before = start.momentum - body.mass * frame_.velocity;
+        const Vec3 after = body.momentum - body.mass * frame_.speed(h);
+        Behind& b = behind[i];
+        b.momentum = after - before;
+        b.moment = body.angular_momentum - start.angular_momentum + (body.position - frame_.place(h)).cross(after) -
+                   (start.position - frame_.origin).cross(before);
+        b.work = body.kinetic_energy() - start.energy - body.mass * frame_.gravity.dot(body.position - start.position);
+        if (pushed.empty()) continue;
+        b.momentum -= pushed[i].push;
+        b.moment -= pushed[i].moment;
+        b.work -= pushed[i].work;
+    }
+    const auto order = tree_.order();
+    for (std::size_t k = order.size(); k-- > 0;) {
+        const auto [body, index] = order[k];
+        if (index == TreeNode::no_joint) continue;
+        const Behind& b = behind[std::size_t(body)];
+        if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
+            Behind& next = behind[std::size_t(above)];
+            next.momentum += b.momentum;
+            next.moment += b.moment;
+            next.work += b.work;
+        }
+        if (!settle(*step_.joints[std::size_t(index)], index, b)) return false;
+    }
+    return true;
+}
+
+bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
+    const std::size_t k = std::size_t(index);
+    const bool second = joint.b == step_.island[std::size_t(tree_.child_of(index))];
+    const double sign = second ? 1.0 : -1.0, h = step_.h;
+    const auto pose = [&](std::uint32_t i) -> JointSide {
+        if (i == Joint::world) return {};
+        return {step_.bodies[i].position, step_.bodies[i].orientation};
+    };
+    const JointGeometry g = measure(joint, pose(joint.a), pose(joint.b));
+    for (std::size_t c = 0; c < joint.count(); ++c)
+        if (!joint.locked(c)) joint.value[c] = g.coordinates[c].value;
+    if (beyond_limit(joint, g)) return false;
+    JointLoad load;
+    load.force = sign * behind.momentum;
+    load.torque = sign * behind.moment - moments_[k];
+    load.moment = sign * behind.moment + carried_[k];
+    joint.force = load.force / h;
+    joint.torque = load.torque / h;
+    joint.point = g.point;
+    const JointDescription& strength = joint.description;
+    const double over = std::max({joint.force.norm() / strength.break_force, load.force.norm() / strength.break_impulse,
+                                  joint.torque.norm() / strength.break_torque});
+    if (over > tuning::joint_flight_over) return false;
+    if (over > 1.0) {
+        joint.broken = true;
+        joint.broken_at = step_.from + h;
+    }
+    joint.impulse = {};
+    joint.curving = {};
+    const Sample& end = samples_[k];
+    for (std::size_t c = 0; c < joint.count(); ++c) {
+        if (!joint.locked(c)) continue;
+        joint.constraint_force[c] = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);
+        joint.impulse[c][Joint::lock] = joint.constraint_force[c] * h;
+    }
+    const bool on_ground = tree_.parent_of(index) == TreeNode::no_body;
+    const double on_child = behind.work, on_parent = on_ground ? 0.0 : -behind.work;
+    joint.account.step = {};
+    joint.account.step.add_flight(load, second ? on_parent : on_child, second ? on_child : on_parent,
+                                  !joint.account.holds);
+    return true;
+}
+
+}  // namespace tumble

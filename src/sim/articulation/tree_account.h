@@ -1,0 +1,67 @@
+// Forces of a tree's joints over a step, and their work. The impulse of a joint is the change of momentum of all bodies
+// behind it, less that by their forces: so the momenta in the tables balance to rounding. A joint's mean torque is the
+// moment that they leave about its point, with the force along the step by Simpson's rule.
+#pragma once
+
+#include "sim/articulation/forward_dynamics.h"
+#include "sim/articulation/tree_step.h"
+
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Impulse, moment and work of the forces on a body that are not gravity.
+struct PushedImpulse {
+    Vec3 push = Vec3::Zero();    // N s
+    Vec3 moment = Vec3::Zero();  // N m s, about the origin of the falling frame
+    double work = 0.0;           // J
+};
+
+class TreeAccount {
+public:
+    TreeAccount(const JointTree& tree, const TreeStep& step, const FallingFrame& frame);
+
+    /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places of
+    /// the joints are in the falling frame; `pushed`: since the start of the step, by body, or none.
+    void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
+                std::span<const PushedImpulse> pushed);
+    /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
+    double swing_rate() const;
+
+    /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false where
+    /// a limit is violated or a joint is loaded well beyond its strength.
+    bool finish(std::span<const PushedImpulse> pushed);
+
+private:
+    struct Sample {
+        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // on the joint's second body
+        Vec3 point = Vec3::Zero(), rate = Vec3::Zero();    // m, m/s
+    };
+    struct Behind {  // the bodies behind a joint
+        Vec3 momentum = Vec3::Zero(), moment = Vec3::Zero();
+        double work = 0.0;
+    };
+    struct Start {  // of a body
+        Vec3 position, momentum, angular_momentum;
+        double energy;  // J, kinetic
+    };
+    Sample joint_sample(const ForwardDynamics& dynamics, int joint, double t) const;
+    void add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes, std::span<const Sample> ends,
+                         double t);
+    bool settle(Joint& joint, int index, const Behind& behind) const;
+
+    const JointTree& tree_;
+    const TreeStep& step_;
+    const FallingFrame& frame_;
+    double time_ = 0.0;  // s, of the last sample
+    bool sampled_ = false;
+    std::vector<Start> starts_;           // by body
+    std::vector<Sample> samples_;         // by joint
+    std::vector<Vec3> momenta_, pushes_;  // N s, by body: of the last sample
+    std::vector<Vec3> moments_,
+        carried_;                       // N m s, by joint: integrals of point x force, and of the frame's place x force
+    std::vector<SpatialForce> forces_;  // by node
+};
+
+}  // namespace tumble

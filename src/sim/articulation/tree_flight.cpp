@@ -1,0 +1,320 @@
+#include "sim/articulation/tree_flight.h"
+
+#include "sim/articulation/settings.h"
+#include "sim/dynamics/integrators/extrapolation.h"
+#include "sim/dynamics/integrators/runge_kutta_4.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+constexpr int pushed_numbers = 7;  // by body
+
+// m / length where a coordinate is a displacement.
+bool is_length(const TreeNode& node, int k, bool speed) {
+    if (node.kind == TreeNode::Kind::prismatic) return true;
+    return node.kind == TreeNode::Kind::free && (speed ? k >= 3 : k < 3);
+}
+
+}  // namespace
+
+// Of the bodies' present momenta, about their center of mass.
+TreeFlight::Totals TreeFlight::totals() const {
+    Totals sum;
+    for (const std::uint32_t i : step_->island) {
+        const Body& body = step_->bodies[i];
+        sum.mass += body.mass;
+        sum.momentum += body.momentum;
+        sum.angular_momentum += body.angular_momentum;
+    }
+    const Vec3 mean = sum.momentum / sum.mass;
+    for (const std::uint32_t i : step_->island) {
+        const Body& body = step_->bodies[i];
+        const Vec3 place = body.position - tree_.origin();
+        sum.angular_momentum += place.cross(body.momentum - body.mass * mean);
+        sum.center += body.mass / sum.mass * place;
+    }
+    return sum;
+}
+
+bool TreeFlight::start() {
+    const TreeStep& step = *step_;
+    if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
+    pushed_ = false;
+    for (const std::uint32_t i : step.island)
+        pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
+    const int n = int(step.island.size());
+    coordinates_ = tree_.coordinates();
+    extras_ = coordinates_ + tree_.speeds();
+    y_ = Vector::Zero(extras_ + (pushed_ ? 1 + pushed_numbers * n + 6 : 0));
+    pushes_.assign(pushed_ ? step.island.size() : 0, {});
+    time_ = 0.0;
+    evaluations_ = 0;
+    frame_ = {tree_.origin(), Vec3::Zero(), step.forces.gravity()};
+    if (tree_.is_free()) {
+        start_ = totals();
+        frame_.velocity = start_.momentum / start_.mass;
+    }
+    tree_.start(y_.data());
+    dynamics_.move(y_.data(), y_.data() + coordinates_);
+    std::vector<SpatialMotion> velocities;
+    for (const std::uint32_t i : step.island)
+        velocities.push_back({step.bodies[i].angular_velocity, step.bodies[i].velocity - frame_.velocity});
+    dynamics_.find_speeds(velocities, y_.data() + coordinates_);
+    return y_.allFinite() && fits();
+}
+
+// Whether the bodies' velocities are those of the tree.
+bool TreeFlight::fits() const {
+    double fastest = 0.0, off = 0.0;
+    for (std::size_t i = 0; i < step_->island.size(); ++i) {
+        const Body& body = step_->bodies[step_->island[i]];
+        const ForwardDynamics::Link& link = dynamics_.link(tree_.node_of_body()[i]);
+        fastest = std::max({fastest, body.velocity.norm(), step_->length * body.angular_velocity.norm()});
+        off = std::max({off, (link.center_velocity() + frame_.velocity - body.velocity).norm(),
+                        step_->length * (link.velocity.turn - body.angular_velocity).norm()});
+    }
+    return off <= tuning::tree_misfit * fastest;
+}
+
+TreeFlight::Vector TreeFlight::rate(const Vector& y) {
+    Vector dy(y.size());
+    const double *q = y.data(), *speeds = q + coordinates_;
+    dynamics_.move(q, speeds);
+    if (pushed_) add_pushes(y, dy);
+    dynamics_.accelerate(tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity), dy.data() + coordinates_);
+    dynamics_.coordinate_rates(q, speeds, dy.data());
+    ++evaluations_;
+    return dy;
+}
+
+// Forces beside gravity, for the velocities in the scene; their impulses and moments are taken in the falling frame.
+void TreeFlight::add_pushes(const Vector& y, Vector& dy) {
+    const double t = y[extras_];
+    dy[extras_] = 1.0;
+    const bool free = tree_.is_free();
+    const Vec3 speed = free ? frame_.speed(t) : Vec3(Vec3::Zero());
+    const Vec3 behind = free ? Vec3(Vec3::Zero()) : Vec3(0.5 * t * t * frame_.gravity);
+    Vec3 center = Vec3::Zero(), moment = Vec3::Zero(), impulse = Vec3::Zero(), force = Vec3::Zero();
+    double mass = 0.0;
+    for (std::size_t i = 0; i < step_->island.size(); ++i) {
+        const std::uint32_t index = step_->island[i];
+        const Body& body = step_->bodies[index];
+        const int node = tree_.node_of_body()[i];
+        const ForwardDynamics::Link& link = dynamics_.link(node);
+        const Mat3 rotation = link.rotation * tree_.nodes()[std::size_t(node)].principal.conjugate().toRotationMatrix();
+        const Vec3 velocity = link.center_velocity() + speed, place = link.position();
+        Wrench wrench = step_->forces.at(index, body, velocity, rotation, law_time_);
+        wrench.force -= body.mass * frame_.gravity;
+        pushes_[i] = wrench;
+        dynamics_.push(node, wrench);
+        const Eigen::Index at = extras_ + 1 + pushed_numbers * Eigen::Index(i);
+        const Vec3 about = (place - behind).cross(wrench.force) + wrench.torque;
+        dy.segment<3>(at) = wrench.force;
+        dy.segment<3>(at + 3) = about;
+        dy[at + 6] = wrench.force.dot(velocity) + wrench.torque.dot(link.velocity.turn);
+        mass += body.mass;
+        center += body.mass * place;
+        moment += place.cross(wrench.force) + wrench.torque;
+        force += wrench.force;
+        impulse += y.segment<3>(at);
+    }
+    dy.segment<3>(y.size() - 6) = moment - (center / mass).cross(force);
+    dy.segment<3>(y.size() - 3) = impulse / mass;
+}
+
+double TreeFlight::error_of(const Vector& difference, double scale) const {
+    double worst = 0.0;
+    for (const TreeNode& node : tree_.nodes()) {
+        for (int k = 0; k < node.coordinates(); ++k)
+            worst =
+                std::max(worst, std::abs(difference[node.at + k]) / (is_length(node, k, false) ? step_->length : 1.0));
+        for (int k = 0; k < node.speeds(); ++k)
+            worst = std::max(worst, std::abs(difference[coordinates_ + node.speed_at + k]) /
+                                        (scale * (is_length(node, k, true) ? step_->length : 1.0)));
+    }
+    return worst;
+}
+
+// Rate of change of the motion, 1/s: speeds, and roots of accelerations.
+double TreeFlight::fastest(const Vector& y, const Vector& dy) const {
+    double worst = 0.0;
+    for (const TreeNode& node : tree_.nodes())
+        for (int k = 0; k < node.speeds(); ++k) {
+            const double unit = is_length(node, k, true) ? step_->length : 1.0;
+            const Eigen::Index at = coordinates_ + node.speed_at + k;
+            worst = std::max({worst, std::abs(y[at]) / unit, std::sqrt(std::abs(dy[at]) / unit)});
+        }
+    return worst;
+}
+
+// The change over h, from three results on until the error is rounding; returns the error in units of the tolerance. Two
+// results in succession differ by the error of the former; that of the latter is smaller by as much again.
+double TreeFlight::extrapolate(const Vector& first, double h, double scale, Vector& change) {
+    using namespace extrapolation;
+    constexpr auto table = [] {
+        std::array<std::array<double, columns>, columns + 1> list{};
+        for (std::size_t k = 1; k <= columns; ++k) list[k] = weights(k);
+        return list;
+    }();
+    std::array<Vector, columns> results;
+    double last = infinity, error = infinity;
+    Vector before;
+    for (std::size_t k = 0; k < columns; ++k) {
+        results[k] = midpoint_change(y_, first, h, counts[k], [this](const Vector& y) { return rate(y); });
+        before = change;
+        change = Vector::Zero(y_.size());
+        for (std::size_t i = 0; i <= k; ++i) change += table[k + 1][i] * results[i];
+        if (k == 0) continue;
+        const double now = error_of(change - before, scale);
+        if (!std::isfinite(now)) return infinity;
+        error = now * std::min(1.0, now / last) / tuning::tree_tolerance;
+        last = now;
+        if (k >= 2 && error <= 1.0) break;
+    }
+    return error;
+}
+
+void TreeFlight::normalize() {
+    for (const TreeNode& node : tree_.nodes()) {
+        if (node.kind == TreeNode::Kind::ball) y_.segment<4>(node.at).normalize();
+        if (node.kind == TreeNode::Kind::free) y_.segment<4>(node.at + 3).normalize();
+    }
+}
+
+std::vector<PushedImpulse> TreeFlight::pushed_impulses() const {
+    std::vector<PushedImpulse> list;
+    if (!pushed_) return list;
+    for (std::size_t i = 0; i < step_->island.size(); ++i) {
+        const Eigen::Index at = extras_ + 1 + pushed_numbers * Eigen::Index(i);
+        list.push_back({y_.segment<3>(at), y_.segment<3>(at + 3), y_[at + 6]});
+    }
+    return list;
+}
+
+// After rate(y_).
+void TreeFlight::sample() { account_->sample(dynamics_, time_, pushes_, pushed_impulses()); }
+
+bool TreeFlight::integrate(double until, bool exact) {
+    const double span = until - time_, least = span / tuning::tree_most_steps, begin = time_;
+    double size = span, done = 0.0;
+    for (bool fresh = true; done < span; fresh = false) {
+        const Vector first = rate(y_);
+        sample();
+        const double scale = std::max(fastest(y_, first), account_->swing_rate());
+        if (fresh || !exact) size = span / std::max(1.0, std::ceil(span * scale / tuning::tree_phase));
+        // Equal steps over the rest.
+        const double rest = span - done;
+        size = rest / std::ceil(rest / size * (1.0 - 1e-12));
+        Vector change = Vector::Zero(y_.size());
+        if (exact) {
+            double error = extrapolate(first, size, scale, change);
+            while (!(error <= 1.0) && size > least) {
+                size *= 0.5;
+                error = extrapolate(first, size, scale, change);
+            }
+        } else {
+            change = runge_kutta_4(y_, size, [this](const Vector& y) { return rate(y); }) - y_;
+        }
+        if (!change.allFinite()) return false;
+        y_ += change;
+        normalize();
+        const bool last = size >= rest * (1.0 - 1e-12);
+        done = last ? span : done + size;
+        time_ = begin + done;
+        size = std::min(2.0 * size, span);
+    }
+    time_ = until;
+    return true;
+}
+
+// Places the bodies, with a rigid motion of a free tree that gives the whole its place and its momenta.
+void TreeFlight::place() {
+    const std::size_t n = step_->island.size();
+    const double h = step_->h;
+    const bool free = tree_.is_free();
+    Vec3 shift = Vec3::Zero(), turn = Vec3::Zero(), center = Vec3::Zero(), push = Vec3::Zero();
+    Vec3 wanted = Vec3::Zero(), moment = start_.angular_momentum, place = start_.center;
+    if (free) {
+        Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
+        const auto link_of = [&](std::size_t i) -> const ForwardDynamics::Link& {
+            return dynamics_.link(tree_.node_of_body()[i]);
+        };
+        for (std::size_t i = 0; i < n; ++i) {
+            const double mass = step_->bodies[step_->island[i]].mass;
+            center += mass / start_.mass * link_of(i).position();
+            momentum += mass * link_of(i).center_velocity();
+        }
+        const Vec3 mean = momentum / start_.mass;
+        Mat3 inertia = Mat3::Zero();
+        for (std::size_t i = 0; i < n; ++i) {
+            const Body& body = step_->bodies[step_->island[i]];
+            const TreeNode& node = tree_.nodes()[std::size_t(tree_.node_of_body()[i])];
+            const ForwardDynamics::Link& link = link_of(i);
+            const Mat3 own = link.rotation * node.inertia.asDiagonal() * link.rotation.transpose();
+            const Vec3 arm = link.position() - center;
+            angular += own * link.velocity.turn + body.mass * arm.cross(link.center_velocity() - mean);
+            inertia += own + body.mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+        }
+        if (pushed_) {
+            for (const PushedImpulse& given : pushed_impulses()) wanted += given.push;
+            moment += y_.segment<3>(y_.size() - 6);
+            place += y_.tail<3>();
+        }
+        shift = place - center;
+        turn = inertia.inverse() * (moment - angular);
+        push = wanted / start_.mass - mean;
+    }
+    // The rounding of the momenta goes to the root.
+    Vec3 left = start_.momentum + start_.mass * h * frame_.gravity + wanted, moment_left = moment;
+    const Vec3 base = free ? frame_.place(h) : frame_.origin, speed = free ? frame_.speed(h) : Vec3(Vec3::Zero());
+    // The rounding of the frame's place is the same in each step, and would add up.
+    if (free) shift += h * (frame_.velocity + 0.5 * h * frame_.gravity) - (base - frame_.origin);
+    for (std::size_t i = 0; i < n; ++i) {
+        Body& body = step_->bodies[step_->island[i]];
+        const int at = tree_.node_of_body()[i];
+        const ForwardDynamics::Link& link = dynamics_.link(at);
+        body.orientation = (link.orientation * tree_.nodes()[std::size_t(at)].principal.conjugate()).normalized();
+        body.rotation = body.orientation.toRotationMatrix();
+        body.position = base + (link.position() + shift);
+        const Vec3 omega = link.velocity.turn + turn;
+        const Vec3 velocity = link.center_velocity() + push + turn.cross(link.position() - center) + speed;
+        body.momentum = body.mass * velocity;
+        body.angular_momentum = body.rotation * (body.inertia_body * (body.rotation.transpose() * omega));
+        left -= body.momentum;
+        moment_left -=
+            body.angular_momentum +
+            (link.position() + shift - place).cross(body.momentum - body.mass * (wanted / start_.mass + speed));
+        body.derive();
+    }
+    if (!free) return;
+    Body& root = step_->bodies[step_->island[std::size_t(tree_.order().front().body)]];
+    root.momentum += left;
+    root.angular_momentum += moment_left;
+    root.derive();
+}
+
+TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
+    step_ = &step;
+    if (!start()) return Outcome::declined;
+    account_.emplace(tree_, step, frame_);
+    const double end = step.from + step.h;
+    for (double now = step.from; now < end;) {
+        double next = end;
+        if (pushed_)
+            for (const std::uint32_t i : step.island) next = std::min(next, step.forces.next_change(i, now));
+        law_time_ = 0.5 * (now + next);
+        if (!integrate(next < end ? next - step.from : step.h, method == IntegratorKind::exact))
+            return Outcome::declined;
+        now = next;
+    }
+    rate(y_);
+    sample();
+    place();
+    return account_->finish(pushed_impulses()) ? Outcome::flown : Outcome::stopped;
+}
+
+}  // namespace tumble

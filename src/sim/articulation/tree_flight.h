@@ -1,0 +1,69 @@
+// Flight of joined bodies that form a tree, in joint coordinates: gaps are zero by construction. The state stays that of
+// the bodies: coordinates and speeds are found at the start of a step, and the bodies placed at its end.
+//
+// By extrapolation with as many results and steps as the error demands (integrator = "exact"), or by the method of Runge
+// and Kutta ("rk4"). A free tree is computed in a frame that falls with its center of mass; its momentum and angular
+// momentum at the end are set to those at the start by a rigid motion of the whole.
+#pragma once
+
+#include "sim/articulation/tree_account.h"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+class TreeFlight {
+public:
+    enum class Outcome {
+        flown,
+        declined,  // no tree, or its joints have come apart
+        stopped,   // a limit is met, or a joint breaks: a step for the solver of contacts
+    };
+    /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
+    /// and joints, and leaves them in any state where they have not flown.
+    Outcome advance(const TreeStep& step, IntegratorKind method);
+
+    /// Evaluations of the dynamics in the last step.
+    int evaluations() const { return evaluations_; }
+
+private:
+    using Vector = Eigen::VectorXd;
+    struct Totals {                                                     // of a free tree
+        Vec3 momentum = Vec3::Zero(), angular_momentum = Vec3::Zero();  // about the center of mass
+        Vec3 center = Vec3::Zero();                                     // m, from the tree's origin
+        double mass = 0.0;
+    };
+
+    bool start();
+    bool fits() const;
+    Totals totals() const;
+    Vector rate(const Vector& y);
+    void add_pushes(const Vector& y, Vector& dy);
+    bool integrate(double until, bool exact);
+    double extrapolate(const Vector& first, double h, double scale, Vector& change);
+    double error_of(const Vector& difference, double scale) const;
+    double fastest(const Vector& y, const Vector& dy) const;
+    void normalize();
+    void sample();
+    void place();
+    std::vector<PushedImpulse> pushed_impulses() const;
+
+    const TreeStep* step_ = nullptr;
+    JointTree tree_;
+    ForwardDynamics dynamics_{tree_};
+    FallingFrame frame_;
+    Totals start_;
+    std::optional<TreeAccount> account_;
+    // Coordinates, speeds; where other forces than gravity act also the time, by body their impulse, moment and work, and
+    // the moment about the center of mass and the displacement of the whole.
+    Vector y_;
+    int coordinates_ = 0, extras_ = 0;
+    bool pushed_ = false;
+    double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up
+    std::vector<Wrench> pushes_;          // by body
+    int evaluations_ = 0;
+};
+
+}  // namespace tumble

@@ -1,0 +1,33 @@
+#include "sim/joints/flight_way.h"
+
+namespace tumble {
+
+bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
+    if (joint.gear()) return false;
+    for (std::size_t c = 0; c < joint.count(); ++c)
+        if (joint.axis(c).motor || joint.axis(c).friction > 0.0) return false;
+    if (joint.description.friction_coefficient > 0.0) return false;
+    for (const std::uint32_t i : {joint.a, joint.b})
+        if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
+    return true;
+}
+
+bool has_springs(const Joint& joint) {
+    for (std::size_t c = 0; c < joint.count(); ++c)
+        if (joint.axis(c).spring) return true;
+    return false;
+}
+
+std::optional<IntegratorKind> tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {
+    bool exact = false, splitting = false, runge_kutta = false;
+    for (const std::uint32_t i : joined) {
+        exact = exact || bodies[i].integrator == IntegratorKind::exact;
+        splitting = splitting || bodies[i].integrator == IntegratorKind::splitting;
+        runge_kutta = runge_kutta || bodies[i].integrator == IntegratorKind::runge_kutta_4;
+    }
+    if (exact) return IntegratorKind::exact;
+    if (runge_kutta && !splitting) return IntegratorKind::runge_kutta_4;
+    return std::nullopt;
+}
+
+}  // namespace tumble

@@ -1,0 +1,22 @@
+// How joined bodies move that touch nothing: the rules, by their joints and integrators.
+#pragma once
+
+#include "sim/joints/joint.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Whether the joint does nothing but lock coordinates, or limit or spring them, between bodies whose motion is not
+/// prescribed.
+bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies);
+bool has_springs(const Joint& joint);
+
+/// The method by which joined bodies move in joint coordinates, if their joints are a tree: extrapolation where one body's
+/// integrator is exact; that of Runge and Kutta where one is, and none is splitting.
+std::optional<IntegratorKind> tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined);
+
+}  // namespace tumble
