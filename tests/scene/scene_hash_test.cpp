@@ -369,7 +369,7 @@ TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
         for (const Change& change : table) keys.insert(change.key);
         changed_keys.insert(keys);
     }
-    const std::regex call("expect_keys\\(\\{([^}]*)\\}\\)"), word("\"([^\"]*)\"");
+    const std::regex call("expect_keys\\(\\s*\\{([^}]*)\\}\\)"), word("\"([^\"]*)\"");
     const std::regex of_type("\\{\"([a-z_]*)\", (all_types|of_)");  // joint_keys.cpp
     for (const auto& entry : fs::recursive_directory_iterator(source / "src/scene")) {
         if (entry.path().extension() != ".cpp") continue;
