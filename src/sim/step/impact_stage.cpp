@@ -1,4 +1,5 @@
 #include "sim/step/impact_stage.h"
+#include "sim/joints/joint_set.h"
 
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/integrators/advance.h"
