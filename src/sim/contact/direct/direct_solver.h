@@ -127,12 +127,12 @@ private:
         Vec3 push, turn;  // N s, N m s: by the forces of the step
     };
     std::vector<Start> starts_;
-    double swing_ = 0.0;      // rad, largest phase of a swing in a substep
-    int rounds_ = 0;          // most passes of a substep
-    bool consistent_ = true;  // the impulses fit the velocities
-    bool joint_friction_softens_ = false;
-    bool limits_held_ = false;  // friction's limits no longer follow the loads: the rounds did not settle
-    bool factored_ = false;     // the matrix is that of the rows' weights
+    double swing_ = 0.0;                   // rad, largest phase of a swing in a substep
+    int rounds_ = 0;                       // most passes of a substep
+    bool consistent_ = true;               // the impulses fit the velocities
+    bool joint_friction_softens_ = false;  // the friction of joints is as soft as that of contacts
+    bool limits_held_ = false;             // friction's limits no longer follow the loads: the rounds did not settle
+    bool factored_ = false;                // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
 };

@@ -1,0 +1,166 @@
+// DirectSolver: the passes that close the joints of an island at the end of a step or substep, for its velocities and for
+// the position correction.
+#include "sim/contact/direct/direct_solver.h"
+#include "sim/contact/direct/settings.h"
+#include "sim/dynamics/integrator.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/joints/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+using namespace contact_rows;
+
+// Position correction: push_out() for islands with joints. Contacts push, closed joints stay closed, at the end of the
+// step and to rounding: passes as for the velocities.
+bool DirectSolver::push_joined(const JointIsland& island, bool moved) {
+    const bool overlaps = push_out(island.problem.settings.h);
+    const double mean = total_mass_ / double(masses_.size());
+    const bool apart = joints_.start_push(island, tuning::joint_push_share,
+                                          {tuning::joint_push_apart * mean, tuning::joint_push_closed * total_mass_});
+    if (!overlaps && !apart) return false;
+    if (!factor(true)) {
+        std::fill(push_.begin(), push_.end(), 0.0);
+        return false;
+    }
+    const std::vector<double> contacts = push_;
+    double last = infinity;
+    for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
+        push_ = contacts;
+        joints_.add_push(push_);
+        matrix_.solve(push_);
+        predict_ends(island, moved);
+        const double error = joints_.close_push(island, ends_, push_);
+        if (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
+        if (!(error < last)) break;
+        last = error;
+    }
+    // Overlaps and violated limits that cannot be moved out with closed joints stay.
+    std::fill(push_.begin(), push_.end(), 0.0);
+    return false;
+}
+
+// Factors the matrix, unless it is that of the last factorization: with joints alone, the passes of a step share one.
+bool DirectSolver::factored() {
+    if (joints_.empty()) return factor(false);
+    joints_.evaluate_with_weights();
+    if (constraints_.empty() && factored_ && !joints_.weights_changed()) return true;
+    factored_ = factor(false);
+    return factored_;
+}
+
+// Poses at the end of the step, moved by the velocities of the solve and the push as the bodies will be; `moved`: they
+// have been moved, but for the push.
+void DirectSolver::predict_ends(const JointIsland& island, bool moved) {
+    const double h = island.problem.settings.h;
+    ends_.resize(island.bodies.size());
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        Body& body = island.problem.bodies[island.bodies[k]];
+        const Vec3 push = three(push_, 6 * k), push_turn = three(push_, 6 * k + 3) / length_;
+        if (moved) {
+            ends_[k] = {body.position + h * push,
+                        (from_rotation_vector(h * push_turn) * body.orientation).normalized()};
+            continue;
+        }
+        const Vec3 omega = three(velocity_, 6 * k + 3) / length_ - body.gyration;
+        // The gyroscopic correction is that of the new angular velocity.
+        const Vec3 omega_before = body.angular_velocity, momentum_before = body.angular_momentum;
+        body.angular_velocity = omega;
+        body.angular_momentum = length_ * length_ * (masses_[k].inertia * omega);
+        const Vec3 turn = omega + gyration(body, h) + push_turn;
+        body.angular_velocity = omega_before;
+        body.angular_momentum = momentum_before;
+        ends_[k].position = body.position + h * (three(velocity_, 6 * k) + push);
+        ends_[k].orientation = (from_rotation_vector(h * turn) * body.orientation).normalized();
+    }
+}
+
+// One Newton step, where it solves the whole problem: joints alone, none of which reaches or leaves a bound. The rest is
+// rounding, and left to the next pass.
+bool DirectSolver::step_linear() {
+    if (!constraints_.empty()) return false;
+    joints_.evaluate_speeds(velocity_);
+    gradient(gradient_);
+    if (!factored()) return false;
+    for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
+    matrix_.solve(step_);
+    for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += step_[i];
+    joints_.evaluate_speeds(velocity_);
+    joints_.evaluate_with_weights();
+    if (joints_.weights_changed()) factored_ = false;
+    return factored_;
+}
+
+// Beside contacts, and where Newton's method stalls on its bounds, the friction of joints starts soft as that of contacts.
+void DirectSolver::set_friction_compliance(double compliance) {
+    friction_compliance_ = compliance;
+    if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
+}
+
+// Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
+// the last solution.
+DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
+    joint_friction_softens_ = !constraints_.empty();
+    set_friction_compliance(tuning::direct_friction_soft * compliance_);
+    start();
+    const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
+    const double noise = joints_.rounding(fastest_);  // N s
+    const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
+    const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
+    consistent_ = true;
+    limits_held_ = false;
+    double last = infinity;
+    int slow = 0;  // passes in a row that do not contract
+    bool found = false;
+    for (int round = 0; round < tuning::joint_rounds; ++round) {
+        if (found) kept_ = velocity_;
+        const bool trial = !joint_friction_softens_ && joints_.any_friction();
+        const int most_steps = found   ? tuning::joint_newton_steps
+                               : trial ? tuning::joint_trial_newton_steps
+                                       : tuning::joint_first_newton_steps;
+        if (!step_linear() && !minimize(most_steps)) {
+            if (found) {
+                velocity_ = kept_;
+                joints_.keep_estimates();
+                for (ConstraintRows& constraint : constraints_)
+                    each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
+            }
+            if (!found && trial) {
+                joint_friction_softens_ = true;
+                set_friction_compliance(tuning::direct_friction_soft * compliance_);
+                start();
+                continue;
+            }
+            consistent_ = found;
+            return found && last < rounding ? Closing::closed : Closing::stuck;
+        }
+        found = true;
+        rounds_ = std::max(rounds_, round + 1);
+        const auto [change, largest] = next_round();
+        std::fill(push_.begin(), push_.end(), 0.0);
+        predict_ends(island, false);
+        const double error = joints_.close(island, ends_);
+        if (!std::isfinite(error)) return Closing::open;
+        const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
+        const bool settled =
+            change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
+        if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
+        // Friction may change slowly from round to round; the joints are closed all the same.
+        if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
+            return Closing::closed;
+        slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
+        if (slow >= 3) {
+            if (constraints_.empty() || limits_held_) return Closing::open;
+            limits_held_ = true;
+            slow = 0;
+        }
+        last = error;
+        set_friction_compliance(std::max(friction_compliance_ * tuning::direct_friction_stiffening,
+                                         tuning::direct_friction_stiff * compliance_));
+    }
+    return last < rounding ? Closing::closed : Closing::open;
+}
+
+}  // namespace tumble
