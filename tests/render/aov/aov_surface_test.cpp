@@ -248,20 +248,26 @@ TEST(AovSurface, PartsOfACompoundAreOneBodyWithTheirOwnColors) {
     }
 }
 
-TEST(AovSurface, ACordIsACylinder) {
+TEST(AovSurface, ACordIsACylinderWithEnds) {
     SceneDescription scene = empty_scene();
     scene.bodies = {ball_body(Vec3(0.0, 0.2, 0.0), 0.4, {})};
     scene.cords.push_back({0, Vec3(0.0, 0.4, 0.0), Vec3(0.5, 2.5, 0.5), 0.15, {60, 61, 62}});
     const AovFrame frame = made(scene);
     const WorldView view(scene);
     const Vec3 from(0.5, 2.5, 0.5), to(0.0, 0.6, 0.0), axis = (to - from).normalized();
-    int pixels = 0;
+    int pixels = 0, of_end = 0;
     for_pixels(scene, [&](std::size_t pixel, int column, int row) {
         if (frame.segmentation[pixel] != 2) return;
         ++pixels;
         const Vec3 p = view.ray(column, row).at(frame.depth[pixel]) - from;
         const double along = axis.dot(p);
         const Vec3 out = p - along * axis;
+        if ((normal_at(frame, pixel) + axis).norm() < 2e-5) {  // the upper end
+            ++of_end;
+            EXPECT_NEAR(along, 0.0, 1e-6);
+            EXPECT_LE(out.norm(), 0.15 + 1e-6);
+            return;
+        }
         EXPECT_NEAR(out.norm(), 0.15, 2e-6);
         EXPECT_GE(along, -1e-6);
         EXPECT_LE(along, (to - from).norm() + 1e-6);
@@ -269,6 +275,7 @@ TEST(AovSurface, ACordIsACylinder) {
         EXPECT_EQ(frame.albedo[3 * pixel], 60);
     });
     EXPECT_GT(pixels, 300);
+    EXPECT_GT(of_end, 3);
 }
 
 TEST(AovSurface, ArraysThatAreNotRequestedStayEmpty) {
