@@ -34,7 +34,7 @@ class Smoke(unittest.TestCase):
         for row in self.rows:
             self.assertEqual(len(row), len(HEADER), row)
             self.assertEqual(row[1], "Tumble")
-            self.assertIn(row[8], ("pass", "fail"), row)
+            self.assertIn(row[8], ("pass", "fail", "late"), row)  # late: its time was up, as on a busy machine
             self.assertGreaterEqual(float(row[7]), 0.0, row)
 
     def test_every_case_runs(self):
