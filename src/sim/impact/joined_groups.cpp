@@ -1,12 +1,12 @@
 #include "sim/impact/joined_groups.h"
 
+#include "core/disjoint_sets.h"
 #include "sim/impact/settings.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tumble {
 namespace {
@@ -51,12 +51,7 @@ JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vec
       group_of_(bodies.size(), no_place),
       joints_(joints) {
     const std::size_t n = bodies.size();
-    std::vector<std::uint32_t> parent(n);
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    DisjointSets sets(n);
     const auto index = [&](std::uint32_t body) {
         return body == Joint::world || !all[body].dynamic() ? no_place : position_in(bodies_, body);
     };
@@ -65,12 +60,12 @@ JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vec
         const std::uint32_t a = index(joint->a), b = index(joint->b);
         for (const std::uint32_t i : {a, b})
             if (i != no_place) has_joint[i] = 1;
-        if (a != no_place && b != no_place) parent[std::max(root(a), root(b))] = std::min(root(a), root(b));
+        if (a != no_place && b != no_place) sets.join(a, b);
     }
     // The root of a group is its lowest body. Groups in the order of their roots, the bodies of each ascending.
     std::vector<std::uint32_t> group(n, no_place);
     for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t r = root(i);
+        const std::size_t r = sets.root(i);
         if (group[r] == no_place) {
             group[r] = std::uint32_t(groups_.size());
             groups_.emplace_back();

@@ -1,28 +1,22 @@
 #include "sim/joints/joint_groups.h"
 
+#include "core/disjoint_sets.h"
 #include "core/sort_unique.h"
 
 #include <algorithm>
-#include <numeric>
 
 namespace tumble {
 
 std::vector<JointGroup> find_joint_groups(const JointSet& joints, const std::vector<Body>& bodies) {
     const auto dynamic = [&](std::uint32_t i) { return i != Joint::world && bodies[i].dynamic(); };
-    std::vector<std::uint32_t> parent(bodies.size());
-    std::iota(parent.begin(), parent.end(), 0u);
-    const auto root = [&](std::uint32_t i) {
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
-    };
+    DisjointSets sets(bodies.size());
+    const auto root = [&](std::uint32_t i) { return std::uint32_t(sets.root(i)); };
     std::vector<std::uint32_t> holding;
     for (const std::uint32_t k : joints.active())
         if (!joints.joints()[k].broken) holding.push_back(k);
     for (const std::uint32_t k : holding) {
         const Joint& joint = joints.joints()[k];
-        if (!dynamic(joint.a) || !dynamic(joint.b)) continue;
-        const std::uint32_t a = root(joint.a), b = root(joint.b);
-        parent[std::max(a, b)] = std::min(a, b);
+        if (dynamic(joint.a) && dynamic(joint.b)) sets.join(joint.a, joint.b);
     }
     std::vector<std::uint32_t> lowest;
     for (const std::uint32_t k : holding) {

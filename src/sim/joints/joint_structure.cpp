@@ -1,5 +1,6 @@
 #include "sim/joints/joint_structure.h"
 
+#include "core/disjoint_sets.h"
 #include "sim/joints/flight_way.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
@@ -7,7 +8,6 @@
 #include <Eigen/QR>
 
 #include <algorithm>
-#include <numeric>
 
 namespace tumble {
 namespace {
@@ -32,22 +32,15 @@ std::size_t locked_rows(const JointGroup& group, const JointSet& joints) {
 // Joints beyond those of trees, with one node for all that is fixed; gears form none.
 std::size_t loops_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
     const std::size_t fixed = group.bodies.size();
-    std::vector<std::size_t> parent(fixed + 1);
-    std::iota(parent.begin(), parent.end(), std::size_t(0));
-    const auto root = [&](std::uint32_t body) {
-        std::size_t i = fixed;
-        if (is_dynamic(bodies, body))
-            i = std::size_t(std::lower_bound(group.bodies.begin(), group.bodies.end(), body) - group.bodies.begin());
-        while (parent[i] != i) i = parent[i] = parent[parent[i]];
-        return i;
+    DisjointSets sets(fixed + 1);
+    const auto node = [&](std::uint32_t body) {
+        if (!is_dynamic(bodies, body)) return fixed;
+        return std::size_t(std::lower_bound(group.bodies.begin(), group.bodies.end(), body) - group.bodies.begin());
     };
     std::size_t loops = 0;
     for (const std::uint32_t k : group.joints) {
         const Joint& joint = joints.joints()[k];
-        if (joint.gear()) continue;
-        const std::size_t a = root(joint.a), b = root(joint.b);
-        loops += a == b;
-        parent[a] = b;
+        if (!joint.gear()) loops += !sets.join(node(joint.a), node(joint.b));
     }
     return loops;
 }

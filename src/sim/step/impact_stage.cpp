@@ -1,5 +1,4 @@
 #include "sim/step/impact_stage.h"
-#include "sim/joints/joint_set.h"
 
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/integrators/advance.h"
@@ -7,6 +6,7 @@
 #include "sim/geometry/contact_tolerance.h"
 #include "sim/impact/joint_strength.h"
 #include "sim/impact/settings.h"
+#include "sim/joints/joint_set.h"
 #include "sim/log/contact_log.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/step_context.h"

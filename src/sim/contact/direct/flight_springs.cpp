@@ -1,5 +1,6 @@
 // JointFlight: springs without dampers act as other forces do, half a kick at both ends of a stage.
 #include "sim/contact/direct/joint_flight.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -18,9 +19,7 @@ struct SpringForce {
 
 template <class Visit>
 void each_spring(const Joint& joint, const std::vector<Body>& bodies, const Visit& visit) {
-    bool any = false;
-    for (std::size_t k = 0; k < joint.count(); ++k) any = any || joint.axis(k).spring;
-    if (!any) return;
+    if (!has_springs(joint)) return;
     const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
     for (std::size_t k = 0; k < joint.count(); ++k) {
         if (!joint.axis(k).spring) continue;

@@ -1,42 +1,18 @@
 // JointRows: gears. A gear's impulse acts along the coordinates of its two joints, for each equal and opposite on the
 // two bodies and at one point.
+#include "core/disjoint_sets.h"
 #include "sim/contact/direct/joint_rows.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace tumble {
-namespace {
-
-/// Sets of numbers that are joined pair by pair.
-class Sets {
-public:
-    explicit Sets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
-    /// False if both are in one set already.
-    bool join(std::size_t a, std::size_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[a] = b;
-        return a != b;
-    }
-
-private:
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    std::vector<std::size_t> parent_;
-};
-
-}  // namespace
-
 // Without loops of joints all coordinates are independent, and gears whose joints form no ring are, too.
 bool JointRows::geared_forest(const JointIsland& island) const {
     const std::vector<std::uint32_t>& active = island.problem.joints->active();
-    Sets bodies(island.bodies.size() + 1), joints(island.joints.size());
+    DisjointSets bodies(island.bodies.size() + 1), joints(island.joints.size());
     const auto node = [&](std::uint32_t body) {
         const int place = contact_rows::place_of(island.bodies, body);
         return place == none ? island.bodies.size() : std::size_t(place);  // all that is fixed is one node

@@ -52,7 +52,7 @@ public:
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
         bool closes = false;       // takes part in close()
-        bool soft = false;         // a spring: its estimate stays 0
+        bool soft = false;         // its estimate stays 0: a spring; in a push, a row whose error is moved out
         bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
@@ -113,8 +113,8 @@ public:
     /// Fastest speed (m/s) that the rigid rows demand of velocities u.
     double demand(const std::vector<double>& u) const;
 
-    /// Takes the impulses as the next estimates; friction follows the load of bearings if `follow`. Returns the largest change and the
-    /// largest impulse, N s.
+    /// Takes the impulses as the next estimates; friction follows the load of bearings if `follow`. Returns the largest
+    /// change and the largest impulse, N s.
     std::pair<double, double> next_round(bool follow);
     void keep_estimates();
     bool any_friction() const;
