@@ -131,7 +131,7 @@ bool GroupFlights::start(std::uint32_t group, const EventTime& now, double span,
     for (const std::uint32_t k : groups_[group].joints) flight.substeps = std::max(flight.substeps, joints[k].substeps);
     flight.flies = fly(group, span);
     flight.last = flight.there;
-    const bool easy = flight_.swing() < 0.4 * tuning::joint_swing;
+    const bool easy = flight_.swing() < tuning::joint_easy_swing;
     for (const std::uint32_t k : groups_[group].joints) {
         joints[k].substeps = easy ? std::max(1, flight.substeps / 2) : flight.substeps;
         joints[k].account.step = {};

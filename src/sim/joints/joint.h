@@ -28,7 +28,8 @@ struct Joint {
     Quat frame_a = Quat::Identity(), frame_b = Quat::Identity();  // joint frame to body frame
     double size = 0.0;                                            // m, of its smaller body: unit of tolerances
     std::array<JointSpring, coordinates> springs;                 // with stiffness and damping in physical units
-    bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
+    bool soft = false;       // has springs, motors, friction or limits: forces that depend on its motion
+    std::uint8_t locks = 0;  // bit k: coordinate k is locked
 
     // State.
     int substeps = 1;    // of its island in the next step, a power of two
@@ -50,7 +51,9 @@ struct Joint {
     const JointAxis& axis(std::size_t coordinate) const {
         return coordinate < 3 ? description.move[coordinate] : description.turn[coordinate - 3];
     }
-    bool locked(std::size_t coordinate) const { return axis(coordinate).motion == JointAxis::Motion::locked; }
+    bool locked(std::size_t coordinate) const { return (locks >> coordinate & 1) != 0; }
+    /// Takes the description over.
+    void describe(const JointDescription& joint);
     /// A ball, whose spring and friction act about all axes alike.
     bool turns_alike() const { return description.type == JointType::ball && !locked(3) && !locked(4) && !locked(5); }
     /// Number of coordinates: the others do not exist.
@@ -58,10 +61,10 @@ struct Joint {
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps, active, broken,
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks, substeps, active, broken,
                broken_at, value, impulse, curving, constraint_force, constraint_rate, force, torque, point, account] =
             self;
-        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
+        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks);
         archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rate,
                      force, torque, point, account);
     }
@@ -90,7 +93,21 @@ struct JointGeometry {
     double swing_limit = 0.0;  // rad, half angle of the cone in the direction of the swing
 };
 
+/// Where the two frames of a joint are, world.
+struct JointFrames {
+    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();        // m
+    Mat3 a = Mat3::Identity(), b = Mat3::Identity();              // columns: axes of the frames
+    Quat turn_a = Quat::Identity(), turn_b = Quat::Identity();    // the same; of joints that lock all turns, else unused
+};
+
+/// Sets the locked coordinates, and leaves the others alone.
+void measure_locks(const Joint& joint, const JointFrames& frames,
+                   std::array<JointCoordinate, Joint::coordinates>& coordinates);
+
 /// Whole turns are counted from Joint::value.
 JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b);
+
+/// Whether a limit is violated.
+bool beyond_limit(const Joint& joint, const JointGeometry& g);
 
 }  // namespace tumble

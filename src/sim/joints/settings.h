@@ -24,6 +24,9 @@ inline constexpr double joint_stall = 1e-9;
 /// and the motion grows without bound from a phase of 1 to 2 on. Related test: JointStatics.AWreckingBall.
 inline constexpr double joint_swing = 0.7;
 
+/// Phase, rad, below which the next step is tried with half the substeps. Not fitted: half the substeps double it.
+inline constexpr double joint_easy_swing = 0.4 * joint_swing;
+
 /// Largest number of substeps: for that phase; where passes do not converge; and where contacts do not. Not fitted:
 /// bounds of the cost.
 inline constexpr int joint_swing_substeps = 1024;
