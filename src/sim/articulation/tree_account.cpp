@@ -191,7 +191,7 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     }
     joint.impulse = {};
     joint.curving = {};
-    joint.constraint_rate = {};
+    joint.constraint_rates = {};
     const Sample& end = samples_[k];
     for (std::size_t c = 0; c < joint.count(); ++c) {
         if (!joint.locked(c)) continue;

@@ -13,6 +13,17 @@
 
 namespace tumble {
 
+/// Change (1/s) of a force in flight from the velocities' fit to the next drift, and from the drift to the next fit: their
+/// first estimates follow from it.
+struct ConstraintRates {
+    double closing = 0.0, fitting = 0.0, closing_before = 0.0, fitting_before = 0.0;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [closing, fitting, closing_before, fitting_before] = self;
+        archive.keep(closing, fitting, closing_before, fitting_before);
+    }
+};
+
 struct Joint {
     static constexpr std::uint32_t world = UINT32_MAX;  // in place of a body
     static constexpr std::size_t coordinates = 6;
@@ -40,8 +51,9 @@ struct Joint {
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
     std::array<double, coordinates>
         curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
-    // Half of the forces (N and N m) of the locked coordinates at the end of the last flight, and their rate of change (1/s).
-    std::array<double, coordinates> constraint_force{}, constraint_rate{};
+    // Half of the forces (N and N m) of the locked coordinates at the end of the last flight.
+    std::array<double, coordinates> constraint_force{};
+    std::array<ConstraintRates, coordinates> constraint_rates{};
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
     Vec3 point = Vec3::Zero();                         // m, world: where the force acts
     JointAccount account;
@@ -62,10 +74,10 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks, substeps, active, broken,
-               broken_at, value, impulse, curving, constraint_force, constraint_rate, force, torque, point, account] =
+               broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque, point, account] =
             self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks);
-        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rate,
+        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates,
                      force, torque, point, account);
     }
 };

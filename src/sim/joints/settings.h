@@ -69,6 +69,10 @@ inline constexpr double joint_flight_fits = 1e-15;
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
 
+/// Factor of these two tolerances for flights of second order, whose own error is larger by orders of magnitude. Saves a
+/// pass in most steps. Not fitted: rounding, still.
+inline constexpr double joint_flight_coarse = 20.0;
+
 /// Largest phase, rad, of a spring in a step of flight: the error of a kick is a 24th of its square. Stiffer springs are
 /// rows of the solver. Not fitted: a tenth of a swing.
 inline constexpr double joint_flight_spring = 0.6;

@@ -84,16 +84,20 @@ void FlightLocks::list(const JointIsland& island) {
     tree_ = joints_.size() + 1 == island.bodies.size() + still;
 }
 
-void FlightLocks::load(const JointIsland& island) {
+bool FlightLocks::load(const JointIsland& island) {
     length_ = island.length;
     moving_ = island.bodies.size();
     const std::vector<std::uint32_t>& active = island.problem.joints->active();
     std::vector<Joint>& joints = island.problem.joints->joints();
-    std::vector<std::uint32_t> now;
+    asked_for_.clear();
     for (const std::uint32_t k : island.joints)
-        if (!joints[active[k]].broken) now.push_back(active[k]);
-    listed_ = std::move(now);
-    list(island);
+        if (!joints[active[k]].broken) asked_for_.push_back(active[k]);
+    const bool same = asked_for_ == listed_ && std::ranges::equal(island.bodies, listed_bodies_);
+    if (!same) {
+        listed_ = asked_for_;
+        listed_bodies_.assign(island.bodies.begin(), island.bodies.end());
+        list(island);
+    }
     bodies_.resize(moving_);
     total_mass_ = 0.0;
     for (std::size_t k = 0; k < moving_; ++k) {
@@ -115,6 +119,7 @@ void FlightLocks::load(const JointIsland& island) {
         if (!moves(j.a)) j.a = add_still(island, j.joint->a);
         if (!moves(j.b)) j.b = add_still(island, j.joint->b);
     }
+    return !same;
 }
 
 void FlightLocks::give_back(const JointIsland& island) const {

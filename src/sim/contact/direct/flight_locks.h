@@ -56,7 +56,8 @@ public:
     };
 
     /// The island's joints and bodies in their present states. Bodies that stand still come after those of the island.
-    void load(const JointIsland& island);
+    /// Returns whether they are others than those of the last call.
+    bool load(const JointIsland& island);
     /// The states of the flight to the bodies of the island.
     void give_back(const JointIsland& island) const;
 
@@ -104,7 +105,8 @@ private:
     Vec3 measure_at(const FlightJoint& j, Coordinates& coordinates) const;
     double exact_swing_rate(double h);
 
-    std::vector<std::uint32_t> listed_;  // joints of the island, as indices in the JointSet
+    // Of the list: joints that hold, as indices in the JointSet, and bodies; joints of the present call.
+    std::vector<std::uint32_t> listed_, listed_bodies_, asked_for_;
     std::vector<FlightBody> bodies_;
     std::vector<FlightJoint> joints_;
     std::vector<Lock> locks_;

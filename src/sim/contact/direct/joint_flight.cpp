@@ -61,16 +61,17 @@ int JointFlight::order(const JointIsland& island) {
 
 // The structure of the matrix, for the island's joints.
 void JointFlight::analyze(const JointIsland& island) {
-    locks_.load(island);
-    pairs_.clear();
-    for (FlightLocks::FlightJoint& j : locks_.joints()) {
-        j.pair = std::uint32_t(pairs_.size());
-        if (locks_.moves(j.a) && locks_.moves(j.b)) pairs_.push_back({j.a, j.b});
+    if (locks_.load(island)) {
+        pairs_.clear();
+        springs_ = false;
+        for (FlightLocks::FlightJoint& j : locks_.joints()) {
+            springs_ = springs_ || has_springs(*j.joint);
+            j.pair = std::uint32_t(pairs_.size());
+            if (locks_.moves(j.a) && locks_.moves(j.b)) pairs_.push_back({j.a, j.b});
+        }
+        matrix_.analyze(island.bodies.size(), pairs_);
+        change_.resize(6 * island.bodies.size());
     }
-    matrix_.analyze(island.bodies.size(), pairs_);
-    change_.resize(6 * island.bodies.size());
-    springs_ = false;
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) springs_ = springs_ || has_springs(*j.joint);
     swing_ = 0.0;
     loaded_ = false;
 }
@@ -169,7 +170,7 @@ bool JointFlight::fit() {
             fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
         }
         const double worst = locks_.ask_to_fit();
-        if (!(worst > tuning::joint_flight_fits * std::sqrt(fastest)) || worst >= 0.5 * last)
+        if (!(worst > coarse_ * tuning::joint_flight_fits * std::sqrt(fastest)) || worst >= 0.5 * last)
             return std::isfinite(worst);
         last = worst;
         if (!change()) return false;
@@ -183,20 +184,27 @@ bool JointFlight::fly(const Stage& stage) {
     begin_drift();
     if (!loaded_) {
         if (locks_.look() > tuning::joint_flight_open || !load(h)) return false;
-        closed_ = std::max(tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
+        closed_ = std::max(coarse_ * tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
     }
     const auto each_lock = [&](const auto& visit) {
         for (const FlightLocks::FlightJoint& j : locks_.joints())
             for (FlightLocks::Lock& lock : locks_.locks(j))
                 visit(lock, h / locks_.unit(lock), j.joint->constraint_force[lock.coordinate],
-                      j.joint->constraint_rate[lock.coordinate]);
+                      j.joint->constraint_rates[lock.coordinate]);
     };
     // The force that fitted the velocities at these poses is the first estimate.
     locks_.clear_given();
     if (locks_.tree())
-        each_lock([](FlightLocks::Lock& lock, double to_impulse, double force, double) { lock.given = to_impulse * force; });
+        each_lock([h](FlightLocks::Lock& lock, double to_impulse, double force, const ConstraintRates& rates) {
+            lock.given = to_impulse * (force + h * (2.0 * rates.closing - rates.closing_before));
+        });
     if (!close(h)) return false;
-    each_lock([](const FlightLocks::Lock& lock, double to_impulse, double& force, double) { force = lock.given / to_impulse; });
+    each_lock([h](const FlightLocks::Lock& lock, double to_impulse, double& force, ConstraintRates& rates) {
+        const double last = force;
+        force = lock.given / to_impulse;
+        rates.closing_before = rates.closing;
+        rates.closing = (force - last) / h;
+    });
     add_up();
     swing_ = std::max(swing_, std::abs(h) * locks_.swing_rate(h, tuning::joint_easy_swing / std::abs(h)));
     kick(stage);
@@ -207,14 +215,15 @@ bool JointFlight::fly(const Stage& stage) {
     if (!loaded_) return false;
     locks_.clear_given();
     if (locks_.tree())
-        each_lock([h](FlightLocks::Lock& lock, double to_impulse, double force, double rate) {
-            lock.given = to_impulse * (force + h * rate);
+        each_lock([h](FlightLocks::Lock& lock, double to_impulse, double force, const ConstraintRates& rates) {
+            lock.given = to_impulse * (force + h * (2.0 * rates.fitting - rates.fitting_before));
         });
     if (!fit()) return false;
-    each_lock([h](const FlightLocks::Lock& lock, double to_impulse, double& force, double& rate) {
+    each_lock([h](const FlightLocks::Lock& lock, double to_impulse, double& force, ConstraintRates& rates) {
         const double last = force;
         force = lock.given / to_impulse;
-        rate = (force - last) / h;
+        rates.fitting_before = rates.fitting;
+        rates.fitting = (force - last) / h;
     });
     add_up();
     return true;
@@ -251,6 +260,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
             joint.account.step.work.springs = JointSet::potential(joint, island.problem.bodies);
     }
     const std::vector<double> stages = stages_of(order);
+    coarse_ = stages.size() == 1 ? tuning::joint_flight_coarse : 1.0;
     for (int substep = 0; substep < substeps; ++substep)
         for (const double share : stages) {
             if (!fly({forces, share / substeps, h * (share / substeps)})) return false;

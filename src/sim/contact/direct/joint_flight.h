@@ -65,6 +65,7 @@ private:
     std::vector<double> change_;  // du: six numbers per body
     bool springs_ = false;        // a joint has springs
     bool loaded_ = false;         // locks and matrix are those of the present poses
+    double coarse_ = 1.0;         // factor of the tolerances
     double closed_ = 0.0;         // largest error of closed joints, in sizes of the joint
     double swing_ = 0.0, compliance_ = 0.0;
 };
