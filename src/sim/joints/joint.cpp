@@ -41,10 +41,10 @@ void lock_across(const JointFrames& f, int k, Coordinates& to) {
 struct Turns {
     int free = 0, last_free = 0, last_locked = 0;
 };
-Turns turns_of(const Joint& joint) {
+Turns turns_of(const JointLocks& locks) {
     Turns turns;
     for (int i = 0; i < 3; ++i) {
-        const bool locked = joint.locked(std::size_t(3 + i));
+        const bool locked = locks.has(std::size_t(3 + i));
         (locked ? turns.last_locked : turns.last_free) = i;
         turns.free += !locked;
     }
@@ -98,22 +98,21 @@ void measure_ball(const Joint& joint, const JointFrames& f, JointGeometry& g) {
 
 void Joint::describe(const JointDescription& joint) {
     description = joint;
-    locks = 0;
+    locks = {0, distance(), description.length};
     for (std::size_t k = 0; k < coordinates; ++k)
-        if (axis(k).motion == JointAxis::Motion::locked) locks |= std::uint8_t(1U << k);
+        if (axis(k).motion == JointAxis::Motion::locked) locks.coordinates |= std::uint8_t(1U << k);
 }
 
-void measure_locks(const Joint& joint, const JointFrames& f, Coordinates& to) {
+void measure_locks(const JointLocks& locks, const JointFrames& f, Coordinates& to) {
     const Vec3 apart = f.anchor_b - f.anchor_a;
-    if (joint.distance()) {
+    if (locks.distance) {
         const double length = apart.norm();
-        if (joint.locked(0))
-            to[0] = {length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY()), length - joint.description.length};
+        if (locks.has(0)) to[0] = {length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY()), length - locks.length};
         return;
     }
     for (int i = 0; i < 3; ++i)
-        if (joint.locked(std::size_t(i))) to[std::size_t(i)] = {f.a.col(i), f.a.col(i).dot(apart)};
-    const Turns turns = turns_of(joint);
+        if (locks.has(std::size_t(i))) to[std::size_t(i)] = {f.a.col(i), f.a.col(i).dot(apart)};
+    const Turns turns = turns_of(locks);
     if (turns.free == 0) lock_turns(f, to);
     if (turns.free == 1) lock_axis(f, turns.last_free, to);
     if (turns.free == 2) lock_across(f, turns.last_locked, to);
@@ -136,11 +135,11 @@ JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b
         f.a = f.turn_a.toRotationMatrix();
         f.b = f.turn_b.toRotationMatrix();
     }
-    measure_locks(joint, f, g.coordinates);
+    measure_locks(joint.locks, f, g.coordinates);
     if (joint.distance()) return g;
     for (int i = 0; i < 3; ++i)
         if (!joint.locked(std::size_t(i))) g.coordinates[std::size_t(i)] = {f.a.col(i), f.a.col(i).dot(apart)};
-    const Turns turns = turns_of(joint);
+    const Turns turns = turns_of(joint.locks);
     if (turns.free == 1) measure_hinge(joint, f, turns.last_free, g);
     if (turns.free == 2) measure_universal(joint, f, turns.last_locked, g);
     if (turns.free == 3) measure_ball(joint, f, g);

@@ -24,6 +24,15 @@ struct ConstraintRates {
     }
 };
 
+/// The coordinates that are locked.
+struct JointLocks {
+    std::uint8_t coordinates = 0;  // bit k: coordinate k
+    bool distance = false;         // of a distance joint, whose one coordinate is locked at
+    double length = 0.0;           // m
+
+    bool has(std::size_t coordinate) const { return (coordinates >> coordinate & 1) != 0; }
+};
+
 struct Joint {
     static constexpr std::uint32_t world = UINT32_MAX;  // in place of a body
     static constexpr std::size_t coordinates = 6;
@@ -39,8 +48,8 @@ struct Joint {
     Quat frame_a = Quat::Identity(), frame_b = Quat::Identity();  // joint frame to body frame
     double size = 0.0;                                            // m, of its smaller body: unit of tolerances
     std::array<JointSpring, coordinates> springs;                 // with stiffness and damping in physical units
-    bool soft = false;       // has springs, motors, friction or limits: forces that depend on its motion
-    std::uint8_t locks = 0;  // bit k: coordinate k is locked
+    bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
+    JointLocks locks;
 
     // State.
     int substeps = 1;    // of its island in the next step, a power of two
@@ -63,7 +72,7 @@ struct Joint {
     const JointAxis& axis(std::size_t coordinate) const {
         return coordinate < 3 ? description.move[coordinate] : description.turn[coordinate - 3];
     }
-    bool locked(std::size_t coordinate) const { return (locks >> coordinate & 1) != 0; }
+    bool locked(std::size_t coordinate) const { return locks.has(coordinate); }
     /// Takes the description over.
     void describe(const JointDescription& joint);
     /// A ball, whose spring and friction act about all axes alike.
@@ -73,9 +82,9 @@ struct Joint {
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks, substeps, active, broken,
-               broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque, point, account] =
-            self;
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks, substeps, active,
+               broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque, point,
+               account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks);
         archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates,
                      force, torque, point, account);
@@ -107,13 +116,13 @@ struct JointGeometry {
 
 /// Where the two frames of a joint are, world.
 struct JointFrames {
-    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();        // m
-    Mat3 a = Mat3::Identity(), b = Mat3::Identity();              // columns: axes of the frames
-    Quat turn_a = Quat::Identity(), turn_b = Quat::Identity();    // the same; of joints that lock all turns, else unused
+    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();      // m
+    Mat3 a = Mat3::Identity(), b = Mat3::Identity();            // columns: axes of the frames
+    Quat turn_a = Quat::Identity(), turn_b = Quat::Identity();  // the same; of joints that lock all turns, else unused
 };
 
 /// Sets the locked coordinates, and leaves the others alone.
-void measure_locks(const Joint& joint, const JointFrames& frames,
+void measure_locks(const JointLocks& locks, const JointFrames& frames,
                    std::array<JointCoordinate, Joint::coordinates>& coordinates);
 
 /// Whole turns are counted from Joint::value.

@@ -20,10 +20,10 @@ struct Quarters {
 
     void add_to(BlockCholesky::Block& block, double factor) const {
         for (int r = 0; r < 3; ++r) {
-            block.row[r] += factor * BlockCholesky::Row{vv(r, 0), vv(r, 1), vv(r, 2), vw(r, 0),
-                                                        vw(r, 1), vw(r, 2), 0.0,      0.0};
-            block.row[3 + r] += factor * BlockCholesky::Row{wv(r, 0), wv(r, 1), wv(r, 2), ww(r, 0),
-                                                            ww(r, 1), ww(r, 2), 0.0,      0.0};
+            block.row[r] +=
+                factor * BlockCholesky::Row{vv(r, 0), vv(r, 1), vv(r, 2), vw(r, 0), vw(r, 1), vw(r, 2), 0.0, 0.0};
+            block.row[3 + r] +=
+                factor * BlockCholesky::Row{wv(r, 0), wv(r, 1), wv(r, 2), ww(r, 0), ww(r, 1), ww(r, 2), 0.0, 0.0};
         }
     }
     Quarters transposed() const { return {vv.transpose(), wv.transpose(), vw.transpose(), ww.transpose()}; }
@@ -66,6 +66,9 @@ void FlightLocks::list(const JointIsland& island) {
         j.frame_a = joint.frame_a.toRotationMatrix();
         j.frame_b = joint.frame_b.toRotationMatrix();
         j.size = joint.size;
+        j.locks = joint.locks;
+        j.anchor_a = joint.anchor_a;
+        j.anchor_b = joint.anchor_b;
         j.first = std::uint32_t(locks_.size());
         for (std::size_t k = 0; k < joint.count(); ++k) {
             if (!joint.locked(k)) continue;
@@ -75,7 +78,8 @@ void FlightLocks::list(const JointIsland& island) {
             j.moves += !lock.turns;
         }
         j.count = std::uint32_t(locks_.size()) - j.first;
-        const int a = contact_rows::place_of(island.bodies, joint.a), b = contact_rows::place_of(island.bodies, joint.b);
+        const int a = contact_rows::place_of(island.bodies, joint.a),
+                  b = contact_rows::place_of(island.bodies, joint.b);
         j.a = std::uint32_t(a);
         j.b = std::uint32_t(b);
         still = still || a == contact_rows::none || b == contact_rows::none;
@@ -128,7 +132,8 @@ void FlightLocks::give_back(const JointIsland& island) const {
 
 double FlightLocks::fastest_turn() const {
     double square = 0.0;
-    for (const FlightJoint& j : joints_) square = std::max(square, (bodies_[j.b].spin - bodies_[j.a].spin).squaredNorm());
+    for (const FlightJoint& j : joints_)
+        square = std::max(square, (bodies_[j.b].spin - bodies_[j.a].spin).squaredNorm());
     return std::sqrt(square);
 }
 
@@ -141,22 +146,37 @@ double FlightLocks::place_rounding() const {
     return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest;
 }
 
+void FlightLocks::take_forces() {
+    for (const FlightJoint& j : joints_)
+        for (Lock& lock : locks(j)) {
+            lock.force = j.joint->constraint_force[lock.coordinate];
+            lock.rates = j.joint->constraint_rates[lock.coordinate];
+        }
+}
+
+void FlightLocks::keep_forces() {
+    for (const FlightJoint& j : joints_)
+        for (const Lock& lock : locks(j)) {
+            j.joint->constraint_force[lock.coordinate] = lock.force;
+            j.joint->constraint_rates[lock.coordinate] = lock.rates;
+        }
+}
+
 // Returns the anchor of B.
 Vec3 FlightLocks::measure_at(const FlightJoint& j, Coordinates& coordinates) const {
     const FlightBody &a = bodies_[j.a], &b = bodies_[j.b];
-    const Joint& joint = *j.joint;
     JointFrames frames;
-    frames.anchor_a = a.state.position + a.rotation * joint.anchor_a;
-    frames.anchor_b = b.state.position + b.rotation * joint.anchor_b;
-    if (!joint.distance()) {
-        frames.a.noalias() = a.rotation * j.frame_a;
-        if (j.count > j.moves) frames.b.noalias() = b.rotation * j.frame_b;
+    frames.anchor_a = a.state.position + a.rotation * j.anchor_a;
+    frames.anchor_b = b.state.position + b.rotation * j.anchor_b;
+    if (!j.locks.distance) {
+        frames.a = a.rotation * j.frame_a;
+        if (j.count > j.moves) frames.b = b.rotation * j.frame_b;
         if (j.count == j.moves + 3) {
-            frames.turn_a = a.state.orientation * joint.frame_a;
-            frames.turn_b = b.state.orientation * joint.frame_b;
+            frames.turn_a = a.state.orientation * j.joint->frame_a;
+            frames.turn_b = b.state.orientation * j.joint->frame_b;
         }
     }
-    measure_locks(joint, frames, coordinates);
+    measure_locks(j.locks, frames, coordinates);
     return frames.anchor_b;
 }
 

@@ -17,14 +17,14 @@ namespace tumble {
 
 /// A body in flight; world frame.
 struct FlightBody {
-    RigidState state, start;                                   // now, and at the start of the drift
-    RigidMass inertia;                                         // constant
-    double mass = 0.0;                                         // kg
-    Mat3 inertia_body = Mat3::Zero();                          // kg m^2, body frame
-    bool spherical_top = false;                                // the same inertia in every frame
-    Mat3 rotation = Mat3::Identity();                          // of `state`, body to world
-    Mat3 inverse_inertia = Mat3::Zero();                       // 1/(kg m^2), world
-    Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();         // m/s, rad/s: of `state`
+    RigidState state, start;                            // now, and at the start of the drift
+    RigidMass inertia;                                  // constant
+    double mass = 0.0;                                  // kg
+    Mat3 inertia_body = Mat3::Zero();                   // kg m^2, body frame
+    bool spherical_top = false;                         // the same inertia in every frame
+    Mat3 rotation = Mat3::Identity();                   // of `state`, body to world
+    Mat3 inverse_inertia = Mat3::Zero();                // 1/(kg m^2), world
+    Vec3 velocity = Vec3::Zero(), spin = Vec3::Zero();  // m/s, rad/s: of `state`
 
     /// Rotation and velocities from the state.
     void derive();
@@ -39,20 +39,24 @@ public:
     struct Lock {
         Vec3 direction = Vec3::Zero();    // world, unit vector
         double asked = 0.0, given = 0.0;  // m/s: change of J u that is asked for; N s: impulse
+        double force = 0.0;               // N or N m: Joint::constraint_force, and its rates
+        ConstraintRates rates;
         std::uint8_t coordinate = 0;
         bool turns = false;  // is an angle
     };
     struct FlightJoint {
         Joint* joint = nullptr;
-        std::uint32_t index = 0;                                     // in the JointSet
-        std::uint32_t a = 0, b = 0;                                  // indices of FlightBody
-        std::uint32_t pair = 0;                                      // index in the matrix
-        std::uint32_t first = 0, count = 0;                          // of its locks
-        std::uint32_t moves = 0;                                     // number of locked displacements, which come first
-        double size = 1.0;                                           // m, unit of tolerances
-        Mat3 frame_a = Mat3::Identity(), frame_b = Mat3::Identity(); // joint frame to body frame
-        Vec3 point = Vec3::Zero();                                   // m, world: where the impulses act
-        Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();             // m, from the centers of mass to it
+        std::uint32_t index = 0;                                // in the JointSet
+        std::uint32_t a = 0, b = 0;                             // indices of FlightBody
+        std::uint32_t pair = 0;                                 // index in the matrix
+        std::uint32_t first = 0, count = 0;                     // of its locks
+        std::uint32_t moves = 0;                                // number of locked displacements, which come first
+        double size = 1.0;                                      // m, unit of tolerances
+        JointLocks locks;                                       // Joint::locks; the other constants of the joint:
+        Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();  // m, body frame, from the center of mass
+        Mat3 frame_a = Mat3::Identity(), frame_b = Mat3::Identity();  // joint frame to body frame
+        Vec3 point = Vec3::Zero();                                    // m, world: where the impulses act
+        Vec3 arm_a = Vec3::Zero(), arm_b = Vec3::Zero();              // m, from the centers of mass to it
     };
 
     /// The island's joints and bodies in their present states. Bodies that stand still come after those of the island.
@@ -60,6 +64,9 @@ public:
     bool load(const JointIsland& island);
     /// The states of the flight to the bodies of the island.
     void give_back(const JointIsland& island) const;
+    /// The forces of the locks from the joints, and back to them.
+    void take_forces();
+    void keep_forces();
 
     std::span<FlightBody> bodies() { return std::span(bodies_).first(moving_); }  // those of the island, in its order
     const FlightBody& body(std::uint32_t place) const { return bodies_[place]; }
@@ -68,13 +75,15 @@ public:
     std::span<Lock> locks() { return locks_; }
     std::span<Lock> locks(const FlightJoint& j) { return std::span(locks_).subspan(j.first, j.count); }
     double unit(const Lock& lock) const { return lock.turns ? length_ : 1.0; }  // m, or 1
-    bool tree() const { return tree_; }  // the joints form no loop: their impulses are unique
+    bool tree() const { return tree_; }        // the joints form no loop: their impulses are unique
     double length() const { return length_; }  // m, of the island
     double total_mass() const { return total_mass_; }
     double fastest_turn() const;  // rad/s, of two joined bodies against each other
     /// Rounding of the coordinates, in sizes of the joint.
     double place_rounding() const;
-    JointSide side(std::uint32_t place) const { return {bodies_[place].state.position, bodies_[place].state.orientation}; }
+    JointSide side(std::uint32_t place) const {
+        return {bodies_[place].state.position, bodies_[place].state.orientation};
+    }
 
     /// Directions and arms at the present poses. Returns the largest error, in sizes of the joint.
     double look();

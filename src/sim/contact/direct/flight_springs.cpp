@@ -43,16 +43,17 @@ bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joi
         if (joint.axis(k).spring && (joint.springs[k].damping > 0.0 || joint.turns_alike())) return false;
     double most = 0.0;  // 1/s^2
     const std::vector<Body>& bodies = island.problem.bodies;
-    each_spring(joint, side_of(bodies, joint.a), side_of(bodies, joint.b), [&](const SpringForce& spring, const Vec3& point) {
-        double gives = 0.0;
-        for (const std::uint32_t i : {joint.a, joint.b}) {
-            if (i == Joint::world || !bodies[i].dynamic()) continue;
-            const Body& b = bodies[i];
-            const Vec3 turn = spring.turns ? spring.direction : Vec3((point - b.position).cross(spring.direction));
-            gives += (spring.turns ? 0.0 : b.inverse_mass) + turn.dot(b.inverse_inertia * turn);
-        }
-        most += spring.stiffness * gives;
-    });
+    each_spring(
+        joint, side_of(bodies, joint.a), side_of(bodies, joint.b), [&](const SpringForce& spring, const Vec3& point) {
+            double gives = 0.0;
+            for (const std::uint32_t i : {joint.a, joint.b}) {
+                if (i == Joint::world || !bodies[i].dynamic()) continue;
+                const Body& b = bodies[i];
+                const Vec3 turn = spring.turns ? spring.direction : Vec3((point - b.position).cross(spring.direction));
+                gives += (spring.turns ? 0.0 : b.inverse_mass) + turn.dot(b.inverse_inertia * turn);
+            }
+            most += spring.stiffness * gives;
+        });
     const double h = island.problem.settings.h;
     return h * h * most <= tuning::joint_flight_spring * tuning::joint_flight_spring;
 }

@@ -186,25 +186,19 @@ bool JointFlight::fly(const Stage& stage) {
         if (locks_.look() > tuning::joint_flight_open || !load(h)) return false;
         closed_ = std::max(coarse_ * tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
     }
-    const auto each_lock = [&](const auto& visit) {
-        for (const FlightLocks::FlightJoint& j : locks_.joints())
-            for (FlightLocks::Lock& lock : locks_.locks(j))
-                visit(lock, h / locks_.unit(lock), j.joint->constraint_force[lock.coordinate],
-                      j.joint->constraint_rates[lock.coordinate]);
-    };
     // The force that fitted the velocities at these poses is the first estimate.
     locks_.clear_given();
     if (locks_.tree())
-        each_lock([h](FlightLocks::Lock& lock, double to_impulse, double force, const ConstraintRates& rates) {
-            lock.given = to_impulse * (force + h * (2.0 * rates.closing - rates.closing_before));
-        });
+        for (FlightLocks::Lock& lock : locks_.locks())
+            lock.given =
+                h / locks_.unit(lock) * (lock.force + h * (2.0 * lock.rates.closing - lock.rates.closing_before));
     if (!close(h)) return false;
-    each_lock([h](const FlightLocks::Lock& lock, double to_impulse, double& force, ConstraintRates& rates) {
-        const double last = force;
-        force = lock.given / to_impulse;
-        rates.closing_before = rates.closing;
-        rates.closing = (force - last) / h;
-    });
+    for (FlightLocks::Lock& lock : locks_.locks()) {
+        const double last = lock.force;
+        lock.force = locks_.unit(lock) / h * lock.given;
+        lock.rates.closing_before = lock.rates.closing;
+        lock.rates.closing = (lock.force - last) / h;
+    }
     add_up();
     swing_ = std::max(swing_, std::abs(h) * locks_.swing_rate(h, tuning::joint_easy_swing / std::abs(h)));
     kick(stage);
@@ -215,16 +209,16 @@ bool JointFlight::fly(const Stage& stage) {
     if (!loaded_) return false;
     locks_.clear_given();
     if (locks_.tree())
-        each_lock([h](FlightLocks::Lock& lock, double to_impulse, double force, const ConstraintRates& rates) {
-            lock.given = to_impulse * (force + h * (2.0 * rates.fitting - rates.fitting_before));
-        });
+        for (FlightLocks::Lock& lock : locks_.locks())
+            lock.given =
+                h / locks_.unit(lock) * (lock.force + h * (2.0 * lock.rates.fitting - lock.rates.fitting_before));
     if (!fit()) return false;
-    each_lock([h](const FlightLocks::Lock& lock, double to_impulse, double& force, ConstraintRates& rates) {
-        const double last = force;
-        force = lock.given / to_impulse;
-        rates.fitting_before = rates.fitting;
-        rates.fitting = (force - last) / h;
-    });
+    for (FlightLocks::Lock& lock : locks_.locks()) {
+        const double last = lock.force;
+        lock.force = locks_.unit(lock) / h * lock.given;
+        lock.rates.fitting_before = lock.rates.fitting;
+        lock.rates.fitting = (lock.force - last) / h;
+    }
     add_up();
     return true;
 }
@@ -259,6 +253,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         if (springs_)  // no heat: without dampers
             joint.account.step.work.springs = JointSet::potential(joint, island.problem.bodies);
     }
+    locks_.take_forces();
     const std::vector<double> stages = stages_of(order);
     coarse_ = stages.size() == 1 ? tuning::joint_flight_coarse : 1.0;
     for (int substep = 0; substep < substeps; ++substep)
@@ -268,6 +263,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
             if (stages.size() > 1 || substeps > 1) count_turns();
         }
     locks_.give_back(island);
+    locks_.keep_forces();
     return end(island);
 }
 
@@ -308,7 +304,7 @@ bool JointFlight::end(const JointIsland& island) {
         joint.curving = {};
         joint.point = j.point;
         for (const FlightLocks::Lock& lock : locks_.locks(j))
-            joint.impulse[lock.coordinate][Joint::lock] = 2.0 * joint.constraint_force[lock.coordinate] * h;
+            joint.impulse[lock.coordinate][Joint::lock] = 2.0 * lock.force * h;
     }
     return true;
 }
