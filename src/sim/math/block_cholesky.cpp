@@ -187,11 +187,12 @@ TUMBLE_WIDE void BlockCholesky::solve(std::vector<double>& x) const {
     for (std::size_t r = 0; r < bodies_; ++r) {
         const Row* h = diagonal_[r].row;
         const double* inverse = &inverse_pivot_[6 * r];
-        double y[8] = {};
-        for (int k = 0; k < 6; ++k) y[k] = entry(work_vector_[r], k);
+        double y[8];
+        std::memcpy(y, &work_vector_[r], sizeof y);
         for (int k = 0; k < 6; ++k) {
-            y[k] *= inverse[k];
-            for (int j = k + 1; j < 6; ++j) y[j] -= y[k] * entry(h[k], j);
+            const double value = y[k] * inverse[k];
+            for (int j = 0; j < 8; ++j) y[j] -= value * entry(h[k], j);
+            y[k] = value;
         }
         std::memcpy(&work_vector_[r], y, sizeof y);
         for (std::uint32_t e = first_[r]; e < first_[r + 1]; ++e) {
@@ -203,8 +204,8 @@ TUMBLE_WIDE void BlockCholesky::solve(std::vector<double>& x) const {
         }
     }
     for (std::size_t r = bodies_; r-- > 0;) {
-        double y[8] = {};
-        for (int k = 0; k < 6; ++k) y[k] = entry(work_vector_[r], k);
+        double y[8];
+        std::memcpy(y, &work_vector_[r], sizeof y);
         for (std::uint32_t e = first_[r]; e < first_[r + 1]; ++e) {
             const Row* u = upper_[e].row;
             double known[6];
