@@ -44,8 +44,15 @@ double rounding(const Contact& c, const Body& a, const Body& b) {
 void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, const Bring& bring) {
     const auto pair = std::minmax(i, j);
     if (!add_once(pairs_, {pair.first, pair.second})) return;
-    if (add_once(brought_, j)) bring(j);
     const Body &a = bodies[pair.first], &b = bodies[pair.second];
+    if (!contains(brought_, j)) {
+        if (const auto there = bring.roughly(j)) {
+            const double most = a.radius + b.radius + (1.0 + widening_) * tuning::touch * std::min(a.radius, b.radius);
+            if ((there->center - bodies[i].position).norm() > most + there->radius) return;
+        }
+        brought_.push_back(j);
+        bring(j);
+    }
     const double near = widening_ * touch_distance(a, b),
                  margin = std::max(near, tuning::touch * std::min(a.radius, b.radius));
     const double reach = a.radius + b.radius + margin;
