@@ -51,6 +51,7 @@ void GroupFlights::find() {
 bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces, double span) {
     for (const std::uint32_t k : groups_[group].bodies)
         if (!forces.only_gravity(k) || (*bodies_)[k].asleep) return false;
+    if (tree_laws(joints_of(group), *bodies_)) return true;  // else a flight by rows
     const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {span, infinity, 0.0}, nullptr, joints_};
     return JointFlight::flies({problem, groups_[group].bodies, active_[group], 1.0, 0.0, span});
 }
@@ -92,18 +93,22 @@ void GroupFlights::restore(std::uint32_t group) {
     for (const std::uint32_t k : groups_[group].joints) joints_->joints()[k].broken = false;
 }
 
+std::vector<Joint*> GroupFlights::joints_of(std::uint32_t group) const {
+    std::vector<Joint*> joints;
+    for (const std::uint32_t k : groups_[group].joints) joints.push_back(&joints_->joints()[k]);
+    return joints;
+}
+
 // Gravity does not depend on time: flights begin at 0.
 TreeFlight::Outcome GroupFlights::fly_tree(std::uint32_t group, const JointIsland& island) {
-    std::vector<Joint*> joints;
-    for (const std::uint32_t k : groups_[group].joints) {
-        joints.push_back(&joints_->joints()[k]);
-        if (has_springs(*joints.back())) return TreeFlight::Outcome::declined;
-    }
+    const std::vector<Joint*> joints = joints_of(group);
+    if (!tree_laws(joints, *bodies_)) return TreeFlight::Outcome::declined;
     return tree_flight_.advance({*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length},
                                 IntegratorKind::exact);
 }
 
 bool GroupFlights::fly_rows(std::uint32_t group, const JointIsland& island) {
+    if (!JointFlight::flies(island)) return false;
     Flight& flight = flights_[group];
     std::vector<StepForce> forces;
     for (const std::uint32_t k : island.bodies)

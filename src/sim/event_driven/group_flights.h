@@ -85,6 +85,7 @@ private:
     bool fly_rows(std::uint32_t group, const JointIsland& island);
     const Reached& reach(std::uint32_t group, double time);
     const RigidState& at(std::uint32_t body, double time);
+    std::vector<Joint*> joints_of(std::uint32_t group) const;
     std::vector<JointMemory> memory_of(std::uint32_t group) const;
     void remember(std::uint32_t group);
     void restore(std::uint32_t group);
