@@ -1,5 +1,6 @@
 // Gears: theta_1 + ratio theta_2 = constant, against closed forms and conservation laws.
 #include "joint_scenes.h"
+#include "sim/checkpoint/archive.h"
 
 #include <gtest/gtest.h>
 
@@ -234,6 +235,89 @@ TEST(Gears, APlanetaryGearFollowsWillis) {
     EXPECT_NEAR(now.bodies[2].angular_velocity.z(), of_planet * world.joint_states()[0].speed[3], 1e-9 * speed);
     EXPECT_LT(largest_gap(world), 1e-11);
     EXPECT_EQ(world.joint_report().degrees_of_freedom, 1u);
+}
+
+/// A ball of 0.5 kg on its way to the first wheel, 0.15 m beside the axle.
+BodyDescription& add_striking_ball(SceneDescription& scene, double speed) {
+    BodyDescription& ball = add_sphere(scene, 0.05, {0.15, 0.35, 0.0}, 0.5);
+    ball.velocity = {0.0, -speed, 0.0};
+    ball.friction = 0.0;
+    return ball;
+}
+
+// A blow on one wheel turns both: p = (1 + e) v / (1 / m + d^2 / I), I = I1 + I2 / k^2.
+TEST(Gears, ABlowOnOneWheelTurnsBoth) {
+    for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact})
+        for (const double e : {0.6, 1.0}) {
+            SceneDescription scene = wheels_scene();
+            scene.simulation.gravity.setZero();
+            scene.simulation.impacts = mode;
+            for (BodyDescription& wheel : scene.bodies) wheel.restitution = e;
+            add_striking_ball(scene, 3.0).restitution = 0.0;
+            World world(scene);
+            for (int frame = 0; frame < 5; ++frame) world.advance_frame();
+            const double both = inertia_1 + inertia_2 / (ratio * ratio), arm = 0.15;
+            const double blow = (1.0 + e) * 3.0 / (1.0 / 0.5 + arm * arm / both), spin = -blow * arm / both;
+            const Snapshot snapshot = world.snapshot();
+            EXPECT_NEAR(inertia_1 * snapshot.bodies[0].angular_velocity.z(), inertia_1 * spin, 1e-12) << e;
+            EXPECT_NEAR(inertia_2 * snapshot.bodies[1].angular_velocity.z(), -inertia_2 * spin / ratio, 1e-12);
+            EXPECT_NEAR(snapshot.bodies[2].velocity.y(), -3.0 + blow / 0.5, 1e-12);
+            EXPECT_NEAR(world.measure().kinetic,
+                        0.25 * 9.0 - 0.25 * (1.0 - e * e) * 9.0 / (1.0 + 0.5 * arm * arm / both), 1e-12);
+        }
+}
+
+// The wheels of a free carrier: a blow keeps the momenta of all, and the relation of the gear.
+TEST(Gears, ABlowOnAFreeGearboxKeepsMomenta) {
+    for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact}) {
+        SceneDescription scene = empty_scene();
+        scene.simulation.impacts = mode;
+        scene.simulation.sleep = false;
+        add_box(scene, size_1, Vec3::Zero(), mass_1);
+        add_box(scene, size_2, {0.6, 0.0, 0.0}, mass_2);
+        add_box(scene, {1.2, 0.05, 0.1}, {0.3, 0.0, 0.0}, 4.0);
+        for (std::size_t i = 0; i < 2; ++i)
+            add_joint(scene, JointType::hinge, 2, i, scene.bodies[i].position, Vec3::UnitZ());
+        add_gear(scene, 0, 1, ratio);
+        for (BodyDescription& body : scene.bodies) body.restitution = 1.0;
+        add_striking_ball(scene, 3.0);
+        World world(scene);
+        const Measurement before = world.measure();
+        for (int frame = 0; frame < 5; ++frame) world.advance_frame();
+        const Measurement after = world.measure();
+        EXPECT_LT((after.momentum - before.momentum).norm(), 1e-13);
+        EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(), 1e-13);
+        EXPECT_NEAR(after.kinetic, before.kinetic, 1e-4);  // of the steps after the blow
+        const auto joints = world.joint_states();
+        EXPECT_GT(std::abs(joints[0].speed[3]), 1.0);
+        EXPECT_NEAR(joints[0].speed[3] + ratio * joints[1].speed[3], 0.0, 1e-10);
+    }
+}
+
+// A world restored in the middle goes on to the last byte: the constant of a gear is kept.
+TEST(Gears, ACheckpointGoesOn) {
+    for (const ImpactMode mode : {ImpactMode::stepped, ImpactMode::exact}) {
+        SceneDescription scene = wheels_scene();
+        scene.simulation.impacts = mode;
+        scene.joints[0].turn[0].motor = constant_torque(3.0);
+        scene.joints[2].start = 0.2;  // engages at the angles of that time
+        add_striking_ball(scene, 1.0).restitution = 0.5;
+        World whole(scene);
+        CheckpointWriter middle, end;
+        for (int frame = 0; frame < 60; ++frame) {
+            if (frame == 30) whole.save(middle);
+            whole.advance_frame();
+        }
+        whole.save(end);
+        World part(scene);
+        CheckpointReader reader(middle.bytes());
+        part.restore(reader);
+        for (int frame = 30; frame < 60; ++frame) part.advance_frame();
+        CheckpointWriter again;
+        part.save(again);
+        EXPECT_TRUE(std::ranges::equal(end.bytes(), again.bytes()));
+        EXPECT_LT(part.joint_states()[2].gap, 1e-11);
+    }
 }
 
 }  // namespace

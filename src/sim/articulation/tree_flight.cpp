@@ -43,12 +43,14 @@ TreeFlight::Totals TreeFlight::totals() const {
 bool TreeFlight::start() {
     const TreeStep& step = *step_;
     if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
+    if (!springs_.find(tree_, step)) return false;
     pushed_ = false;
     for (const std::uint32_t i : step.island)
         pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
     const int n = int(step.island.size());
     coordinates_ = tree_.coordinates();
-    extras_ = coordinates_ + tree_.speeds();
+    heats_ = coordinates_ + tree_.speeds();
+    extras_ = heats_ + springs_.dampers();
     y_ = Vector::Zero(extras_ + (pushed_ ? 1 + pushed_numbers * n + 6 : 0));
     pushes_.assign(pushed_ ? step.island.size() : 0, {});
     time_ = 0.0;
@@ -84,6 +86,7 @@ TreeFlight::Vector TreeFlight::rate(const Vector& y) {
     Vector dy(y.size());
     const double *q = y.data(), *speeds = q + coordinates_;
     dynamics_.move(q, speeds);
+    springs_.drive(dynamics_, q, speeds, dy.data() + heats_);
     if (pushed_) add_pushes(y, dy);
     dynamics_.accelerate(tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity), dy.data() + coordinates_);
     dynamics_.coordinate_rates(q, speeds, dy.data());
@@ -141,7 +144,7 @@ double TreeFlight::error_of(const Vector& difference, double scale) const {
 
 // Rate of change of the motion, 1/s: speeds, and roots of accelerations.
 double TreeFlight::fastest(const Vector& y, const Vector& dy) const {
-    double worst = 0.0;
+    double worst = springs_.fastest();
     for (const TreeNode& node : tree_.nodes())
         for (int k = 0; k < node.speeds(); ++k) {
             const double unit = is_length(node, k, true) ? step_->length : 1.0;
@@ -327,7 +330,9 @@ TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind met
     sample();
     place();
     count_turns();
-    return account_->finish(pushed_impulses()) ? Outcome::flown : Outcome::stopped;
+    if (!account_->finish(pushed_impulses())) return Outcome::stopped;
+    springs_.account(step, y_.data(), y_.data() + heats_);
+    return Outcome::flown;
 }
 
 }  // namespace tumble

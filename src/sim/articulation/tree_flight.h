@@ -7,6 +7,7 @@
 #pragma once
 
 #include "sim/articulation/tree_account.h"
+#include "sim/articulation/tree_springs.h"
 
 #include <optional>
 #include <span>
@@ -22,7 +23,7 @@ public:
 
     enum class Outcome {
         flown,
-        declined,  // no tree, or its joints have come apart
+        declined,  // no tree, its joints have come apart, or a spring along no coordinate
         stopped,   // a limit is met, or a joint breaks: a step for the solver of contacts
     };
     /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
@@ -58,13 +59,14 @@ private:
     const TreeStep* step_ = nullptr;
     JointTree tree_;
     ForwardDynamics dynamics_{tree_};
+    TreeSprings springs_;
     FallingFrame frame_;
     Totals start_;
     std::optional<TreeAccount> account_;
-    // Coordinates, speeds; where other forces than gravity act also the time, by body their impulse, moment and work, and
+    // Coordinates, speeds, heats of dampers; where other forces than gravity act also the time, by body their impulse, moment and work, and
     // the moment about the center of mass and the displacement of the whole.
     Vector y_;
-    int coordinates_ = 0, extras_ = 0;
+    int coordinates_ = 0, heats_ = 0, extras_ = 0;  // number of coordinates; places in y
     bool pushed_ = false;
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up
     std::vector<Wrench> pushes_;          // by body

@@ -102,16 +102,35 @@ Trajectory Trajectory::uniform(const Body& body, const Vec3& velocity, const Vec
 
 Trajectory Trajectory::towards(const Body& body, const Motion& end, double span, bool torque_free) {
     Trajectory path;
-    path.start_ = body.position;
-    path.velocity_ = body.velocity;
-    const Vec3 mean_velocity = (end.position - body.position) / span;
-    path.acceleration_ = (6.0 * mean_velocity - 4.0 * body.velocity - 2.0 * end.velocity) / span;
-    path.jerk_ = (6.0 * (body.velocity + end.velocity) - 12.0 * mean_velocity) / (span * span);
+    path.move_along_cubic(body, end, span);
     if (torque_free)
         path.turn_freely(body);
     else
         path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
     return path;
+}
+
+Trajectory Trajectory::between(const Body& body, const Motion& end, double span) {
+    Trajectory path;
+    path.move_along_cubic(body, end, span);
+    const auto turn =
+        CurvedTurn::between({body.orientation, body.angular_velocity}, {end.orientation, end.angular_velocity}, span);
+    if (turn) {
+        path.turning_ = *turn;
+        path.spin_bound_ = turn->spin_bound(span);
+        path.turning_bound_ = turn->turning_bound(span);
+    } else {
+        path.turn_uniformly(body.orientation, rotation_vector(end.orientation * body.orientation.conjugate()) / span);
+    }
+    return path;
+}
+
+void Trajectory::move_along_cubic(const Body& body, const Motion& end, double span) {
+    start_ = body.position;
+    velocity_ = body.velocity;
+    const Vec3 mean_velocity = (end.position - body.position) / span;
+    acceleration_ = (6.0 * mean_velocity - 4.0 * body.velocity - 2.0 * end.velocity) / span;
+    jerk_ = (6.0 * (body.velocity + end.velocity) - 12.0 * mean_velocity) / (span * span);
 }
 
 void Trajectory::turn_uniformly(const Quat& from, const Vec3& angular_velocity) {
@@ -136,6 +155,7 @@ Trajectory Trajectory::deflected(double t, const Vec3& velocity) const {
 Quat Trajectory::orientation(double t) const {
     t += turned_;
     if (const auto* free = std::get_if<FreeTurn>(&turning_)) return free->rotation.at(t);
+    if (const auto* curved = std::get_if<CurvedTurn>(&turning_)) return curved->orientation(t);
     const auto& uniform = std::get<UniformTurn>(turning_);
     if (uniform.rate == 0.0) return uniform.from;
     const SinCos half = sincos(0.5 * uniform.rate * t);
@@ -162,6 +182,8 @@ Motion Trajectory::at(double t) const {
     if (const auto* free = std::get_if<FreeTurn>(&turning_)) {
         const Vec3 momentum = motion.rotation.transpose() * free->angular_momentum;
         motion.angular_velocity = motion.rotation * (free->inverse_inertia * momentum);
+    } else if (const auto* curved = std::get_if<CurvedTurn>(&turning_)) {
+        motion.angular_velocity = curved->angular_velocity(t + turned_);
     } else {
         const auto& uniform = std::get<UniformTurn>(turning_);
         motion.angular_velocity = uniform.rate * uniform.axis;

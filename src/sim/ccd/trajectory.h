@@ -1,9 +1,10 @@
 // Trajectory of a body between two events: its center on a polynomial of time, its orientation constant, rotating
-// uniformly, or in free rotation. All queries between two events use it; it is always evaluated from its start, so that
+// uniformly, in free rotation, or along a polynomial. All queries between two events use it; it is always evaluated from its start, so that
 // rounding does not accumulate.
 #pragma once
 
 #include "core/vector.h"
+#include "sim/ccd/curved_turn.h"
 #include "sim/math/free_rotation.h"
 
 #include <variant>
@@ -60,6 +61,9 @@ public:
     /// in between. For bodies under nonconstant forces. Without torque the rotation is free, in closed form; else
     /// uniform, error O(span^2) in between.
     static Trajectory towards(const Body& body, const Motion& end, double span, bool torque_free);
+    /// From the body's present motion to the motion `end` after `span` s: cubic in the center and in the rotation vector,
+    /// error O(span^4) in between. Turns of a radian and more are uniform, with an error O(span^2).
+    static Trajectory between(const Body& body, const Motion& end, double span);
 
     /// The same rotation, but from time t with another velocity of the center: after an impact through the center.
     Trajectory deflected(double t, const Vec3& velocity) const;
@@ -94,12 +98,13 @@ public:
 
 private:
     Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
-    std::variant<UniformTurn, FreeTurn> turning_;
+    std::variant<UniformTurn, FreeTurn, CurvedTurn> turning_;
     double turned_ = 0.0;  // s, duration of the rotation before the start of the trajectory
     double spin_bound_ = 0.0, turning_bound_ = 0.0;
 
     void turn_uniformly(const Quat& from, const Vec3& angular_velocity);
     void turn_freely(const Body& body);
+    void move_along_cubic(const Body& body, const Motion& end, double span);
 };
 
 }  // namespace tumble

@@ -2,16 +2,30 @@
 #include "sim/event_driven/event_driven_motion.h"
 
 #include "core/sort_unique.h"
+#include "sim/geometry/settings.h"
 #include "sim/log/contact_log.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
+namespace {
 
-void EventDrivenMotion::join(JointSet& joints, std::vector<Body>& bodies) {
+// Of the body on the path up to time `span`: its bounds in the middle, moved along with the center and turned.
+Bounds swept_bounds(const Body& body, const Trajectory& path, double span) {
+    const Motion middle = path.at(0.5 * span);
+    const Bounds there = world_bounds(body.collider, {middle.position, middle.rotation});
+    const Bounds centers = path.swept(0.0, span);
+    const double turned = (0.5 * span * path.spin_bound() + tuning::touch) * body.radius;
+    return Bounds{there.min + (centers.min - middle.position), there.max + (centers.max - middle.position)}.grown(
+        turned);
+}
+
+}  // namespace
+
+void EventDrivenMotion::join(JointSet& joints, std::vector<Body>& bodies, const ForceField& forces) {
     if (joints.empty()) return;
-    groups_.update(joints, bodies);
+    groups_.update(joints, bodies, forces);
     neighbor_boxes_.keep_apart(joints.apart());
 }
 
@@ -26,27 +40,17 @@ void EventDrivenMotion::land_group(std::uint32_t group, std::vector<Body>& bodie
 // so far.
 bool EventDrivenMotion::fly_group(std::uint32_t group, std::vector<Body>& bodies, const EventTime& now) {
     const EventTime end{now.step + 1, 0.0};
-    const double span = clock_.between(now, end);
+    const double span = std::max(0.0, clock_.between(now, end));
     const std::vector<std::uint32_t>& members = groups_.groups()[group].bodies;
-    if (!(span > 0.0)) {
-        for (const std::uint32_t k : members) {
-            start(k, Trajectory::uniform(bodies[k], bodies[k].velocity, bodies[k].angular_velocity), now, end);
-            changed_.push_back(k);
-        }
-        return true;
-    }
-    if (!groups_.start(group, now, span, settings_.gravity)) return false;
+    if (!groups_.start(group, span)) return false;
     for (const std::uint32_t k : members) {
         Body& body = bodies[k];
         set_state(body, groups_.start_of(k));
         body.flying = true;
         const RigidState& there = groups_.end_of(k);
-        Motion motion;
-        motion.position = there.position;
-        motion.velocity = body.inverse_mass * there.momentum;
-        motion.orientation = there.orientation;
-        start(k, Trajectory::towards(body, motion, span, false), now, end);
-        events_[k].driven = true;
+        start(k, groups_.path(k, 0.0, span), now, end);
+        events_[k].driven = span > 0.0;
+        events_[k].swept = swept_bounds(body, events_[k].path, span);
         events_[k].turn_from = body.angular_momentum;
         events_[k].turn_to = there.angular_momentum;
         if (log_) log_->add_gravity(k, body, span, body.position);
@@ -154,37 +158,41 @@ void EventDrivenMotion::release_groups(std::vector<Body>& bodies, const ForceFie
     }
 }
 
-// The time of an impact of a flying group that was found on its trajectory: found again on short uniform paths that begin
-// ever nearer to it, each from the flight's own state. A path of t seconds is wrong by alpha t^2 / 2.
-TimeOfImpact EventDrivenMotion::refine(std::uint32_t i, std::uint32_t j, TimeOfImpact found,
+// The path's error is far below its deviation from a chord.
+std::optional<ImpactCluster::Whereabouts> EventDrivenMotion::whereabouts(std::uint32_t i,
+                                                                         const std::vector<Body>& bodies,
+                                                                         const EventTime& now) const {
+    if (!flies_joined(i, bodies)) return std::nullopt;
+    const BodyEvent& f = events_[i];
+    const double t = clock_.between(f.start, now), span = clock_.between(f.start, f.until);
+    const double most = std::max(f.path.acceleration(0.0).norm(), f.path.acceleration(span).norm());
+    return ImpactCluster::Whereabouts{f.path.position(t), 0.125 * span * span * most};
+}
+
+// The time of an impact of a flying group that was found on its trajectory: found again on a short path about that time,
+// through the flight's own states at both ends. Where that has no impact, or begins after it, as where bodies graze each
+// other, a longer one is tried, up to the whole trajectory.
+TimeOfImpact EventDrivenMotion::refine(std::uint32_t i, std::uint32_t j, const TimeOfImpact& found,
                                        const std::vector<Body>& bodies, const EventTime& now, double limit) {
-    double back = tuning::refine_first * h_;
-    for (int pass = 0; pass < tuning::refine_passes; ++pass) {
-        const double from = std::max(0.0, found.time - back);
+    for (double window = tuning::refine_first * h_;; window *= tuning::refine_longer) {
+        const double from = std::max(0.0, found.time - window), to = std::min(limit, found.time + window);
         Trajectory paths[2];
         MovingBody moving[2];
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t k = side == 0 ? i : j;
-            const double since = clock_.between(events_[k].start, now) + from;
+            const double since = clock_.between(events_[k].start, now);
             if (flies_joined(k, bodies)) {
-                paths[side] = groups_.path(k, since);
+                paths[side] = groups_.path(k, since + from, since + to);
                 moving[side] = {&bodies[k], &paths[side], 0.0};
             } else {
-                moving[side] = {&bodies[k], &events_[k].path, since};
+                moving[side] = {&bodies[k], &events_[k].path, since + from};
             }
         }
-        const double horizon = std::min(limit, found.time + 4.0 * back);
-        const TimeOfImpact nearer = search_.find(moving[0], moving[1], horizon - from);
-        if (nearer.kind != TimeOfImpact::Kind::impact) return {TimeOfImpact::Kind::check, horizon};
-        if (nearer.time == 0.0 && from > 0.0) {
-            back *= tuning::refine_back;
-            continue;
-        }
-        found.time = from + nearer.time;
-        if (back < tuning::refine_last) break;
-        back *= tuning::refine_nearer;
+        const TimeOfImpact nearer = search_.find(moving[0], moving[1], to - from);
+        const bool hit = nearer.kind == TimeOfImpact::Kind::impact, whole = from == 0.0 && to == limit;
+        if (hit && (nearer.time > 0.0 || from == 0.0)) return {nearer.kind, from + nearer.time};
+        if (whole) return nearer;
     }
-    return found;
 }
 
 }  // namespace tumble

@@ -40,6 +40,8 @@ EventDrivenMotion::EventDrivenMotion(const std::vector<Body>& bodies, const Simu
         } else if (const auto* space = std::get_if<HalfSpace>(&bodies[i].collider)) {
             const Vec3 normal = bodies[i].rotation * space->normal;
             half_spaces_[i] = {normal, space->offset + normal.dot(bodies[i].position), true};
+        } else {
+            events_[i].swept = world_bounds(bodies[i].collider, bodies[i].pose());
         }
     }
 }
@@ -57,6 +59,7 @@ void EventDrivenMotion::start(std::uint32_t i, const Trajectory& path, const Eve
     f.start = now;
     f.until = until;
     f.driven = false;
+    f.swept = everywhere;
     f.met = CcdFraction::none;
     f.spin = unknown;
     ++f.version;
@@ -201,6 +204,7 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     double horizon = clock_.between(now, next);
     const MovingBody self = moving_body(i, bodies, now);
     const auto look = [&](std::uint32_t j) {
+        if (!f.swept.overlaps(events_[j].swept)) return;
         const double limit = std::min(horizon, clock_.between(now, events_[j].until));
         TimeOfImpact found = search_.find(self, moving_body(j, bodies, now), limit);
         if (found.kind == TimeOfImpact::Kind::impact && (flies_joined(i, bodies) || flies_joined(j, bodies)))
@@ -395,7 +399,8 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
                                 const ForceField& forces, const EventTime& now) {
     count_impact(i, bodies, now);
     if (bodies[j].dynamic()) count_impact(j, bodies, now);
-    const auto bring_body = [&](std::uint32_t k) { bring(k, bodies, now); };
+    const ImpactCluster::Bring bring_body{[&](std::uint32_t k) { bring(k, bodies, now); },
+                                          [&](std::uint32_t k) { return whereabouts(k, bodies, now); }};
     if (bounce_balls(i, j, bodies, now)) return;
     // Where bodies in contact meet, slow approaches do not bounce, as at a step.
     const bool meeting = meets(i, j, now);

@@ -25,6 +25,7 @@
 #include "sim/snapshot/contact_records.h"
 
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -47,8 +48,8 @@ class EventDrivenMotion {
 public:
     EventDrivenMotion(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps);
 
-    /// The joints of the coming step. Both must outlive the run.
-    void join(JointSet& joints, std::vector<Body>& bodies);
+    /// The joints of the coming step. All must outlive the run.
+    void join(JointSet& joints, std::vector<Body>& bodies, const ForceField& forces);
     /// Groups of joined bodies end their flights of the step.
     void end_flights() { groups_.end_all(); }
     /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
@@ -86,6 +87,7 @@ public:
 
 private:
     static constexpr double unknown = std::numeric_limits<double>::infinity();
+    static inline const Bounds everywhere{Vec3::Constant(-infinity), Vec3::Constant(infinity)};
     struct BodyEvent {
         Trajectory path;
         EventTime start;            // start of the trajectory
@@ -94,6 +96,7 @@ private:
         bool driven = false;        // without contact, but under varying forces
         bool pushed = false;        // this step's forces at points are applied already, up to its end
         Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();  // L at the trajectory's ends, of a driven body
+        Bounds swept = everywhere;                              // m, world: holds the body throughout the trajectory
         EventTime boxed_until;  // time until which the body stays in its box of NeighborBoxes
         double box_displacement = tuning::shortest_box_displacement;  // in radii, length of trajectory in the next box
         // The next event.
@@ -109,12 +112,12 @@ private:
             unknown;  // J, twice the energy: of a body in contact without impacts since the start of its trajectory
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [path, start, until, version, driven, pushed, turn_from, turn_to, boxed_until, box_displacement,
-                   event, partner, partner_version, last_impact, since_impact, impacts_in_row, met, meetings, spin] =
-                self;
-            archive.keep(path, start, until, version, driven, pushed, turn_from, turn_to, boxed_until, box_displacement,
-                         event, partner, partner_version, last_impact, since_impact, impacts_in_row, met, meetings,
-                         spin);
+            auto& [path, start, until, version, driven, pushed, turn_from, turn_to, swept, boxed_until,
+                   box_displacement, event, partner, partner_version, last_impact, since_impact, impacts_in_row, met,
+                   meetings, spin] = self;
+            archive.keep(path, start, until, version, driven, pushed, turn_from, turn_to, swept, boxed_until,
+                         box_displacement, event, partner, partner_version, last_impact, since_impact, impacts_in_row,
+                         met, meetings, spin);
         }
     };
 
@@ -127,7 +130,10 @@ private:
     bool fly_group(std::uint32_t group, std::vector<Body>& bodies, const EventTime& now);
     void take_off_groups(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
     void land_group(std::uint32_t group, std::vector<Body>& bodies);
-    TimeOfImpact refine(std::uint32_t i, std::uint32_t j, TimeOfImpact found, const std::vector<Body>& bodies,
+    /// Of a body that flies with a group; none for others.
+    std::optional<ImpactCluster::Whereabouts> whereabouts(std::uint32_t i, const std::vector<Body>& bodies,
+                                                          const EventTime& now) const;
+    TimeOfImpact refine(std::uint32_t i, std::uint32_t j, const TimeOfImpact& found, const std::vector<Body>& bodies,
                         const EventTime& now, double limit);
     void end_group_flights(std::vector<Body>& bodies, const EventTime& now);
     void fly_groups(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);

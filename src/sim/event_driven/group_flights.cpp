@@ -1,6 +1,7 @@
 #include "sim/event_driven/group_flights.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
@@ -12,9 +13,10 @@ constexpr int flight_order = 8;
 
 }  // namespace
 
-void GroupFlights::update(JointSet& joints, std::vector<Body>& bodies) {
+void GroupFlights::update(JointSet& joints, std::vector<Body>& bodies, const ForceField& forces) {
     joints_ = &joints;
     bodies_ = &bodies;
+    forces_ = &forces;
     if (joints.changes() == changes_) return;
     changes_ = joints.changes();
     find();
@@ -49,18 +51,37 @@ void GroupFlights::find() {
 bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces, double span) {
     for (const std::uint32_t k : groups_[group].bodies)
         if (!forces.only_gravity(k) || (*bodies_)[k].asleep) return false;
+    if (tree_laws(joints_of(group), *bodies_)) return true;  // else a flight by rows
     const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {span, infinity, 0.0}, nullptr, joints_};
     return JointFlight::flies({problem, groups_[group].bodies, active_[group], 1.0, 0.0, span});
+}
+
+std::vector<GroupFlights::JointMemory> GroupFlights::memory_of(std::uint32_t group) const {
+    std::vector<JointMemory> memory;
+    for (const std::uint32_t k : groups_[group].joints) {
+        const Joint& j = joints_->joints()[k];
+        memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rates, j.impulse, j.point});
+    }
+    return memory;
 }
 
 void GroupFlights::remember(std::uint32_t group) {
     Flight& flight = flights_[group];
     flight.first.clear();
-    flight.memory.clear();
     for (const std::uint32_t k : groups_[group].bodies) flight.first.push_back(state_of((*bodies_)[k]));
-    for (const std::uint32_t k : groups_[group].joints) {
-        const Joint& j = joints_->joints()[k];
-        flight.memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rates, j.impulse, j.point});
+    flight.memory = memory_of(group);
+}
+
+void GroupFlights::set_joints(std::uint32_t group, const std::vector<JointMemory>& memory) {
+    for (std::size_t i = 0; i < memory.size(); ++i) {
+        Joint& j = joints_->joints()[groups_[group].joints[i]];
+        const JointMemory& m = memory[i];
+        j.value = m.value;
+        j.curving = m.curving;
+        j.constraint_force = m.constraint_force;
+        j.constraint_rates = m.constraint_rates;
+        j.impulse = m.impulse;
+        j.point = m.point;
     }
 }
 
@@ -68,16 +89,36 @@ void GroupFlights::restore(std::uint32_t group) {
     const Flight& flight = flights_[group];
     for (std::size_t i = 0; i < flight.first.size(); ++i)
         set_state((*bodies_)[groups_[group].bodies[i]], flight.first[i]);
-    for (std::size_t i = 0; i < flight.memory.size(); ++i) {
-        Joint& j = joints_->joints()[groups_[group].joints[i]];
-        const JointMemory& m = flight.memory[i];
-        j.value = m.value;
-        j.curving = m.curving;
-        j.constraint_force = m.constraint_force;
-        j.constraint_rates = m.constraint_rates;
-        j.impulse = m.impulse;
-        j.point = m.point;
-        j.broken = false;
+    set_joints(group, flight.memory);
+    for (const std::uint32_t k : groups_[group].joints) joints_->joints()[k].broken = false;
+}
+
+std::vector<Joint*> GroupFlights::joints_of(std::uint32_t group) const {
+    std::vector<Joint*> joints;
+    for (const std::uint32_t k : groups_[group].joints) joints.push_back(&joints_->joints()[k]);
+    return joints;
+}
+
+// Gravity does not depend on time: flights begin at 0.
+TreeFlight::Outcome GroupFlights::fly_tree(std::uint32_t group, const JointIsland& island) {
+    const std::vector<Joint*> joints = joints_of(group);
+    if (!tree_laws(joints, *bodies_)) return TreeFlight::Outcome::declined;
+    return tree_flight_.advance({*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length},
+                                IntegratorKind::exact);
+}
+
+bool GroupFlights::fly_rows(std::uint32_t group, const JointIsland& island) {
+    if (!JointFlight::flies(island)) return false;
+    Flight& flight = flights_[group];
+    std::vector<StepForce> forces;
+    for (const std::uint32_t k : island.bodies)
+        forces.push_back({island.to * (*bodies_)[k].mass * forces_->gravity(), Vec3::Zero()});
+    for (;; flight.substeps *= 2) {
+        restore(group);
+        const bool flown = flight_.advance(island, forces, flight_order, flight.substeps);
+        flight.swing = flight_.swing();
+        if (flown) return true;
+        if (!(flight.swing > tuning::joint_swing) || 2 * flight.substeps > tuning::joint_swing_substeps) return false;
     }
 }
 
@@ -85,53 +126,43 @@ void GroupFlights::restore(std::uint32_t group) {
 bool GroupFlights::fly(std::uint32_t group, double time) {
     Flight& flight = flights_[group];
     const JointGroup& members = groups_[group];
+    restore(group);
     if (time > 0.0) {
-        std::vector<Body>& bodies = *bodies_;
         double length = 0.0;
-        std::vector<StepForce> forces;
-        for (const std::uint32_t k : members.bodies) {
-            length += bodies[k].radius / double(members.bodies.size());
-            forces.push_back({time * bodies[k].mass * flight.gravity, Vec3::Zero()});
-        }
-        const ContactProblem problem{bodies, no_manifolds_, no_velocities_, {time, infinity, 0.0}, nullptr, joints_};
+        for (const std::uint32_t k : members.bodies) length += (*bodies_)[k].radius / double(members.bodies.size());
+        const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {time, infinity, 0.0}, nullptr, joints_};
         const JointIsland island{problem, members.bodies, active_[group], length, 0.0, time};
-        for (;; flight.substeps *= 2) {
-            restore(group);
-            if (flight_.advance(island, forces, flight_order, flight.substeps)) break;
-            if (!(flight_.swing() > tuning::joint_swing) || 2 * flight.substeps > tuning::joint_swing_substeps)
-                return false;
-        }
+        const TreeFlight::Outcome outcome = fly_tree(group, island);
+        if (outcome == TreeFlight::Outcome::stopped) return false;
+        if (outcome == TreeFlight::Outcome::declined && !fly_rows(group, island)) return false;
         for (const std::uint32_t k : members.joints)
             if (joints_->joints()[k].broken) return false;
-    } else {
-        restore(group);
     }
-    flight.reached = time;
-    flight.accounts.clear();
+    Reached& reached = flight.reached.emplace_back();
+    reached.time = time;
+    reached.memory = memory_of(group);
     for (const std::uint32_t k : members.joints) {
         Joint& joint = joints_->joints()[k];
-        flight.accounts.push_back(time > 0.0 ? joint.account.step : JointAccount::Span{});
+        reached.accounts.push_back(time > 0.0 ? joint.account.step : JointAccount::Span{});
         joint.account.step = {};
         joint.force.setZero();
         joint.torque.setZero();
     }
-    flight.there.clear();
-    for (const std::uint32_t k : members.bodies) flight.there.push_back(state_of((*bodies_)[k]));
+    for (const std::uint32_t k : members.bodies) reached.states.push_back(state_of((*bodies_)[k]));
     return true;
 }
 
-bool GroupFlights::start(std::uint32_t group, const EventTime& now, double span, const Vec3& gravity) {
+bool GroupFlights::start(std::uint32_t group, double span) {
     Flight& flight = flights_[group];
     remember(group);
-    flight.start = now;
     flight.span = span;
-    flight.gravity = gravity;
     std::vector<Joint>& joints = joints_->joints();
     flight.substeps = 1;
     for (const std::uint32_t k : groups_[group].joints) flight.substeps = std::max(flight.substeps, joints[k].substeps);
+    flight.swing = tuning::joint_easy_swing;
+    flight.reached.clear();
     flight.flies = fly(group, span);
-    flight.last = flight.there;
-    const bool easy = flight_.swing() < tuning::joint_easy_swing;
+    const bool easy = flight.swing < tuning::joint_easy_swing;
     for (const std::uint32_t k : groups_[group].joints) {
         joints[k].substeps = easy ? std::max(1, flight.substeps / 2) : flight.substeps;
         joints[k].account.step = {};
@@ -140,27 +171,37 @@ bool GroupFlights::start(std::uint32_t group, const EventTime& now, double span,
     return flight.flies;
 }
 
-// Leaves the bodies as they are.
-RigidState GroupFlights::at(std::uint32_t body, double time) {
-    const std::uint32_t g = group_of_[body];
-    Flight& flight = flights_[g];
+// Leaves the bodies as they are. A flight that fails on the way, near a limit that it then leaves, stands for its end.
+const GroupFlights::Reached& GroupFlights::reach(std::uint32_t group, double time) {
+    Flight& flight = flights_[group];
     time = std::clamp(time, 0.0, flight.span);
-    if (time != flight.reached) {
-        const std::vector<std::uint32_t>& members = groups_[g].bodies;
-        std::vector<RigidState> present;
-        for (const std::uint32_t k : members) present.push_back(state_of((*bodies_)[k]));
-        fly(g, time);
-        for (std::size_t i = 0; i < present.size(); ++i) set_state((*bodies_)[members[i]], present[i]);
-    }
-    return flight.there[place_[body]];
+    for (const Reached& reached : flight.reached)
+        if (reached.time == time) return reached;
+    const std::vector<std::uint32_t>& members = groups_[group].bodies;
+    std::vector<RigidState> present;
+    for (const std::uint32_t k : members) present.push_back(state_of((*bodies_)[k]));
+    const bool flown = fly(group, time);
+    for (std::size_t i = 0; i < present.size(); ++i) set_state((*bodies_)[members[i]], present[i]);
+    return flown ? flight.reached.back() : flight.reached.front();
 }
 
-Trajectory GroupFlights::path(std::uint32_t body, double time) {
-    const RigidState state = at(body, time);
+const RigidState& GroupFlights::at(std::uint32_t body, double time) {
+    return reach(group_of_[body], time).states[place_[body]];
+}
+
+Trajectory GroupFlights::path(std::uint32_t body, double from, double to) {
+    const RigidState first = at(body, from), last = at(body, to);
     Body& b = (*bodies_)[body];
     const RigidState present = state_of(b);
-    set_state(b, state);
-    const Trajectory path = Trajectory::uniform(b, b.velocity, b.angular_velocity);
+    set_state(b, last);
+    Motion end;
+    end.position = last.position;
+    end.velocity = b.velocity;
+    end.orientation = last.orientation;
+    end.angular_velocity = b.angular_velocity;
+    set_state(b, first);
+    const Trajectory path =
+        to > from ? Trajectory::between(b, end, to - from) : Trajectory::uniform(b, b.velocity, b.angular_velocity);
     set_state(b, present);
     return path;
 }
@@ -173,15 +214,11 @@ void GroupFlights::cancel(std::uint32_t group) {
 void GroupFlights::end(std::uint32_t group, double time) {
     Flight& flight = flights_[group];
     if (!flight.flies) return;
+    const Reached& reached = reach(group, time);
     flight.flies = false;
-    const JointGroup& members = groups_[group];
-    std::vector<RigidState> present;
-    for (const std::uint32_t k : members.bodies) present.push_back(state_of((*bodies_)[k]));
-    time = std::clamp(time, 0.0, flight.span);
-    if (time != flight.reached) fly(group, time);
-    for (std::size_t i = 0; i < present.size(); ++i) set_state((*bodies_)[members.bodies[i]], present[i]);
-    for (std::size_t i = 0; i < members.joints.size(); ++i)
-        joints_->joints()[members.joints[i]].account.take_flight(flight.accounts[i]);
+    set_joints(group, reached.memory);
+    for (std::size_t i = 0; i < reached.accounts.size(); ++i)
+        joints_->joints()[groups_[group].joints[i]].account.take_flight(reached.accounts[i]);
 }
 
 void GroupFlights::keep_loads(std::uint32_t group, std::vector<JointLoad>& loads) const {

@@ -44,8 +44,15 @@ double rounding(const Contact& c, const Body& a, const Body& b) {
 void ImpactCluster::touch(std::uint32_t i, std::uint32_t j, std::vector<Body>& bodies, const Bring& bring) {
     const auto pair = std::minmax(i, j);
     if (!add_once(pairs_, {pair.first, pair.second})) return;
-    if (add_once(brought_, j)) bring(j);
     const Body &a = bodies[pair.first], &b = bodies[pair.second];
+    if (!contains(brought_, j)) {
+        if (const auto there = bring.roughly(j)) {
+            const double most = a.radius + b.radius + (1.0 + widening_) * tuning::touch * std::min(a.radius, b.radius);
+            if ((there->center - bodies[i].position).norm() > most + there->radius) return;
+        }
+        brought_.push_back(j);
+        bring(j);
+    }
     const double near = widening_ * touch_distance(a, b),
                  margin = std::max(near, tuning::touch * std::min(a.radius, b.radius));
     const double reach = a.radius + b.radius + margin;
@@ -138,11 +145,12 @@ Island ImpactCluster::island(std::vector<Body>& bodies, const Bring& bring) {
         for (const std::uint32_t k : groups_.groups()[group].bodies)
             if (add_once(brought_, k)) bring(k);
     }
+    if (!groups.empty()) island.all_joints = groups_.joints().joints();
     std::sort(groups.begin(), groups.end());
     for (const std::uint32_t group : groups)
         for (const std::uint32_t k : groups_.groups()[group].joints) {
             Joint& joint = groups_.joints().joints()[k];
-            if (!joint.broken && !joint.gear()) island.joints.push_back(&joint);
+            if (!joint.broken) island.joints.push_back(&joint);
         }
     for (const std::uint32_t k : brought_)
         if (bodies[k].dynamic()) island.bodies.push_back(k);
@@ -203,7 +211,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
         for (const JointBlow& blow : blows_) {
             if (blow.force.isZero(0.0) && blow.torque.isZero(0.0)) continue;
             take_blow(blow, bodies);
-            for (const std::uint32_t k : {blow.joint->a, blow.joint->b})
+            for (const std::uint32_t k : {blow.at->a, blow.at->b})
                 if (k != Joint::world && bodies[k].dynamic()) add_once(receivers_, k);
         }
     }

@@ -10,14 +10,26 @@
 #include "sim/impact/impacts.h"
 
 #include <functional>
+#include <optional>
 #include <vector>
 
 namespace tumble {
 
 class ImpactCluster {
 public:
-    /// Moves a body's state to the time of the impact.
-    using Bring = std::function<void(std::uint32_t)>;
+    /// A ball that holds a body's center at the time of the impact.
+    struct Whereabouts {
+        Vec3 center = Vec3::Zero();  // m
+        double radius = 0.0;         // m
+    };
+    struct Bring {
+        /// Moves a body's state to the time of the impact.
+        std::function<void(std::uint32_t)> state;
+        /// Where a body is whose state is expensive to find; none for others.
+        std::function<std::optional<Whereabouts>(std::uint32_t)> roughly;
+
+        void operator()(std::uint32_t body) const { state(body); }
+    };
 
     /// `groups`: of joined bodies. It must outlive the cluster.
     explicit ImpactCluster(GroupFlights& groups) : groups_(groups) { scratch_.choice = AxisChoice::nearest; }

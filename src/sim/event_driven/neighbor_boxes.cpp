@@ -41,11 +41,14 @@ void NeighborBoxes::enclose(std::uint32_t body, const Bounds& box) {
     tree_.query(box, stack_, [&](std::uint32_t other) {
         if (other != body) found_.push_back(other);
     });
-    if (!apart_.empty())
-        std::erase_if(found_, [&](std::uint32_t other) {
+    const auto drop_apart = [&](std::vector<std::uint32_t>& list) {
+        if (apart_.empty()) return;
+        std::erase_if(list, [&](std::uint32_t other) {
             return std::binary_search(apart_.begin(), apart_.end(),
                                       BodyPair{std::min(body, other), std::max(body, other)});
         });
+    };
+    drop_apart(found_);
     std::sort(found_.begin(), found_.end());
     std::vector<std::uint32_t>& mine = moving_[body];
     for (const std::uint32_t other : mine) {
@@ -62,6 +65,7 @@ void NeighborBoxes::enclose(std::uint32_t body, const Bounds& box) {
     std::vector<std::uint32_t>& standing = standing_[body];
     standing = half_spaces_;
     fixed_tree_.query(box, [&](std::uint32_t k) { standing.push_back(fixed_[k]); });
+    drop_apart(standing);
     std::sort(standing.begin(), standing.end());
 }
 

@@ -33,14 +33,10 @@ inline constexpr int meetings_in_step = 8;
 /// step. Not fitted: rounding of a hanging chain against the first step of a pendulum.
 inline constexpr double group_rest = 0.01;
 
-/// Refinement of a flying group's time of impact: length of the first path in steps; factors from path to path, and where
-/// a path begins after the impact; the last length, s; and the most paths. A path of 1e-8 s is wrong by 1e-15 m at an
-/// acceleration of 20 m/s^2. Not fitted.
-inline constexpr double refine_first = 1e-2;
-inline constexpr double refine_nearer = 1e-3;
-inline constexpr double refine_back = 30.0;
-inline constexpr double refine_last = 1e-8;
-inline constexpr int refine_passes = 12;
+/// Half the length, in steps, of the first path on which a flying group's time of impact is found again, and the factor to
+/// a longer one. The path's error is of the order of the fourth power of its length. Not fitted.
+inline constexpr double refine_first = 1e-3;
+inline constexpr double refine_longer = 30.0;
 
 /// Largest number of impacts in a frame per body: far beyond any clip (a million hits of each body per second). Not
 /// fitted.

@@ -11,7 +11,7 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
     : body_index_(island.bodies), contacts_(contacts), bodies_(bodies), trace_(trace) {
     std::vector<std::uint32_t> by_place = island.bodies;
     if (!island.joints.empty()) {
-        groups_.emplace(island.bodies, island.joints, bodies);
+        groups_.emplace(island.bodies, island.joints, island.all_joints, bodies);
         for (std::size_t i = 0; i < island.bodies.size(); ++i) by_place[groups_->places()[i]] = island.bodies[i];
     }
     roots_.reserve(island.bodies.size());

@@ -20,6 +20,7 @@ struct Island {
     std::vector<std::uint32_t> bodies, contacts;
     std::vector<Joint*> joints =
         {};  // that hold any of the bodies; with a body of a joint the list has all of its group
+    std::span<const Joint> all_joints = {};  // of the set: gears name theirs by number
 };
 
 /// The impulses of an impact one by one, if asked for: one entry for each contact and pass of the law.

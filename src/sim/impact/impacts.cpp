@@ -117,6 +117,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     if (!island.joints.empty()) {
         bounced.bodies = island.bodies;
         bounced.joints = island.joints;
+        bounced.all_joints = island.all_joints;
     }
     std::sort(bounced.bodies.begin(), bounced.bodies.end());
     bounced.bodies.erase(std::unique(bounced.bodies.begin(), bounced.bodies.end()), bounced.bodies.end());

@@ -2,10 +2,12 @@
 
 #include "core/disjoint_sets.h"
 #include "sim/impact/settings.h"
+#include "sim/joints/gear.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace tumble {
@@ -19,37 +21,55 @@ std::uint32_t position_in(std::span<const std::uint32_t> list, std::uint32_t val
     return found != list.end() && *found == value ? std::uint32_t(found - list.begin()) : no_place;
 }
 
-// n . (velocity of B's point - velocity of A's point), or of the angular velocities, as a form of y and an offset.
-struct Rate {
-    VelocityRow form;
-    double offset = 0.0;
+/// The places of a lock's bodies in a group, each once, with the lock's numbers there.
+struct LockSides {
+    struct Side {
+        std::uint32_t body;  // from the group's first on
+        Vec6 six;
+    };
+    std::array<Side, 4> sides;
+    std::size_t count = 0;
+
+    void add(const VelocityRow& form, std::uint32_t first) {
+        for (const auto& [place, six] : {std::pair(form.a, &form.on_a), std::pair(form.b, &form.on_b)}) {
+            if (place == no_place) continue;
+            std::size_t s = 0;
+            while (s < count && sides[s].body != place - first) ++s;
+            if (s == count) sides[count++] = {place - first, Vec6::Zero()};
+            sides[s].six += *six;
+        }
+    }
+    template <class Visit>
+    void each_pair(const Visit& visit) const {
+        for (std::size_t s = 0; s < count; ++s)
+            for (std::size_t t = s + 1; t < count; ++t) visit(sides[s], sides[t]);
+    }
 };
 
-// Matrix += weight form form^T; `pair`: index of the coupling, if both bodies have places.
-void add_square(BlockCholesky& matrix, std::uint32_t first, std::uint32_t pair, const VelocityRow& form,
-                double weight) {
+// Matrix += weight form form^T; `pair`: index of the first coupling, the others follow.
+void add_square(BlockCholesky& matrix, std::uint32_t pair, const LockSides& lock, double weight) {
     using Eight = BlockCholesky::Row;
     const auto add = [&](BlockCholesky::Block& to, const Vec6& left, const Vec6& w) {
         const Eight right = weight * Eight{w[0], w[1], w[2], w[3], w[4], w[5], 0.0, 0.0};
         for (int k = 0; k < 6; ++k) to.row[k] += left[k] * right;
     };
-    if (form.a != no_place) add(matrix.diagonal(form.a - first), form.on_a, form.on_a);
-    if (form.b != no_place) add(matrix.diagonal(form.b - first), form.on_b, form.on_b);
-    if (form.a == no_place || form.b == no_place) return;
-    if (matrix.transposed(pair))
-        add(matrix.coupling(pair), form.on_b, form.on_a);
-    else
-        add(matrix.coupling(pair), form.on_a, form.on_b);
+    for (std::size_t s = 0; s < lock.count; ++s)
+        add(matrix.diagonal(lock.sides[s].body), lock.sides[s].six, lock.sides[s].six);
+    lock.each_pair([&](const LockSides::Side& s, const LockSides::Side& t) {
+        const bool turned = matrix.transposed(pair);
+        add(matrix.coupling(pair++), turned ? t.six : s.six, turned ? s.six : t.six);
+    });
 }
 
 }  // namespace
 
 JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vector<Joint*>& joints,
-                           const std::vector<Body>& all)
+                           std::span<const Joint> all_joints, const std::vector<Body>& all)
     : bodies_(bodies.begin(), bodies.end()),
       places_(bodies.size()),
       group_of_(bodies.size(), no_place),
-      joints_(joints) {
+      joints_(joints),
+      all_joints_(all_joints) {
     const std::size_t n = bodies.size();
     DisjointSets sets(n);
     const auto index = [&](std::uint32_t body) {
@@ -89,45 +109,77 @@ JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vec
     }
 }
 
+JoinedGroups::Rate JoinedGroups::rate_of(const Joint& joint, const Vec3& point, const Vec3& direction, bool turns,
+                                         const std::vector<Body>& all, const std::vector<MassRoot>& roots) const {
+    Rate rate;
+    const auto side = [&](std::uint32_t body, double sign, std::uint32_t& place, Vec6& on) {
+        if (body == Joint::world) return;
+        const Body& b = all[body];
+        const Vec3 arm = point - b.position;
+        if (!b.dynamic()) {
+            rate.offset += sign * direction.dot(turns ? b.angular_velocity : b.point_velocity(arm));
+            return;
+        }
+        place = places_[position_in(bodies_, body)];
+        on = sign * (turns ? roots[place].turning_row(direction) : roots[place].row(arm, direction));
+    };
+    side(joint.a, -1.0, rate.form.a, rate.form.on_a);
+    side(joint.b, 1.0, rate.form.b, rate.form.on_b);
+    return rate;
+}
+
+// q1' + ratio q2' = 0.
+void JoinedGroups::load_gear(Group& group, std::size_t index, const std::vector<Body>& all,
+                             const std::vector<MassRoot>& roots) {
+    const Joint& gear = *joints_[index];
+    const GearGeometry g = measure_gear(gear, all_joints_, [&](std::uint32_t body) { return side_of(all, body); });
+    const auto rate = [&](std::size_t s, Vec3& direction, bool& turns) {
+        const Joint& joint = all_joints_[gear.description.geared[s]];
+        direction = (s == 0 ? 1.0 : gear.description.ratio) * g.coordinate(joint, s).direction;
+        turns = geared_coordinate(joint) >= 3;
+        return rate_of(joint, g.joints[s].point, direction, turns, all, roots);
+    };
+    points_[index] = g.joints[0].point;
+    other_points_[index] = g.joints[1].point;
+    Lock lock{index, Vec3::Zero(), false, 0.0, 0.0, {}};
+    const Rate first = rate(0, lock.direction, lock.turns), second = rate(1, lock.other_direction, lock.other_turns);
+    lock.form = first.form;
+    lock.other = second.form;
+    const double square = lock.form.squared_norm() + lock.other.squared_norm() + 2.0 * lock.form.dot(lock.other);
+    if (!(square > 0.0)) return;
+    lock.length = std::sqrt(square);
+    lock.offset = (first.offset + second.offset) / lock.length;
+    for (Vec6* six : {&lock.form.on_a, &lock.form.on_b, &lock.other.on_a, &lock.other.on_b}) *six /= lock.length;
+    locks_.push_back(lock);
+    ++group.locks;
+}
+
 void JoinedGroups::load_joint(Group& group, std::size_t index, const std::vector<Body>& all,
                               const std::vector<MassRoot>& roots) {
     const Joint& joint = *joints_[index];
+    if (joint.gear()) return load_gear(group, index, all, roots);
     const JointGeometry g = measure(joint, side_of(all, joint.a), side_of(all, joint.b));
     points_[index] = g.point;
-    const auto rate_of = [&](const Vec3& direction, bool turns) {
-        Rate rate;
-        const auto side = [&](std::uint32_t body, double sign, std::uint32_t& place, Vec6& on) {
-            if (body == Joint::world) return;
-            const Body& b = all[body];
-            const Vec3 arm = g.point - b.position;
-            if (!b.dynamic()) {
-                rate.offset += sign * direction.dot(turns ? b.angular_velocity : b.point_velocity(arm));
-                return;
-            }
-            place = places_[position_in(bodies_, body)];
-            on = sign * (turns ? roots[place].turning_row(direction) : roots[place].row(arm, direction));
-        };
-        side(joint.a, -1.0, rate.form.a, rate.form.on_a);
-        side(joint.b, 1.0, rate.form.b, rate.form.on_b);
-        return rate;
+    const auto rate = [&](const Vec3& direction, bool turns) {
+        return rate_of(joint, g.point, direction, turns, all, roots);
     };
     const auto add_limit = [&](const Vec3& direction, bool turns, double restitution) {
         const double size = turns ? joint.size : 1.0;
-        Rate rate = rate_of(direction, turns);
-        rate.form.on_a *= size;
-        rate.form.on_b *= size;
-        limits_.push_back({index, direction, turns, size, rate.form, size * rate.offset, restitution});
+        Rate along = rate(direction, turns);
+        along.form.on_a *= size;
+        along.form.on_b *= size;
+        limits_.push_back({index, direction, turns, size, along.form, size * along.offset, restitution});
     };
     for (std::size_t k = 0; k < joint.count(); ++k) {
         const auto& [direction, value] = g.coordinates[k];
         const bool turns = k >= 3;
         if (joint.locked(k)) {
-            Rate rate = rate_of(direction, turns);
-            const double length = std::sqrt(rate.form.squared_norm());
+            Rate along = rate(direction, turns);
+            const double length = std::sqrt(along.form.squared_norm());
             if (!(length > 0.0)) continue;
-            rate.form.on_a /= length;
-            rate.form.on_b /= length;
-            locks_.push_back({index, direction, turns, length, rate.offset / length, rate.form});
+            along.form.on_a /= length;
+            along.form.on_b /= length;
+            locks_.push_back({index, direction, turns, length, along.offset / length, along.form});
             ++group.locks;
             continue;
         }
@@ -145,21 +197,24 @@ void JoinedGroups::factor(Group& group) {
     std::vector<BlockCholesky::Pair> pairs;
     std::vector<std::uint32_t> pair_of;
     const std::span<const Lock> locks = std::span(locks_).subspan(group.first_lock, group.locks);
-    for (const Lock& lock : locks) {
-        const VelocityRow& form = lock.form;
-        const bool both = form.a != no_place && form.b != no_place;
-        pair_of.push_back(no_place);
-        if (!both) continue;
-        const BlockCholesky::Pair pair{form.a - group.first, form.b - group.first};
-        if (pairs.empty() || !(pairs.back() == pair)) pairs.push_back(pair);
-        pair_of.back() = std::uint32_t(pairs.size() - 1);
+    std::vector<LockSides> sides(locks.size());
+    for (std::size_t k = 0; k < locks.size(); ++k) {
+        sides[k].add(locks[k].form, group.first);
+        sides[k].add(locks[k].other, group.first);
+        // The locks of one joint share their coupling.
+        const bool same = k > 0 && locks[k].joint == locks[k - 1].joint && sides[k].count == sides[k - 1].count;
+        pair_of.push_back(same ? pair_of.back() : std::uint32_t(pairs.size()));
+        if (same) continue;
+        sides[k].each_pair([&](const LockSides::Side& s, const LockSides::Side& t) {
+            pairs.push_back({s.body, t.body});
+        });
     }
     group.matrix.analyze(group.bodies, pairs);
     group.matrix.set_zero();
     for (std::uint32_t i = 0; i < group.bodies; ++i)
         for (int k = 0; k < 6; ++k) group.matrix.diagonal(i).row[k][k] = 1.0;
     for (std::size_t k = 0; k < locks.size(); ++k)
-        add_square(group.matrix, group.first, pair_of[k], locks[k].form, 1.0 / tuning::impact_lock_compliance);
+        add_square(group.matrix, pair_of[k], sides[k], 1.0 / tuning::impact_lock_compliance);
     group.matrix.factor();
 }
 
@@ -167,6 +222,7 @@ void JoinedGroups::load(const std::vector<Body>& all, const std::vector<MassRoot
     locks_.clear();
     limits_.clear();
     points_.assign(joints_.size(), Vec3::Zero());
+    other_points_.assign(joints_.size(), Vec3::Zero());
     bool moving = false;
     for (Group& group : groups_) {
         group.first_lock = locks_.size();
@@ -192,18 +248,17 @@ void JoinedGroups::fit(Group& group, Eigen::VectorXd& y, bool carriers) {
     const double compliance = tuning::impact_lock_compliance;
     z_.resize(6 * group.bodies);
     Eigen::Map<Eigen::VectorXd> z(z_.data(), Eigen::Index(z_.size()));
-    const auto at = [&](const VelocityRow& form) {  // within the group
-        VelocityRow local = form;
-        if (local.a != no_place) local.a -= group.first;
-        if (local.b != no_place) local.b -= group.first;
-        return local;
+    const auto at = [&](VelocityRow form) {  // within the group
+        if (form.a != no_place) form.a -= group.first;
+        if (form.b != no_place) form.b -= group.first;
+        return form;
     };
     const auto part = y.segment(6 * Eigen::Index(group.first), 6 * Eigen::Index(group.bodies));
     double scale = part.norm(), last = infinity;
     for (int pass = 0; pass < tuning::impact_lock_passes; ++pass) {
         double worst = 0.0;
         for (std::size_t k = begin; k < end; ++k) {
-            asked_[k] = -locks_[k].form.dot(y) - (carriers ? locks_[k].offset : 0.0);
+            asked_[k] = -locks_[k].dot(y) - (carriers ? locks_[k].offset : 0.0);
             worst = std::max(worst, std::abs(asked_[k]));
         }
         if (pass == 0) scale = std::max(scale, worst);
@@ -212,15 +267,19 @@ void JoinedGroups::fit(Group& group, Eigen::VectorXd& y, bool carriers) {
         last = worst;
         std::fill(z_.begin(), z_.end(), 0.0);
         for (std::size_t k = begin; k < end; ++k) {
-            const VelocityRow form = at(locks_[k].form);
-            if (form.a != no_place) z.segment<6>(6 * Eigen::Index(form.a)) += asked_[k] / compliance * form.on_a;
-            if (form.b != no_place) z.segment<6>(6 * Eigen::Index(form.b)) += asked_[k] / compliance * form.on_b;
+            const auto add = [&](const VelocityRow& form) {
+                if (form.a != no_place) z.segment<6>(6 * Eigen::Index(form.a)) += asked_[k] / compliance * form.on_a;
+                if (form.b != no_place) z.segment<6>(6 * Eigen::Index(form.b)) += asked_[k] / compliance * form.on_b;
+            };
+            add(at(locks_[k].form));
+            if (locks_[k].gear()) add(at(locks_[k].other));
         }
         group.matrix.solve(z_);
         for (std::size_t k = begin; k < end; ++k) {
-            const double f = (asked_[k] - at(locks_[k].form).dot(z)) / compliance;
+            const double rest = at(locks_[k].form).dot(z) + (locks_[k].gear() ? at(locks_[k].other).dot(z) : 0.0);
+            const double f = (asked_[k] - rest) / compliance;
             given_[k] += f;
-            locks_[k].form.add_to(y, f);
+            locks_[k].add_to(y, f);
         }
     }
 }
@@ -261,13 +320,24 @@ JoinedRow JoinedGroups::project(const VelocityRow& form, std::uint32_t own, Velo
 std::vector<JointBlow> JoinedGroups::blows(Eigen::VectorXd& change) {
     std::vector<JointBlow> blows(joints_.size());
     for (std::size_t k = 0; k < joints_.size(); ++k) {
+        const bool gear = joints_[k]->gear();
         blows[k].joint = joints_[k];
+        blows[k].at = gear ? &all_joints_[joints_[k]->description.geared[0]] : joints_[k];
         blows[k].point = points_[k];
     }
     project(change);
     for (std::size_t k = 0; k < locks_.size(); ++k) {
         const Lock& lock = locks_[k];
-        (lock.turns ? blows[lock.joint].torque : blows[lock.joint].force) += given_[k] / lock.length * lock.direction;
+        const double impulse = given_[k] / lock.length;
+        (lock.turns ? blows[lock.joint].torque : blows[lock.joint].force) += impulse * lock.direction;
+        if (!lock.gear()) continue;
+        JointBlow second;
+        second.joint = joints_[lock.joint];
+        second.at = &all_joints_[second.joint->description.geared[1]];
+        second.second = true;
+        second.point = other_points_[lock.joint];
+        (lock.other_turns ? second.torque : second.force) = impulse * lock.other_direction;
+        blows.push_back(second);
     }
     return blows;
 }

@@ -36,8 +36,9 @@ public:
     };
 
     /// `bodies`: ascending, with all dynamic bodies of the joints. `joints`: that hold.
+    /// `all_joints`: of the set, by the numbers that gears name.
     JoinedGroups(std::span<const std::uint32_t> bodies, const std::vector<Joint*>& joints,
-                 const std::vector<Body>& all);
+                 std::span<const Joint> all_joints, const std::vector<Body>& all);
 
     /// Places of the bodies in y: each group's are consecutive. In the order of the list of bodies.
     const std::vector<std::uint32_t>& places() const { return places_; }
@@ -55,33 +56,54 @@ public:
     JoinedRow project(const VelocityRow& form, std::uint32_t own, VelocityRow& row);
     bool joined(std::uint32_t place) const { return group_of_[place] != VelocityRow::none; }
 
-    /// Makes a change of y fit the joints, and returns their impulses: by joint, without the work.
+    /// Makes a change of y fit the joints, and returns their impulses: by joint, then those of gears on their second
+    /// joints; without the work.
     std::vector<JointBlow> blows(Eigen::VectorXd& change);
 
 private:
+    /// A locked coordinate, or the relation of a gear: a sum of two coordinates, of up to four bodies.
     struct Lock {
         std::size_t joint;  // index in joints_
         Vec3 direction;     // world
         bool turns;
-        double length, offset;  // of the rate; offset over the length
-        VelocityRow form;       // unit
+        double length, offset;                // of the rate; offset over the length
+        VelocityRow form;                     // with `other`: unit
+        VelocityRow other = {};               // of a gear: of its second joint
+        Vec3 other_direction = Vec3::Zero();  // world, times the ratio
+        bool other_turns = false;
+
+        bool gear() const { return other.a != VelocityRow::none || other.b != VelocityRow::none; }
+        double dot(const Eigen::VectorXd& y) const { return form.dot(y) + (gear() ? other.dot(y) : 0.0); }
+        void add_to(Eigen::VectorXd& y, double amount) const {
+            form.add_to(y, amount);
+            if (gear()) other.add_to(y, amount);
+        }
     };
     struct Group {
         std::uint32_t first = 0, bodies = 0;  // places
         std::size_t first_lock = 0, locks = 0;
-        std::vector<std::size_t> joints;   // indices in joints_
-        std::vector<std::uint32_t> pairs;  // by joint: index in the matrix, or none
+        std::vector<std::size_t> joints;  // indices in joints_
         BlockCholesky matrix;
     };
+    /// Rate of B's point relative to A's along a direction, or of turning about it.
+    struct Rate {
+        VelocityRow form;
+        double offset = 0.0;  // by bodies that are not dynamic
+    };
+    Rate rate_of(const Joint& joint, const Vec3& point, const Vec3& direction, bool turns, const std::vector<Body>& all,
+                 const std::vector<MassRoot>& roots) const;
     void load_joint(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
+    void load_gear(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
     void factor(Group& group);
     void fit(Group& group, Eigen::VectorXd& y, bool carriers);
 
     std::vector<std::uint32_t> bodies_, places_, group_of_;  // ascending; by body; by place
     std::vector<Joint*> joints_;
+    std::span<const Joint> all_joints_;
     std::vector<Group> groups_;
     std::vector<Lock> locks_;
-    std::vector<Vec3> points_;  // by joint: m, world
+    std::vector<Vec3> points_;        // by joint: m, world
+    std::vector<Vec3> other_points_;  // by joint, of a gear: of its second joint
     std::vector<Limit> limits_;
     std::vector<double> given_, asked_, z_;  // by lock: impulses along the forms, rates to remove; work space
     Eigen::VectorXd carried_, work_;

@@ -34,6 +34,14 @@ void mix_traces(const ImpactTrace& weak, const ImpactTrace& strong, double share
 
 }  // namespace
 
+void drop_loose_gears(Island& island) {
+    std::erase_if(island.joints, [&](const Joint* gear) {
+        return gear->gear() && std::ranges::any_of(gear->description.geared, [&](std::size_t k) {
+                   return std::ranges::find(island.joints, &island.all_joints[k]) == island.joints.end();
+               });
+    });
+}
+
 int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
                      const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>& blows,
                      std::vector<Joint*>& broken) {
@@ -44,9 +52,9 @@ int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::
         const double over = blow.over(settings.span);
         if (!(over > 1.0)) continue;
         most = std::max(most, over);
-        broken.push_back(blow.joint);
-        std::erase(weaker.joints, blow.joint);
+        if (std::erase(weaker.joints, blow.joint) > 0) broken.push_back(blow.joint);
     }
+    drop_loose_gears(weaker);
     if (most == 1.0) return passes;
     const double share = 1.0 / most;
     Outcome strong;
@@ -77,8 +85,9 @@ int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::
         body.angular_velocity = mix(body.angular_velocity, strong.velocities[i].angular_velocity, share);
     }
     for (JointBlow& blow : strong.blows) {
-        const auto weak =
-            std::find_if(blows.begin(), blows.end(), [&](const JointBlow& other) { return other.joint == blow.joint; });
+        const auto weak = std::find_if(blows.begin(), blows.end(), [&](const JointBlow& other) {
+            return other.joint == blow.joint && other.second == blow.second;
+        });
         const JointBlow none;
         const JointBlow& other = weak == blows.end() ? none : *weak;
         blow.force = mix(other.force, blow.force, share);

@@ -10,6 +10,9 @@
 
 namespace tumble {
 
+/// Takes out gears one of whose joints the island lacks: it has broken.
+void drop_loose_gears(Island& island);
+
 /// resolve_impacts() with the strengths of the joints. `broken`: gets those that break; their states are not changed.
 int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
                      const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>& blows,

@@ -1,5 +1,7 @@
 #include "sim/joints/flight_way.h"
 
+#include <algorithm>
+
 namespace tumble {
 
 bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
@@ -16,6 +18,22 @@ bool has_springs(const Joint& joint) {
     for (std::size_t c = 0; c < joint.count(); ++c)
         if (joint.axis(c).spring) return true;
     return false;
+}
+
+bool springs_along_coordinates(const Joint& joint) {
+    int turns = 0;
+    for (std::size_t c = 3; c < joint.count(); ++c) turns += !joint.locked(c);
+    return turns < 2;
+}
+
+bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies) {
+    return std::all_of(joints.begin(), joints.end(), [&](const Joint* joint) {
+        for (const std::uint32_t i : {joint->a, joint->b})
+            if (i != Joint::world && bodies[i].dynamic() && bodies[i].integrator == IntegratorKind::explicit_euler)
+                return false;
+        return !joint->broken && free_but_for_springs(*joint, bodies) &&
+               (!has_springs(*joint) || springs_along_coordinates(*joint));
+    });
 }
 
 std::optional<IntegratorKind> tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {

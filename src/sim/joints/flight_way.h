@@ -14,6 +14,10 @@ namespace tumble {
 /// prescribed.
 bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies);
 bool has_springs(const Joint& joint);
+/// Whether each spring of the joint acts along one coordinate of a tree: not those of balls and universal joints.
+bool springs_along_coordinates(const Joint& joint);
+/// Whether the laws of these joints are those of trees in flight: locks, limits, springs and dampers.
+bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies);
 
 /// The method by which joined bodies move in joint coordinates, if their joints are a tree: extrapolation where one body's
 /// integrator is exact; that of Runge and Kutta where one is, and none is splitting.

@@ -68,6 +68,10 @@ void JointSet::take_events() {
         account.frame.load.add(account.events.load);
         account.frame.work_a += account.events.work_a;
         account.frame.work_b += account.events.work_b;
+        account.second.add(account.events.second_load, 1.0 / (to_ - from_));
+        account.frame.second_load.add(account.events.second_load);
+        account.frame.second_work_a += account.events.second_work_a;
+        account.frame.second_work_b += account.events.second_work_b;
         account.work.add(account.events.work);
         account.events = {};
     }

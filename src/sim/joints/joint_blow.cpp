@@ -18,19 +18,21 @@ void take_blow(const JointBlow& blow, std::vector<Body>& bodies) {
         body.momentum += sign * blow.force;
         body.angular_momentum += sign * ((blow.point - body.position).cross(blow.force) + blow.torque);
     };
-    add(blow.joint->a, -1.0);
-    add(blow.joint->b, 1.0);
+    add(blow.at->a, -1.0);
+    add(blow.at->b, 1.0);
     JointAccount::Span& account = blow.joint->account.events;
-    account.load.add({blow.force, blow.torque, blow.point.cross(blow.force) + blow.torque});
-    account.work_a += blow.work_a;
-    account.work_b += blow.work_b;
+    (blow.second ? account.second_load : account.load)
+        .add({blow.force, blow.torque, blow.point.cross(blow.force) + blow.torque});
+    (blow.second ? account.second_work_a : account.work_a) += blow.work_a;
+    (blow.second ? account.second_work_b : account.work_b) += blow.work_b;
     if (blow.breaks)
         account.work.heat -= blow.work_a + blow.work_b;
     else
         account.work.impacts += blow.lost;
     const auto carrier = [&](std::uint32_t i) { return i == Joint::world || !bodies[i].dynamic(); };
-    if (carrier(blow.joint->a)) account.work.carriers -= blow.work_a;
-    if (carrier(blow.joint->b)) account.work.carriers -= blow.work_b;
+    if (carrier(blow.at->a)) account.work.carriers -= blow.work_a;
+    if (carrier(blow.at->b)) account.work.carriers -= blow.work_b;
+    if (blow.second) return;
     blow.joint->point = blow.point;
     ++account.solves;
 }
@@ -46,8 +48,8 @@ void find_work(JointBlow& blow, const std::vector<Body>& bodies) {
         }
         return blow.force.dot(velocity + spin.cross(blow.point - body.position)) + blow.torque.dot(spin);
     };
-    blow.work_a = -work(blow.joint->a);
-    blow.work_b = work(blow.joint->b);
+    blow.work_a = -work(blow.at->a);
+    blow.work_b = work(blow.at->b);
 }
 
 }  // namespace tumble

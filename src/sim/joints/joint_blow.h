@@ -10,6 +10,8 @@ namespace tumble {
 /// Impulses on B, the opposite ones on A, at one point.
 struct JointBlow {
     Joint* joint = nullptr;
+    const Joint* at = nullptr;          // the joint whose bodies it acts on: of a gear, one of its two joints
+    bool second = false;                // of a gear: its second joint
     Vec3 force = Vec3::Zero();          // N s
     Vec3 torque = Vec3::Zero();         // N m s
     Vec3 point = Vec3::Zero();          // m, world

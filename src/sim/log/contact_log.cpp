@@ -134,7 +134,7 @@ void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>
         push_before(at(c.b), bodies[c.b], {j, c.arm_b.cross(j)});
     }
     for (const JointBlow& blow : blows)
-        for (const auto& [body, sign] : {std::pair(blow.joint->a, -1.0), std::pair(blow.joint->b, 1.0)}) {
+        for (const auto& [body, sign] : {std::pair(blow.at->a, -1.0), std::pair(blow.at->b, 1.0)}) {
             if (body == Joint::world || struck_[body] == none) continue;
             const Vec3 turn = (blow.point - bodies[body].position).cross(blow.force) + blow.torque;
             push_before(records_.struck[struck_[body]], bodies[body], {sign * blow.force, sign * turn});

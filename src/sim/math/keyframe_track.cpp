@@ -11,6 +11,8 @@ namespace {
 // Below this angle (rad) the series to second order is exact to rounding.
 constexpr double small_angle = 1e-4;
 
+}  // namespace
+
 // For q(u) = exp(phi(u)): the angular velocity in the rotating frame is J(phi) phi' with the right Jacobian
 // J = I - (1 - cos t)/t^2 [phi] + (t - sin t)/t^3 [phi]^2, t = |phi| (Sola et al. 2018, "A micro Lie theory", eq. 143).
 Vec3 body_spin(const Vec3& phi, const Vec3& rate) {
@@ -36,8 +38,6 @@ Vec3 rate_from_spin(const Vec3& phi, const Vec3& spin) {
     const Vec3 once = phi.cross(spin);
     return spin + 0.5 * once + c * phi.cross(once);
 }
-
-}  // namespace
 
 Vec3 rotation_vector(const Quat& q) {
     const Quat p = q.w() < 0.0 ? Quat(-q.coeffs()) : q;

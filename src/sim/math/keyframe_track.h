@@ -38,4 +38,8 @@ private:
 Vec3 rotation_vector(const Quat& q);
 Quat from_rotation_vector(const Vec3& v);
 
+/// The angular velocity of a rotation exp(phi) in its own frame, from the rate of phi, and back.
+Vec3 body_spin(const Vec3& phi, const Vec3& rate);
+Vec3 rate_from_spin(const Vec3& phi, const Vec3& spin);
+
 }  // namespace tumble

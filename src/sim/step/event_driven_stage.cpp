@@ -8,7 +8,7 @@ namespace tumble {
 std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t until) {
     std::vector<Body>& bodies = step.set.bodies;
     events_.record_in(step.log);
-    events_.join(step.joints, bodies);
+    events_.join(step.joints, bodies, step.forces.field());
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
     step.check.look_at(step.set.awake, bodies, step.pool);
@@ -25,7 +25,7 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
     std::vector<Body>& bodies = step.set.bodies;
     make_contacts(manifolds, bodies, contacts_);
     events_.record_in(step.log);
-    events_.join(step.joints, bodies);
+    events_.join(step.joints, bodies, step.forces.field());
     events_.take_off(contacts_, bodies, step.forces.field(), step.index);
     stepped_.clear();
     for (const std::uint32_t i : step.set.awake)

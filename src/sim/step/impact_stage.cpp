@@ -50,9 +50,10 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
         if (!collides(k, detection, bodies, threshold(step))) continue;
         Island& island = colliding_.emplace_back();
         island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+        island.all_joints = step.joints.joints();
         for (const std::uint32_t j : islands.joints(k)) {
             Joint& joint = step.joints.joints()[step.joints.active()[j]];
-            if (!joint.broken && !joint.gear()) island.joints.push_back(&joint);
+            if (!joint.broken) island.joints.push_back(&joint);
         }
         for (const std::uint32_t m : islands.manifolds(k)) {
             struck_.push_back(m);
@@ -101,6 +102,7 @@ void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
         joint->broken_at = step.end();
         std::erase(island.joints, joint);
     }
+    drop_loose_gears(island);
 }
 
 void ImpactStage::hold_bounces(const StepContext& step) {
