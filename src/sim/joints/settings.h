@@ -1,6 +1,8 @@
 // Constants of the joint solver.
 #pragma once
 
+#include <cstddef>
+
 namespace tumble::tuning {
 
 /// Compliance of rigid rows, over the island's mass and its number of joints. A round makes the error of a chain about a
@@ -102,5 +104,10 @@ inline constexpr int joint_rounds = 40;
 
 /// Share of a joint's error that is moved out in a step. Test: JointLaws.AnAnchorApartIsPulledInWithoutSpeed.
 inline constexpr double joint_push_share = 0.2;
+
+/// Groups of at least so many bodies, and with more block products per body in a factorization, are nets: they are solved
+/// in sweeps. Limits the cost.
+inline constexpr std::size_t net_bodies = 256;
+inline constexpr double net_work = 100.0;
 
 }  // namespace tumble::tuning

@@ -76,6 +76,10 @@ inline constexpr int soft_layout_steps = 32;
 /// on it.
 inline constexpr std::size_t soft_shared_groups = 24;
 
+/// Share of a joint's gap that is closed in a substep, and over-relaxation of its impulses.
+inline constexpr double soft_joint_rate = 0.5;
+inline constexpr double soft_joint_beyond = 1.0;
+
 /// Largest impulse handed over from the direct solver, in impulses of the step's forces on the lighter body.
 /// Related test: Towers.HeavyBetweenLight.
 inline constexpr double direct_handover = 20.0;
