@@ -152,7 +152,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 // their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
                                       std::size_t island) {
-    if (!islands.joints(island).empty()) return tuning::net_substeps;
+    if (nets_.way(islands.bodies(island)) == Nets::Way::sweeps) return 1;
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
@@ -241,7 +241,8 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
         if (islands.is_free(k) && islands.bodies(k).size() > 1 && islands.joints(k).empty())
             keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h);
     for (const std::size_t k : softly_) {
-        if (islands.joints(k).empty() || !islands.is_free(k)) continue;
+        if (islands.joints(k).empty() || !islands.is_free(k) || nets_.way(islands.bodies(k)) != Nets::Way::sweeps)
+            continue;
         Vec3 carried = Vec3::Zero();
         for (const std::uint32_t j : islands.joints(k)) carried += soft_.carried(problem.joints->active()[j]);
         keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h, carried);

@@ -52,8 +52,18 @@ double factor_work(const JointGroup& group, const JointSet& joints) {
 }
 
 bool is_net(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
-    return group.bodies.size() >= tuning::net_bodies && group.joints.size() > group.bodies.size() &&
-           all_known(group, joints, bodies) && factor_work(group, joints) > tuning::net_work;
+    if (group.joints.size() <= group.bodies.size() || !all_known(group, joints, bodies)) return false;
+    bool ropes = false;
+    for (const std::uint32_t k : group.joints) {
+        const Joint& joint = joints.joints()[k];
+        ropes = ropes || (joint.distance() && !joint.locked(0));
+        const auto dynamic = [&](std::uint32_t i) { return i != Joint::world && bodies[i].dynamic(); };
+        if (!dynamic(joint.a) || !dynamic(joint.b)) continue;
+        const double a = bodies[joint.a].mass, b = bodies[joint.b].mass;
+        if (std::max(a, b) > tuning::net_mass_ratio * std::min(a, b)) return false;
+    }
+    if (ropes && group.bodies.size() >= tuning::net_bodies_of_ropes) return true;
+    return group.bodies.size() >= tuning::net_bodies && factor_work(group, joints) > tuning::net_work;
 }
 
 void Nets::find(const JointSet& joints, const std::vector<Body>& bodies, bool every) {

@@ -105,9 +105,15 @@ inline constexpr int joint_rounds = 40;
 /// Share of a joint's error that is moved out in a step. Test: JointLaws.AnAnchorApartIsPulledInWithoutSpeed.
 inline constexpr double joint_push_share = 0.2;
 
-/// Groups of at least so many bodies, and with more block products per body in a factorization, are nets: they are solved
-/// in sweeps. Limits the cost.
+/// Nets are groups with more joints than bodies, of at least so many bodies and more block products per body in a
+/// factorization, or with ropes (distance joints with limits), whose changes between taut and slack need dozens of
+/// factorizations in a step. Limits the cost.
 inline constexpr std::size_t net_bodies = 256;
 inline constexpr double net_work = 100.0;
+inline constexpr std::size_t net_bodies_of_ropes = 64;
+
+/// Largest ratio of the masses that a joint of a net connects: sweeps stretch joints that hold a heavy body by light
+/// ones. Not fitted: far from such loads.
+inline constexpr double net_mass_ratio = 16.0;
 
 }  // namespace tumble::tuning

@@ -81,7 +81,7 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
                 softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_),
                 float(tuning::soft_joint_rate / d_),
-                float(tuning::soft_joint_beyond)};
+                float(tuning::soft_joint_leak)};
     energies_.open(layout, problem.bodies);
     const std::size_t dynamic = 1 + layout.blocks().order().size();  // number of slots
     packed_.resize(dynamic);
@@ -200,7 +200,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         PredictedGap seen{p.position, p.separation, 0.0};
         // For one substep more than the step: the last sweep looks that far ahead.
         if (predicts_gaps) seen = predicted_gap(m, i, bodies, problem.settings.h + d_);
-        if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings)) continue;
+        // The stage of impacts leaves large nets as they are: their contacts stop at the surface.
+        if (bouncy && joints_.size() == 0 && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings)) continue;
         const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.mark_deep(a.slot - 1);

@@ -116,9 +116,9 @@ inline void add_up(Hold& m, const Vector& f) {
     m.carried_sum = m.carried_sum + cross(m.parted, f);
 }
 
-// The new impulse of a point joint. `rate` (1/s): share of the gap that is closed, by time.
-inline Vector solve_point(Hold& m, const Vector& speed, Lanes rate, float beyond) {
-    const Vector change = all(-beyond) * (m.mass * (speed + rate * m.gap));
+// The new impulse of a point joint; returns its change. `rate` (1/s): share of the gap that is closed, by time.
+inline Vector solve_point(Hold& m, const Vector& speed, Lanes rate, float leak) {
+    const Vector change = all(-1.0f) * (m.mass * (speed + rate * m.gap)) - all(leak) * m.impulse;
     m.impulse = m.impulse + change;
     return change;
 }
@@ -126,18 +126,18 @@ inline Vector solve_point(Hold& m, const Vector& speed, Lanes rate, float beyond
 // The new impulse of a distance joint: positive pushes apart at `shortest`, negative pulls together at `longest`. A
 // distance that is not at its bound may reach it in a substep.
 template <bool pushing>
-inline Vector solve_distance(Hold& m, const Vector& speed, Lanes rate, float per_second, float beyond) {
+inline Vector solve_distance(Hold& m, const Vector& speed, Lanes rate, float per_second, float leak) {
     const Lanes length = dot(m.direction, m.gap), along = dot(m.direction, speed);
     const Lanes room_up = m.longest - length, room_down = m.shortest - length;
     const auto rod = m.longest == m.shortest;
     const Lanes closing = pushing ? rate : Lanes{};
     const Lanes up = room_up > 0.0f && !rod ? per_second * room_up : closing * room_up;
     const Lanes down = room_down < 0.0f && !rod ? per_second * room_down : closing * room_down;
-    const Lanes mass = beyond * m.mass.xx, old = m.impulse.x;
+    const Lanes mass = m.mass.xx, was = m.impulse.x, old = (1.0f - leak) * was;
     const Lanes pull = smaller(old - mass * (along - up), Lanes{}), push = larger(old - mass * (along - down), Lanes{});
     const Lanes next = rod ? old - mass * (along - up) : push > 0.0f ? push : pull;
     m.impulse.x = next;
-    return (next - old) * m.direction;
+    return (next - was) * m.direction;
 }
 
 template <bool pushing>
@@ -154,9 +154,10 @@ inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size
         }
         const Vector speed = parting(m, a, b);
         const Lanes rate = pushing ? all(substep.joint_rate) : Lanes{};
+        const float leak = pushing ? substep.joint_leak : 0.0f;
         const Vector change = g.kind == JointKind::point
-                                  ? solve_point(m, speed, rate, substep.beyond)
-                                  : solve_distance<pushing>(m, speed, rate, substep.per_second, substep.beyond);
+                                  ? solve_point(m, speed, rate, leak)
+                                  : solve_distance<pushing>(m, speed, rate, substep.per_second, leak);
         if constexpr (!pushing) add_up(m, change);
         apply(m, change, a, b);
         save(bodies, g.a, g.moved_a, a);

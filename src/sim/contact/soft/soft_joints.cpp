@@ -161,8 +161,7 @@ void SoftJoints::account(const ContactProblem& problem, std::size_t group) const
         const Vec3& force = step.load.force;
         step.work_a = -force.dot(mean_at(problem, j.a, j.point).velocity);
         step.work_b = force.dot(mean_at(problem, j.b, j.point).velocity);
-        const bool limit = j.distance() && !j.locked(0);
-        if (limit || !j.account.holds) step.work.impacts -= step.work_a + step.work_b;
+        if (!j.account.holds) step.work.impacts -= step.work_a + step.work_b;
         if (!ends.moved_a) step.work.carriers -= step.work_a;
         if (!ends.moved_b) step.work.carriers -= step.work_b;
         step.solves = 1;

@@ -155,8 +155,8 @@ struct Substep {
     float per_second;
     // for pairs that impulses move, of like or unlike masses; for pairs with a body that impulses do not move
     Softness alike, unlike, fixed;
-    float joint_rate = 0.0f;  // 1/s, at which a joint's gap is closed
-    float beyond = 1.0f;      // over-relaxation of the joints' impulses
+    // Of joints: share of the gap that is closed, 1/s, and share of the last impulse that a push gives up.
+    float joint_rate = 0.0f, joint_leak = 0.0f;
 };
 
 struct JointGroups;  // soft_joint_rows.h
