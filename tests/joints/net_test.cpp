@@ -33,9 +33,9 @@ SceneDescription net_scene(int side, Links links, double y = 0.0, int steps_per_
     const auto join = [&](int row, int column, int to_row, int to_column) {
         const Vec3 a = at(row, column), b = at(to_row, to_column);
         const bool distance = links != Links::balls;
-        JointDescription& joint = add_joint(scene, distance ? JointType::distance : JointType::ball,
-                                            place_in(side, row, column), place_in(side, to_row, to_column),
-                                            0.5 * (a + b));
+        JointDescription& joint =
+            add_joint(scene, distance ? JointType::distance : JointType::ball, place_in(side, row, column),
+                      place_in(side, to_row, to_column), 0.5 * (a + b));
         if (!distance) return;
         joint.anchor_first.setZero();
         joint.anchor_second.setZero();
@@ -81,8 +81,9 @@ double stretch_of(const World& world, const SceneDescription& scene) {
     double most = 0.0;
     for (const JointDescription& joint : scene.joints)
         if (joint.type == JointType::distance && joint.first && joint.second)
-            most = std::max(most, (s.bodies[*joint.second].center_of_mass - s.bodies[*joint.first].center_of_mass).norm() -
-                                      joint.length);
+            most =
+                std::max(most, (s.bodies[*joint.second].center_of_mass - s.bodies[*joint.first].center_of_mass).norm() -
+                                   joint.length);
     return most;
 }
 

@@ -35,7 +35,7 @@ public:
 
 private:
     enum class Role : std::uint8_t { plain, net, unknown };
-    std::vector<Role> role_;         // by body
+    std::vector<Role> role_;                   // by body
     std::uint64_t found_ = ~std::uint64_t(0);  // JointSet::changes() of the roles
 };
 

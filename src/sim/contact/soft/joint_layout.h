@@ -37,9 +37,9 @@ private:
     struct Taken {
         std::uint64_t inside = 0, across = 0;
     };
-    std::vector<Taken> taken_;           // by slot: colors, inside the block and between blocks
-    std::vector<std::uint32_t> class_;   // by joint: home, color, kind
-    std::vector<std::uint32_t> at_;      // by class: number, then the next lane
+    std::vector<Taken> taken_;          // by slot: colors, inside the block and between blocks
+    std::vector<std::uint32_t> class_;  // by joint: home, color, kind
+    std::vector<std::uint32_t> at_;     // by class: number, then the next lane
     std::vector<std::size_t> first_group_{0}, first_color_{0};
     std::vector<soft::JointKind> kinds_;  // by group
     std::vector<std::uint32_t> lane_joints_;

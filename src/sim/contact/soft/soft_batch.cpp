@@ -77,7 +77,8 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
     mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.settings.h) * batch.substep_multiplier;
     d_ = problem.settings.h / substeps_;
-    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_),
+    substep_ = {float(1.0 / d_),
+                softness(tuning::soft_frequency / d_, d_),
                 softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_),
                 float(tuning::soft_joint_rate / d_),
@@ -201,7 +202,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         // For one substep more than the step: the last sweep looks that far ahead.
         if (predicts_gaps) seen = predicted_gap(m, i, bodies, problem.settings.h + d_);
         // The stage of impacts leaves large nets as they are: their contacts stop at the surface.
-        if (bouncy && joints_.size() == 0 && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings)) continue;
+        if (bouncy && joints_.size() == 0 && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings))
+            continue;
         const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.mark_deep(a.slot - 1);

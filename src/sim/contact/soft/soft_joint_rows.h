@@ -20,11 +20,11 @@ struct JointRows {
     // At present: from A's and B's center to B's anchor, from A's anchor to B's, and how far A's center has moved
     // farther than B's since the start of the step, m.
     Vector3<Real> now_a, now_b, gap, parted;
-    Vector3<Real> direction;        // unit, along the gap: of a distance joint
-    Real shortest, longest;         // m, of a distance joint
-    Real present;                   // 1 in lanes with a joint, 0 in others
-    Symmetric3<Real> mass;          // kg, inverse of the compliance at the anchors; of a distance joint xx alone
-    Vector3<Real> impulse;          // on B; of a distance joint x alone, along the direction
+    Vector3<Real> direction;  // unit, along the gap: of a distance joint
+    Real shortest, longest;   // m, of a distance joint
+    Real present;             // 1 in lanes with a joint, 0 in others
+    Symmetric3<Real> mass;    // kg, inverse of the compliance at the anchors; of a distance joint xx alone
+    Vector3<Real> impulse;    // on B; of a distance joint x alone, along the direction
     Symmetric3<Real> inertia_a, inertia_b;  // 1/(kg m^2), inverse tensors
     // Sums over the substeps, on B: impulses, their moments about A's center, and parted x impulse, by which the moment
     // about B's center exceeds that of bodies that stay at their places.

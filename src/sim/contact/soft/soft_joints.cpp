@@ -103,8 +103,7 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
         row[&Hold::longest] = float(rod ? j.description.length : limited ? axis.upper : infinity);
         row.set(&Hold::direction, direction_of(apart));
         const auto& last = j.impulse[0];
-        row.set(&Hold::impulse,
-                Vec3(share * (last[Joint::lock] + last[Joint::lower] + last[Joint::upper]), 0.0, 0.0));
+        row.set(&Hold::impulse, Vec3(share * (last[Joint::lock] + last[Joint::lower] + last[Joint::upper]), 0.0, 0.0));
     });
 }
 
