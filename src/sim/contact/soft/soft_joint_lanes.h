@@ -1,4 +1,4 @@
-// The kernel's code for joints (soft_joint_rows.h): included after soft_kernel_lanes.h, which says how.
+// The code for joints (soft_joint_rows.h): part of soft_kernel_lanes.h, which says how it is included.
 
 using Hold = JointRows<Lanes>;
 

@@ -11,8 +11,8 @@ using Hold = soft::JointRows<float>;
 
 Vec3 wide(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
 
-// A side of a joint: the place that moments are about, and the anchor. What impulses do not move has no arm, but for
-// kinematic bodies, which turn.
+// A side of a joint: the place that moments are about, and the anchor. Bodies that impulses do not move have no arm,
+// except kinematic ones, which turn.
 struct End {
     Vec3 center, anchor;
 };

@@ -15,7 +15,6 @@
 
 namespace tumble::soft {
 namespace {
-#include "sim/contact/soft/soft_joint_lanes.h"
 #include "sim/contact/soft/soft_kernel_lanes.h"
 }  // namespace
 
