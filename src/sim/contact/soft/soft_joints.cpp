@@ -59,6 +59,7 @@ void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> j
     layout_ = &layout.joints();
     joints_ = joints;
     const std::size_t groups = layout_->groups();
+    places_.resize(joints.size());
     rows_.resize(groups * soft::joint_rows * units.lanes);
     lane_bodies_.resize(2 * groups * units.lanes);
     lane_moved_.resize(2 * groups);
@@ -86,6 +87,10 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
         lane_moved_[2 * group + 1] |= std::uint16_t(ends.moved_b << l);
         const End a = end_of(problem.bodies, j.a, j.anchor_a), b = end_of(problem.bodies, j.b, j.anchor_b);
         const Vec3 apart = b.anchor - a.anchor;
+        Place& kept = places_[place];
+        kept.center_a = a.center;
+        kept.center_b = b.center;
+        kept.point = b.anchor;
         const soft::JointLane row = lane(group, l);
         row[&Hold::present] = 1.0f;
         row.set(&Hold::arm_a, a.anchor - a.center);
@@ -94,7 +99,8 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
         if (layout_->kind(group) == soft::JointKind::point) {
             Vec3 impulse;
             for (std::size_t c = 0; c < 3; ++c) impulse[Eigen::Index(c)] = j.impulse[c][Joint::lock];
-            row.set(&Hold::impulse, Vec3(share * (axes_of(j, problem.bodies) * impulse)));
+            kept.axes = axes_of(j, problem.bodies);
+            row.set(&Hold::impulse, Vec3(share * (kept.axes * impulse)));
             return;
         }
         const JointAxis& axis = j.axis(0);
@@ -117,25 +123,25 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
                    moment = units_.mass * wide(row.vector(&Hold::moment_sum)),
                    extra = units_.mass * wide(row.vector(&Hold::carried_sum));
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
-        const End a = end_of(problem.bodies, j.a, j.anchor_a), b = end_of(problem.bodies, j.b, j.anchor_b);
+        const Place& kept = places_[place];
         j.impulse = {};
         j.curving = {};
         j.constraint_force = {};
         j.constraint_rate = {};
         const Vec3 last = whole * wide(row.vector(&Hold::impulse));
         if (layout_->kind(group) == soft::JointKind::point) {
-            const Vec3 local = axes_of(j, problem.bodies).transpose() * last;
+            const Vec3 local = kept.axes.transpose() * last;
             for (std::size_t c = 0; c < 3; ++c) j.impulse[c][Joint::lock] = local[Eigen::Index(c)];
         } else {
             j.impulse[0][j.locked(0) ? Joint::lock : last.x() > 0.0 ? Joint::lower : Joint::upper] = last.x();
         }
-        j.point = b.anchor;
+        j.point = kept.point;
         j.force = force / h;
         j.torque.setZero();
         JointAccount::Span& step = j.account.step;
         step = {};
         step.load.force = force;
-        step.load.moment = a.center.cross(force) + moment + extra;
+        step.load.moment = kept.center_a.cross(force) + moment + extra;
         carried[joints_[place]] = extra;
         if (ends.moved_a) {
             reached[ends.slot_a] = 1;
@@ -147,7 +153,7 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
             reached[ends.slot_b] = 1;
             Body& body = problem.bodies[j.b];
             body.momentum += force;
-            body.angular_momentum += moment + (a.center - b.center).cross(force) + extra;
+            body.angular_momentum += moment + (kept.center_a - kept.center_b).cross(force) + extra;
         }
     });
 }

@@ -47,10 +47,17 @@ private:
     void each_lane(std::size_t group, Visit&& visit) const;
     Joint& joint(const ContactProblem& problem, std::uint32_t place) const;
 
+    struct Place {
+        Vec3 center_a, center_b;  // m, world: that moments are about
+        Vec3 point;               // m, world: B's anchor
+        Mat3 axes;                // of A's joint frame, world: of a point joint
+    };
+
     Units units_;
     const SoftLayout* bodies_ = nullptr;
     const JointLayout* layout_ = nullptr;
     std::span<const std::uint32_t> joints_;
+    std::vector<Place> places_;  // at the start of the step
     AlignedFloats rows_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
