@@ -332,7 +332,11 @@ std::vector<JointState> World::joint_states() const {
     return states;
 }
 
-JointReport World::joint_report() const { return describe_joints(state_->joints, state_->set.bodies); }
+JointReport World::joint_report() const {
+    const SimulationSettings& settings = state_->settings;
+    const bool nets = settings.contact_solver != ContactSolverChoice::direct && settings.impacts == ImpactMode::stepped;
+    return describe_joints(state_->joints, state_->set.bodies, nets);
+}
 
 Measurement World::measure() const {
     const State& s = *state_;

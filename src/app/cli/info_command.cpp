@@ -135,7 +135,8 @@ std::string count_text(std::size_t count, const char* one, const char* several) 
 std::string flight_text(const JointReport& report) {
     const std::pair<std::size_t, const char*> ways[] = {{report.by_coordinates, "by the articulated-body algorithm"},
                                                         {report.by_rattle, "by RATTLE"},
-                                                        {report.by_rows, "by the same rows"}};
+                                                        {report.by_rows, "by the same rows"},
+                                                        {report.by_sweeps, "in sweeps"}};
     std::string text;
     for (const auto& [count, way] : ways) {
         if (count == report.groups) return way;
@@ -164,7 +165,14 @@ void print_joints(const SceneDescription& scene, const World& world) {
         put("  masses    {:.4g} : 1 at the most, at joint '{}'\n", report.mass_ratio, name(*report.heaviest));
     put("  gap       {:.3g} m at the start{}\n", report.gap,
         report.widest ? fmt::format(", at joint '{}'", name(*report.widest)) : "");
-    put("  solved    by rows beside contacts; in flight {}\n", flight_text(report));
+    if (report.by_sweeps == report.groups)
+        put("  solved    in sweeps\n");
+    else
+        put("  solved    by rows beside contacts; in flight {}\n", flight_text(report));
+    if (report.by_sweeps > 0)
+        put("  nets      {} in sweeps: joints open by millimeters under load; less with more steps_per_frame,\n"
+            "            not at all with contact_solver = \"direct\", which takes longer\n",
+            count_text(report.by_sweeps, "group", "groups"));
 }
 
 /// Steps the world for a moment and extrapolates; heaps that form later cost more.

@@ -58,7 +58,20 @@ LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIsl
     return memory.load;
 }
 
+// Whether an island with joints is solved softly: a net, with all that it touches. Where a net touches joined bodies that
+// sweeps do not know, it stays with the direct solver for a while after they have parted.
+bool ContactSolver::in_sweeps(const ContactIslands& islands, std::size_t island) {
+    if (choice_ == Choice::direct || effort_ == Effort::precisely) return false;
+    const auto bodies = islands.bodies(island);
+    const Nets::Way way = nets_.way(bodies);
+    int& wait = memory_[bodies[0]].wait;
+    if (way == Nets::Way::mixed) wait = tuning::net_wait;
+    if (way != Nets::Way::sweeps) return false;
+    return wait == 0 || --wait == 0;
+}
+
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
+    if (problem.joints) nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft);
     direct_.clear();
     softly_.clear();
     candidates_.clear();
@@ -76,8 +89,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
         const bool precise = effort_ == Effort::precisely && bodies.size() <= tuning::direct_most_bodies;
-        if (!islands.joints(k).empty()) {  // the soft solver knows no joints
-            direct_.push_back(k);
+        if (!islands.joints(k).empty()) {
+            (in_sweeps(islands, k) ? softly_ : direct_).push_back(k);
             continue;
         }
         if (choice_ != Choice::by_island || precise) {
@@ -139,6 +152,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 // their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
                                       std::size_t island) {
+    if (nets_.way(islands.bodies(island)) == Nets::Way::sweeps) return tuning::net_substeps;
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
@@ -164,19 +178,26 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
             if (substep_multipliers_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);
             const auto manifolds = islands.manifolds(softly_[s]);
-            if (!batch || batch->manifolds.size() + manifolds.size() > tuning::soft_batch_manifolds) {
+            // Of islands with other joints the direct solver has failed.
+            const bool net = nets_.way(bodies) == Nets::Way::sweeps;
+            const auto joints = net ? islands.joints(softly_[s]) : std::span<const std::uint32_t>{};
+            // Islands with joints, whose sweeps differ, are batches of their own.
+            if (!batch || batch->manifolds.size() + manifolds.size() > tuning::soft_batch_manifolds ||
+                !joints.empty() || !batch->joints.empty()) {
                 if (batches_used_ == batches_.size()) batches_.emplace_back();
                 batch = &batches_[batches_used_++];
                 batch->bodies.clear();
                 batch->manifolds.clear();
                 batch->pairs.clear();
                 batch->island_ends.clear();
+                batch->joints.clear();
                 batch->substep_multiplier = wanted;
             }
             batch->bodies.insert(batch->bodies.end(), bodies.begin(), bodies.end());
             batch->manifolds.insert(batch->manifolds.end(), manifolds.begin(), manifolds.end());
             batch->pairs.insert(batch->pairs.end(), islands.pairs(softly_[s]).begin(), islands.pairs(softly_[s]).end());
             batch->island_ends.push_back(batch->bodies.size());
+            for (const std::uint32_t j : joints) batch->joints.push_back(problem.joints->active()[j]);
         }
     }
     return false;
@@ -219,9 +240,18 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     for (std::size_t k = 0; k < islands.size(); ++k)
         if (islands.is_free(k) && islands.bodies(k).size() > 1 && islands.joints(k).empty())
             keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h);
+    for (const std::size_t k : softly_) {
+        if (islands.joints(k).empty() || !islands.is_free(k) || nets_.way(islands.bodies(k)) != Nets::Way::sweeps)
+            continue;
+        Vec3 carried = Vec3::Zero();
+        for (const std::uint32_t j : islands.joints(k)) carried += soft_.carried(problem.joints->active()[j]);
+        keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h, carried);
+    }
 }
 
 void ContactSolver::close_joints(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
+    // The gaps of nets close in the next sweeps.
+    if (std::binary_search(softly_.begin(), softly_.end(), island)) return;
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];
     if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();

@@ -1,7 +1,7 @@
 // Resting contact of all islands: selects a solver for each island, by rules that depend on the scene alone.
 //
 // The direct solver (direct_solver.h) takes
-// - islands with joints, which the soft solver does not know,
+// - islands with joints, except nets,
 // - single bodies,
 // - all islands of a small scene,
 // - islands that touch nothing fixed,
@@ -14,6 +14,7 @@
 #include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/load_estimate.h"
 #include "sim/contact/soft/soft_solver.h"
+#include "sim/joints/net_way.h"
 
 #include <memory>
 #include <vector>
@@ -37,9 +38,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [choice, effort, memory, gains, turns_fast, loads, soft, candidates, few, direct, softly, failed,
+        auto& [choice, effort, memory, gains, turns_fast, loads, soft, nets, candidates, few, direct, softly, failed,
                substep_multipliers, batched, batches, batches_used] = self;
-        archive.rebuilt(choice, effort, soft, batched, batches, batches_used);
+        archive.rebuilt(choice, effort, soft, nets, batched, batches, batches_used);
         archive.keep(memory, few);
         archive.scratch(gains, turns_fast, loads, candidates, direct, softly, failed, substep_multipliers);
     }
@@ -72,6 +73,7 @@ private:
     LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                       double enough);
     int substep_multiplier(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
+    bool in_sweeps(const ContactIslands& islands, std::size_t island);
     bool make_batches(const ContactIslands& islands, const ContactProblem& problem);
 
     Choice choice_;
@@ -83,6 +85,7 @@ private:
     std::vector<char> turns_fast_;
     LoadEstimates loads_;
     SoftSolver soft_;
+    Nets nets_;
     std::vector<Candidate> candidates_;
     bool few_ = false;                          // few pairs in all: every island may be solved directly
     std::vector<std::size_t> direct_, softly_;  // indices of islands

@@ -58,4 +58,12 @@ inline constexpr int direct_most_failures = 8;
 /// Islands per unit of parallel work of the direct solver. No result depends on it.
 inline constexpr std::size_t direct_parallel_grain = 4;
 
+/// Factor of the number of substeps of nets: gaps are as its inverse square, and the sweeps are a small part of the cost.
+/// 1, 2 or 4.
+inline constexpr int net_substeps = 2;
+
+/// Steps for which a net stays with the direct solver after it has touched joined bodies that sweeps do not know. Not
+/// fitted: a hysteresis, against a change of the solver in each bounce.
+inline constexpr int net_wait = 30;
+
 }  // namespace tumble::tuning

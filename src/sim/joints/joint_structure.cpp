@@ -4,6 +4,7 @@
 #include "sim/joints/flight_way.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
+#include "sim/joints/net_way.h"
 
 #include <Eigen/QR>
 
@@ -118,7 +119,7 @@ void add_way(const JointGroup& group, bool tree, const JointSet& joints, const s
 
 }  // namespace
 
-JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies) {
+JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, bool nets) {
     JointReport report;
     for (const JointGroup& group : find_joint_groups(joints, bodies)) {
         const std::size_t rows = locked_rows(group, joints), loops = loops_of(group, joints, bodies);
@@ -132,7 +133,10 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
         report.loops += loops;
         report.rows += rows;
         report.redundant += rows - rank;
-        add_way(group, loops == 0, joints, bodies, report);
+        if (nets && is_net(group, joints, bodies))
+            ++report.by_sweeps;
+        else
+            add_way(group, loops == 0, joints, bodies, report);
         report.counted = report.counted && small;
     }
     find_extremes(joints, bodies, report);

@@ -8,6 +8,7 @@
 
 namespace tumble {
 
-JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies);
+/// `nets`: nets are solved in sweeps.
+JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, bool nets);
 
 }  // namespace tumble

@@ -1,6 +1,8 @@
 // Constants of the joint solver.
 #pragma once
 
+#include <cstddef>
+
 namespace tumble::tuning {
 
 /// Compliance of rigid rows, over the island's mass and its number of joints. A round makes the error of a chain about a
@@ -109,5 +111,16 @@ inline constexpr int joint_rounds = 40;
 
 /// Share of a joint's error that is moved out in a step. Test: JointLaws.AnAnchorApartIsPulledInWithoutSpeed.
 inline constexpr double joint_push_share = 0.2;
+
+/// Nets are groups with more joints than bodies, of at least so many bodies and more block products per body in a
+/// factorization, or with ropes (distance joints with limits), whose changes between taut and slack need dozens of
+/// factorizations in a step. Limits the cost.
+inline constexpr std::size_t net_bodies = 256;
+inline constexpr double net_work = 100.0;
+inline constexpr std::size_t net_bodies_of_ropes = 64;
+
+/// Largest ratio of the masses that a joint of a net connects: sweeps stretch joints that hold a heavy body by light
+/// ones. Not fitted: far from such loads.
+inline constexpr double net_mass_ratio = 16.0;
 
 }  // namespace tumble::tuning

@@ -16,9 +16,10 @@ struct JointReport {
     std::size_t redundant = 0;           // rows that follow from others
     // Groups by the way in which they fly: trees in joint coordinates, RATTLE, or the rows of the solver of contacts.
     std::size_t by_coordinates = 0, by_rattle = 0, by_rows = 0;
-    bool counted = true;      // false: a group is so large that all of its rows count as independent
-    double mass_ratio = 1.0;  // largest of two dynamic bodies of a joint
-    double gap = 0.0;         // m, largest
+    std::size_t by_sweeps = 0;  // nets, solved in sweeps, in flight and in contact; in none of the above
+    bool counted = true;        // false: a group is so large that all of its rows count as independent
+    double mass_ratio = 1.0;    // largest of two dynamic bodies of a joint
+    double gap = 0.0;           // m, largest
     std::optional<std::size_t> heaviest, widest;  // joints with these; in the order of the scene
 };
 

@@ -55,9 +55,10 @@ void RigidMode::scale_rest(double scale, const Vec3& origin, Body& body) const {
     body.push_angular_velocity = angular - body.angular_velocity;
 }
 
-void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h) {
+void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h,
+                           const Vec3& carried) {
     const Vec3 origin = bodies[island[0]].position;
-    Vec3 gained = Vec3::Zero(), center = Vec3::Zero();
+    Vec3 gained = carried, center = Vec3::Zero();
     double mass = 0.0;
     for (const std::uint32_t i : island) {
         const Body& body = bodies[i];

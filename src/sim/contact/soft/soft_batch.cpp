@@ -64,11 +64,6 @@ std::array<std::uint8_t, Manifold::capacity> deepest_last(const Manifold& m) {
 
 SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel) {}
 
-void SoftBatch::Floats::resize(std::size_t count) {
-    if (memory_.size() < count + 16) memory_.resize(count + 16);
-    data_ = memory_.data() + (64 - reinterpret_cast<std::uintptr_t>(memory_.data()) % 64) % 64 / sizeof(float);
-}
-
 // For a substep of d seconds (formulas: soft_solver.h).
 soft::Softness SoftBatch::softness(double frequency, double d) {
     const double w = 2.0 * std::numbers::pi * frequency, z = tuning::soft_damping;
@@ -76,28 +71,32 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
     return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
 
-void SoftBatch::prepare(const ContactProblem& problem, int substep_multiplier, const SoftLayout& layout,
+void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
                         double mass_unit) {
     layout_ = &layout;
     mass_unit_ = mass_unit;
-    substeps_ = substeps_of(problem.settings.h) * substep_multiplier;
+    substeps_ = substeps_of(problem.settings.h) * batch.substep_multiplier;
     d_ = problem.settings.h / substeps_;
-    substep_ = {float(1.0 / d_), softness(tuning::soft_frequency / d_, d_),
+    substep_ = {float(1.0 / d_),
+                softness(tuning::soft_frequency / d_, d_),
                 softness(tuning::soft_frequency_of_unlike / d_, d_),
-                softness(tuning::soft_frequency_of_fixed / d_, d_)};
+                softness(tuning::soft_frequency_of_fixed / d_, d_),
+                float(tuning::soft_joint_rate / d_),
+                float(tuning::soft_joint_leak)};
     energies_.open(layout, problem.bodies);
     const std::size_t dynamic = 1 + layout.blocks().order().size();  // number of slots
     packed_.resize(dynamic);
     reached_.assign(dynamic, 0);
     slots_ = dynamic + layout.movers().size();
     state_.resize(slots_ * soft::body_floats);
-    for (Floats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
+    for (AlignedFloats* array : {&inertia_, &before_, &forces_}) array->resize(slots_ * soft::inertia_floats);
     const std::size_t groups = layout.groups(), lanes = std::size_t(kernel_.lanes);
     rows_.resize(groups * soft::group_rows * lanes);
     lane_bodies_.resize(2 * lanes * groups);
     lane_moved_.resize(2 * groups);
     lane_points_.resize(groups);
     sources_.resize(groups * lanes);
+    joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit});
 }
 
 // For the positions first to last in the blocks' order.
@@ -127,7 +126,7 @@ void SoftBatch::pack_bodies(const ContactProblem& problem, std::size_t first, st
 // Includes slot 0, which stands still.
 void SoftBatch::pack_movers(const ContactProblem& problem) {
     const std::size_t dynamic = layout_->blocks().order().size();
-    for (Floats* array : {&inertia_, &before_, &forces_}) {
+    for (AlignedFloats* array : {&inertia_, &before_, &forces_}) {
         std::fill_n(array->data(), soft::inertia_floats, 0.0f);
         std::fill_n(array->data() + (1 + dynamic) * soft::inertia_floats,
                     layout_->movers().size() * soft::inertia_floats, 0.0f);
@@ -202,7 +201,9 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         PredictedGap seen{p.position, p.separation, 0.0};
         // For one substep more than the step: the last sweep looks that far ahead.
         if (predicts_gaps) seen = predicted_gap(m, i, bodies, problem.settings.h + d_);
-        if (bouncy && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings)) continue;
+        // The stage of impacts leaves large nets as they are: their contacts stop at the surface.
+        if (bouncy && joints_.size() == 0 && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings))
+            continue;
         const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);
         if (p.separation < -tuning::soft_energy_deep * size) energies_.mark_deep(a.slot - 1);
@@ -246,8 +247,8 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     }
 }
 
-void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread,
-                    std::size_t team, SpinBarrier& barrier) {
+void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::vector<Vec3>& carried,
+                    std::size_t thread, std::size_t team, SpinBarrier& barrier) {
     const auto meet = [&] {
         if (team > 1) barrier.wait();
     };
@@ -258,17 +259,16 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     const std::size_t across = blocks.size();
     const auto own = layout.blocks_of(thread, team);
     const std::size_t first_body = blocks.first(own.begin), end_body = blocks.first(own.end);
-    const auto group_of = [&](std::size_t home) { return layout.first_group(layout.first_color(home)); };
-    const std::size_t first_across = group_of(across), all_across = layout.groups() - first_across;
     // Color by color: in this thread's blocks, then between blocks.
-    const auto each_color = [&](auto&& pass) {
-        for (std::size_t c = layout.first_color(own.begin); c < layout.first_color(own.end); ++c)
-            pass(layout.first_group(c), layout.first_group(c + 1));
+    const auto each_color_of = [&](const auto& colors, auto&& pass) {
+        for (std::size_t c = colors.first_color(own.begin); c < colors.first_color(own.end); ++c)
+            pass(colors.first_group(c), colors.first_group(c + 1));
+        const std::size_t all_across = colors.groups() - colors.first_group(colors.first_color(across));
         if (all_across == 0) return;
         meet();
         const bool shared = all_across >= tuning::soft_shared_groups;
-        for (std::size_t c = layout.first_color(across); c < layout.first_color(across + 1); ++c) {
-            const std::size_t first = layout.first_group(c), count = layout.first_group(c + 1) - first;
+        for (std::size_t c = colors.first_color(across); c < colors.first_color(across + 1); ++c) {
+            const std::size_t first = colors.first_group(c), count = colors.first_group(c + 1) - first;
             if (shared) {
                 pass(first + count * thread / team, first + count * (thread + 1) / team);
                 meet();
@@ -278,26 +278,45 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
         }
         if (!shared) meet();
     };
+    const auto each_color = [&](auto&& pass) { each_color_of(layout, pass); };
+    const bool joined = joints_.size() > 0;
+    const soft::JointGroups holds = joined ? joints_.groups() : soft::JointGroups{};
+    const auto each_joint_color = [&](auto&& pass) {
+        if (joined) each_color_of(layout.joints(), pass);
+    };
+    const auto each_own = [&](const auto& colors, auto&& pass) {
+        const auto group_of = [&](std::size_t home) { return colors.first_group(colors.first_color(home)); };
+        const std::size_t first = group_of(across), count = colors.groups() - first;
+        pass(group_of(own.begin), group_of(own.end));
+        pass(first + count * thread / team, first + count * (thread + 1) / team);
+    };
 
     pack_bodies(problem, first_body, end_body);
     if (thread == 0) pack_movers(problem);
     meet();
-    const auto pack_groups = [&](std::size_t first, std::size_t last) {
+    each_own(layout, [&](std::size_t first, std::size_t last) {
         for (std::size_t g = first; g < last; ++g) pack(problem, g, slot);
         kernel_.prepare(groups, first, last, bodies);
-    };
-    pack_groups(group_of(own.begin), group_of(own.end));
-    pack_groups(first_across + all_across * thread / team, first_across + all_across * (thread + 1) / team);
+    });
+    if (joined)
+        each_own(layout.joints(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t g = first; g < last; ++g) joints_.pack(problem, g);
+            kernel_.prepare_joints(holds, first, last, bodies);
+        });
     meet();
     for (int step = 0; step < substeps_; ++step) {
-        kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0);
+        // The arms of joints turn: their impulses are applied anew in each substep.
+        kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0 && !joined);
         if (!layout_->movers().empty()) {  // read by all threads
             meet();
             if (thread == 0) kernel_.accelerate(1 + layout_->blocks().order().size(), slots_, bodies, false);
             meet();
         }
-        if (step == 0) each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+        if (step == 0 || joined)
+            each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+        each_joint_color([&](std::size_t f, std::size_t l) { kernel_.warm_start_joints(holds, f, l, bodies); });
         each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
+        each_joint_color([&](std::size_t f, std::size_t l) { kernel_.push_joints(holds, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
         if (!layout_->movers().empty()) {
             meet();
@@ -305,14 +324,23 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
             meet();
         }
         each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, substep_); });
+        each_joint_color([&](std::size_t f, std::size_t l) { kernel_.relax_joints(holds, f, l, bodies, substep_); });
     }
     each_color([&](std::size_t f, std::size_t l) {
         kernel_.sum(groups, f, l);
         for (std::size_t g = f; g < l; ++g) unpack(problem, g);
     });
+    each_joint_color([&](std::size_t f, std::size_t l) {
+        for (std::size_t g = f; g < l; ++g) joints_.unpack(problem, g, reached_, carried);
+    });
     hand_back(problem, first_body, end_body);
     meet();
     energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.settings.h);
+    if (!joined) return;
+    meet();
+    each_own(layout.joints(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t g = first; g < last; ++g) joints_.account(problem, g);
+    });
 }
 
 // Transfers impulses to the manifolds and to the momenta of their bodies.

@@ -5,7 +5,9 @@
 // per sweep, not once per color.
 #pragma once
 
+#include "sim/contact/soft/aligned_floats.h"
 #include "sim/contact/soft/energy_budget.h"
+#include "sim/contact/soft/soft_joints.h"
 #include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/soft/soft_layout.h"
 #include "sim/contact/soft/soft_solver.h"
@@ -23,23 +25,14 @@ public:
     /// prepare() is called by one thread, the following functions by all threads of a team.
     /// - `layout`: closed, and valid until then.
     /// - slot: as in the layout.
-    /// - `substep_multiplier`: factor of the number of substeps.
+    /// - `batch`: gives the factor of the number of substeps, and the joints.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
-    void prepare(const ContactProblem& problem, int substep_multiplier, const SoftLayout& layout, double mass_unit);
-    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::size_t thread,
-             std::size_t team, SpinBarrier& barrier);
+    void prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout, double mass_unit);
+    /// `carried`: by joint, gets the moments of soft_joints.h.
+    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::vector<Vec3>& carried,
+             std::size_t thread, std::size_t team, SpinBarrier& barrier);
 
 private:
-    // Memory aligned for the widest kernel.
-    class Floats {
-    public:
-        void resize(std::size_t count);
-        float* data() { return data_; }
-
-    private:
-        std::vector<float> memory_;
-        float* data_ = nullptr;
-    };
     // Data of a body needed for packing, close together in memory.
     struct PackedBody {
         Vec3 position = Vec3::Zero();
@@ -77,11 +70,12 @@ private:
     int substeps_ = 1;
     double mass_unit_ = 1.0;  // kg
     soft::Substep substep_{};
-    Floats state_, inertia_, before_, forces_, rows_;  // before_, forces_: 8 floats per slot
+    AlignedFloats state_, inertia_, before_, forces_, rows_;  // before_, forces_: 8 floats per slot
     const SoftLayout* layout_ = nullptr;  // slot k + 1 is the k-th body of its blocks' order; the movers follow
     std::size_t slots_ = 0;
     std::vector<PackedBody> packed_;  // by slot
     IslandEnergies energies_;
+    SoftJoints joints_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;

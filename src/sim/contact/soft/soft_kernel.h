@@ -155,7 +155,11 @@ struct Substep {
     float per_second;
     // for pairs that impulses move, of like or unlike masses; for pairs with a body that impulses do not move
     Softness alike, unlike, fixed;
+    // Of joints: share of the gap that is closed, 1/s, and share of the last impulse that a push gives up.
+    float joint_rate = 0.0f, joint_leak = 0.0f;
 };
+
+struct JointGroups;  // soft_joint_rows.h
 
 struct Kernel {
     int lanes;
@@ -173,6 +177,11 @@ struct Kernel {
     void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     /// Adds the step's impulses into `force` and `moment`.
     void (*sum)(const Groups&, std::size_t first, std::size_t last);
+    /// The same for joints; they are pushed and relaxed after the contacts of a sweep, and warm started in each substep.
+    void (*prepare_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&);
+    void (*warm_start_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&);
+    void (*push_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
+    void (*relax_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
 };
 
 extern const Kernel sse2_kernel, avx2_kernel, avx512_kernel;

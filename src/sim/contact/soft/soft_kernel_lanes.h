@@ -414,3 +414,5 @@ void sum(const Groups& groups, std::size_t first, std::size_t last) {
         m.total_impulse = {sums.linear, sums.angular};
     }
 }
+
+#include "sim/contact/soft/soft_joint_lanes.h"

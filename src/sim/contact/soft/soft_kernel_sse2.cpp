@@ -2,6 +2,7 @@
 #include "sim/contact/model/settings.h"
 #include "sim/contact/model/spin_friction.h"
 #include "sim/contact/soft/settings.h"
+#include "sim/contact/soft/soft_joint_rows.h"
 #include "sim/contact/soft/soft_kernel.h"
 
 #pragma GCC target("sse2")
@@ -14,6 +15,7 @@ namespace {
 #include "sim/contact/soft/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start, accelerate, move, push, relax, sum};
+const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start,     accelerate,        move,        push,
+                         relax,        sum,     prepare_joints, warm_start_joints, push_joints, relax_joints};
 
 }  // namespace tumble::soft

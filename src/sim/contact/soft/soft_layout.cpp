@@ -1,6 +1,7 @@
 #include "sim/contact/soft/soft_layout.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/joints/joint.h"
 
 #include <algorithm>
 #include <atomic>
@@ -96,12 +97,48 @@ void SoftLayout::color(const IslandBatch& batch, const std::vector<Body>& bodies
     }
 }
 
+void SoftLayout::add_joints(const IslandBatch& batch, const std::vector<Joint>& joints, const std::vector<Body>& bodies,
+                            const std::vector<std::uint32_t>& slot, std::size_t lanes) {
+    joint_places_.clear();
+    joint_ends_.clear();
+    joint_movers_.clear();
+    for (const std::uint32_t k : batch.joints) {
+        const Joint& joint = joints[k];
+        const auto place = std::uint32_t(joint_places_.size());
+        const auto slot_of = [&](std::uint32_t body) {  // 0: not moved by impulses
+            return body != Joint::world && bodies[body].dynamic() ? slot[body] : 0u;
+        };
+        const std::uint32_t a = slot_of(joint.a), b = slot_of(joint.b);
+        const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
+        const auto home = std::uint32_t(inside ? block_of_[a != 0 ? a : b] : blocks_.size());
+        joint_places_.push_back({a, b, home, joint.distance() ? soft::JointKind::distance : soft::JointKind::point});
+        joint_ends_.push_back({a, b, a != 0, b != 0});
+        if (a != 0 && b != 0) continue;
+        Island& island = islands_[island_of_[a != 0 ? a : b]];
+        const std::uint32_t other = a != 0 ? joint.b : joint.a;
+        if (other == Joint::world || !bodies[other].moves()) {
+            island.touches_static = 1;
+            continue;
+        }
+        island.driven = 1;
+        joint_movers_.push_back({place, other, a != 0});
+        found_movers_[0].push_back({other, none});
+    }
+    joints_.color(joint_places_, 1 + blocks_.order().size(), blocks_.size() + 1, lanes);
+}
+
 void SoftLayout::close(const IslandBatch& batch, std::size_t lanes) {
     movers_.clear();
     for (const std::vector<Mover>& found : found_movers_) movers_.insert(movers_.end(), found.begin(), found.end());
     std::sort(movers_.begin(), movers_.end());
     movers_.erase(std::unique(movers_.begin(), movers_.end()), movers_.end());
     lasts_ = lasts_ && movers_.empty();
+    if (!batch.joints.empty())
+        for (const auto& [place, body, second] : joint_movers_) {
+            const auto found = std::lower_bound(movers_.begin(), movers_.end(), Mover{body, none}) - movers_.begin();
+            (second ? joint_ends_[place].slot_b : joint_ends_[place].slot_a) =
+                std::uint32_t(1 + blocks_.order().size() + std::size_t(found));
+        }
 
     const std::size_t homes = blocks_.size() + 1;
     std::size_t groups = 0;

@@ -5,6 +5,7 @@
 // A layout is valid while the same pairs touch: that of small islands is kept from step to step.
 #pragma once
 
+#include "sim/contact/soft/joint_layout.h"
 #include "sim/contact/soft/settings.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/body_pair.h"
@@ -50,8 +51,11 @@ struct IslandBatch {
     std::vector<std::uint32_t> bodies, manifolds;
     std::vector<BodyPair> pairs;           // body pairs of the manifolds, in their order
     std::vector<std::size_t> island_ends;  // positions in `bodies`
+    std::vector<std::uint32_t> joints;     // of nets: indices into JointSet::joints(), ascending by island
     int substep_multiplier = 1;            // substep multiplier
 };
+
+struct Joint;
 
 class SoftLayout {
 public:
@@ -82,6 +86,9 @@ public:
               std::size_t team);
     void color(const IslandBatch& batch, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team);
+    /// Of a batch with joints, before close().
+    void add_joints(const IslandBatch& batch, const std::vector<Joint>& joints, const std::vector<Body>& bodies,
+                    const std::vector<std::uint32_t>& slot, std::size_t lanes);
     void close(const IslandBatch& batch, std::size_t lanes);
 
     /// Whether the layout is valid for one more step with the same pairs: the cuts of large islands depend on the
@@ -99,6 +106,14 @@ public:
     }
     const std::vector<Island>& islands() const { return islands_; }
     const std::vector<Mover>& movers() const { return movers_; }  // ascending
+
+    /// Slots of a joint's bodies, and whether impulses move them.
+    struct JointEnds {
+        std::uint32_t slot_a = 0, slot_b = 0;
+        bool moved_a = false, moved_b = false;
+    };
+    const JointLayout& joints() const { return joints_; }
+    const JointEnds& joint_ends(std::uint32_t place) const { return joint_ends_[place]; }
 
     std::size_t groups() const { return first_group_.back(); }
     /// Colors of a block, or, for the number of blocks, of the manifolds between blocks; and the first group of a
@@ -123,6 +138,14 @@ private:
     std::vector<std::size_t> first_group_;  // of each color in use, and the end
     std::vector<std::size_t> first_color_;  // of each block, then of the manifolds between blocks, and the end
     std::vector<std::uint32_t> lane_manifolds_;
+    JointLayout joints_;
+    std::vector<JointLayout::Place> joint_places_;
+    std::vector<JointEnds> joint_ends_;
+    struct JointMover {
+        std::uint32_t place = 0, body = 0;
+        bool second = false;
+    };
+    std::vector<JointMover> joint_movers_;  // kinematic bodies of joints
     bool lasts_ = false;
     int steps_ = 0;  // since the layout was made
 };

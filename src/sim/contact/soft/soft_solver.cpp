@@ -3,6 +3,7 @@
 #include "sim/contact/model/settings.h"
 #include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_batch.h"
+#include "sim/joints/joint_set.h"
 #include "sim/threads/settings.h"
 
 #include <algorithm>
@@ -55,14 +56,20 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> bat
     const auto lanes = std::size_t(kernel_.lanes);
     while (workers_.size() < threads) workers_.push_back(std::make_unique<SoftBatch>(kernel_));
     if (layouts_.size() < batches.size()) layouts_.resize(batches.size());
+    if (problem.joints) carried_.resize(problem.joints->joints().size());
     small_.clear();
     std::size_t all_small = 0;
+    const auto size_of = [](const Batch& batch) { return batch.manifolds.size() + batch.joints.size(); };
+    const auto close = [&](SoftLayout& layout, const Batch& batch) {
+        if (!batch.joints.empty()) layout.add_joints(batch, problem.joints->joints(), problem.bodies, slot_, lanes);
+        layout.close(batch, lanes);
+    };
     for (std::size_t k = 0; k < batches.size(); ++k) {
         const Batch& batch = batches[k];
-        const bool one_large = batch.island_ends.size() == 1 && batch.manifolds.size() >= tuning::soft_team_manifolds;
+        const bool one_large = batch.island_ends.size() == 1 && size_of(batch) >= tuning::soft_team_manifolds;
         if (threads == 1 || !one_large) {
             small_.push_back(k);
-            all_small += batch.manifolds.size();
+            all_small += size_of(batch);
             continue;
         }
         SoftLayout& layout = layouts_[k];
@@ -74,11 +81,11 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> bat
             layout.color(batch, problem.bodies, problem.manifolds, slot_, thread, threads);
             barrier.wait();
             if (thread == 0) {
-                layout.close(batch, lanes);
-                workers_[0]->prepare(problem, batch.substep_multiplier, layout, mass_unit_);
+                close(layout, batch);
+                workers_[0]->prepare(problem, batch, layout, mass_unit_);
             }
             barrier.wait();
-            workers_[0]->run(problem, slot_, thread, threads, barrier);
+            workers_[0]->run(problem, slot_, carried_, thread, threads, barrier);
         });
     }
     // Neighbors in the list, and the same ones from step to step.
@@ -92,11 +99,11 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> bat
             if (!same || !layout.lasts()) {
                 layout.open(batches[k], problem.bodies, slot_, 1);
                 layout.color(batches[k], problem.bodies, problem.manifolds, slot_, 0, 1);
-                layout.close(batches[k], lanes);
+                close(layout, batches[k]);
             }
             SpinBarrier alone(1);
-            workers_[thread]->prepare(problem, batches[k].substep_multiplier, layout, mass_unit_);
-            workers_[thread]->run(problem, slot_, 0, 1, alone);
+            workers_[thread]->prepare(problem, batches[k], layout, mass_unit_);
+            workers_[thread]->run(problem, slot_, carried_, 0, 1, alone);
         });
     };
     if (threads == 1 || small_.size() < 2 || all_small < tuning::parallel_grain) return run(0, 1);

@@ -44,6 +44,8 @@ public:
     /// number of threads.
     using Batch = IslandBatch;
     void solve(const ContactProblem& problem, std::span<const Batch> batches, bool same, ThreadPool& pool);
+    /// Of a joint of the last solve: see soft_joints.h, N m s.
+    const Vec3& carried(std::uint32_t joint) const { return carried_[joint]; }
 
 private:
     const soft::Kernel& kernel_;
@@ -51,6 +53,7 @@ private:
     std::vector<std::unique_ptr<SoftBatch>> workers_;  // one per thread
     std::vector<SoftLayout> layouts_;                  // one per batch
     std::vector<std::size_t> small_;                   // batches that one thread solves
+    std::vector<Vec3> carried_;                        // by joint
     double mass_unit_ = 0.0;                           // kg; of the scene's bodies, which do not change
 };
 

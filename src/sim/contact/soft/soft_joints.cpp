@@ -1,0 +1,176 @@
+#include "sim/contact/soft/soft_joints.h"
+
+#include "sim/joints/joint_set.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+using Hold = soft::JointRows<float>;
+
+Vec3 wide(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
+
+// A side of a joint: the place that moments are about, and the anchor. Bodies that impulses do not move have no arm,
+// except kinematic ones, which turn.
+struct End {
+    Vec3 center, anchor;
+};
+End end_of(const std::vector<Body>& bodies, std::uint32_t body, const Vec3& anchor) {
+    if (body == Joint::world) return {anchor, anchor};
+    const Body& b = bodies[body];
+    const Vec3 place = b.position + b.rotation * anchor;
+    return {b.moves() ? b.position : place, place};
+}
+
+// Axes of A's joint frame, world.
+Mat3 axes_of(const Joint& joint, const std::vector<Body>& bodies) {
+    const Mat3 frame = joint.frame_a.toRotationMatrix();
+    return joint.a == Joint::world ? frame : Mat3(bodies[joint.a].rotation * frame);
+}
+
+Vec3 direction_of(const Vec3& apart) {
+    const double length = apart.norm();
+    return length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY());
+}
+
+// Of the body at a point: the mean of before and after the solve.
+BodyVelocity mean_at(const ContactProblem& problem, std::uint32_t body, const Vec3& point) {
+    if (body == Joint::world) return {};
+    const Body& b = problem.bodies[body];
+    BodyVelocity of{b.velocity, b.angular_velocity};
+    if (b.dynamic()) {
+        of.velocity = 0.5 * (of.velocity + problem.before[body].velocity);
+        of.angular_velocity = 0.5 * (of.angular_velocity + problem.before[body].angular_velocity);
+    }
+    of.velocity += of.angular_velocity.cross(point - b.position);
+    return of;
+}
+
+}  // namespace
+
+Joint& SoftJoints::joint(const ContactProblem& problem, std::uint32_t place) const {
+    return problem.joints->joints()[joints_[place]];
+}
+
+void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units) {
+    units_ = units;
+    bodies_ = &layout;
+    layout_ = &layout.joints();
+    joints_ = joints;
+    const std::size_t groups = layout_->groups();
+    places_.resize(joints.size());
+    rows_.resize(groups * soft::joint_rows * units.lanes);
+    lane_bodies_.resize(2 * groups * units.lanes);
+    lane_moved_.resize(2 * groups);
+}
+
+template <class Visit>
+void SoftJoints::each_lane(std::size_t group, Visit&& visit) const {
+    for (std::size_t l = 0; l < units_.lanes; ++l)
+        if (const std::uint32_t place = layout_->joint(group * units_.lanes + l); place != JointLayout::none)
+            visit(l, place);
+}
+
+void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
+    const std::size_t lanes = units_.lanes;
+    std::fill_n(rows_.data() + group * soft::joint_rows * lanes, soft::joint_rows * lanes, 0.0f);
+    std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
+    lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
+    const double share = 1.0 / (units_.substeps * units_.mass);
+    each_lane(group, [&](std::size_t l, std::uint32_t place) {
+        const Joint& j = joint(problem, place);
+        const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
+        lane_bodies_[2 * lanes * group + l] = std::uint32_t(soft::body_floats) * ends.slot_a;
+        lane_bodies_[2 * lanes * group + lanes + l] = std::uint32_t(soft::body_floats) * ends.slot_b;
+        lane_moved_[2 * group] |= std::uint16_t(ends.moved_a << l);
+        lane_moved_[2 * group + 1] |= std::uint16_t(ends.moved_b << l);
+        const End a = end_of(problem.bodies, j.a, j.anchor_a), b = end_of(problem.bodies, j.b, j.anchor_b);
+        const Vec3 apart = b.anchor - a.anchor;
+        Place& kept = places_[place];
+        kept.center_a = a.center;
+        kept.center_b = b.center;
+        kept.point = b.anchor;
+        const soft::JointLane row = lane(group, l);
+        row[&Hold::present] = 1.0f;
+        row.set(&Hold::arm_a, a.anchor - a.center);
+        row.set(&Hold::arm_b, b.anchor - b.center);
+        row.set(&Hold::apart, apart);
+        if (layout_->kind(group) == soft::JointKind::point) {
+            Vec3 impulse;
+            for (std::size_t c = 0; c < 3; ++c) impulse[Eigen::Index(c)] = j.impulse[c][Joint::lock];
+            kept.axes = axes_of(j, problem.bodies);
+            row.set(&Hold::impulse, Vec3(share * (kept.axes * impulse)));
+            return;
+        }
+        const JointAxis& axis = j.axis(0);
+        const bool rod = j.locked(0), limited = axis.motion == JointAxis::Motion::limited;
+        row[&Hold::shortest] = float(rod ? j.description.length : limited ? axis.lower : -infinity);
+        row[&Hold::longest] = float(rod ? j.description.length : limited ? axis.upper : infinity);
+        row.set(&Hold::direction, direction_of(apart));
+        const auto& last = j.impulse[0];
+        row.set(&Hold::impulse, Vec3(share * (last[Joint::lock] + last[Joint::lower] + last[Joint::upper]), 0.0, 0.0));
+    });
+}
+
+void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::vector<std::uint8_t>& reached,
+                        std::vector<Vec3>& carried) {
+    const double h = problem.settings.h, whole = units_.substeps * units_.mass;
+    each_lane(group, [&](std::size_t l, std::uint32_t place) {
+        Joint& j = joint(problem, place);
+        const soft::JointLane row = lane(group, l);
+        const Vec3 force = units_.mass * wide(row.vector(&Hold::impulse_sum)),
+                   moment = units_.mass * wide(row.vector(&Hold::moment_sum)),
+                   extra = units_.mass * wide(row.vector(&Hold::carried_sum));
+        const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
+        const Place& kept = places_[place];
+        j.impulse = {};
+        j.curving = {};
+        j.constraint_force = {};
+        j.constraint_rate = {};
+        const Vec3 last = whole * wide(row.vector(&Hold::impulse));
+        if (layout_->kind(group) == soft::JointKind::point) {
+            const Vec3 local = kept.axes.transpose() * last;
+            for (std::size_t c = 0; c < 3; ++c) j.impulse[c][Joint::lock] = local[Eigen::Index(c)];
+        } else {
+            j.impulse[0][j.locked(0) ? Joint::lock : last.x() > 0.0 ? Joint::lower : Joint::upper] = last.x();
+        }
+        j.point = kept.point;
+        j.force = force / h;
+        j.torque.setZero();
+        JointAccount::Span& step = j.account.step;
+        step = {};
+        step.load.force = force;
+        step.load.moment = kept.center_a.cross(force) + moment + extra;
+        carried[joints_[place]] = extra;
+        if (ends.moved_a) {
+            reached[ends.slot_a] = 1;
+            Body& body = problem.bodies[j.a];
+            body.momentum -= force;
+            body.angular_momentum -= moment;
+        }
+        if (ends.moved_b) {
+            reached[ends.slot_b] = 1;
+            Body& body = problem.bodies[j.b];
+            body.momentum += force;
+            body.angular_momentum += moment + (kept.center_a - kept.center_b).cross(force) + extra;
+        }
+    });
+}
+
+void SoftJoints::account(const ContactProblem& problem, std::size_t group) const {
+    each_lane(group, [&](std::size_t, std::uint32_t place) {
+        Joint& j = joint(problem, place);
+        const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
+        JointAccount::Span& step = j.account.step;
+        const Vec3& force = step.load.force;
+        step.work_a = -force.dot(mean_at(problem, j.a, j.point).velocity);
+        step.work_b = force.dot(mean_at(problem, j.b, j.point).velocity);
+        if (!j.account.holds) step.work.impacts -= step.work_a + step.work_b;
+        if (!ends.moved_a) step.work.carriers -= step.work_a;
+        if (!ends.moved_b) step.work.carriers -= step.work_b;
+        step.solves = 1;
+    });
+}
+
+}  // namespace tumble
