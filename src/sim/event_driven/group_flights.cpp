@@ -60,7 +60,7 @@ std::vector<GroupFlights::JointMemory> GroupFlights::memory_of(std::uint32_t gro
     std::vector<JointMemory> memory;
     for (const std::uint32_t k : groups_[group].joints) {
         const Joint& j = joints_->joints()[k];
-        memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rate, j.impulse, j.point});
+        memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rates, j.impulse, j.point});
     }
     return memory;
 }
@@ -79,7 +79,7 @@ void GroupFlights::set_joints(std::uint32_t group, const std::vector<JointMemory
         j.value = m.value;
         j.curving = m.curving;
         j.constraint_force = m.constraint_force;
-        j.constraint_rate = m.constraint_rate;
+        j.constraint_rates = m.constraint_rates;
         j.impulse = m.impulse;
         j.point = m.point;
     }
@@ -159,10 +159,10 @@ bool GroupFlights::start(std::uint32_t group, double span) {
     std::vector<Joint>& joints = joints_->joints();
     flight.substeps = 1;
     for (const std::uint32_t k : groups_[group].joints) flight.substeps = std::max(flight.substeps, joints[k].substeps);
-    flight.swing = 0.4 * tuning::joint_swing;
+    flight.swing = tuning::joint_easy_swing;
     flight.reached.clear();
     flight.flies = fly(group, span);
-    const bool easy = flight.swing < 0.4 * tuning::joint_swing;
+    const bool easy = flight.swing < tuning::joint_easy_swing;
     for (const std::uint32_t k : groups_[group].joints) {
         joints[k].substeps = easy ? std::max(1, flight.substeps / 2) : flight.substeps;
         joints[k].account.step = {};
