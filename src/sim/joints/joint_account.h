@@ -74,6 +74,9 @@ struct JointAccount {
         events.load.add(span.load);
         events.work_a += span.work_a;
         events.work_b += span.work_b;
+        events.second_load.add(span.second_load);
+        events.second_work_a += span.second_work_a;
+        events.second_work_b += span.second_work_b;
         events.work.add(span.work);
         ++events.solves;
         holds = true;

@@ -5,6 +5,7 @@
 namespace tumble {
 
 double JointBlow::over(double h) const {
+    if (second) return 0.0;  // a gear's strength is that of its force along the first coordinate
     const JointDescription& strength = joint->description;
     return std::max({force.norm() / strength.break_impulse, force.norm() / h / strength.break_force,
                      torque.norm() / h / strength.break_torque});

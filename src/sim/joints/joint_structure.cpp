@@ -112,7 +112,8 @@ void add_way(const JointGroup& group, bool tree, const JointSet& joints, const s
         if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
     for (const std::uint32_t k : group.joints) {
         if (!free_but_for_springs(joints.joints()[k], bodies)) return void(++report.by_rows);
-        tree = tree && !joints.joints()[k].distance() && !has_springs(joints.joints()[k]);
+        const Joint& joint = joints.joints()[k];
+        tree = tree && !joint.distance() && (!has_springs(joint) || springs_along_coordinates(joint));
     }
     ++(tree && tree_method(bodies, group.bodies) ? report.by_coordinates : report.by_rattle);
 }
