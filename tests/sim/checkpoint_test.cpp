@@ -154,6 +154,31 @@ TEST(Checkpoint, ALargeHeapGoesOn) {
     expect_goes_on(scene, {.frames = 24, .saves = {6, 15}, .records = false});
 }
 
+// A net of ropes falls on a ball: its joints are solved in sweeps.
+TEST(Checkpoint, ANetGoesOn) {
+    SceneDescription scene = ground_scene(0.0, 0.5, 4);
+    const int side = 9;
+    for (int i = 0; i < side * side; ++i) add_sphere(scene, 0.1, Vec3(0.3 * (i % side), 1.2, 0.3 * (i / side)));
+    add_sphere(scene, 0.5, Vec3(1.2, 0.5, 1.2)).type = BodyType::fixed;
+    const auto tie = [&](int a, int b) {
+        JointDescription joint;
+        joint.name = std::to_string(a) + " " + std::to_string(b);
+        joint.type = JointType::distance;
+        joint.first = std::size_t(1 + a);
+        joint.second = std::size_t(1 + b);
+        joint.move[0].motion = JointAxis::Motion::limited;
+        joint.move[0].lower = 0.0;
+        joint.move[0].upper = 0.3;
+        scene.joints.push_back(joint);
+    };
+    for (int i = 0; i < side * side; ++i) {
+        if (i % side > 0) tie(i - 1, i);
+        if (i >= side) tie(i - side, i);
+    }
+    ASSERT_EQ(World(scene).joint_report().by_sweeps, 1u);
+    expect_goes_on(scene, {.frames = 48, .saves = {6, 20, 35}, .records = true});
+}
+
 // The state of the log is apart: a world without records reads that of a world with records, not the other way round.
 TEST(Checkpoint, RecordsMayBeLeftOut) {
     Random random(3);

@@ -235,7 +235,12 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     }
     if (!softly_.empty()) {
         const bool same = make_batches(islands, problem);
-        soft_.solve(problem, std::span(batches_).first(batches_used_), same, pool);
+        const std::span<SoftSolver::Batch> batches = std::span(batches_).first(batches_used_);
+        for (SoftSolver::Batch& batch : batches)
+            batch.lost = batch.joints.empty() ? 0.0 : memory_[batch.bodies[0]].lost;
+        soft_.solve(problem, batches, same, pool);
+        for (const SoftSolver::Batch& batch : batches)
+            if (!batch.joints.empty()) memory_[batch.bodies[0]].lost = batch.lost;
     }
     for (std::size_t k = 0; k < islands.size(); ++k)
         if (islands.is_free(k) && islands.bodies(k).size() > 1 && islands.joints(k).empty())

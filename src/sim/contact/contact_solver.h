@@ -54,10 +54,11 @@ private:
         bool direct = false;         // solved directly in the last step
         LoadEstimate load;           // of the last evaluation
         int looked = 0;              // steps for which the estimate holds
+        double lost = 0.0;           // J, of a net: IslandBatch::lost
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [solver, wait, failures, factorizations, work, direct, load, looked] = self;
-            archive.keep(wait, failures, factorizations, work, direct, load, looked);
+            auto& [solver, wait, failures, factorizations, work, direct, load, looked, lost] = self;
+            archive.keep(wait, failures, factorizations, work, direct, load, looked, lost);
             archive.scratch(solver);
         }
     };

@@ -51,10 +51,14 @@ void EnergyBudget::add(const EnergyBudget& other) {
     gains += other.gains;
 }
 
-double EnergyBudget::excess(bool lifted_free) const {
-    const double fastest = std::max(start, with_forces),
-                 most = lifted_free ? fastest : std::max(0.0, std::min(fastest, start + work));
-    return now > most && gains > 0.0 ? std::min(1.0, (now - most) / gains) : 0.0;
+double EnergyBudget::most(bool lifted_free) const {
+    const double fastest = std::max(start, with_forces);
+    return lifted_free ? fastest : std::max(0.0, std::min(fastest, start + work));
+}
+
+double EnergyBudget::excess(bool lifted_free, double lost) const {
+    const double limit = most(lifted_free) + lost;
+    return now > limit && gains > 0.0 ? std::min(1.0, (now - limit) / gains) : 0.0;
 }
 
 double EnergyBudget::affordable_displacement() const { return start + work < 0.0 ? start / -work : 1.0; }
@@ -124,7 +128,7 @@ void IslandEnergies::end(std::size_t place, const Body& body) {
 }
 
 void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size_t last, std::vector<Body>& bodies,
-                          const std::vector<BodyVelocity>& before, double h) const {
+                          const std::vector<BodyVelocity>& before, double h, double lost) const {
     const auto begins_before = [](const Account& a, std::size_t place) { return a.first < place; };
     auto account = std::lower_bound(accounts_.begin(), accounts_.end(), first, begins_before);
     for (; account != accounts_.end() && account->first < last; ++account) {
@@ -132,10 +136,10 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
         if (island.driven) continue;
         EnergyBudget sum;
         for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
-        const double excess = sum.excess(island.deep || !island.touches_static);
+        const double excess = sum.excess(island.deep || !island.touches_static, lost);
         if (excess == 0.0) continue;
         if (!island.touches_static) {
-            limit_free_island(*account, sum, blocks, bodies);
+            limit_free_island(*account, sum, blocks, bodies, lost);
             continue;
         }
         const std::size_t begin = accounts_[island.first_account].first, end = accounts_[island.end_account - 1].end;
@@ -147,14 +151,23 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
     }
 }
 
+double IslandEnergies::lost(double before) const {
+    const Island& island = islands_[0];
+    EnergyBudget sum;
+    for (const Account& account : accounts_) sum.add(account.energy);
+    if (island.driven) return 0.0;
+    const double most = sum.most(island.deep || !island.touches_static);
+    return std::clamp(before + most - sum.now, 0.0, tuning::soft_energy_lent * std::min(most, sum.now));
+}
+
 // A free island keeps its momentum: only motion outside its rigid-body mode can exceed the budget.
 void IslandEnergies::limit_free_island(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
-                                       std::vector<Body>& bodies) const {
+                                       std::vector<Body>& bodies, double lost) const {
     const Island& island = islands_[account.island];
     RigidMode motion;
     for (std::size_t k = island.first_account; k < island.end_account; ++k) motion.add(accounts_[k].motion);
     motion.finish();
-    const double common = motion.energy(), most = std::max({energy.start, energy.with_forces, common});
+    const double common = motion.energy(), most = std::max({energy.start, energy.with_forces, common}) + lost;
     if (!(energy.now > most * (1.0 + tuning::soft_energy_rounding))) return;
     const double scale = std::sqrt((most - common) / (energy.now - common));
     for (std::size_t k = account.first; k < account.end; ++k)

@@ -35,8 +35,10 @@ struct EnergyBudget {
     /// Adds a body and sets its own gain.
     void add(ForceAccount& forces, const Body& solved);
     void add(const EnergyBudget& other);
-    /// Fraction of each body's gain above the budget. `lifted_free`: lifting costs nothing.
-    double excess(bool lifted_free) const;
+    /// Largest energy of the solved bodies, J. `lifted_free`: lifting costs nothing.
+    double most(bool lifted_free) const;
+    /// Fraction of each body's gain above the budget. `lost` (J): may be given back.
+    double excess(bool lifted_free, double lost = 0.0) const;
     /// Fraction of the displacement that the island's budget allows.
     double affordable_displacement() const;
 };
@@ -70,8 +72,12 @@ public:
 
     /// Removes the excess from the bodies at the positions first to last, which begin and end with blocks.
     /// Precondition: all positions have ended. The other arguments as in ContactProblem; h: the step, s.
+    /// `lost` (J): by a net in the steps before; sweeps swing about the solution, and would lose each swing's upper half
+    /// for good. The budget of all steps together holds.
     void hold(const BodyBlocks& blocks, std::size_t first, std::size_t last, std::vector<Body>& bodies,
-              const std::vector<BodyVelocity>& before, double h) const;
+              const std::vector<BodyVelocity>& before, double h, double lost) const;
+    /// `lost` of the next step, of a net that is alone in the layout.
+    double lost(double before) const;
 
 private:
     struct Account {
@@ -88,7 +94,7 @@ private:
     };
     Island& island(std::size_t place) { return islands_[accounts_[account_of_[place]].island]; }
     void limit_free_island(const Account& account, const EnergyBudget& energy, const BodyBlocks& blocks,
-                           std::vector<Body>& bodies) const;
+                           std::vector<Body>& bodies, double lost) const;
 
     std::vector<Island> islands_;
     std::vector<Account> accounts_;          // ascending by position

@@ -18,6 +18,10 @@ inline constexpr double soft_energy_deep = 0.25;
 /// precision.
 inline constexpr double soft_energy_rounding = 1e-9;
 
+/// Largest share of its energy that a net may have lost and regain. Not fitted: an energy lost in a landing must not
+/// return as a jump. Related test: Nets.ASwingingNetGainsNoEnergy.
+inline constexpr double soft_energy_lent = 0.01;
+
 /// Islands of at most this number of bodies have an energy budget if soft contacts may spin up a body. Related
 /// test: ContactEnergy.FastTumblingPlanksGainNothing.
 inline constexpr std::size_t soft_energy_bodies = 32;

@@ -247,8 +247,8 @@ void SoftBatch::pack(const ContactProblem& problem, std::size_t group, const std
     }
 }
 
-void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::vector<Vec3>& carried,
-                    std::size_t thread, std::size_t team, SpinBarrier& barrier) {
+void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std::vector<std::uint32_t>& slot,
+                    std::vector<Vec3>& carried, std::size_t thread, std::size_t team, SpinBarrier& barrier) {
     const auto meet = [&] {
         if (team > 1) barrier.wait();
     };
@@ -335,9 +335,10 @@ void SoftBatch::run(const ContactProblem& problem, const std::vector<std::uint32
     });
     hand_back(problem, first_body, end_body);
     meet();
-    energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.settings.h);
+    energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.settings.h, batch.lost);
     if (!joined) return;
     meet();
+    if (thread == 0) batch.lost = energies_.lost(batch.lost);
     each_own(layout.joints(), [&](std::size_t first, std::size_t last) {
         for (std::size_t g = first; g < last; ++g) joints_.account(problem, g);
     });

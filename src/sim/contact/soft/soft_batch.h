@@ -28,9 +28,9 @@ public:
     /// - `batch`: gives the factor of the number of substeps, and the joints.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
     void prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout, double mass_unit);
-    /// `carried`: by joint, gets the moments of soft_joints.h.
-    void run(const ContactProblem& problem, const std::vector<std::uint32_t>& slot, std::vector<Vec3>& carried,
-             std::size_t thread, std::size_t team, SpinBarrier& barrier);
+    /// `batch`: gets the lost energy of a net. `carried`: by joint, gets the moments of soft_joints.h.
+    void run(const ContactProblem& problem, IslandBatch& batch, const std::vector<std::uint32_t>& slot,
+             std::vector<Vec3>& carried, std::size_t thread, std::size_t team, SpinBarrier& barrier);
 
 private:
     // Data of a body needed for packing, close together in memory.

@@ -50,7 +50,7 @@ int substeps_of(double h) {
 SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
 SoftSolver::~SoftSolver() = default;
 
-void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> batches, bool same, ThreadPool& pool) {
+void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, bool same, ThreadPool& pool) {
     if (mass_unit_ == 0.0) mass_unit_ = mass_unit(problem.bodies);
     const auto threads = std::size_t(pool.size());
     const auto lanes = std::size_t(kernel_.lanes);
@@ -65,7 +65,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> bat
         layout.close(batch, lanes);
     };
     for (std::size_t k = 0; k < batches.size(); ++k) {
-        const Batch& batch = batches[k];
+        Batch& batch = batches[k];
         const bool one_large = batch.island_ends.size() == 1 && size_of(batch) >= tuning::soft_team_manifolds;
         if (threads == 1 || !one_large) {
             small_.push_back(k);
@@ -85,7 +85,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> bat
                 workers_[0]->prepare(problem, batch, layout, mass_unit_);
             }
             barrier.wait();
-            workers_[0]->run(problem, slot_, carried_, thread, threads, barrier);
+            workers_[0]->run(problem, batch, slot_, carried_, thread, threads, barrier);
         });
     }
     // Neighbors in the list, and the same ones from step to step.
@@ -103,7 +103,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<const Batch> bat
             }
             SpinBarrier alone(1);
             workers_[thread]->prepare(problem, batches[k], layout, mass_unit_);
-            workers_[thread]->run(problem, slot_, carried_, 0, 1, alone);
+            workers_[thread]->run(problem, batches[k], slot_, carried_, 0, 1, alone);
         });
     };
     if (threads == 1 || small_.size() < 2 || all_small < tuning::parallel_grain) return run(0, 1);

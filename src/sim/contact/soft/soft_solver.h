@@ -43,7 +43,7 @@ public:
     /// `same`: as in the last call, down to the manifolds' pairs. The result depends neither on the batching nor on the
     /// number of threads.
     using Batch = IslandBatch;
-    void solve(const ContactProblem& problem, std::span<const Batch> batches, bool same, ThreadPool& pool);
+    void solve(const ContactProblem& problem, std::span<Batch> batches, bool same, ThreadPool& pool);
     /// Of a joint of the last solve: see soft_joints.h, N m s.
     const Vec3& carried(std::uint32_t joint) const { return carried_[joint]; }
 
