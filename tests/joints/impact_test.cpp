@@ -23,10 +23,12 @@ struct JoinedScene : ImpactScene {
         joint.a = a;
         joint.b = b;
         joint.size = 0.5;
-        joint.description.type = type;
-        for (JointAxis& turn : joint.description.turn)
+        JointDescription description;
+        description.type = type;
+        for (JointAxis& turn : description.turn)
             turn.motion = type == JointType::ball ? JointAxis::Motion::free : JointAxis::Motion::locked;
-        if (type == JointType::hinge) joint.description.turn[0].motion = JointAxis::Motion::free;
+        if (type == JointType::hinge) description.turn[0].motion = JointAxis::Motion::free;
+        joint.describe(description);
         const Quat frame = Quat::FromTwoVectors(Vec3::UnitX(), axis);
         const auto side = [&](std::uint32_t body, Vec3& anchor, Quat& to_body) {
             const Quat turn = body == Joint::world ? Quat::Identity() : bodies[body].orientation;

@@ -8,17 +8,6 @@
 namespace tumble {
 namespace {
 
-bool beyond_limit(const Joint& joint, const JointGeometry& g) {
-    if (!joint.soft) return false;
-    if (joint.description.swing && g.swing.value > g.swing_limit) return true;
-    for (std::size_t k = 0; k < joint.count(); ++k) {
-        const JointAxis& axis = joint.axis(k);
-        if (axis.motion != JointAxis::Motion::limited) continue;
-        if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
-    }
-    return false;
-}
-
 Vec3 anchor_of(const ForwardDynamics::Link& link, const TreeNode& node, const Vec3& anchor) {
     return link.rotation * (node.principal.conjugate() * anchor);
 }
@@ -202,7 +191,7 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     }
     joint.impulse = {};
     joint.curving = {};
-    joint.constraint_rate = {};
+    joint.constraint_rates = {};
     const Sample& end = samples_[k];
     for (std::size_t c = 0; c < joint.count(); ++c) {
         if (!joint.locked(c)) continue;

@@ -60,7 +60,7 @@ void GroupFlights::remember(std::uint32_t group) {
     for (const std::uint32_t k : groups_[group].bodies) flight.first.push_back(state_of((*bodies_)[k]));
     for (const std::uint32_t k : groups_[group].joints) {
         const Joint& j = joints_->joints()[k];
-        flight.memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rate, j.impulse, j.point});
+        flight.memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rates, j.impulse, j.point});
     }
 }
 
@@ -74,7 +74,7 @@ void GroupFlights::restore(std::uint32_t group) {
         j.value = m.value;
         j.curving = m.curving;
         j.constraint_force = m.constraint_force;
-        j.constraint_rate = m.constraint_rate;
+        j.constraint_rates = m.constraint_rates;
         j.impulse = m.impulse;
         j.point = m.point;
         j.broken = false;
@@ -131,7 +131,7 @@ bool GroupFlights::start(std::uint32_t group, const EventTime& now, double span,
     for (const std::uint32_t k : groups_[group].joints) flight.substeps = std::max(flight.substeps, joints[k].substeps);
     flight.flies = fly(group, span);
     flight.last = flight.there;
-    const bool easy = flight_.swing() < 0.4 * tuning::joint_swing;
+    const bool easy = flight_.swing() < tuning::joint_easy_swing;
     for (const std::uint32_t k : groups_[group].joints) {
         joints[k].substeps = easy ? std::max(1, flight.substeps / 2) : flight.substeps;
         joints[k].account.step = {};

@@ -58,7 +58,8 @@ public:
 private:
     /// The state of a joint that a flight changes.
     struct JointMemory {
-        std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{}, constraint_rate{};
+        std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{};
+        std::array<ConstraintRates, Joint::coordinates> constraint_rates{};
         std::array<std::array<double, Joint::laws>, Joint::coordinates> impulse{};
         Vec3 point;
     };

@@ -15,33 +15,51 @@ Quat nearer(Quat q) {
     return q;
 }
 
-struct Frames {
-    Quat qa, qb;
-    Mat3 a, b;  // columns: axes of the joint frames, world
-};
+using Coordinates = std::array<JointCoordinate, Joint::coordinates>;
 
 // All angles locked: twice the vector of the relative quaternion, the rotation vector to second order.
-void measure_fixed(const Frames& f, JointGeometry& g) {
-    const Quat q = nearer(f.qa.conjugate() * f.qb);
-    for (int i = 0; i < 3; ++i) g.coordinates[std::size_t(3 + i)] = {f.a.col(i), 2.0 * q.vec()[i]};
+void lock_turns(const JointFrames& f, Coordinates& to) {
+    const Quat q = nearer(f.turn_a.conjugate() * f.turn_b);
+    for (int i = 0; i < 3; ++i) to[std::size_t(3 + i)] = {f.a.col(i), 2.0 * q.vec()[i]};
 }
 
 // One free angle, about axis k: that axis of A stays square to the two others of B.
-void measure_hinge(const Joint& joint, const Frames& f, int k, JointGeometry& g) {
+void lock_axis(const JointFrames& f, int k, Coordinates& to) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     const Vec3 axis = f.a.col(k), bi = f.b.col(i), bj = f.b.col(j);
-    g.coordinates[std::size_t(3 + i)] = {bj.cross(axis), axis.dot(bj)};
-    g.coordinates[std::size_t(3 + j)] = {axis.cross(bi), -axis.dot(bi)};
-    const Quat q = f.qa.conjugate() * f.qb;
-    const double angle = 2.0 * atan2_stable(q.vec()[k], q.w());
-    g.coordinates[std::size_t(3 + k)] = {axis, unwrapped(angle, joint.value[std::size_t(3 + k)])};
+    to[std::size_t(3 + i)] = {bj.cross(axis), axis.dot(bj)};
+    to[std::size_t(3 + j)] = {axis.cross(bi), -axis.dot(bi)};
 }
 
 // One locked angle k: axis i of A stays square to axis j of B, and both are free.
-void measure_universal(const Joint& joint, const Frames& f, int k, JointGeometry& g) {
+void lock_across(const JointFrames& f, int k, Coordinates& to) {
+    const Vec3 first = f.a.col((k + 1) % 3), second = f.b.col((k + 2) % 3);
+    to[std::size_t(3 + k)] = {first.cross(second), -first.dot(second)};
+}
+
+// Number of free turns; axis of the last free one, and of the last locked one.
+struct Turns {
+    int free = 0, last_free = 0, last_locked = 0;
+};
+Turns turns_of(const JointLocks& locks) {
+    Turns turns;
+    for (int i = 0; i < 3; ++i) {
+        const bool locked = locks.has(std::size_t(3 + i));
+        (locked ? turns.last_locked : turns.last_free) = i;
+        turns.free += !locked;
+    }
+    return turns;
+}
+
+void measure_hinge(const Joint& joint, const JointFrames& f, int k, JointGeometry& g) {
+    const Quat q = f.turn_a.conjugate() * f.turn_b;
+    const double angle = 2.0 * atan2_stable(q.vec()[k], q.w());
+    g.coordinates[std::size_t(3 + k)] = {f.a.col(k), unwrapped(angle, joint.value[std::size_t(3 + k)])};
+}
+
+void measure_universal(const Joint& joint, const JointFrames& f, int k, JointGeometry& g) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     const Vec3 first = f.a.col(i), second = f.b.col(j), across = first.cross(second);
-    g.coordinates[std::size_t(3 + k)] = {across, -first.dot(second)};
     const double about_first = atan2_stable(second.dot(f.a.col(k)), second.dot(f.a.col(j)));
     const double about_second = atan2_stable(-f.b.col(i).dot(across), f.b.col(i).dot(first));
     g.coordinates[std::size_t(3 + i)] = {first, unwrapped(about_first, joint.value[std::size_t(3 + i)])};
@@ -49,8 +67,8 @@ void measure_universal(const Joint& joint, const Frames& f, int k, JointGeometry
 }
 
 // Three free angles: twist about x, and the swing of x as a rotation vector across it (q = swing twist).
-void measure_ball(const Joint& joint, const Frames& f, JointGeometry& g) {
-    const Quat q = nearer(f.qa.conjugate() * f.qb);
+void measure_ball(const Joint& joint, const JointFrames& f, JointGeometry& g) {
+    const Quat q = nearer(f.turn_a.conjugate() * f.turn_b);
     const double length = std::hypot(q.w(), q.x());
     const Vec3 xa = f.a.col(0), xb = f.b.col(0);
     const double open = 1.0 + xa.dot(xb);
@@ -78,35 +96,65 @@ void measure_ball(const Joint& joint, const Frames& f, JointGeometry& g) {
 
 }  // namespace
 
+void Joint::describe(const JointDescription& joint) {
+    description = joint;
+    locks = {0, distance(), description.length};
+    for (std::size_t k = 0; k < coordinates; ++k)
+        if (axis(k).motion == JointAxis::Motion::locked) locks.coordinates |= std::uint8_t(1U << k);
+}
+
+void measure_locks(const JointLocks& locks, const JointFrames& f, Coordinates& to) {
+    const Vec3 apart = f.anchor_b - f.anchor_a;
+    if (locks.distance) {
+        const double length = apart.norm();
+        if (locks.has(0)) to[0] = {length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY()), length - locks.length};
+        return;
+    }
+    for (int i = 0; i < 3; ++i)
+        if (locks.has(std::size_t(i))) to[std::size_t(i)] = {f.a.col(i), f.a.col(i).dot(apart)};
+    const Turns turns = turns_of(locks);
+    if (turns.free == 0) lock_turns(f, to);
+    if (turns.free == 1) lock_axis(f, turns.last_free, to);
+    if (turns.free == 2) lock_across(f, turns.last_locked, to);
+}
+
 JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b) {
     JointGeometry g;
-    const Vec3 anchor_a = a.position + a.orientation * joint.anchor_a;
-    g.point = b.position + b.orientation * joint.anchor_b;
-    const Vec3 apart = g.point - anchor_a;
-    if (joint.distance()) {
+    JointFrames f;
+    f.anchor_a = a.position + a.orientation * joint.anchor_a;
+    f.anchor_b = g.point = b.position + b.orientation * joint.anchor_b;
+    const Vec3 apart = g.point - f.anchor_a;
+    if (joint.distance() && !joint.locked(0)) {
         const double length = apart.norm();
-        const bool locked = joint.locked(0);
-        g.coordinates[0] = {length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY()),
-                            locked ? length - joint.description.length : length};
+        g.coordinates[0] = {length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY()), length};
         return g;
     }
-    Frames f;
-    f.qa = a.orientation * joint.frame_a;
-    f.qb = b.orientation * joint.frame_b;
-    f.a = f.qa.toRotationMatrix();
-    f.b = f.qb.toRotationMatrix();
-    for (int i = 0; i < 3; ++i) g.coordinates[std::size_t(i)] = {f.a.col(i), f.a.col(i).dot(apart)};
-    int free = 0, last_free = 0, last_locked = 0;
-    for (int i = 0; i < 3; ++i) {
-        const bool locked = joint.locked(std::size_t(3 + i));
-        (locked ? last_locked : last_free) = i;
-        free += !locked;
+    if (!joint.distance()) {
+        f.turn_a = a.orientation * joint.frame_a;
+        f.turn_b = b.orientation * joint.frame_b;
+        f.a = f.turn_a.toRotationMatrix();
+        f.b = f.turn_b.toRotationMatrix();
     }
-    if (free == 0) measure_fixed(f, g);
-    if (free == 1) measure_hinge(joint, f, last_free, g);
-    if (free == 2) measure_universal(joint, f, last_locked, g);
-    if (free == 3) measure_ball(joint, f, g);
+    measure_locks(joint.locks, f, g.coordinates);
+    if (joint.distance()) return g;
+    for (int i = 0; i < 3; ++i)
+        if (!joint.locked(std::size_t(i))) g.coordinates[std::size_t(i)] = {f.a.col(i), f.a.col(i).dot(apart)};
+    const Turns turns = turns_of(joint.locks);
+    if (turns.free == 1) measure_hinge(joint, f, turns.last_free, g);
+    if (turns.free == 2) measure_universal(joint, f, turns.last_locked, g);
+    if (turns.free == 3) measure_ball(joint, f, g);
     return g;
+}
+
+bool beyond_limit(const Joint& joint, const JointGeometry& g) {
+    if (!joint.soft) return false;
+    if (joint.description.swing && g.swing.value > g.swing_limit) return true;
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        const JointAxis& axis = joint.axis(k);
+        if (axis.motion != JointAxis::Motion::limited) continue;
+        if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
+    }
+    return false;
 }
 
 }  // namespace tumble

@@ -13,6 +13,26 @@
 
 namespace tumble {
 
+/// Change (1/s) of a force in flight from the velocities' fit to the next drift, and from the drift to the next fit: their
+/// first estimates follow from it.
+struct ConstraintRates {
+    double closing = 0.0, fitting = 0.0, closing_before = 0.0, fitting_before = 0.0;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [closing, fitting, closing_before, fitting_before] = self;
+        archive.keep(closing, fitting, closing_before, fitting_before);
+    }
+};
+
+/// The coordinates that are locked.
+struct JointLocks {
+    std::uint8_t coordinates = 0;  // bit k: coordinate k
+    bool distance = false;         // of a distance joint, whose one coordinate is locked at
+    double length = 0.0;           // m
+
+    bool has(std::size_t coordinate) const { return (coordinates >> coordinate & 1) != 0; }
+};
+
 struct Joint {
     static constexpr std::uint32_t world = UINT32_MAX;  // in place of a body
     static constexpr std::size_t coordinates = 6;
@@ -29,6 +49,7 @@ struct Joint {
     double size = 0.0;                                            // m, of its smaller body: unit of tolerances
     std::array<JointSpring, coordinates> springs;                 // with stiffness and damping in physical units
     bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
+    JointLocks locks;
 
     // State.
     int substeps = 1;    // of its island in the next step, a power of two
@@ -39,8 +60,9 @@ struct Joint {
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
     std::array<double, coordinates>
         curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
-    // Half of the forces (N and N m) of the locked coordinates at the end of the last flight, and their rate of change (1/s).
-    std::array<double, coordinates> constraint_force{}, constraint_rate{};
+    // Half of the forces (N and N m) of the locked coordinates at the end of the last flight.
+    std::array<double, coordinates> constraint_force{};
+    std::array<ConstraintRates, coordinates> constraint_rates{};
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
     Vec3 point = Vec3::Zero();                         // m, world: where the force acts
     JointAccount account;
@@ -50,7 +72,9 @@ struct Joint {
     const JointAxis& axis(std::size_t coordinate) const {
         return coordinate < 3 ? description.move[coordinate] : description.turn[coordinate - 3];
     }
-    bool locked(std::size_t coordinate) const { return axis(coordinate).motion == JointAxis::Motion::locked; }
+    bool locked(std::size_t coordinate) const { return locks.has(coordinate); }
+    /// Takes the description over.
+    void describe(const JointDescription& joint);
     /// A ball, whose spring and friction act about all axes alike.
     bool turns_alike() const { return description.type == JointType::ball && !locked(3) && !locked(4) && !locked(5); }
     /// Number of coordinates: the others do not exist.
@@ -58,11 +82,11 @@ struct Joint {
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, substeps, active, broken,
-               broken_at, value, impulse, curving, constraint_force, constraint_rate, force, torque, point, account] =
-            self;
-        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft);
-        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rate,
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks, substeps, active,
+               broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque, point,
+               account] = self;
+        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks);
+        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates,
                      force, torque, point, account);
     }
 };
@@ -90,7 +114,21 @@ struct JointGeometry {
     double swing_limit = 0.0;  // rad, half angle of the cone in the direction of the swing
 };
 
+/// Where the two frames of a joint are, world.
+struct JointFrames {
+    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();      // m
+    Mat3 a = Mat3::Identity(), b = Mat3::Identity();            // columns: axes of the frames
+    Quat turn_a = Quat::Identity(), turn_b = Quat::Identity();  // the same; of joints that lock all turns, else unused
+};
+
+/// Sets the locked coordinates, and leaves the others alone.
+void measure_locks(const JointLocks& locks, const JointFrames& frames,
+                   std::array<JointCoordinate, Joint::coordinates>& coordinates);
+
 /// Whole turns are counted from Joint::value.
 JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b);
+
+/// Whether a limit is violated.
+bool beyond_limit(const Joint& joint, const JointGeometry& g);
 
 }  // namespace tumble

@@ -62,7 +62,7 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
     };
     for (const JointDescription& description : scene.joints) {
         Joint& joint = joints_.emplace_back();
-        joint.description = description;
+        joint.describe(description);
         if (joint.gear()) continue;
         side(description.first, description.anchor_first, joint.a, joint.anchor_a);
         side(description.second, description.anchor_second, joint.b, joint.anchor_b);

@@ -26,6 +26,9 @@ inline constexpr double joint_stall = 1e-9;
 /// and the motion grows without bound from a phase of 1 to 2 on. Related test: JointStatics.AWreckingBall.
 inline constexpr double joint_swing = 0.7;
 
+/// Phase, rad, below which the next step is tried with half the substeps. Not fitted: half the substeps double it.
+inline constexpr double joint_easy_swing = 0.4 * joint_swing;
+
 /// Largest number of substeps: for that phase; where passes do not converge; and where contacts do not. Not fitted:
 /// bounds of the cost.
 inline constexpr int joint_swing_substeps = 1024;
@@ -67,6 +70,10 @@ inline constexpr double joint_flight_fits = 1e-15;
 
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
+
+/// Factor of these two tolerances for flights of second order, whose own error is larger by orders of magnitude. Saves a
+/// pass in most steps. Not fitted: rounding, still.
+inline constexpr double joint_flight_coarse = 20.0;
 
 /// Largest phase, rad, of a spring in a step of flight: the error of a kick is a 24th of its square. Stiffer springs are
 /// rows of the solver. Not fitted: a tenth of a swing.

@@ -300,7 +300,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         reset();
     }
     const bool easy =
-        swing_ < 0.4 * tuning::joint_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
+        swing_ < tuning::joint_easy_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
     for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
     const bool pushed = !flown && push_joined(island, substeps > 1);
     store_contacts(problem);

@@ -18,9 +18,9 @@ struct SpringForce {
 };
 
 template <class Visit>
-void each_spring(const Joint& joint, const std::vector<Body>& bodies, const Visit& visit) {
+void each_spring(const Joint& joint, const JointSide& a, const JointSide& b, const Visit& visit) {
     if (!has_springs(joint)) return;
-    const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
+    const JointGeometry g = measure(joint, a, b);
     for (std::size_t k = 0; k < joint.count(); ++k) {
         if (!joint.axis(k).spring) continue;
         const JointSpring& spring = joint.springs[k];
@@ -42,41 +42,44 @@ bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joi
     for (std::size_t k = 0; k < joint.count(); ++k)
         if (joint.axis(k).spring && (joint.springs[k].damping > 0.0 || joint.turns_alike())) return false;
     double most = 0.0;  // 1/s^2
-    each_spring(joint, island.problem.bodies, [&](const SpringForce& spring, const Vec3& point) {
-        double gives = 0.0;
-        for (const std::uint32_t i : {joint.a, joint.b}) {
-            if (i == Joint::world || !island.problem.bodies[i].dynamic()) continue;
-            const Body& b = island.problem.bodies[i];
-            const Vec3 turn = spring.turns ? spring.direction : Vec3((point - b.position).cross(spring.direction));
-            gives += (spring.turns ? 0.0 : b.inverse_mass) + turn.dot(b.inverse_inertia * turn);
-        }
-        most += spring.stiffness * gives;
-    });
+    const std::vector<Body>& bodies = island.problem.bodies;
+    each_spring(
+        joint, side_of(bodies, joint.a), side_of(bodies, joint.b), [&](const SpringForce& spring, const Vec3& point) {
+            double gives = 0.0;
+            for (const std::uint32_t i : {joint.a, joint.b}) {
+                if (i == Joint::world || !bodies[i].dynamic()) continue;
+                const Body& b = bodies[i];
+                const Vec3 turn = spring.turns ? spring.direction : Vec3((point - b.position).cross(spring.direction));
+                gives += (spring.turns ? 0.0 : b.inverse_mass) + turn.dot(b.inverse_inertia * turn);
+            }
+            most += spring.stiffness * gives;
+        });
     const double h = island.problem.settings.h;
     return h * h * most <= tuning::joint_flight_spring * tuning::joint_flight_spring;
 }
 
 // Equal and opposite, about one point.
-void JointFlight::kick_springs(const JointIsland& island, double time) {
-    std::vector<Body>& bodies = island.problem.bodies;
-    for (const std::uint32_t k : island.joints) {
-        Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
-        each_spring(joint, bodies, [&](const SpringForce& spring, const Vec3& point) {
+void JointFlight::kick_springs(double time) {
+    std::span<FlightBody> bodies = locks_.bodies();
+    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
+        each_spring(*j.joint, locks_.side(j.a), locks_.side(j.b), [&](const SpringForce& spring, const Vec3& point) {
             const Vec3 force = time * spring.load.force, torque = time * spring.load.torque;
             // Returns the work: the impulse times the mean of the velocities before and after.
-            const auto give = [&](std::uint32_t i, double sign) {
-                if (i == Joint::world || !bodies[i].dynamic()) return 0.0;
-                Body& b = bodies[i];
+            const auto give = [&](std::uint32_t place, double sign) {
+                if (!locks_.moves(place)) return 0.0;
+                FlightBody& body = bodies[place];
+                RigidState& b = body.state;
                 const Vec3 turn = sign * ((point - b.position).cross(force) + torque);
                 const Vec3 momentum = b.momentum + 0.5 * sign * force, angular = b.angular_momentum + 0.5 * turn;
                 b.momentum += sign * force;
                 b.angular_momentum += turn;
-                return b.inverse_mass * sign * force.dot(momentum) + turn.dot(b.inverse_inertia * angular);
+                return body.inertia.inverse_mass * sign * force.dot(momentum) +
+                       turn.dot(body.inverse_inertia * angular);
             };
-            const double on_a = give(joint.a, -1.0), on_b = give(joint.b, 1.0);
-            joint.force += force;
-            joint.torque += torque;
-            JointAccount::Span& step = joint.account.step;
+            const double on_a = give(j.a, -1.0), on_b = give(j.b, 1.0);
+            j.joint->force += force;
+            j.joint->torque += torque;
+            JointAccount::Span& step = j.joint->account.step;
             step.load.add({force, torque, point.cross(force) + torque});
             step.work_a += on_a;
             step.work_b += on_b;

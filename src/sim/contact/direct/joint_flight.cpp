@@ -36,8 +36,6 @@ std::vector<double> stages_of(int order) {
     return stages;
 }
 
-bool is_lock(const JointRows::Row& row) { return row.law == Joint::lock; }
-
 }  // namespace
 
 bool JointFlight::flies(const JointIsland& island) {
@@ -61,322 +59,238 @@ int JointFlight::order(const JointIsland& island) {
     return order;
 }
 
-void JointFlight::load(const JointIsland& island) {
-    const std::vector<Body>& bodies = island.problem.bodies;
-    const double length = island.length;
-    rows_.load(island, 1.0);
-    pairs_.clear();
-    rows_.add_pairs(pairs_);
-    matrix_.analyze(island.bodies.size(), pairs_);
-    matrix_.set_zero();
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-        const Body& body = bodies[island.bodies[k]];
-        const Mat3 inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length * length);
-        BlockCholesky::Block& block = matrix_.diagonal(k);
-        for (int r = 0; r < 3; ++r) {
-            block.row[r][r] = body.mass;
-            for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = inertia(r, c);
+// The structure of the matrix, for the island's joints.
+void JointFlight::analyze(const JointIsland& island) {
+    if (locks_.load(island)) {
+        pairs_.clear();
+        springs_ = false;
+        for (FlightLocks::FlightJoint& j : locks_.joints()) {
+            springs_ = springs_ || has_springs(*j.joint);
+            j.pair = std::uint32_t(pairs_.size());
+            if (locks_.moves(j.a) && locks_.moves(j.b)) pairs_.push_back({j.a, j.b});
         }
+        matrix_.analyze(island.bodies.size(), pairs_);
+        change_.resize(6 * island.bodies.size());
     }
+    swing_ = 0.0;
+    loaded_ = false;
+}
+
+// The matrix at the present poses, of a stage of `h` s. Returns false where it cannot be factored.
+bool JointFlight::load(double h) {
+    const double joints = double(locks_.joints().size()), bodies = double(locks_.bodies().size());
+    const double of_rows = locks_.tree() ? tuning::joint_flight_compliance : tuning::joint_compliance;
     // In a singular position the gap along the vanishing row is (h w)^2 / 2: without this compliance its correction
     // would be divided by zero.
-    double fastest = 0.0;
-    const auto spin = [&](std::uint32_t i) -> Vec3 {
-        return i == Joint::world ? Vec3(Vec3::Zero()) : bodies[i].angular_velocity;
-    };
-    for (const JointRows::Block& block : rows_.blocks()) {
-        const Joint& joint = island.problem.joints->joints()[block.joint];
-        fastest = std::max(fastest, (spin(joint.b) - spin(joint.a)).norm());
-    }
-    const double turn = island.problem.settings.h * fastest;
-    compliance_ = (rows_.tree() ? tuning::joint_flight_compliance : tuning::joint_compliance) /
-                  (total_mass_ * double(island.joints.size()));
-    compliance_ = std::max(
-        compliance_, tuning::joint_singular * turn * turn * turn * turn / total_mass_ * double(island.bodies.size()));
-    for (const JointRows::Block& block : rows_.blocks())
-        for (const JointRows::Row& row : rows_.rows(block))
-            if (is_lock(row)) JointRows::add_square(matrix_, block, row, 1.0 / compliance_);
-    asked_.assign(rows_.rows().size(), 0.0);
+    const double turn = h * locks_.fastest_turn();
+    const double singular = tuning::joint_singular * turn * turn * turn * turn * bodies;
+    compliance_ = std::max(of_rows / joints, singular) / locks_.total_mass();
+    locks_.fill(matrix_, compliance_);
+    return matrix_.factor();
 }
 
-// The least impulses that change J u as asked, but for the compliance: M du = J^T f, f = (asked - J du) / R. Adds them
-// to given_.
-bool JointFlight::impulses() {
-    std::fill(change_.begin(), change_.end(), 0.0);
-    for (const JointRows::Block& block : rows_.blocks())
-        for (std::size_t k = block.first; k < block.first + block.count; ++k)
-            if (asked_[k] != 0.0) JointRows::add(block, rows_.rows()[k], asked_[k] / compliance_, change_);
+// The least impulses that change J u as asked, but for the compliance: M du = J^T f, f = (asked - J du) / R.
+bool JointFlight::change() {
+    locks_.add_asked(compliance_, change_);
     matrix_.solve(change_);
-    bool finite = true;
-    for (const JointRows::Block& block : rows_.blocks())
-        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const JointRows::Row& row = rows_.rows()[k];
-            if (!is_lock(row)) continue;
-            given_[k] += (asked_[k] - JointRows::dot(block, row, change_)) / compliance_;
-            finite = finite && std::isfinite(given_[k]);
-        }
-    return finite;
+    return locks_.take(change_, compliance_);
 }
 
-// Momenta of the stage's start with the impulses: equal and opposite, about one point.
-void JointFlight::apply(const JointIsland& island) {
-    std::vector<Body>& bodies = island.problem.bodies;
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-        bodies[island.bodies[k]].momentum = starts_[k].momentum;
-        bodies[island.bodies[k]].angular_momentum = starts_[k].angular_momentum;
+void JointFlight::kick(const Stage& stage) {
+    std::span<FlightBody> bodies = locks_.bodies();
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        bodies[k].state.momentum += 0.5 * stage.share * stage.forces[k].push;
+        bodies[k].state.angular_momentum += 0.5 * stage.share * stage.forces[k].turn;
     }
-    for (const JointRows::Block& block : rows_.blocks()) {
-        const Joint& joint = island.problem.joints->joints()[block.joint];
-        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
-        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const JointRows::Row& row = rows_.rows()[k];
-            (row.turns() ? torque : force) += (row.turns() ? rows_.length() : 1.0) * given_[k] * row.direction;
-        }
-        if (block.a != JointRows::none) {
-            const RigidState& start = starts_[std::size_t(block.a)];
-            bodies[joint.a].momentum -= force;
-            bodies[joint.a].angular_momentum -= (block.point - start.position).cross(force) + torque;
-        }
-        if (block.b != JointRows::none) {
-            const RigidState& start = starts_[std::size_t(block.b)];
-            bodies[joint.b].momentum += force;
-            bodies[joint.b].angular_momentum += (block.point - start.position).cross(force) + torque;
-        }
+    if (springs_) kick_springs(0.5 * stage.h);
+}
+
+void JointFlight::begin_drift() {
+    for (FlightBody& body : locks_.bodies()) body.start = body.state;
+}
+
+void JointFlight::drift(double h) {
+    for (FlightBody& body : locks_.bodies()) {
+        body.state.position = body.start.position;
+        body.state.orientation = body.start.orientation;
+        const Vec3 angular_momentum = body.state.angular_momentum;
+        free_drift(body.state, body.inertia, h);
+        body.state.angular_momentum = angular_momentum;
+        body.rotation = body.state.orientation.toRotationMatrix();
     }
 }
 
-void JointFlight::drift(const JointIsland& island, double h) {
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-        Body& body = island.problem.bodies[island.bodies[k]];
-        RigidState state = starts_[k];
-        state.momentum = body.momentum;
-        state.angular_momentum = body.angular_momentum;
-        free_drift(state, mass_of(body), h);
-        body.position = state.position;
-        body.orientation = state.orientation;
-    }
-}
-
-// Errors of the locks at the present poses, in sizes of the joint, and the changes of speed that would have avoided them.
-double JointFlight::errors(const JointIsland& island, double h) {
-    double worst = 0.0;
-    for (const JointRows::Block& block : rows_.blocks()) {
-        const Joint& joint = island.problem.joints->joints()[block.joint];
-        const JointGeometry g =
-            measure(joint, side_of(island.problem.bodies, joint.a), side_of(island.problem.bodies, joint.b));
-        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const JointRows::Row& row = rows_.rows()[k];
-            if (!is_lock(row)) continue;
-            const double error = g.coordinates[row.coordinate].value;
-            worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : joint.size));
-            asked_[k] = -(row.turns() ? rows_.length() : 1.0) * error / h;
-        }
-    }
-    return worst;
-}
-
-bool JointFlight::close(const JointIsland& island) {
-    const double h = island.problem.settings.h;
+bool JointFlight::close(double h) {
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        apply(island);
-        drift(island, h);
-        const double error = errors(island, h);
+        locks_.apply();
+        drift(h);
+        const double error = locks_.ask_to_close(h);
         if (!std::isfinite(error)) return false;
         if (error <= closed_ || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
         // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
         if (pass > 4 && error >= 0.9 * last) return error < tuning::joint_flight_open;
         last = error;
-        if (!impulses()) return false;
+        if (!change()) return false;
     }
     return last < tuning::joint_flight_open;
 }
 
 void JointFlight::close_poses(const JointIsland& island) {
-    std::vector<Body>& bodies = island.problem.bodies;
-    prepare(island);
+    analyze(island);
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        load(island);
-        const double error = errors(island, 1.0);
-        if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) return;
+        locks_.look();
+        const double error = locks_.ask_to_close(1.0);
+        if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) break;
         last = error;
-        given_.assign(rows_.rows().size(), 0.0);
-        if (!matrix_.factor() || !impulses()) return;
-        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-            Body& body = bodies[island.bodies[k]];
-            turn_exactly(body, Vec3::Map(&change_[6 * k]), Vec3::Map(&change_[6 * k + 3]) / rows_.length(), 1.0);
+        locks_.clear_given();
+        if (!load(island.problem.settings.h) || !change()) return;
+        std::span<FlightBody> bodies = locks_.bodies();
+        for (std::size_t k = 0; k < bodies.size(); ++k) {
+            FlightBody& body = bodies[k];
+            body.state.position += Vec3::Map(&change_[6 * k]);
+            body.state.orientation =
+                (from_rotation_vector(Vec3::Map(&change_[6 * k + 3]) / island.length) * body.state.orientation)
+                    .normalized();
             body.derive();
         }
     }
+    if (last < infinity) locks_.give_back(island);
 }
 
 // Makes the velocities fit the joints at the present poses.
-bool JointFlight::fit(const JointIsland& island) {
-    std::vector<double> velocity(change_.size());
+bool JointFlight::fit() {
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        apply(island);
-        double fastest = 0.0, worst = 0.0;
-        for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-            Body& body = island.problem.bodies[island.bodies[k]];
+        locks_.apply();
+        double fastest = 0.0;
+        for (FlightBody& body : locks_.bodies()) {
             body.derive_velocities();
-            for (int i = 0; i < 3; ++i) {
-                velocity[6 * k + std::size_t(i)] = body.velocity[i];
-                velocity[6 * k + 3 + std::size_t(i)] = rows_.length() * body.angular_velocity[i];
-            }
-            fastest = std::max({fastest, body.velocity.norm(), rows_.length() * body.angular_velocity.norm()});
+            fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
         }
-        for (const JointRows::Block& block : rows_.blocks())
-            for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-                const JointRows::Row& row = rows_.rows()[k];
-                asked_[k] = is_lock(row) ? -JointRows::dot(block, row, velocity) : 0.0;
-                worst = std::max(worst, std::abs(asked_[k]));
-            }
-        if (!(worst > tuning::joint_flight_fits * fastest) || worst >= 0.5 * last) return std::isfinite(worst);
+        const double worst = locks_.ask_to_fit();
+        if (!(worst > coarse_ * tuning::joint_flight_fits * std::sqrt(fastest)) || worst >= 0.5 * last)
+            return std::isfinite(worst);
         last = worst;
-        if (!impulses()) return false;
+        if (!change()) return false;
     }
     return true;
 }
 
-void JointFlight::kick(const JointIsland& island, std::span<const StepForce> forces, double share) {
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-        Body& body = island.problem.bodies[island.bodies[k]];
-        body.momentum += share * forces[k].push;
-        body.angular_momentum += share * forces[k].turn;
-    }
-}
-
-bool JointFlight::stage(const JointIsland& island, std::span<const StepForce> forces, double share) {
-    std::vector<Body>& bodies = island.problem.bodies;
-    kick(island, forces, 0.5 * share);
-    kick_springs(island, 0.5 * island.problem.settings.h);
-    const auto begin = [&] {
-        for (std::size_t k = 0; k < island.bodies.size(); ++k) starts_[k] = state_of(bodies[island.bodies[k]]);
-    };
-    begin();
+bool JointFlight::fly(const Stage& stage) {
+    const double h = stage.h;
+    kick(stage);
+    begin_drift();
     if (!loaded_) {
-        load(island);
-        if (!matrix_.factor() || rows_.apart(tuning::joint_flight_open)) return false;
-        closed_ = std::max(tuning::joint_flight_closed, 2.0 * rows_.place_rounding());
+        if (locks_.look() > tuning::joint_flight_open || !load(h)) return false;
+        closed_ = std::max(coarse_ * tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
     }
     // The force that fitted the velocities at these poses is the first estimate.
-    given_.assign(rows_.rows().size(), 0.0);
-    const double h = island.problem.settings.h;
-    for (const JointRows::Block& block : rows_.blocks()) {
-        const Joint& joint = island.problem.joints->joints()[block.joint];
-        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const JointRows::Row& row = rows_.rows()[k];
-            if (is_lock(row) && rows_.tree())
-                given_[k] = h * joint.constraint_force[row.coordinate] / (row.turns() ? rows_.length() : 1.0);
-        }
+    locks_.clear_given();
+    if (locks_.tree())
+        for (FlightLocks::Lock& lock : locks_.locks())
+            lock.given =
+                h / locks_.unit(lock) * (lock.force + h * (2.0 * lock.rates.closing - lock.rates.closing_before));
+    if (!close(h)) return false;
+    for (FlightLocks::Lock& lock : locks_.locks()) {
+        const double last = lock.force;
+        lock.force = locks_.unit(lock) / h * lock.given;
+        lock.rates.closing_before = lock.rates.closing;
+        lock.rates.closing = (lock.force - last) / h;
     }
-    if (!close(island)) return false;
-    for (const JointRows::Block& block : rows_.blocks()) {
-        Joint& joint = island.problem.joints->joints()[block.joint];
-        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            JointRows::Row& row = rows_.rows()[k];
-            row.impulse = given_[k];
-            joint.constraint_force[row.coordinate] = given_[k] / h * (row.turns() ? rows_.length() : 1.0);
-        }
-    }
-    add_up(island);
-    swing_ = std::max(swing_, std::abs(h) * rows_.swing_rate(island));
-    kick(island, forces, 0.5 * share);
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-        Body& body = bodies[island.bodies[k]];
-        body.rotation = body.orientation.toRotationMatrix();
-        body.derive();
-    }
-    kick_springs(island, 0.5 * h);
-    begin();
-    load(island);
-    loaded_ = matrix_.factor();
+    add_up();
+    swing_ = std::max(swing_, std::abs(h) * locks_.swing_rate(h, tuning::joint_easy_swing / std::abs(h)));
+    kick(stage);
+    begin_drift();
+    for (FlightBody& body : locks_.bodies()) body.derive();
+    locks_.look();
+    loaded_ = load(h);
     if (!loaded_) return false;
-    given_.assign(rows_.rows().size(), 0.0);
-    const auto each_lock = [&](auto&& visit) {
-        for (const JointRows::Block& block : rows_.blocks())
-            for (std::size_t k = block.first; k < block.first + block.count; ++k)
-                if (const JointRows::Row& row = rows_.rows()[k]; is_lock(row)) {
-                    Joint& joint = island.problem.joints->joints()[block.joint];
-                    visit(k, row.turns() ? rows_.length() : 1.0, joint.constraint_force[row.coordinate],
-                          joint.constraint_rate[row.coordinate]);
-                }
-    };
-    if (rows_.tree())
-        each_lock(
-            [&](std::size_t k, double unit, double force, double rate) { given_[k] = h / unit * (force + h * rate); });
-    if (!fit(island)) return false;
-    each_lock([&](std::size_t k, double unit, double& force, double& rate) {
-        const double last = force;
-        force = unit / h * given_[k];
-        rate = (force - last) / h;
-    });
-    add_up(island);
+    locks_.clear_given();
+    if (locks_.tree())
+        for (FlightLocks::Lock& lock : locks_.locks())
+            lock.given =
+                h / locks_.unit(lock) * (lock.force + h * (2.0 * lock.rates.fitting - lock.rates.fitting_before));
+    if (!fit()) return false;
+    for (FlightLocks::Lock& lock : locks_.locks()) {
+        const double last = lock.force;
+        lock.force = locks_.unit(lock) / h * lock.given;
+        lock.rates.fitting_before = lock.rates.fitting;
+        lock.rates.fitting = (lock.force - last) / h;
+    }
+    add_up();
     return true;
 }
 
 // Sums the impulses of the stages in Joint::force and torque, and in the accounts of the joints.
-void JointFlight::add_up(const JointIsland& island) {
-    for (const JointRows::Block& block : rows_.blocks()) {
-        Joint& joint = island.problem.joints->joints()[block.joint];
-        JointLoad load;
-        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
-            const JointRows::Row& row = rows_.rows()[k];
-            (row.turns() ? load.torque : load.force) +=
-                (row.turns() ? rows_.length() : 1.0) * given_[k] * row.direction;
-        }
+void JointFlight::add_up() {
+    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
+        Joint& joint = *j.joint;
+        JointLoad load = locks_.load_of(j);
         joint.force += load.force;
         joint.torque += load.torque;
-        load.moment = block.point.cross(load.force) + load.torque;
-        const auto work = [&](std::uint32_t body, int place) {
-            if (place == JointRows::none) return 0.0;
-            const Body& b = island.problem.bodies[body];
-            const RigidState& start = starts_[std::size_t(place)];
-            const Vec3 turn = (block.point - start.position).cross(load.force) + load.torque;
-            return 0.5 * (b.inverse_mass * load.force.dot(start.momentum + b.momentum) +
-                          turn.dot(b.inverse_inertia * (start.angular_momentum + b.angular_momentum)));
+        load.moment = j.point.cross(load.force) + load.torque;
+        const auto work = [&](std::uint32_t place, const Vec3& arm) {
+            if (!locks_.moves(place)) return 0.0;
+            const FlightBody& body = locks_.body(place);
+            const Vec3 turn = arm.cross(load.force) + load.torque;
+            return 0.5 * (body.inertia.inverse_mass * load.force.dot(body.start.momentum + body.state.momentum) +
+                          turn.dot(body.inverse_inertia * (body.start.angular_momentum + body.state.angular_momentum)));
         };
-        joint.account.step.add_flight(load, -work(joint.a, block.a), work(joint.b, block.b), !joint.account.holds);
+        joint.account.step.add_flight(load, -work(j.a, j.arm_a), work(j.b, j.arm_b), !joint.account.holds);
     }
-}
-
-void JointFlight::prepare(const JointIsland& island) {
-    swing_ = total_mass_ = 0.0;
-    for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
-    starts_.resize(island.bodies.size());
-    change_.resize(6 * island.bodies.size());
 }
 
 bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps) {
-    prepare(island);
-    loaded_ = false;
+    analyze(island);
     const double h = island.problem.settings.h;
-    for (const std::uint32_t k : island.joints) {
-        Joint& joint = island.problem.joints->joints()[island.problem.joints->active()[k]];
+    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
+        Joint& joint = *j.joint;
         joint.force.setZero();
         joint.torque.setZero();
         joint.account.step = {};
-        joint.account.step.work.springs =
-            JointSet::potential(joint, island.problem.bodies);  // no heat: without dampers
+        if (springs_)  // no heat: without dampers
+            joint.account.step.work.springs = JointSet::potential(joint, island.problem.bodies);
     }
+    locks_.take_forces();
     const std::vector<double> stages = stages_of(order);
+    coarse_ = stages.size() == 1 ? tuning::joint_flight_coarse : 1.0;
     for (int substep = 0; substep < substeps; ++substep)
         for (const double share : stages) {
-            ContactProblem part = island.problem;
-            part.settings.h *= share / substeps;
-            const JointIsland now{part, island.bodies, island.joints, island.length, island.from, island.to};
-            if (!stage(now, forces, share / substeps)) return false;
+            if (!fly({forces, share / substeps, h * (share / substeps)})) return false;
             if (swing_ > tuning::joint_swing) return false;
+            if (stages.size() > 1 || substeps > 1) count_turns();
         }
-    // Limits and strengths are looked at once a step: a step that meets one is left to the solver of contacts.
-    for (const JointRows::Block& block : rows_.blocks()) {
-        Joint& joint = island.problem.joints->joints()[block.joint];
-        joint.account.step.work.springs -= JointSet::potential(joint, island.problem.bodies);
+    locks_.give_back(island);
+    locks_.keep_forces();
+    return end(island);
+}
+
+// Whole turns are counted from stage to stage.
+void JointFlight::count_turns() {
+    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
+        if (j.count == j.joint->count()) continue;
+        const JointGeometry g = measure(*j.joint, locks_.side(j.a), locks_.side(j.b));
+        for (std::size_t k = 0; k < j.joint->count(); ++k)
+            if (!j.joint->locked(k)) j.joint->value[k] = g.coordinates[k].value;
+    }
+}
+
+// Limits and strengths are looked at once a step: a step that meets one is left to the solver of contacts.
+bool JointFlight::end(const JointIsland& island) {
+    const double h = island.problem.settings.h;
+    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
+        Joint& joint = *j.joint;
+        if (springs_) joint.account.step.work.springs -= JointSet::potential(joint, island.problem.bodies);
         joint.force /= h;
         joint.torque /= h;
-        if (rows_.violates_limit(island, block)) return false;
+        if (j.count < joint.count()) {
+            const JointGeometry g = measure(joint, locks_.side(j.a), locks_.side(j.b));
+            if (beyond_limit(joint, g)) return false;
+            for (std::size_t k = 0; k < joint.count(); ++k)
+                if (!joint.locked(k)) joint.value[k] = g.coordinates[k].value;
+        }
         const JointDescription& strength = joint.description;
         const double over =
             std::max({joint.force.norm() / strength.break_force, h * joint.force.norm() / strength.break_impulse,
@@ -388,9 +302,9 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
         }
         joint.impulse = {};
         joint.curving = {};
-        joint.point = block.point;
-        for (std::size_t c = 0; c < joint.count(); ++c)
-            if (joint.locked(c)) joint.impulse[c][Joint::lock] = 2.0 * joint.constraint_force[c] * h;
+        joint.point = j.point;
+        for (const FlightLocks::Lock& lock : locks_.locks(j))
+            joint.impulse[lock.coordinate][Joint::lock] = 2.0 * lock.force * h;
     }
     return true;
 }

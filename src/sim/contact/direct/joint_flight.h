@@ -7,8 +7,7 @@
 // Lubich, Wanner, Geometric Numerical Integration, section V.3).
 #pragma once
 
-#include "sim/contact/direct/joint_rows.h"
-#include "sim/dynamics/integrators/rigid_state.h"
+#include "sim/contact/direct/flight_locks.h"
 #include "sim/math/block_cholesky.h"
 
 #include <span>
@@ -40,29 +39,35 @@ public:
     double swing() const { return swing_; }
 
 private:
-    void prepare(const JointIsland& island);
-    bool stage(const JointIsland& island, std::span<const StepForce> forces, double share);
-    void load(const JointIsland& island);
-    bool close(const JointIsland& island);
-    bool fit(const JointIsland& island);
-    double errors(const JointIsland& island, double h);
-    bool impulses();
+    struct Stage {
+        std::span<const StepForce> forces;
+        double share = 1.0;  // of the step
+        double h = 0.0;      // s; negative in some stages of the compositions
+    };
+    void analyze(const JointIsland& island);
+    bool load(double h);
+    bool fly(const Stage& stage);
+    bool close(double h);
+    bool fit();
+    bool change();
+    void kick(const Stage& stage);
+    void begin_drift();
+    void drift(double h);
+    void add_up();
     static bool flies_with_springs(const JointIsland& island, const Joint& joint);
-    void kick_springs(const JointIsland& island, double time);  // s
-    void kick(const JointIsland& island, std::span<const StepForce> forces, double share);
-    void drift(const JointIsland& island, double h);
-    void apply(const JointIsland& island);
-    void add_up(const JointIsland& island);
+    void kick_springs(double time);  // s
+    void count_turns();
+    bool end(const JointIsland& island);
 
-    JointRows rows_;
+    FlightLocks locks_;
     BlockCholesky matrix_;
     std::vector<BlockCholesky::Pair> pairs_;
-    std::vector<RigidState> starts_;      // of a stage's drift, by body
-    std::vector<double> change_, asked_;  // du; by row: the change of J u that is asked for
-    std::vector<double> given_;           // N s, by row: impulses of the stage
-    bool loaded_ = false;                 // rows and matrix are those of the present poses
-    double closed_ = 0.0;                 // largest error of closed joints, in sizes of the joint
-    double swing_ = 0.0, compliance_ = 0.0, total_mass_ = 0.0;
+    std::vector<double> change_;  // du: six numbers per body
+    bool springs_ = false;        // a joint has springs
+    bool loaded_ = false;         // locks and matrix are those of the present poses
+    double coarse_ = 1.0;         // factor of the tolerances
+    double closed_ = 0.0;         // largest error of closed joints, in sizes of the joint
+    double swing_ = 0.0, compliance_ = 0.0;
 };
 
 }  // namespace tumble

@@ -183,11 +183,7 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     block.b = contact_rows::place_of(island.bodies, j.b);
     block.point = g.point;
     block.first = rows_.size();
-    if (!j.distance()) {
-        block.free_turns = 0;
-        for (std::size_t k = 3; k < 6; ++k)
-            if (!j.locked(k)) block.axes[block.free_turns++] = g.coordinates[k].direction;
-    }
+    block.axes = swing_axes(j, g);
     compliance_ = compliance;
     for (std::size_t k = 0; k < j.count(); ++k)
         if (!j.locked(k)) j.value[k] = g.coordinates[k].value;

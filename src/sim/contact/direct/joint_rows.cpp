@@ -386,25 +386,4 @@ void JointRows::store(const JointIsland& island, bool apply) {
     }
 }
 
-bool JointRows::apart(double tolerance) const {
-    for (const Block& block : blocks_)
-        for (const Row& row : rows(block))
-            if (row.law == Joint::lock && std::abs(row.reference) > tolerance * (row.turns() ? 1.0 : joint(block).size))
-                return true;
-    return false;
-}
-
-bool JointRows::violates_limit(const JointIsland& island, const Block& block) const {
-    const Joint& j = joint(block);
-    if (!j.soft) return false;
-    const JointGeometry g = measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
-    if (j.description.swing && g.swing.value > g.swing_limit) return true;
-    for (std::size_t k = 0; k < j.count(); ++k) {
-        const JointAxis& axis = j.axis(k);
-        if (axis.motion != JointAxis::Motion::limited) continue;
-        if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
-    }
-    return false;
-}
-
 }  // namespace tumble

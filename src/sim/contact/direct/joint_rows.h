@@ -15,6 +15,7 @@
 #include "sim/contact/direct/gear_row.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/joint_set.h"
+#include "sim/joints/swing.h"
 #include "sim/math/block_cholesky.h"
 
 #include <array>
@@ -75,8 +76,7 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        Vec3 axes[3] = {};  // world: about which the bodies turn against each other
-        int free_turns = 3;
+        SwingAxes axes;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
         Gear* gear = nullptr;
     };
@@ -155,12 +155,6 @@ public:
 
     /// Gives the impulses to the bodies and keeps them with the joints. Without `apply` all are zero.
     void store(const JointIsland& island, bool apply);
-
-    /// Whether a locked coordinate has an error above `tolerance`, in sizes of the joint.
-    bool apart(double tolerance) const;
-
-    /// Whether a limit of the joint is violated at the present poses.
-    bool violates_limit(const JointIsland& island, const Block& block) const;
 
     /// Fastest rate (rad/s) at which a body would swing about its joints under their forces: sqrt(4 T / (m l)) for a
     /// rod of length l.

@@ -1,5 +1,6 @@
 // JointRows: the work of a step by row, the impulses of its joints, and the swing of its bodies under them.
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/joints/swing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -101,24 +102,8 @@ double JointRows::swing_rate(const JointIsland& island) {
         for (const auto& [body, place] : {std::pair(j.a, block.a), std::pair(j.b, block.b)}) {
             if (place == none) continue;
             const Body& b = island.problem.bodies[body];
-            const Vec3 arm = block.point - b.position;
-            const double lever = arm.norm();
-            if (!(lever > 0.0)) continue;
-            // Compliance against turns about the joint, times the lever across their axis.
-            double gives = 0.0;
-            const auto turn_about = [&](const Vec3& axis) {
-                gives = std::max(gives, axis.cross(arm).norm() * axis.dot(b.inverse_inertia * axis));
-            };
-            if (block.free_turns == 3) {
-                const Vec3 across = arm.unitOrthogonal();
-                turn_about(across);
-                turn_about(arm.cross(across) / lever);
-            } else {
-                for (int k = 0; k < block.free_turns; ++k) turn_about(block.axes[k]);
-            }
-            // A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
             double& sum = swing_[std::size_t(place)];
-            sum += force.norm() * gives / 3.0;
+            sum += force.norm() * swing_compliance(block.axes, block.point - b.position, b.inverse_inertia);
             most = std::max(most, sum);
         }
     }
