@@ -127,7 +127,7 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
         j.impulse = {};
         j.curving = {};
         j.constraint_force = {};
-        j.constraint_rate = {};
+        j.constraint_rates = {};
         const Vec3 last = whole * wide(row.vector(&Hold::impulse));
         if (layout_->kind(group) == soft::JointKind::point) {
             const Vec3 local = kept.axes.transpose() * last;
