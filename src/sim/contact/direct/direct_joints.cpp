@@ -45,7 +45,8 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
         for (int i = 0; i < constraint.count; ++i) {
             Row& row = constraint.normal[i];
             row.target = std::min(0.0, constraint.overlap[i] / d);
-            if (substep == 0 && constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
+            if (substep > 0) constraint.rebound[i] = 0.0;
+            if (constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
         }
     }
 }
@@ -231,18 +232,6 @@ bool DirectSolver::fly(const JointIsland& island, int& substeps) {
     return false;
 }
 
-// Contact is solved to first order in the angles: corners that turn fast would sink in.
-int DirectSolver::turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
-    double fastest = 0.0;
-    for (const std::uint32_t k : manifolds)
-        for (const std::uint32_t i : {problem.manifolds[k].a, problem.manifolds[k].b})
-            if (problem.bodies[i].dynamic()) fastest = std::max(fastest, problem.bodies[i].angular_velocity.norm());
-    int substeps = 1;
-    while (substeps < tuning::joint_turning_substeps && fastest * problem.settings.h > tuning::joint_turn * substeps)
-        substeps *= 2;
-    return substeps;
-}
-
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
@@ -294,7 +283,6 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         flown = fly(island, substeps);
         if (!flown) reset();
     }
-    if (!flown && !manifolds.empty()) substeps = std::max(substeps, turning_substeps(problem, manifolds));
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
         substeps *= 2;
         reset();

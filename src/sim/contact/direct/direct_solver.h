@@ -77,6 +77,8 @@ private:
     void load_substep(const JointIsland& island, int substep, int substeps);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island);
+    double close_contacts(const JointIsland& island);
+    bool moves_no_body() const;
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
@@ -99,7 +101,6 @@ private:
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem) const;
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
-    static int turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds);
     bool push_joined(const JointIsland& island, bool moved);
 
     struct Mass {
