@@ -99,9 +99,9 @@ void DirectSolver::set_friction_compliance(double compliance) {
     if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
 }
 
-// Whether the last round has changed no velocity: bodies that jam have impulses without a solution, which keep changing.
+// Whether the last round has changed no velocity: where bodies jam, impulses may have no limit and keep changing.
 bool DirectSolver::moves_no_body() const {
-    const double least = tuning::direct_round_tolerance * speed_scale_;
+    const double least = tuning::joint_contact_rest * speed_scale_;
     for (std::size_t k = 0; k < velocity_.size(); ++k)
         if (!(std::abs(velocity_[k] - kept_[k]) <= least)) return false;
     return true;
@@ -128,13 +128,11 @@ double DirectSolver::close_contacts(const JointIsland& island) {
     double worst = 0.0;
     for (ConstraintRows& constraint : constraints_) {
         const Manifold& m = problem.manifolds[constraint.manifold];
-        if (m.has_ball_over_face() || m.has_curved_gap()) continue;  // see predicted_gap.h
+        if (m.corners == Corners::neither) continue;  // balls and crossing edges: see predicted_gap.h
         const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
         const Way a = way_of(constraint.a, body_a), b = way_of(constraint.b, body_b);
         const Vec3& n = constraint.geometry.normal;
-        const Vec3 normal = m.corners == Corners::of_b   ? Vec3(a.turn * n)
-                            : m.corners == Corners::of_a ? Vec3(b.turn * n)
-                                                         : n;
+        const Vec3 normal = m.corners == Corners::of_b ? a.turn * n : b.turn * n;
         for (int i = 0; i < constraint.count; ++i) {
             Row& row = constraint.normal[i];
             const ContactConstraint::Point& p = constraint.geometry.points[std::size_t(i)];
@@ -163,6 +161,10 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
     consistent_ = true;
     limits_held_ = false;
+    const double most_turn = tuning::joint_corner_turn / island.problem.settings.h;  // rad/s
+    const bool turns = std::any_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
+        return island.problem.bodies[i].angular_velocity.squaredNorm() > most_turn * most_turn;
+    });
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
@@ -195,13 +197,13 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         std::fill(push_.begin(), push_.end(), 0.0);
         predict_ends(island, false);
         const double error = joints_.close(island, ends_);
-        const double contact_error = close_contacts(island);
+        const double contact_error = turns ? close_contacts(island) : 0.0;
         if (!std::isfinite(error) || !std::isfinite(contact_error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
         const bool settled =
             change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
-        if (!constraints_.empty() && (settled || moves_no_body()) && error < tuning::joint_contact_closed &&
+        if (!constraints_.empty() && (settled || moves_no_body()) && error < tuning::joint_contact_settled &&
             contact_error < tuning::joint_corner_closed)
             return Closing::closed;
         // Friction may change slowly from round to round; the joints are closed all the same.

@@ -36,7 +36,7 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
         put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
-    factored_ = false;
+    factored_ = base_kept_ = false;
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (substeps == 1) return;
@@ -160,6 +160,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         structure(step, island.bodies, manifolds);
         if (!moves_freely(now)) {
             do {
+                base_kept_ = false;  // joints that gave way are bounded
                 const Closing closing = close_joints(now);
                 // Shorter steps help the joints, seldom the contacts.
                 const bool alone = closing == Closing::open && constraints_.empty();

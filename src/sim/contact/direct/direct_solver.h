@@ -70,6 +70,9 @@ private:
     double slope(double along, double mass_slope, double mass_curvature);
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
+    bool factor_weights(bool pushing);
+    Weights push_weights(const ConstraintRows& constraint) const;
+    void set_masses(bool pushing);
     bool solve_rounds();
     bool solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                            std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints);
@@ -117,6 +120,7 @@ private:
         kept_;                          // u*, u, du, ...; six numbers per body
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
+    std::vector<Weights> weights_;  // by constraint, of the last factorization
     JointRows joints_;
     JointFlight flight_;
     TreeFlight tree_flight_;
@@ -136,6 +140,8 @@ private:
     bool factored_ = false;                // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
+    BlockCholesky::Blocks base_;  // of the masses and the rows without bounds
+    bool base_kept_ = false;      // it is that of this substep
 };
 
 }  // namespace tumble
