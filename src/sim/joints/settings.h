@@ -35,11 +35,6 @@ inline constexpr int joint_swing_substeps = 1024;
 inline constexpr int joint_open_substeps = 64;
 inline constexpr int joint_stuck_substeps = 4;
 
-/// Largest turn, rad, of a body in contact in a substep, and number of substeps for it. Not fitted: corners sink in by half
-/// its square, and the cost is bounded.
-inline constexpr double joint_turn = 0.05;
-inline constexpr int joint_turning_substeps = 4;
-
 /// Passes up to which a step counts as easy: the next one is tried with half the substeps. Not fitted: the number changes
 /// the cost alone.
 inline constexpr int joint_easy_rounds = 6;
@@ -103,8 +98,19 @@ inline constexpr int joint_newton_steps = 40;
 inline constexpr int joint_trial_newton_steps = 12;
 
 /// Error, in sizes of the joint, at which the joints of an island in contact count as closed after
-/// tuning::direct_rounds rounds. Not fitted: the next step closes the rest.
+/// tuning::direct_rounds rounds, and once the impulses have settled; and error of a gap at the end of the step, in sizes
+/// of the contact, once they have settled. Not fitted: the next step closes the rest.
 inline constexpr double joint_contact_closed = 1e-7;
+inline constexpr double joint_contact_settled = 1e-8;
+inline constexpr double joint_corner_closed = 1e-5;
+
+/// Least turn, rad, of a body in a step in which the gaps of corners are closed: the rest of the gap is half its square, in
+/// sizes of the contact. Not fitted: less is invisible.
+inline constexpr double joint_corner_turn = 0.005;
+
+/// Change of the velocities in a round, as a share of the change in the step, at which the impulses in contact count as
+/// settled. Not fitted: larger ones let resting bodies creep.
+inline constexpr double joint_contact_rest = 1e-6;
 
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;

@@ -28,6 +28,19 @@ public:
     std::size_t work() const { return work_; }
 
     void set_zero();
+    /// Copies of all blocks, for matrices that differ from one another in a few.
+    struct Blocks {
+        std::vector<Block> diagonal, upper;
+    };
+    void save(Blocks& to) const {
+        to.diagonal = diagonal_;
+        to.upper = upper_;
+    }
+    /// Precondition: saved after the last analyze().
+    void restore(const Blocks& from) {
+        diagonal_ = from.diagonal;
+        upper_ = from.upper;
+    }
     Block& diagonal(std::size_t body) { return diagonal_[place_[body]]; }
     /// The block of pair number k of the analysis. Its rows belong to body i, or to body j where `transposed`.
     Block& coupling(std::size_t k) { return upper_[coupling_[k].block]; }

@@ -99,6 +99,56 @@ void DirectSolver::set_friction_compliance(double compliance) {
     if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
 }
 
+// Whether the last round has changed no velocity: where bodies jam, impulses may have no limit and keep changing.
+bool DirectSolver::moves_no_body() const {
+    const double least = tuning::joint_contact_rest * speed_scale_;
+    for (std::size_t k = 0; k < velocity_.size(); ++k)
+        if (!(std::abs(velocity_[k] - kept_[k]) <= least)) return false;
+    return true;
+}
+
+// Moves the targets of contacts such that the gaps at the end of the step are those of corners on their arcs over the turned
+// faces, and not of corners on the tangents. Returns the largest change of a gap under load, in sizes of the contact.
+double DirectSolver::close_contacts(const JointIsland& island) {
+    const ContactProblem& problem = island.problem;
+    const double h = problem.settings.h;
+    struct Way {
+        Vec3 moved = Vec3::Zero();  // m, of the center
+        Mat3 turn = Mat3::Identity();
+    };
+    const auto way_of = [&](int place, const Body& body) {
+        if (place != none) {
+            const JointSide& end = ends_[std::size_t(place)];
+            return Way{end.position - body.position,
+                       (end.orientation * body.orientation.conjugate()).toRotationMatrix()};
+        }
+        if (!body.moves()) return Way{};
+        return Way{h * body.velocity, from_rotation_vector(h * body.angular_velocity).toRotationMatrix()};
+    };
+    double worst = 0.0;
+    for (ConstraintRows& constraint : constraints_) {
+        const Manifold& m = problem.manifolds[constraint.manifold];
+        if (m.corners == Corners::neither) continue;  // balls and crossing edges: see predicted_gap.h
+        const Body &body_a = problem.bodies[m.a], &body_b = problem.bodies[m.b];
+        const Way a = way_of(constraint.a, body_a), b = way_of(constraint.b, body_b);
+        const Vec3& n = constraint.geometry.normal;
+        const Vec3 normal = m.corners == Corners::of_b ? a.turn * n : b.turn * n;
+        for (int i = 0; i < constraint.count; ++i) {
+            Row& row = constraint.normal[i];
+            const ContactConstraint::Point& p = constraint.geometry.points[std::size_t(i)];
+            const bool predicted = p.separation != m.points[std::size_t(p.source)].separation;
+            if (constraint.rebound[i] > 0.0 || predicted) continue;
+            const Vec3 apart = (body_b.position + p.arm_b) - (body_a.position + p.arm_a);
+            const Vec3 at_end = apart + (b.moved + b.turn * p.arm_b - p.arm_b) - (a.moved + a.turn * p.arm_a - p.arm_a);
+            const double speed = (normal.dot(at_end) - n.dot(apart)) / h;  // the mean over the step
+            const double target = std::min(0.0, constraint.overlap[i] / h) + row.speed - speed;
+            if (row.impulse > 0.0) worst = std::max(worst, std::abs(target - row.target) * h / constraint.size);
+            row.target = target;
+        }
+    }
+    return worst;
+}
+
 // Newton's method, the rounds of the multipliers, and the passes that close the joints, all in one loop: each pass uses
 // the last solution.
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
@@ -111,9 +161,14 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
     consistent_ = true;
     limits_held_ = false;
+    const double most_turn = tuning::joint_corner_turn / island.problem.settings.h;  // rad/s
+    const bool turns = std::any_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
+        return island.problem.bodies[i].angular_velocity.squaredNorm() > most_turn * most_turn;
+    });
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
+    kept_ = velocity_;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
         if (found) kept_ = velocity_;
         const bool trial = !joint_friction_softens_ && joints_.any_friction();
@@ -142,11 +197,15 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         std::fill(push_.begin(), push_.end(), 0.0);
         predict_ends(island, false);
         const double error = joints_.close(island, ends_);
-        if (!std::isfinite(error)) return Closing::open;
+        const double contact_error = turns ? close_contacts(island) : 0.0;
+        if (!std::isfinite(error) || !std::isfinite(contact_error)) return Closing::open;
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
         const bool settled =
             change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
+        if (!constraints_.empty() && (settled || moves_no_body()) && error < tuning::joint_contact_settled &&
+            contact_error < tuning::joint_corner_closed)
+            return Closing::closed;
         // Friction may change slowly from round to round; the joints are closed all the same.
         if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;

@@ -54,7 +54,7 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
         put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
-    factored_ = false;
+    factored_ = base_kept_ = false;
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (substeps == 1) return;
@@ -63,7 +63,8 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
         for (int i = 0; i < constraint.count; ++i) {
             Row& row = constraint.normal[i];
             row.target = std::min(0.0, constraint.overlap[i] / d);
-            if (substep == 0 && constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
+            if (substep > 0) constraint.rebound[i] = 0.0;
+            if (constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
         }
     }
 }
@@ -177,6 +178,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         structure(step, island.bodies, manifolds);
         if (!moves_freely(now)) {
             do {
+                base_kept_ = false;  // joints that gave way are bounded
                 const Closing closing = close_joints(now);
                 // Shorter steps help the joints, seldom the contacts.
                 const bool alone = closing == Closing::open && constraints_.empty();
@@ -245,18 +247,6 @@ bool DirectSolver::fly(const JointIsland& island, int& substeps) {
     return false;
 }
 
-// Contact is solved to first order in the angles: corners that turn fast would sink in.
-int DirectSolver::turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) {
-    double fastest = 0.0;
-    for (const std::uint32_t k : manifolds)
-        for (const std::uint32_t i : {problem.manifolds[k].a, problem.manifolds[k].b})
-            if (problem.bodies[i].dynamic()) fastest = std::max(fastest, problem.bodies[i].angular_velocity.norm());
-    int substeps = 1;
-    while (substeps < tuning::joint_turning_substeps && fastest * problem.settings.h > tuning::joint_turn * substeps)
-        substeps *= 2;
-    return substeps;
-}
-
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
@@ -308,7 +298,6 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         flown = fly(island, substeps);
         if (!flown) reset();
     }
-    if (!flown && !manifolds.empty()) substeps = std::max(substeps, turning_substeps(problem, manifolds));
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
         substeps *= 2;
         reset();

@@ -111,12 +111,30 @@ double DirectSolver::gradient(std::vector<double>& g) {
     return sum;
 }
 
-bool DirectSolver::factor(bool pushing) {
-    ++factorizations_;
+// Weights of a constraint in the position correction.
+DirectSolver::Weights DirectSolver::push_weights(const ConstraintRows& constraint) const {
+    Weights w;
+    const double stiffness = total_mass_ / tuning::direct_push_compliance;
+    bool active = false;
+    for (int i = 0; i < constraint.count; ++i) {
+        const bool on =
+            constraint.normal[i].impulse > 0.0 || constraint.overlap[i] > tuning::direct_slop * constraint.size;
+        active = active || on;
+        w.normal[i] = on ? stiffness : 0.0;
+    }
+    // Pushed apart, not sideways.
+    const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
+    w.friction[0][0] = w.friction[1][1] = aside;
+    w.friction[2][2] = constraint.count > 1 ? aside * length_ * length_ : 0.0;
+    return w;
+}
+
+// The matrix of the masses. Joined bodies are pushed as if all had the same mass: else the links between heavy bodies would
+// be thrown.
+void DirectSolver::set_masses(bool pushing) {
     matrix_.set_zero();
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         BlockCholesky::Block& block = matrix_.diagonal(i);
-        // Joined bodies are pushed as if all had the same mass: else the links between heavy bodies would be thrown.
         const double share =
             pushing && !joints_.empty() ? total_mass_ / (double(masses_.size()) * masses_[i].mass) : 1.0;
         for (int r = 0; r < 3; ++r) {
@@ -124,25 +142,36 @@ bool DirectSolver::factor(bool pushing) {
             for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = share * masses_[i].inertia(r, c);
         }
     }
-    std::size_t pair = 0;
+}
+
+bool DirectSolver::factor(bool pushing) {
+    weights_.clear();
     for (ConstraintRows& constraint : constraints_) {
-        Weights w;
-        if (pushing) {
-            const double stiffness = total_mass_ / tuning::direct_push_compliance;
-            bool active = false;
-            for (int i = 0; i < constraint.count; ++i) {
-                const bool on =
-                    constraint.normal[i].impulse > 0.0 || constraint.overlap[i] > tuning::direct_slop * constraint.size;
-                active = active || on;
-                w.normal[i] = on ? stiffness : 0.0;
-            }
-            // Pushed apart, not sideways.
-            const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
-            w.friction[0][0] = w.friction[1][1] = aside;
-            w.friction[2][2] = constraint.count > 1 ? aside * length_ * length_ : 0.0;
-        } else {
-            evaluate(constraint, 0.0, &w);
+        weights_.push_back(pushing ? push_weights(constraint) : Weights{});
+        if (!pushing) evaluate(constraint, 0.0, &weights_.back());
+    }
+    return factor_weights(pushing);
+}
+
+// Factors the matrix of weights_ and the weights of the joints' rows.
+bool DirectSolver::factor_weights(bool pushing) {
+    ++factorizations_;
+    // Beside contacts a step has many factorizations, in which the rows of locked coordinates stay the same.
+    const bool kept = !pushing && !joints_.empty() && !constraints_.empty();
+    if (kept && base_kept_) {
+        matrix_.restore(base_);
+    } else {
+        set_masses(pushing);
+        if (kept) {
+            joints_.add_weights(matrix_, JointRows::Which::unbounded);
+            matrix_.save(base_);
+            base_kept_ = true;
         }
+    }
+    std::size_t pair = 0;
+    for (std::size_t k = 0; k < constraints_.size(); ++k) {
+        const ConstraintRows& constraint = constraints_[k];
+        const Weights& w = weights_[k];
         const bool both = constraint.a != none && constraint.b != none;
         BlockCholesky::Block* across = nullptr;
         bool transposed = false;
@@ -171,9 +200,9 @@ bool DirectSolver::factor(bool pushing) {
         for (int i = 0; i < constraint.count; ++i) add_row(constraint.normal[i], constraint.normal[i], w.normal[i]);
         const Row* const friction[3] = {&constraint.friction[0], &constraint.friction[1], &constraint.torsion};
         for (int i = 0; i < 3; ++i)
-            for (int k = 0; k < 3; ++k) add_row(*friction[i], *friction[k], w.friction[i][k]);
+            for (int j = 0; j < 3; ++j) add_row(*friction[i], *friction[j], w.friction[i][j]);
     }
-    joints_.add_weights(matrix_);
+    joints_.add_weights(matrix_, kept ? JointRows::Which::bounded : JointRows::Which::all);
     return matrix_.factor();
 }
 
@@ -223,7 +252,7 @@ bool DirectSolver::minimize(int most_steps) {
     const double stalled = tuning::joint_stall * fastest_, rounding = total_mass_ * stalled * stalled;
     double last = infinity;
     for (int k = 0; k <= most_steps; ++k) {
-        evaluate_speeds();
+        if (k == 0 || joints_.empty()) evaluate_speeds();
         const double now = gradient(gradient_);
         if (now <= tolerance) return true;
         // Joints are stiffer than contacts: where a full step no longer helps, the rest is rounding.
@@ -244,7 +273,12 @@ bool DirectSolver::minimize(int most_steps) {
         joints_.evaluate_changes(step_);
         const double along = line_search(slope_0, mass_slope, mass_curvature);
         for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
-        for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.change = 0.0; });
+        for (ConstraintRows& constraint : constraints_)
+            each_row(constraint, [&](Row& row) {
+                row.speed += along * row.change;
+                row.change = 0.0;
+            });
+        joints_.advance_speeds(along);
         if (-slope_0 < 1e-30 * energy) return true;  // the remainder is rounding
     }
     return false;

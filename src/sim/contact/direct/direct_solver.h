@@ -70,6 +70,9 @@ private:
     double slope(double along, double mass_slope, double mass_curvature);
     double line_search(double slope_0, double mass_slope, double mass_curvature);
     bool factor(bool pushing);
+    bool factor_weights(bool pushing);
+    Weights push_weights(const ConstraintRows& constraint) const;
+    void set_masses(bool pushing);
     bool solve_rounds();
     bool solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                            std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints);
@@ -77,6 +80,8 @@ private:
     void load_substep(const JointIsland& island, int substep, int substeps);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island);
+    double close_contacts(const JointIsland& island);
+    bool moves_no_body() const;
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     bool fly(const JointIsland& island, int& substeps);
@@ -99,7 +104,6 @@ private:
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem) const;
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
-    static int turning_substeps(const ContactProblem& problem, std::span<const std::uint32_t> manifolds);
     bool push_joined(const JointIsland& island, bool moved);
 
     struct Mass {
@@ -116,6 +120,7 @@ private:
         kept_;                          // u*, u, du, ...; six numbers per body
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
+    std::vector<Weights> weights_;  // by constraint, of the last factorization
     JointRows joints_;
     JointFlight flight_;
     TreeFlight tree_flight_;
@@ -135,6 +140,8 @@ private:
     bool factored_ = false;                // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;
     BlockCholesky matrix_;
+    BlockCholesky::Blocks base_;  // of the masses and the rows without bounds
+    bool base_kept_ = false;      // it is that of this substep
 };
 
 }  // namespace tumble

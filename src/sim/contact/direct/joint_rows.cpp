@@ -73,6 +73,13 @@ void JointRows::evaluate_changes(const std::vector<double>& du) {
             rows_[k].change = dot(block, rows_[k], du);
 }
 
+void JointRows::advance_speeds(double along) {
+    for (Row& row : rows_) {
+        row.speed += along * row.change;
+        row.change = 0.0;
+    }
+}
+
 // f = y where |y| <= most, else most y / |y|; y = e + (b - J u) / R.
 JointRows::BallFriction JointRows::ball_friction(const Row* row, double along) {
     BallFriction ball;
@@ -160,11 +167,12 @@ void JointRows::add_estimates(std::vector<double>& g) const {
             if (rows_[k].estimate != 0.0) add(block, rows_[k], rows_[k].estimate, g);
 }
 
-void JointRows::add_weights(BlockCholesky& matrix) const {
+void JointRows::add_weights(BlockCholesky& matrix, Which which) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            if (row.weight == 0.0) continue;
+            const bool unbounded = row.least == -infinity && row.most == infinity;
+            if (row.weight == 0.0 || (which != Which::all && unbounded != (which == Which::unbounded))) continue;
             add_square(matrix, block, row, row.weight);
             if (!row.starts_ball || row.bound != 1) continue;
             // Friction that slides is stiff across its direction alone: less the square along it.

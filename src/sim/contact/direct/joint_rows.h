@@ -101,6 +101,8 @@ public:
 
     void evaluate_speeds(const std::vector<double>& u);
     void evaluate_changes(const std::vector<double>& du);
+    /// Moves the speeds by a fraction of the changes.
+    void advance_speeds(double along);
     /// Impulses along the Newton step, without and with their derivatives.
     void evaluate(double along);
     void evaluate_with_weights();
@@ -143,7 +145,9 @@ public:
     /// Sets targets that move `share` of each error out in the step. Returns whether there are such errors.
     bool start_push(const JointIsland& island, double share, PushStiffness stiffness);
     void add_push(std::vector<double>& push) const;  // push += J^T (e + weight b)
-    void add_weights(BlockCholesky& matrix) const;   // H += weight J^T J
+    /// H += weight J^T J over all rows; over those without bounds, whose weight is the same in all passes; over the others.
+    enum class Which { all, unbounded, bounded };
+    void add_weights(BlockCholesky& matrix, Which which) const;
     /// Moves the targets of closed joints by their errors at `ends`, the poses with the push. Returns the largest error,
     /// in sizes of the joint.
     double close_push(const JointIsland& island, std::span<const JointSide> ends, const std::vector<double>& push);
