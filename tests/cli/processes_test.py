@@ -5,6 +5,7 @@ import itertools
 import os
 import pathlib
 import resource
+import shutil
 import signal
 import subprocess
 import time
@@ -196,7 +197,9 @@ class LittleMemory(Processes):
             kinds.add("not enough memory to open libOSMesa.so.8" in run.stderr)
             self.assertRegex(run.stderr, r"(?m)^error: ")
             self.assertRegex(run.stderr, rf"memory|ulimit -v\) is {size} MiB")
-            self.assertEqual(self.names(), [])
+            if self.names():  # memory that was too little in the middle of the clip: finished frames are kept
+                self.assertRegex("\n".join(self.names()), r"\Aout(\nout/frame_[0-9]+\.png)*\Z")
+                shutil.rmtree(self.folder / "out")
         self.assertIn(True, kinds)
 
     def test_doctor_distinguishes_it_from_a_missing_library(self):
