@@ -1,33 +1,12 @@
 #include "sim/articulation/tree_springs.h"
 
 #include "sim/joints/flight_way.h"
+#include "sim/joints/joint_set.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
-namespace {
-
-JointSide pose_of(const std::vector<Body>& bodies, std::uint32_t i) {
-    if (i == Joint::world) return {};
-    return {bodies[i].position, bodies[i].orientation};
-}
-
-// J M^-1 J^T of a coordinate, of free bodies: other joints make it smaller.
-double yields(const std::vector<Body>& bodies, const Joint& joint, const JointGeometry& g, std::size_t coordinate) {
-    const Vec3& n = g.coordinates[coordinate].direction;
-    const bool turns = coordinate >= 3;
-    double sum = 0.0;
-    for (const std::uint32_t i : {joint.a, joint.b}) {
-        if (i == Joint::world || !bodies[i].dynamic()) continue;
-        const Vec3 turn = turns ? n : Vec3((g.point - bodies[i].position).cross(n));
-        sum += (turns ? 0.0 : bodies[i].inverse_mass) + turn.dot(bodies[i].inverse_inertia * turn);
-    }
-    return sum;
-}
-
-}  // namespace
-
 bool TreeSprings::find(const JointTree& tree, const TreeStep& step) {
     list_.clear();
     dampers_ = 0;
@@ -40,9 +19,9 @@ bool TreeSprings::find(const JointTree& tree, const TreeStep& step) {
         const Joint& joint = *step.joints[std::size_t(node.joint)];
         if (!joint.axis(node.coordinate).spring) continue;
         const JointSpring& law = joint.springs[node.coordinate];
-        const JointGeometry g = measure(joint, pose_of(step.bodies, joint.a), pose_of(step.bodies, joint.b));
+        const JointGeometry g = measure(joint, side_of(step.bodies, joint.a), side_of(step.bodies, joint.b));
         const double rest = law.rest - g.coordinates[node.coordinate].value;
-        const double gives = yields(step.bodies, joint, g, node.coordinate);
+        const double gives = compliance_along(step.bodies, joint, g, node.coordinate);
         const int heat = law.damping > 0.0 ? dampers_++ : -1;
         list_.push_back({k, node.joint, node.at, node.speed_at, heat, law.stiffness, law.damping, node.sign * rest});
         fastest_ = std::max(fastest_, std::sqrt(law.stiffness * gives) + law.damping * gives);

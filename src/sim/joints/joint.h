@@ -13,14 +13,23 @@
 
 namespace tumble {
 
-/// Change (1/s) of a force in flight from the velocities' fit to the next drift, and from the drift to the next fit: their
-/// first estimates follow from it.
-struct ConstraintRates {
-    double closing = 0.0, fitting = 0.0, closing_before = 0.0, fitting_before = 0.0;
+/// Rate of change (N/s or N m/s) of the force of a locked coordinate in flight, in the last two stages.
+struct ConstraintRate {
+    double now = 0.0, before = 0.0;
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [closing, fitting, closing_before, fitting_before] = self;
-        archive.keep(closing, fitting, closing_before, fitting_before);
+        auto& [now, before] = self;
+        archive.keep(now, before);
+    }
+};
+
+/// From the velocities' fit to the drift that follows, and from the drift to the next fit: first estimates follow from them.
+struct ConstraintRates {
+    ConstraintRate closing, fitting;
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [closing, fitting] = self;
+        archive.keep(closing, fitting);
     }
 };
 

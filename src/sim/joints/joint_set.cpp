@@ -10,19 +10,6 @@
 namespace tumble {
 namespace {
 
-// 1 / (J M^-1 J^T) of one coordinate: the mass (kg, or kg m^2) that moves along it.
-double effective_mass(const std::vector<Body>& bodies, const Joint& joint, const JointGeometry& g, std::size_t k) {
-    const Vec3 n = g.coordinates[k].direction;
-    double gives = 0.0;
-    for (const std::uint32_t i : {joint.a, joint.b}) {
-        if (i == Joint::world || !bodies[i].dynamic()) continue;
-        const Body& body = bodies[i];
-        const Vec3 turn = k < 3 ? Vec3((g.point - body.position).cross(n)) : n;
-        gives += (k < 3 ? body.inverse_mass : 0.0) + turn.dot(body.inverse_inertia * turn);
-    }
-    return gives > 0.0 ? 1.0 / gives : 0.0;
-}
-
 bool has_laws(const JointAxis& axis) {
     return axis.motion == JointAxis::Motion::limited || axis.spring || axis.motor || axis.friction > 0.0;
 }
@@ -40,6 +27,18 @@ int limit_met(const Joint& joint, const JointGeometry& g) {
 }
 
 }  // namespace
+
+double compliance_along(const std::vector<Body>& bodies, const Joint& joint, const JointGeometry& g, std::size_t k) {
+    const Vec3 n = g.coordinates[k].direction;
+    double gives = 0.0;
+    for (const std::uint32_t i : {joint.a, joint.b}) {
+        if (i == Joint::world || !bodies[i].dynamic()) continue;
+        const Body& body = bodies[i];
+        const Vec3 turn = k < 3 ? Vec3((g.point - body.position).cross(n)) : n;
+        gives += (k < 3 ? body.inverse_mass : 0.0) + turn.dot(body.inverse_inertia * turn);
+    }
+    return gives;
+}
 
 JointSide side_of(const std::vector<Body>& bodies, std::uint32_t body) {
     if (body == Joint::world) return {};
@@ -81,7 +80,8 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
             JointSpring& spring = joint.springs[k] = *axis.spring;
             if (!(spring.frequency > 0.0)) continue;
             // K = m w^2 and C = 2 zeta m w, with the mass at the start: else the spring would change with the pose.
-            const double mass = effective_mass(bodies, joint, g, k), rate = 2.0 * pi * spring.frequency;
+            const double gives = compliance_along(bodies, joint, g, k), mass = gives > 0.0 ? 1.0 / gives : 0.0;
+            const double rate = 2.0 * pi * spring.frequency;
             spring.stiffness = mass * rate * rate;
             spring.damping = 2.0 * spring.damping_ratio * mass * rate;
         }

@@ -80,4 +80,7 @@ private:
 /// Pose of a joint's side.
 JointSide side_of(const std::vector<Body>& bodies, std::uint32_t body);
 
+/// J M^-1 J^T of one coordinate, of bodies without their other joints: 1/kg, or 1/(kg m^2) of an angle.
+double compliance_along(const std::vector<Body>& bodies, const Joint& joint, const JointGeometry& g, std::size_t k);
+
 }  // namespace tumble

@@ -291,6 +291,25 @@ bool FlightLocks::take(const std::vector<double>& change, double compliance) {
     return std::isfinite(sum);
 }
 
+void FlightLocks::estimate(double h, ConstraintRate ConstraintRates::*which) {
+    clear_given();
+    if (!tree_) return;
+    for (Lock& lock : locks_) {
+        const ConstraintRate& rate = lock.rates.*which;
+        lock.given = h / unit(lock) * (lock.force + h * (2.0 * rate.now - rate.before));
+    }
+}
+
+void FlightLocks::learn(double h, ConstraintRate ConstraintRates::*which) {
+    for (Lock& lock : locks_) {
+        ConstraintRate& rate = lock.rates.*which;
+        const double last = lock.force;
+        lock.force = unit(lock) / h * lock.given;
+        rate.before = rate.now;
+        rate.now = (lock.force - last) / h;
+    }
+}
+
 void FlightLocks::clear_given() {
     for (Lock& lock : locks_) lock.given = 0.0;
 }

@@ -98,6 +98,10 @@ public:
     void add_asked(double compliance, std::vector<double>& g) const;
     /// Adds the impulses f = (asked - J change) / compliance to those given. Returns false if one is not finite.
     bool take(const std::vector<double>& change, double compliance);
+    /// First estimate of the impulses of a time of `h` s, from the forces of the last flights; zero where they are not unique.
+    void estimate(double h, ConstraintRate ConstraintRates::*rate);
+    /// Keeps the forces of the impulses given, and their rate, for the next estimate.
+    void learn(double h, ConstraintRate ConstraintRates::*rate);
     void clear_given();
     /// Momenta of the drift's start with the impulses given: equal and opposite, about one point.
     void apply();

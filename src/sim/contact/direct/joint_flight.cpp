@@ -186,19 +186,9 @@ bool JointFlight::fly(const Stage& stage) {
         if (locks_.look() > tuning::joint_flight_open || !load(h)) return false;
         closed_ = std::max(coarse_ * tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
     }
-    // The force that fitted the velocities at these poses is the first estimate.
-    locks_.clear_given();
-    if (locks_.tree())
-        for (FlightLocks::Lock& lock : locks_.locks())
-            lock.given =
-                h / locks_.unit(lock) * (lock.force + h * (2.0 * lock.rates.closing - lock.rates.closing_before));
+    locks_.estimate(h, &ConstraintRates::closing);
     if (!close(h)) return false;
-    for (FlightLocks::Lock& lock : locks_.locks()) {
-        const double last = lock.force;
-        lock.force = locks_.unit(lock) / h * lock.given;
-        lock.rates.closing_before = lock.rates.closing;
-        lock.rates.closing = (lock.force - last) / h;
-    }
+    locks_.learn(h, &ConstraintRates::closing);
     add_up();
     swing_ = std::max(swing_, std::abs(h) * locks_.swing_rate(h, tuning::joint_easy_swing / std::abs(h)));
     kick(stage);
@@ -207,18 +197,9 @@ bool JointFlight::fly(const Stage& stage) {
     locks_.look();
     loaded_ = load(h);
     if (!loaded_) return false;
-    locks_.clear_given();
-    if (locks_.tree())
-        for (FlightLocks::Lock& lock : locks_.locks())
-            lock.given =
-                h / locks_.unit(lock) * (lock.force + h * (2.0 * lock.rates.fitting - lock.rates.fitting_before));
+    locks_.estimate(h, &ConstraintRates::fitting);
     if (!fit()) return false;
-    for (FlightLocks::Lock& lock : locks_.locks()) {
-        const double last = lock.force;
-        lock.force = locks_.unit(lock) / h * lock.given;
-        lock.rates.fitting_before = lock.rates.fitting;
-        lock.rates.fitting = (lock.force - last) / h;
-    }
+    locks_.learn(h, &ConstraintRates::fitting);
     add_up();
     return true;
 }
