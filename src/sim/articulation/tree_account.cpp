@@ -97,7 +97,7 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
         momenta[i] = tree_.nodes()[std::size_t(node)].mass * velocity;
         if (!pushed.empty()) given[i] = pushed[i].push;
     }
-    if (sampled_) add_mean_forces(momenta, given, now, t);
+    if (sampled_ && t > time_) add_mean_forces(momenta, given, now, t);
     samples_.swap(now);
     momenta_.swap(momenta);
     pushes_.swap(given);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "sim/articulation/tree_account.h"
+#include "sim/articulation/tree_friction.h"
 #include "sim/articulation/tree_springs.h"
 
 #include <optional>
@@ -48,6 +49,12 @@ private:
     void add_pushes(const Vector& y, Vector& dy);
     bool integrate(double until, bool exact);
     double extrapolate(const Vector& first, double h, double scale, Vector& change);
+    bool begin_friction();
+    bool settle_friction();
+    bool change_friction();
+    bool shorten_to_change(const Vector& first, double scale, bool exact, double& size, Vector& change);
+    double excess_at(std::size_t friction, const Vector& y);
+    double fastest_body() const;
     double error_of(const Vector& difference, double scale) const;
     double fastest(const Vector& y, const Vector& dy) const;
     void normalize();
@@ -60,6 +67,10 @@ private:
     JointTree tree_;
     ForwardDynamics dynamics_{tree_};
     TreeSprings springs_;
+    TreeFriction friction_;
+    std::size_t changing_ = TreeFriction::none;  // friction that changes at the end of this part
+    double needed_ = 0.0;                        // N m, N: net effort of a held coordinate there
+    int changes_ = 0;                            // of friction in this step
     FallingFrame frame_;
     Totals start_;
     std::optional<TreeAccount> account_;
