@@ -28,7 +28,7 @@ SceneDescription braked_pendulum(double torque, int steps_per_frame = 1) {
 }
 
 // Where a swing ends that begins at rest at `start` (rad from hanging, above 0): the energy lost is the torque times the
-// angle travelled.
+// angle that it covers.
 double end_of_swing(double start, double torque) {
     double low = -pi, high = start;  // of the other turning point
     const auto left = [&](double end) {
@@ -49,7 +49,7 @@ TEST(TreeFriction, APendulumLosesTheTorqueTimesTheAngle) {
         const double torque = 0.5;
         TreeScene t(braked_pendulum(torque));
         const double energy = t.energy();
-        double travelled = 0.0, last = 0.5 * pi, from = 0.5 * pi, before = 0.0, most_at_turn = 0.0;
+        double covered = 0.0, last = 0.5 * pi, from = 0.5 * pi, before = 0.0, most_at_turn = 0.0;
         int turns = 0;
         for (int k = 0; k < int(20.0 * rate); ++k) {
             ASSERT_EQ(t.step(1.0 / rate), Outcome::flown);
@@ -57,14 +57,14 @@ TEST(TreeFriction, APendulumLosesTheTorqueTimesTheAngle) {
             const double now = hanging_angle(body), speed = body.angular_velocity.z();
             if (speed * before < 0.0 || (speed == 0.0 && before != 0.0)) {  // a turn within the step
                 const double sign = from > 0.0 ? 1.0 : -1.0, turn = sign * end_of_swing(sign * from, torque);
-                travelled += std::abs(turn - last) + std::abs(now - turn);
+                covered += std::abs(turn - last) + std::abs(now - turn);
                 from = turn;
                 ++turns;
                 if (speed == 0.0) most_at_turn = std::abs(now - turn);
             } else {
-                travelled += std::abs(now - last);
+                covered += std::abs(now - last);
             }
-            EXPECT_NEAR(t.energy(), energy - torque * travelled, 1e-12);
+            EXPECT_NEAR(t.energy(), energy - torque * covered, 1e-12);
             last = now;
             before = speed;
         }
