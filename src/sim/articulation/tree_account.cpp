@@ -105,6 +105,13 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
     sampled_ = true;
 }
 
+double TreeAccount::load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes) {
+    dynamics.joint_forces(pushes, forces_);
+    const Sample s = joint_sample(dynamics, joint, 0.0);
+    const JointDescription& strength = step_.joints[std::size_t(joint)]->description;
+    return std::max(s.force.norm() / strength.break_force, s.torque.norm() / strength.break_torque);
+}
+
 // As for the rows of the direct solver (JointRows::swing_rate): sqrt(4 T / (m l)) for a rod of length l.
 double TreeAccount::swing_rate() const {
     double most = 0.0;

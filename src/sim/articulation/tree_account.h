@@ -27,6 +27,8 @@ public:
     /// where the forces change.
     void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
                 std::span<const PushedImpulse> pushed);
+    /// Load of a joint (index among the island's) over its strength, after ForwardDynamics::accelerate().
+    double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes);
     /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
     double swing_rate() const;
 

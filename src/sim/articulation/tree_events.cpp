@@ -1,5 +1,5 @@
-// TreeFlight: the moments in a step in which the friction of a joint changes. The motion is smooth between them, so that
-// the integrator keeps its order.
+// TreeFlight: the moments in a step in which the friction of a joint changes, or a joint breaks. The motion is smooth
+// between them, so that the integrator keeps its order.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
@@ -10,19 +10,14 @@
 
 namespace tumble {
 
-double TreeFlight::fastest_body() const {
+bool TreeFlight::begin_friction() {
     double fastest = 0.0;
     for (const std::uint32_t i : step_->island) {
         const Body& body = step_->bodies[i];
         fastest = std::max({fastest, body.velocity.norm(), step_->length * body.angular_velocity.norm()});
     }
-    return fastest;
-}
-
-bool TreeFlight::begin_friction() {
     changes_ = 0;
-    changing_ = TreeFriction::none;
-    friction_.begin(y_.data() + coordinates_, fastest_body(), step_->length);
+    friction_.begin(y_.data() + coordinates_, fastest, step_->length);
     return settle_friction();
 }
 
@@ -38,98 +33,140 @@ bool TreeFlight::settle_friction() {
     return false;
 }
 
-double TreeFlight::excess_at(std::size_t friction, const Vector& y) {
-    rate(y);
-    return friction_.excess(friction, dynamics_, y.data() + coordinates_);
+// Joints that carry more at the start of the step break by their mean load, at its end.
+void TreeFlight::find_weak() {
+    weak_.clear();
+    for (std::size_t k = 0; k < step_->joints.size(); ++k) {
+        const JointDescription& strength = step_->joints[k]->description;
+        if (strength.break_force == infinity && strength.break_torque == infinity) continue;
+        if (weak_.empty()) rate(y_);
+        if (account_->load_of(dynamics_, int(k), pushes_) < 1.0) weak_.push_back(int(k));
+    }
 }
 
-// Shortens a part of the step to the first change of friction in it: the zero of an excess, by the rule of false position
-// (Illinois; Dowell and Jarratt 1971). Returns false where it is not found.
-bool TreeFlight::shorten_to_change(const Vector& first, double scale, bool exact, double& size, Vector& change) {
-    changing_ = TreeFriction::none;
-    const auto go = [&](double s) {
-        Vector moved = Vector::Zero(y_.size());
-        if (exact)
-            extrapolate(first, s, scale, moved);
-        else
-            moved = runge_kutta_4(y_, s, [this](const Vector& y) { return rate(y); }) - y_;
-        return moved;
+// After rate(y).
+double TreeFlight::excess(std::size_t event, const Vector& y) {
+    if (event < friction_.count()) return friction_.excess(event, dynamics_, y.data() + coordinates_);
+    return account_->load_of(dynamics_, weak_[event - friction_.count()], pushes_) - 1.0;
+}
+
+double TreeFlight::excess_at(std::size_t event, const Vector& y) {
+    rate(y);
+    return excess(event, y);
+}
+
+double TreeFlight::unit_of(std::size_t event) const {
+    return event < friction_.count() ? friction_.unit(event, y_.data() + coordinates_) : 1.0;
+}
+
+// The change of y over s seconds.
+TreeFlight::Vector TreeFlight::go(const Part& part, double s) {
+    if (!part.exact) return runge_kutta_4(y_, s, [this](const Vector& y) { return rate(y); }) - y_;
+    Vector change = Vector::Zero(y_.size());
+    extrapolate(part.first, s, part.scale, change);
+    return change;
+}
+
+// An event that begins and ends within the part, and shows at neither end: then the part is shortened to its middle.
+std::size_t TreeFlight::event_within(const Part& part, const Vector& end, const Vector& end_rate, double& size,
+                                     Vector& change) {
+    const auto happens = [&](std::size_t event, double share) {
+        const Vector there = go(part, share * size);
+        if (!(excess_at(event, y_ + there) > 0.0)) return false;
+        size *= share;
+        change = there;
+        return true;
     };
-    const double* speeds = y_.data() + coordinates_;
-    for (int trial = 0; trial < tuning::friction_most_trials; ++trial) {
-        Vector end = y_ + change;
-        const Vector end_rate = rate(end);
-        std::size_t next = friction_.first_beyond(dynamics_, end.data() + coordinates_, changing_);
-        for (std::size_t k = 0; next == TreeFriction::none && changing_ == TreeFriction::none && k < friction_.count();
-             ++k) {
-            const double share =
-                friction_.turns_back_at(k, speeds, first.data() + coordinates_, end.data() + coordinates_,
-                                        end_rate.data() + coordinates_, size);
-            if (share == 0.0) continue;
-            const Vector there = go(share * size);
-            if (!(excess_at(k, y_ + there) > 0.0)) continue;
-            size *= share;
+    const Eigen::Index speeds = coordinates_;
+    for (std::size_t k = 0; k < friction_.count(); ++k) {
+        const double share = friction_.turns_back_at(k, y_.data() + speeds, part.first.data() + speeds,
+                                                     end.data() + speeds, end_rate.data() + speeds, size);
+        if (share > 0.0 && happens(k, share)) return k;
+    }
+    for (std::size_t k = friction_.count(); k < events(); ++k) {
+        const double near = tuning::tree_near_break - 1.0, before = excess_at(k, y_), after = excess_at(k, end);
+        if (before < near || after < near) continue;
+        const double middle = excess_at(k, y_ + go(part, 0.5 * size));
+        const double bend = 2.0 * (before + after - 2.0 * middle), slope = 4.0 * middle - 3.0 * before - after;
+        const double share = bend < 0.0 ? -0.5 * slope / bend : 0.0;
+        if (share > 0.0 && share < 1.0 && before + share * (slope + share * bend) > 0.0 && happens(k, share)) return k;
+    }
+    return none;
+}
+
+// The first in the list that has happened at the end of the part, or before.
+std::size_t TreeFlight::first_event(const Part& part, double& size, Vector& change) {
+    const Vector end = y_ + change, end_rate = rate(end);
+    for (std::size_t k = 0; k < events(); ++k)
+        if (k != event_ && excess(k, end) > 0.0) return k;
+    return event_ == none ? event_within(part, end, end_rate, size, change) : none;
+}
+
+// The zero of an excess by the rule of false position (Illinois; Dowell and Jarratt 1971).
+bool TreeFlight::locate(const Part& part, std::size_t event, double& size, Vector& change) {
+    const double unit = unit_of(event), shortest = 4.0 * std::numeric_limits<double>::epsilon() * size;
+    double low = 0.0, at_low = excess_at(event, y_), at_high = excess_at(event, y_ + change);
+    // A coordinate that leaves its rest and comes back to it in the same part.
+    for (int halving = 0; at_low >= 0.0 && halving < 20; ++halving) {
+        const Vector there = go(part, 0.5 * size);
+        const double now = excess_at(event, y_ + there);
+        if (now < 0.0) {
+            low = 0.5 * size;
+            at_low = now;
+        } else {
+            size *= 0.5;
+            at_high = now;
             change = there;
-            next = k;
         }
-        if (next == TreeFriction::none) {
-            if (changing_ != TreeFriction::none) {
-                excess_at(changing_, end);
-                needed_ = friction_.net(changing_, dynamics_);
+    }
+    int side = 0;
+    for (int trial = 0; trial < tuning::tree_most_trials; ++trial) {
+        if (!(at_low < 0.0) || size - low <= shortest || at_high <= tuning::tree_event_located * unit) return true;
+        double s = size - (size - low) * at_high / (at_high - at_low);
+        if (!(s > low && s < size)) s = 0.5 * (low + size);
+        const Vector there = go(part, s);
+        const double now = excess_at(event, y_ + there);
+        if (now >= 0.0) {
+            size = s;
+            at_high = now;
+            change = there;
+            if (side == 1) at_low *= 0.5;
+            side = 1;
+        } else {
+            low = s;
+            at_low = now;
+            if (side == -1) at_high *= 0.5;
+            side = -1;
+        }
+    }
+    return false;
+}
+
+// Shortens a part of the step to the first event in it. Returns false where it is not found.
+bool TreeFlight::shorten_to_event(const Part& part, double& size, Vector& change) {
+    event_ = none;
+    for (std::size_t k = 0; k <= events(); ++k) {
+        const std::size_t next = first_event(part, size, change);
+        if (next == none) {
+            if (event_ < friction_.count()) {
+                rate(y_ + change);
+                needed_ = friction_.net(event_, dynamics_);
             }
             return true;
         }
-        const double unit = friction_.unit(next, speeds);
-        double low = 0.0, high = size, at_low = excess_at(next, y_), at_high = excess_at(next, y_ + change);
-        // It comes back to rest in the same part.
-        for (int halving = 0; at_low >= 0.0 && halving < 20; ++halving) {
-            const Vector there = go(0.5 * high);
-            const double now = excess_at(next, y_ + there);
-            if (now < 0.0) {
-                low = 0.5 * high;
-                at_low = now;
-            } else {
-                high *= 0.5;
-                at_high = now;
-                change = there;
-            }
-        }
-        int side = 0;
-        while (at_low < 0.0 && high - low > 4.0 * std::numeric_limits<double>::epsilon() * size &&
-               !(at_high <= tuning::friction_located * unit)) {
-            double s = high - (high - low) * at_high / (at_high - at_low);
-            if (!(s > low && s < high)) s = 0.5 * (low + high);
-            const Vector there = go(s);
-            const double now = excess_at(next, y_ + there);
-            ++trial;
-            if (now >= 0.0) {
-                high = s;
-                at_high = now;
-                change = there;
-                if (side == 1) at_low *= 0.5;
-                side = 1;
-            } else {
-                low = s;
-                at_low = now;
-                if (side == -1) at_high *= 0.5;
-                side = -1;
-            }
-            if (trial > tuning::friction_most_trials) return false;
-        }
-        size = high;
-        changing_ = next;
-        // Others that change before it.
+        if (!locate(part, next, size, change)) return false;
+        event_ = next;
     }
     return false;
 }
 
 // After the part that ends with it.
 bool TreeFlight::change_friction() {
-    if (++changes_ > tuning::friction_most_changes) return false;
+    if (++changes_ > tuning::tree_most_events) return false;
     rate(y_);
     sample();
-    friction_.change(changing_, y_.data(), y_.data() + coordinates_, needed_);
-    changing_ = TreeFriction::none;
+    friction_.change(event_, y_.data(), y_.data() + coordinates_, needed_);
+    event_ = none;
     return settle_friction();
 }
 

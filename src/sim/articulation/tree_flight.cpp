@@ -231,14 +231,16 @@ bool TreeFlight::integrate(double until, bool exact) {
         }
         if (!change.allFinite()) return false;
         const double tried = size;
-        if (!friction_.empty() && !shorten_to_change(first, scale, exact, size, change)) return false;
+        if (events_possible() && !shorten_to_event({first, scale, exact}, size, change)) return false;
         y_ += change;
         normalize();
         const bool last = size >= rest * (1.0 - 1e-12);
         done = last ? span : done + size;
         time_ = begin + done;
         size = std::min(2.0 * tried, span);
-        if (changing_ != TreeFriction::none && !change_friction()) return false;
+        if (event_ == none) continue;
+        if (event_ >= friction_.count()) return true;
+        if (!change_friction()) return false;
     }
     time_ = until;
     return true;
@@ -317,10 +319,13 @@ void TreeFlight::count_turns() {
             step_->joints[std::size_t(node.joint)]->value[node.coordinate] += node.sign * y_[node.at];
 }
 
-TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
-    step_ = &step;
+TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKind method) {
+    own_.emplace(step);
+    step_ = &*own_;
+    event_ = none;
     if (!start()) return Outcome::declined;
-    account_.emplace(tree_, step, frame_);
+    account_.emplace(tree_, *own_, frame_);
+    find_weak();
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
         double next = end;
@@ -329,15 +334,17 @@ TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind met
         law_time_ = 0.5 * (now + next);
         if (!integrate(next < end ? next - step.from : step.h, method == IntegratorKind::exact))
             return Outcome::declined;
+        if (event_ != none) break;
         now = next;
     }
+    if (event_ != none) own_->h = time_;
     rate(y_);
     sample();
     place();
     count_turns();
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
-    springs_.account(step, y_.data(), y_.data() + heats_);
-    friction_.account(step, dynamics_, y_.data());
+    springs_.account(*own_, y_.data(), y_.data() + heats_);
+    friction_.account(*own_, dynamics_, y_.data());
     return Outcome::flown;
 }
 

@@ -42,12 +42,6 @@ double TreeFriction::excess(std::size_t k, const ForwardDynamics& dynamics, cons
     return std::abs(dynamics.net_effort(f.node)) - (1.0 + tuning::friction_let_go) * f.bound;
 }
 
-std::size_t TreeFriction::first_beyond(const ForwardDynamics& dynamics, const double* speeds, std::size_t but) const {
-    for (std::size_t k = 0; k < list_.size(); ++k)
-        if (k != but && excess(k, dynamics, speeds) > 0.0) return k;
-    return none;
-}
-
 double TreeFriction::unit(std::size_t k, const double* speeds) const {
     const Friction& f = list_[k];
     return f.way != 0.0 ? std::abs(speeds[f.speed_at]) : f.bound;

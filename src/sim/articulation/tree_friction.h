@@ -13,8 +13,6 @@ namespace tumble {
 
 class TreeFriction {
 public:
-    static constexpr std::size_t none = std::size_t(-1);
-
     void find(const JointTree& tree, const TreeStep& step);
     bool empty() const { return list_.empty(); }
 
@@ -26,8 +24,6 @@ public:
     /// How far a coordinate is beyond its next change, after ForwardDynamics::accelerate(): its speed against its
     /// direction, or the effort above its bound. Negative before the change.
     double excess(std::size_t k, const ForwardDynamics& dynamics, const double* speeds) const;
-    /// The first coordinate in the list that is beyond its change, but for one.
-    std::size_t first_beyond(const ForwardDynamics& dynamics, const double* speeds, std::size_t but) const;
     /// Unit of excess(): the bound of a held coordinate, or the speed of another one at the start of a part.
     double unit(std::size_t k, const double* speeds) const;
     /// A coordinate that moves from speed to speed (both along its direction) and is slower between them, by the cubic
