@@ -61,10 +61,12 @@ public:
 
     void see(double time, const Simulator& simulator, const std::vector<Motion>& m) override {
         if (std::isfinite(error_)) return;
-        gap_ = std::max(gap_, largest_gap(scene_, m));
         const std::optional<double> told = simulator.broken_at(0);
         const std::optional<Vector> force = simulator.joint_force(0);
-        if (!told && !(time > 0.0 && force && norm(*force) > breaking_pendulum::strength)) return;
+        if (!told && !(time > 0.0 && force && norm(*force) > breaking_pendulum::strength)) {
+            gap_ = std::max(gap_, largest_gap(scene_, m));
+            return;
+        }
         const double at = told.value_or(time), speed = m[0].angular_velocity.y;
         error_ = std::fabs(at - breaking_pendulum::time);
         angle_ = std::fabs(angle_of(m[0]) + speed * (time - at) - breaking_pendulum::angle);
