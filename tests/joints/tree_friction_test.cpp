@@ -166,10 +166,12 @@ TEST(TreeFriction, APendulumFallsAsleep) {
 
 // Friction of balls is along no coordinate: rows move them.
 TEST(TreeFriction, FrictionOfBallsIsDeclined) {
-    SceneDescription scene = free_chain_scene(2);
+    SceneDescription scene = pendulum_scene(0.5 * pi);
+    scene.joints[0].type = JointType::ball;
+    for (JointAxis& axis : scene.joints[0].turn) axis.motion = JointAxis::Motion::free;
+    EXPECT_EQ(TreeScene(scene).step(1.0 / 60.0), Outcome::flown);
     for (JointAxis& axis : scene.joints[0].turn) axis.friction = 0.1;
-    TreeScene t(scene);
-    EXPECT_EQ(t.step(1.0 / 60.0), Outcome::declined);
+    EXPECT_EQ(TreeScene(scene).step(1.0 / 60.0), Outcome::declined);
 }
 
 }  // namespace
