@@ -69,28 +69,32 @@ void JointFlight::analyze(const JointIsland& island) {
             j.pair = std::uint32_t(pairs_.size());
             if (locks_.moves(j.a) && locks_.moves(j.b)) pairs_.push_back({j.a, j.b});
         }
-        matrix_.analyze(island.bodies.size(), pairs_);
+        if (locks_.tree())
+            tree_.analyze(locks_);
+        else
+            matrix_.analyze(island.bodies.size(), pairs_);
         change_.resize(6 * island.bodies.size());
     }
     swing_ = 0.0;
     loaded_ = false;
 }
 
-// The matrix at the present poses, of a stage of `h` s. Returns false where it cannot be factored.
+// The equations at the present poses, of a stage of `h` s. Returns false where they cannot be factored.
 bool JointFlight::load(double h) {
+    if (locks_.tree()) return tree_.factor(locks_);
     const double joints = double(locks_.joints().size()), bodies = double(locks_.bodies().size());
-    const double of_rows = locks_.tree() ? tuning::joint_flight_compliance : tuning::joint_compliance;
     // In a singular position the gap along the vanishing row is (h w)^2 / 2: without this compliance its correction
     // would be divided by zero.
     const double turn = h * locks_.fastest_turn();
     const double singular = tuning::joint_singular * turn * turn * turn * turn * bodies;
-    compliance_ = std::max(of_rows / joints, singular) / locks_.total_mass();
+    compliance_ = std::max(tuning::joint_compliance / joints, singular) / locks_.total_mass();
     locks_.fill(matrix_, compliance_);
     return matrix_.factor();
 }
 
-// The least impulses that change J u as asked, but for the compliance: M du = J^T f, f = (asked - J du) / R.
+// The least impulses that change J u as asked; with loops but for the compliance: M du = J^T f, f = (asked - J du) / R.
 bool JointFlight::change() {
+    if (locks_.tree()) return tree_.solve(locks_);
     locks_.add_asked(compliance_, change_);
     matrix_.solve(change_);
     return locks_.take(change_, compliance_);
@@ -146,6 +150,7 @@ void JointFlight::close_poses(const JointIsland& island) {
         last = error;
         locks_.clear_given();
         if (!load(island.problem.settings.h) || !change()) return;
+        if (locks_.tree()) tree_.changes(locks_, change_);
         std::span<FlightBody> bodies = locks_.bodies();
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             FlightBody& body = bodies[k];

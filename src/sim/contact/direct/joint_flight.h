@@ -8,6 +8,7 @@
 #pragma once
 
 #include "sim/contact/direct/flight_locks.h"
+#include "sim/contact/direct/lock_tree.h"
 #include "sim/math/block_cholesky.h"
 
 #include <span>
@@ -60,7 +61,8 @@ private:
     bool end(const JointIsland& island);
 
     FlightLocks locks_;
-    BlockCholesky matrix_;
+    LockTree tree_;         // of joints without loops
+    BlockCholesky matrix_;  // of joints with loops
     std::vector<BlockCholesky::Pair> pairs_;
     std::vector<double> change_;  // du: six numbers per body
     bool springs_ = false;        // a joint has springs
