@@ -16,7 +16,7 @@ double square(double x) { return x * x; }
 double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) {
     if (!joint.active || joint.broken) return 0.0;
     bool any = false;
-    for (std::size_t k = 0; k < joint.count(); ++k) any = any || joint.axis(k).spring;
+    for (std::size_t k = 0; joint.soft && k < joint.count(); ++k) any = any || joint.axis(k).spring;
     if (!any) return 0.0;
     const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
     if (joint.turns_alike() && joint.axis(3).spring) return 0.5 * joint.springs[3].stiffness * g.rotation.squaredNorm();

@@ -229,20 +229,24 @@ TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
 }
 
 // The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.
-bool DirectSolver::fly(const JointIsland& island, int& substeps) {
+bool DirectSolver::fly(const JointIsland& island, bool rows_fly, int& substeps) {
     swing_ = 0.0;
     if (const TreeFlight::Outcome outcome = fly_tree(island); outcome != TreeFlight::Outcome::declined)
         return outcome == TreeFlight::Outcome::flown;
-    if (!JointFlight::flies(island)) return false;
+    if (!rows_fly) return false;
     std::vector<StepForce> forces;
     for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
-    for (; substeps <= tuning::joint_swing_substeps; substeps *= 2) {
+    while (substeps <= tuning::joint_swing_substeps) {
         set_back(island);
         if (flight_.advance(island, forces, JointFlight::order(island), substeps)) {
             swing_ = flight_.swing();
             return true;
         }
         if (!(flight_.swing() > tuning::joint_swing)) return false;
+        const double phase = flight_.swing() * substeps;
+        do
+            substeps *= 2;
+        while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
     }
     return false;
 }
@@ -294,8 +298,9 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
     bool flown = false;
-    if (manifolds.empty() && (JointFlight::flies(island) || flies_as_tree(island, joints_of(island)))) {
-        flown = fly(island, substeps);
+    const bool rows_fly = manifolds.empty() && JointFlight::flies(island);
+    if (rows_fly || (manifolds.empty() && flies_as_tree(island, joints_of(island)))) {
+        flown = fly(island, rows_fly, substeps);
         if (!flown) reset();
     }
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {

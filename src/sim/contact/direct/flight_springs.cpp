@@ -39,6 +39,7 @@ void each_spring(const Joint& joint, const JointSide& a, const JointSide& b, con
 // A ball's spring is not the gradient of a coordinate. The step must resolve the spring: explicit kicks need a phase
 // below 2, and rows of the solver are stable for any stiffness.
 bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joint) {
+    if (!joint.soft) return true;
     for (std::size_t k = 0; k < joint.count(); ++k)
         if (joint.axis(k).spring && (joint.springs[k].damping > 0.0 || joint.turns_alike())) return false;
     double most = 0.0;  // 1/s^2
@@ -61,8 +62,8 @@ bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joi
 // Equal and opposite, about one point.
 void JointFlight::kick_springs(double time) {
     std::span<FlightBody> bodies = locks_.bodies();
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        each_spring(*j.joint, locks_.side(j.a), locks_.side(j.b), [&](const SpringForce& spring, const Vec3& point) {
+    for (FlightLocks::FlightJoint& j : locks_.joints()) {
+        each_spring(locks_.joint(j), locks_.side(j.a), locks_.side(j.b), [&](const SpringForce& spring, const Vec3& point) {
             const Vec3 force = time * spring.load.force, torque = time * spring.load.torque;
             // Returns the work: the impulse times the mean of the velocities before and after.
             const auto give = [&](std::uint32_t place, double sign) {
@@ -77,12 +78,9 @@ void JointFlight::kick_springs(double time) {
                        turn.dot(body.inverse_inertia * angular);
             };
             const double on_a = give(j.a, -1.0), on_b = give(j.b, 1.0);
-            j.joint->force += force;
-            j.joint->torque += torque;
-            JointAccount::Span& step = j.joint->account.step;
-            step.load.add({force, torque, point.cross(force) + torque});
-            step.work_a += on_a;
-            step.work_b += on_b;
+            j.load.add({force, torque, point.cross(force) + torque});
+            j.work_a += on_a;
+            j.work_b += on_b;
         });
     }
 }

@@ -89,8 +89,8 @@ Vec3 LockTree::arm_of(FlightLocks& locks, const Node& node) {
     return node.side > 0.0 ? j.arm_b : j.arm_a;
 }
 
-// The inertia of the body alone, and the free directions of its joint.
-void LockTree::start(FlightLocks& locks, Node& node) {
+void LockTree::take(FlightLocks& locks, std::size_t i) {
+    Node& node = nodes_[i];
     const FlightBody& body = locks.body(node.body);
     const Vec3 arm = arm_of(locks, node);
     node.lever.setZero();
@@ -98,6 +98,7 @@ void LockTree::start(FlightLocks& locks, Node& node) {
         const FlightLocks::FlightJoint& j = locks.joints()[node.joint];
         node.lever = (node.side > 0.0 ? j.arm_a : j.arm_b) - arm_of(locks, nodes_[node.parent]);
     }
+    // The inertia of the body alone, about its reference.
     const double m = body.mass, square = m * arm.squaredNorm();
     const Vec3 c = -m * arm;
     Sym3 turning = body.spherical_top ? symmetric(body.inertia_body)
@@ -109,14 +110,19 @@ void LockTree::start(FlightLocks& locks, Node& node) {
     node.inertia.turning = turning;
     node.inertia.mixed << 0.0, -c[2], c[1], c[2], 0.0, -c[0], -c[1], c[0], 0.0;
     node.inertia.moving = {m, 0.0, 0.0, m, 0.0, m};
+    node.push = {};
+    list_frees(locks, node);
+    factored_ = false;
+}
 
+void LockTree::list_frees(FlightLocks& locks, const Node& node) {
     Vec3 moves[3], turns[3], rest[3];
-    int moving = 0, turning_locks = 0;
+    int moving = 0, turning = 0;
     if (node.joint != none)
         for (const FlightLocks::Lock& lock : locks.locks(locks.joints()[node.joint]))
-            (lock.turns ? turns[turning_locks++] : moves[moving++]) = lock.direction;
+            (lock.turns ? turns[turning++] : moves[moving++]) = lock.direction;
     Free* free = &frees_[node.first];
-    for (int k = 0, n = span_rest(turns, turning_locks, rest); k < n; ++k, ++free) {
+    for (int k = 0, n = span_rest(turns, turning, rest); k < n; ++k, ++free) {
         free->direction = rest[k];
         free->turns = true;
     }
@@ -126,8 +132,9 @@ void LockTree::start(FlightLocks& locks, Node& node) {
     }
 }
 
-// Each free direction s takes I s (I s)^T / (s . I s) from what the joint passes on.
-bool LockTree::release(Node& node, SpatialInertia& passed) {
+// Adds the inertia of the subtree to that of the parent. Each free direction s takes I s (I s)^T / (s . I s) from it.
+bool LockTree::eliminate(Node& node) {
+    SpatialInertia passed = node.inertia;
     for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
         Free& free = frees_[k];
         const Vec3& s = free.direction;
@@ -140,65 +147,70 @@ bool LockTree::release(Node& node, SpatialInertia& passed) {
         free.pivot = 1.0 / inertia;
         passed.subtract_outer(free.inertia, free.pivot);
     }
+    if (node.parent != none && node.count < 6) nodes_[node.parent].inertia += passed.shifted(node.lever);
     return true;
 }
 
-bool LockTree::factor(FlightLocks& locks) {
-    for (Node& node : nodes_) start(locks, node);
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-        Node& node = nodes_[i];
-        SpatialInertia passed = node.inertia;
-        if (!release(node, passed)) return false;
-        if (node.parent != none && node.count < 6) nodes_[node.parent].inertia += passed.shifted(node.lever);
-    }
-    return true;
-}
-
-bool LockTree::solve(FlightLocks& locks) {
-    for (Node& node : nodes_) {
-        node.push = {};
-        node.asked = {};
-        if (node.joint == none) continue;
+// Adds the impulses that the subtree passes on to those on the parent.
+void LockTree::gather(FlightLocks& locks, Node& node) {
+    node.asked = {};
+    if (node.joint != none)
         for (const FlightLocks::Lock& lock : locks.locks(locks.joints()[node.joint]))
             (lock.turns ? node.asked.turn : node.asked.move) +=
                 node.side * lock.asked / locks.unit(lock) * lock.direction;
+    const SpatialForce needed = node.inertia * node.asked;
+    SpatialForce push{node.push.moment - needed.moment, node.push.force - needed.force};
+    for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
+        Free& free = frees_[k];
+        free.effort = along(free, push);
+        push.moment -= free.pivot * free.effort * free.inertia.moment;
+        push.force -= free.pivot * free.effort * free.inertia.force;
     }
-    for (std::size_t i = nodes_.size(); i-- > 0;) {
-        const Node& node = nodes_[i];
-        const SpatialForce needed = node.inertia * node.asked;
-        SpatialForce push{node.push.moment - needed.moment, node.push.force - needed.force};
-        for (std::uint32_t k = node.first; k < node.first + node.count; ++k) {
-            Free& free = frees_[k];
-            free.effort = along(free, push);
-            push.moment -= free.pivot * free.effort * free.inertia.moment;
-            push.force -= free.pivot * free.effort * free.inertia.force;
-        }
-        if (node.parent != none && node.count < 6) nodes_[node.parent].push += shifted(push, node.lever);
+    if (node.parent != none && node.count < 6) nodes_[node.parent].push += shifted(push, node.lever);
+}
+
+// The change of the body's velocity from that of its parent, and the impulse of their joint. Returns a sum of the impulses.
+double LockTree::spread(FlightLocks& locks, Node& node) {
+    SpatialMotion change;
+    if (node.parent != none) {
+        const SpatialMotion& above = nodes_[node.parent].change;
+        change = {above.turn, above.move + above.turn.cross(node.lever)};
     }
+    for (std::uint32_t k = node.first + node.count; k-- > node.first;) {
+        const Free& free = frees_[k];
+        const double speed = free.pivot * (free.effort - power(free.inertia, change));
+        (free.turns ? change.turn : change.move) += speed * free.direction;
+    }
+    change.turn += node.asked.turn;
+    change.move += node.asked.move;
+    node.change = change;
     double sum = 0.0;
-    for (Node& node : nodes_) {
-        SpatialMotion change;
-        if (node.parent != none) {
-            const SpatialMotion& above = nodes_[node.parent].change;
-            change = {above.turn, above.move + above.turn.cross(node.lever)};
-        }
-        for (std::uint32_t k = node.first + node.count; k-- > node.first;) {
-            const Free& free = frees_[k];
-            const double speed = free.pivot * (free.effort - power(free.inertia, change));
-            (free.turns ? change.turn : change.move) += speed * free.direction;
-        }
-        change.turn += node.asked.turn;
-        change.move += node.asked.move;
-        node.change = change;
-        if (node.joint == none) continue;
+    if (node.joint != none) {
         const SpatialForce whole = node.inertia * change;
         const Vec3 force = node.side * (whole.force - node.push.force),
                    torque = node.side * (whole.moment - node.push.moment);
-        for (FlightLocks::Lock& lock : locks.locks(locks.joints()[node.joint])) {
-            lock.given += lock.direction.dot(lock.turns ? torque : force) / locks.unit(lock);
+        const FlightLocks::FlightJoint& j = locks.joints()[node.joint];
+        Vec3 given_force = Vec3::Zero(), given_torque = Vec3::Zero();  // along the locks alone
+        for (FlightLocks::Lock& lock : locks.locks(j)) {
+            const double along = lock.direction.dot(lock.turns ? torque : force);
+            lock.given += along / locks.unit(lock);
+            (lock.turns ? given_torque : given_force) += along * lock.direction;
             sum += lock.given;
         }
+        locks.give(j, given_force, given_torque);
     }
+    node.push = {};
+    return sum;
+}
+
+bool LockTree::solve(FlightLocks& locks) {
+    for (std::size_t i = nodes_.size(); i-- > 0;) {
+        if (!factored_ && !eliminate(nodes_[i])) return false;
+        gather(locks, nodes_[i]);
+    }
+    factored_ = true;
+    double sum = 0.0;
+    for (Node& node : nodes_) sum += spread(locks, node);
     return std::isfinite(sum);
 }
 

@@ -17,18 +17,27 @@ namespace tumble {
 
 class LockTree {
 public:
+    static constexpr std::uint32_t none = UINT32_MAX;
+    /// A body, with the joint to its parent if it has one.
+    struct Place {
+        std::uint32_t body = none, joint = none;
+    };
+
     /// The order of elimination. Precondition: locks.tree().
     void analyze(FlightLocks& locks);
-    /// At the poses of the last look() of `locks`. Returns false when a pivot is not positive.
-    bool factor(FlightLocks& locks);
-    /// Adds the impulses that change J u as asked to those given. Returns false if one is not finite. Precondition:
-    /// factor() succeeded.
+    std::size_t size() const { return nodes_.size(); }
+    /// Parents come before their children.
+    Place place(std::size_t i) const { return {nodes_[i].body, nodes_[i].joint}; }
+    /// Takes body i and its joint at their present poses, after FlightLocks::look() of it. Precondition: its parent has been
+    /// taken before.
+    void take(FlightLocks& locks, std::size_t i);
+    /// Gives the bodies the impulses that change J u as asked. Returns false if one is not finite, or a pivot is not
+    /// positive. Precondition: all bodies have been taken.
     bool solve(FlightLocks& locks);
     /// du of the last solve(): six numbers per body, velocities and the island's length times angular velocities.
     void changes(FlightLocks& locks, std::vector<double>& du) const;
 
 private:
-    static constexpr std::uint32_t none = UINT32_MAX;
     /// A direction in which a joint lets its body move against its parent, or in which a root moves.
     struct Free {
         Vec3 direction = Vec3::Zero();  // world, unit vector
@@ -50,14 +59,17 @@ private:
     };
     void add_children(FlightLocks& locks, const std::vector<std::vector<std::uint32_t>>& joints_of, std::uint32_t root);
     static Vec3 arm_of(FlightLocks& locks, const Node& node);
-    void start(FlightLocks& locks, Node& node);
-    bool release(Node& node, SpatialInertia& passed);
+    void list_frees(FlightLocks& locks, const Node& node);
+    bool eliminate(Node& node);
+    void gather(FlightLocks& locks, Node& node);
+    double spread(FlightLocks& locks, Node& node);
     static double along(const Free& free, const SpatialForce& f) {
         return free.direction.dot(free.turns ? f.moment : f.force);
     }
 
     std::vector<Node> nodes_;  // parents before their children
     std::vector<Free> frees_;
+    bool factored_ = false;  // the inertias are those of the subtrees
 };
 
 }  // namespace tumble
