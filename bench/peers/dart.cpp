@@ -249,7 +249,8 @@ int main(int argc, char** argv) {
             // A step with more loops takes a minute.
             if (forest_of(scene).loops.size() > 200) return nullptr;
             return std::make_unique<DartSimulator>(scene, rate, false);
-        }};
+        },
+        2000};  // each body resizes dense matrices of the whole tree: 10,000 take hours
     return run_peer(argc, argv,
                     {"DART",
                      {euler},

@@ -212,8 +212,14 @@ void DirectSolver::set_back(const JointIsland& island) {
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = island.problem.bodies[island.bodies[k]];
         const Start& start = starts_[k];
-        set_state(body, {start.position, start.orientation, start.momentum - start.push,
-                         start.angular_momentum - start.turn});
+        const Vec3 momentum = start.momentum - start.push, angular_momentum = start.angular_momentum - start.turn;
+        if (body.position == start.position && body.orientation.coeffs() == start.orientation.coeffs()) {
+            body.momentum = momentum;
+            body.angular_momentum = angular_momentum;
+            body.derive_velocities();
+        } else {
+            set_state(body, {start.position, start.orientation, momentum, angular_momentum});
+        }
     }
 }
 
@@ -309,7 +315,10 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     }
     const bool easy =
         swing_ < tuning::joint_easy_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
-    for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
+    int next = easy ? std::max(1, substeps / 2) : substeps;
+    if (flown)  // the phase of a swing is proportional to the substep
+        while (next > 1 && 2.0 * swing_ * substeps < tuning::joint_easy_swing * next) next /= 2;
+    for (Joint* joint : island_joints) joint->substeps = next;
     const bool pushed = !flown && push_joined(island, substeps > 1);
     store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {

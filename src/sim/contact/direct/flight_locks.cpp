@@ -1,5 +1,6 @@
 #include "sim/contact/direct/flight_locks.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/joints/swing.h"
 
 #include <algorithm>
@@ -117,6 +118,10 @@ bool FlightLocks::load(const JointIsland& island) {
         total_mass_ += body.mass;
     }
     for (std::size_t k = 0; k < joints_.size(); ++k) {
+        if (k + elements_ahead < joints_.size()) {
+            const Joint& later = joints[frames_[k + elements_ahead].index];
+            fetch_ahead(&later.constraint_force, &later.force);
+        }
         FlightJoint& j = joints_[k];
         Joint& joint = joints[frames_[k].index];
         frames_[k].joint = &joint;

@@ -1,5 +1,6 @@
 #include "sim/contact/direct/joint_flight.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/joints/flight_way.h"
@@ -306,7 +307,13 @@ void JointFlight::count_turns() {
 // Limits and strengths are looked at once a step: a step that meets one is left to the solver of contacts.
 bool JointFlight::end(const JointIsland& island) {
     const double h = island.problem.settings.h;
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
+    std::span<const FlightLocks::FlightJoint> joints = locks_.joints();
+    for (std::size_t place = 0; place < joints.size(); ++place) {
+        if (place + elements_ahead < joints.size()) {
+            const Joint& later = locks_.joint(joints[place + elements_ahead]);
+            fetch_ahead(&later.anchor_a, &later.account.frame);
+        }
+        const FlightLocks::FlightJoint& j = joints[place];
         Joint& joint = locks_.joint(j);
         joint.force = j.load.force / h;
         joint.torque = j.load.torque / h;
