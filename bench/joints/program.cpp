@@ -158,8 +158,8 @@ Ending measure_apart(const JointCase& c, const std::string& program, const Joint
     wait4(child, &status, 0, &usage);
     spent = double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM))
-        std::fprintf(stderr, "%s, %s, %s, 1/%g s: took more than %g times the patience, and was ended\n", c.name.c_str(),
-                     program.c_str(), way.name.c_str(), rate, most_cpu);
+        std::fprintf(stderr, "%s, %s, %s, 1/%g s: took more than %g times the patience, and was ended\n",
+                     c.name.c_str(), program.c_str(), way.name.c_str(), rate, most_cpu);
     return WIFEXITED(status) ? Ending(WEXITSTATUS(status)) : Ending::failed;
 }
 

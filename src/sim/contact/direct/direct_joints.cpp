@@ -250,8 +250,7 @@ bool DirectSolver::fly(const JointIsland& island, bool rows_fly, int& substeps) 
         }
         if (!(flight_.swing() > tuning::joint_swing)) return false;
         const double phase = flight_.swing() * substeps;
-        do
-            substeps *= 2;
+        do substeps *= 2;
         while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
     }
     return false;

@@ -85,7 +85,9 @@ public:
     FlightBody& body(std::uint32_t place) { return bodies_[place]; }
     std::span<FlightJoint> joints() { return joints_; }
     Joint& joint(const FlightJoint& j) { return *frame_of(j).joint; }
-    std::span<const LockForce> forces(const FlightJoint& j) const { return std::span(forces_).subspan(j.first, j.count); }
+    std::span<const LockForce> forces(const FlightJoint& j) const {
+        return std::span(forces_).subspan(j.first, j.count);
+    }
     std::span<Lock> locks() { return locks_; }
     std::span<Lock> locks(const FlightJoint& j) { return std::span(locks_).subspan(j.first, j.count); }
     double unit(const Lock& lock) const { return lock.turns ? length_ : 1.0; }  // m, or 1
@@ -141,7 +143,7 @@ private:
     std::vector<JointFrame> frames_;  // by joint
     std::vector<Lock> locks_;
     std::vector<LockForce> forces_;  // by lock
-    std::vector<double> swing_;  // 1/s^2, by body
+    std::vector<double> swing_;      // 1/s^2, by body
     std::size_t moving_ = 0;
     double length_ = 1.0, total_mass_ = 0.0;
     bool tree_ = true;

@@ -85,12 +85,16 @@ void JointFlight::analyze(const JointIsland& island) {
     loaded_ = false;
 }
 
-// Looks at all joints, for the equations of a tree too. Returns the largest error, in sizes of the joint.
-double JointFlight::look() {
+// Looks at all joints, for the equations of a tree too, and estimates their impulses of a stage of `h` s. Returns the
+// largest error, in sizes of the joint.
+double JointFlight::look(double h, std::optional<Rate> rate) {
     double worst = 0.0;
     for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (places_[i].joint != LockTree::none)
-            worst = std::max(worst, locks_.look(locks_.joints()[places_[i].joint]));
+        if (places_[i].joint != LockTree::none) {
+            FlightLocks::FlightJoint& j = locks_.joints()[places_[i].joint];
+            worst = std::max(worst, locks_.look(j));
+            if (rate) estimate(j, h, *rate);
+        }
         if (locks_.tree()) tree_.take(locks_, i);
     }
     return worst;
@@ -125,7 +129,7 @@ void JointFlight::kick(const Stage& stage, bool moved) {
         body.state.angular_momentum += 0.5 * stage.share * stage.forces[k].turn;
         if (moved) {
             body.derive_inertia();
-            body.derive_velocities();
+            if (!locks_.tree()) body.derive_velocities();  // for the fastest turn
         }
         body.start = body.state;
     }
@@ -145,14 +149,18 @@ void JointFlight::drift(FlightBody& body, double h) const {
 
 // The equations, if they are not loaded, and the first estimate of the impulses.
 bool JointFlight::start(double h, Rate rate) {
-    if (!loaded_ && (look() > tuning::joint_flight_open || !load(h))) return false;
-    loaded_ = true;
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        locks_.estimate(j, h, rate);
-        const JointLoad load = locks_.load_of(j);
-        locks_.give(j, load.force, load.torque);
+    if (loaded_) {
+        for (const FlightLocks::FlightJoint& j : locks_.joints()) estimate(j, h, rate);
+        return true;
     }
-    return true;
+    loaded_ = look(h, rate) <= tuning::joint_flight_open && load(h);
+    return loaded_;
+}
+
+void JointFlight::estimate(const FlightLocks::FlightJoint& j, double h, Rate rate) {
+    locks_.estimate(j, h, rate);
+    const JointLoad load = locks_.load_of(j);
+    locks_.give(j, load.force, load.torque);
 }
 
 // Keeps the impulses, and their swing where they closed the joints.
@@ -199,7 +207,7 @@ void JointFlight::close_poses(const JointIsland& island) {
     for (FlightBody& body : locks_.bodies()) body.start = body.state;
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        look();
+        look(1.0, {});
         double error = 0.0;
         for (const FlightLocks::FlightJoint& j : locks_.joints()) error = std::max(error, locks_.ask_to_close(j, 1.0));
         if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) break;
@@ -234,8 +242,7 @@ bool JointFlight::fit() {
                 body.derive_velocities();
                 fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
             }
-            if (place.joint != LockTree::none)
-                worst = std::max(worst, locks_.ask_to_fit(locks_.joints()[place.joint]));
+            if (place.joint != LockTree::none) worst = std::max(worst, locks_.ask_to_fit(locks_.joints()[place.joint]));
         }
         if (!(worst > coarse_ * tuning::joint_flight_fits * std::sqrt(fastest)) || worst >= 0.5 * last)
             return std::isfinite(worst);

@@ -11,6 +11,7 @@
 #include "sim/contact/direct/lock_tree.h"
 #include "sim/math/block_cholesky.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,8 +49,9 @@ private:
     using Rate = ConstraintRate ConstraintRates::*;
     void analyze(const JointIsland& island);
     bool load(double h);
-    double look();
+    double look(double h, std::optional<Rate> rate);
     bool start(double h, Rate rate);
+    void estimate(const FlightLocks::FlightJoint& j, double h, Rate rate);
     void finish(const Stage& stage, Rate rate);
     bool fly(const Stage& stage);
     bool close(double h);
@@ -70,10 +72,10 @@ private:
     std::vector<BlockCholesky::Pair> pairs_;
     std::vector<LockTree::Place> places_;  // bodies and joints, each joint after its bodies; in a tree, by its nodes
     std::vector<double> change_;           // du: six numbers per body
-    bool springs_ = false;        // a joint has springs
-    bool loaded_ = false;         // locks and equations are those of the present poses
-    double coarse_ = 1.0;         // factor of the tolerances
-    double closed_ = 0.0;         // largest error of closed joints, in sizes of the joint
+    bool springs_ = false;                 // a joint has springs
+    bool loaded_ = false;                  // locks and equations are those of the present poses
+    double coarse_ = 1.0;                  // factor of the tolerances
+    double closed_ = 0.0;                  // largest error of closed joints, in sizes of the joint
     double swing_ = 0.0, compliance_ = 0.0;
 };
 

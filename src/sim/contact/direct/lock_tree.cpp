@@ -5,8 +5,8 @@
 namespace tumble {
 namespace {
 
-// Unit vectors that span what is square to `count` unit vectors, which are square to each other but for the error of
-// the joint. Returns their number.
+// Unit vectors that span the complement of `count` unit vectors, which are square to each other but for the error of the
+// joint. Returns their number.
 int span_rest(const Vec3* locked, int count, Vec3* rest) {
     if (count == 0) {
         for (int k = 0; k < 3; ++k) rest[k] = Vec3::Unit(k);
