@@ -56,10 +56,6 @@ inline constexpr double joint_push_small = 1e-6;
 /// JointLaws.AMotorOpensADoorToItsLimit.
 inline constexpr double joint_round_tolerance = 1e-8;
 
-/// Compliance of the rows of a tree in flight, over the island's mass and its number of joints: each pass of a projection
-/// makes the rest ten thousand times smaller. Not fitted: passes refine the rounding, which is larger for smaller values.
-inline constexpr double joint_flight_compliance = 1e-3;
-
 /// The velocities fit the joints at this share of the fastest one. Not fitted: rounding.
 inline constexpr double joint_flight_fits = 1e-15;
 

@@ -84,7 +84,7 @@ private:
     bool moves_no_body() const;
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
-    bool fly(const JointIsland& island, int& substeps);
+    bool fly(const JointIsland& island, bool rows_fly, int& substeps);
     void set_back(const JointIsland& island);
     TreeFlight::Outcome fly_tree(const JointIsland& island);
     void apply_solution(const JointIsland& island);
