@@ -61,9 +61,9 @@ private:
     struct Trend {
         using Velocity = Eigen::Matrix<double, 6, 1>;  // m/s, of the center, and of the surface relative to it
         Velocity velocity = Velocity::Zero(),
-                 change = Velocity::Zero();  // at the last sample; change since the one before
-        double since = 0.0;                  // s, since the last sample
-        int steady = 0;                      // consecutive samples without rest
+                 change = Velocity::Zero();    // at the last sample; change since the one before
+        double since = 0.0;                    // s, since the last sample
+        int steady = 0;                        // consecutive samples without rest
         double damped = 0.0, left = infinity;  // s and m: time for which it has decayed, and way that is left to it
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
