@@ -1,4 +1,4 @@
-// Joined bodies come to rest: figures leave no creep, dampers end, and what turns around is not stopped.
+// Joined bodies come to rest: jammed figures, dampers, and doors that turn back, which do not rest.
 #include "joint_scenes.h"
 #include "sim/random_shapes.h"
 

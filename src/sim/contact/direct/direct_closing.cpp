@@ -99,8 +99,8 @@ void DirectSolver::set_friction_compliance(double compliance) {
     if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
 }
 
-// Whether no body in contact is faster than the forces change velocities in a step. What the rounds leave of the motion is a
-// creep then, which the next steps would go on with: the friction that should end it is still soft.
+// Whether no body in contact is faster than the forces change velocities in a step. Rounds that end with soft friction leave
+// a creep there, which the next steps go on with.
 bool DirectSolver::comes_to_rest(const JointIsland& island) const {
     return !constraints_.empty() && std::all_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
         const BodyVelocity& before = island.problem.before[i];
