@@ -258,13 +258,15 @@ int main(int argc, char** argv) {
                             return std::make_unique<DartSimulator>(scene, rate, true);
                         }};
     using enum JointTask;
-    const JointWay joined{
-        "Dantzig", {precision, load, speed}, [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
-            if (!can_represent(scene)) return nullptr;
-            // A step with more loops takes a minute.
-            if (forest_of(scene).loops.size() > 200) return nullptr;
-            return std::make_unique<DartSimulator>(scene, rate, false);
-        }};
+    const JointWay joined{"Dantzig",
+                          {precision, load, speed},
+                          [](const Scene& scene, double rate) -> std::unique_ptr<Simulator> {
+                              if (!can_represent(scene)) return nullptr;
+                              // A step with more loops takes a minute.
+                              if (forest_of(scene).loops.size() > 200) return nullptr;
+                              return std::make_unique<DartSimulator>(scene, rate, false);
+                          },
+                          2000};  // each body resizes dense matrices of the whole tree: 10,000 take hours
     return run_peer(argc, argv,
                     {"DART",
                      {euler},

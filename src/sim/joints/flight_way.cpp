@@ -6,9 +6,9 @@ namespace tumble {
 
 bool undriven(const Joint& joint, const std::vector<Body>& bodies) {
     if (joint.gear()) return false;
-    for (std::size_t c = 0; c < joint.count(); ++c)
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
         if (joint.axis(c).motor) return false;
-    if (joint.description.friction_coefficient > 0.0) return false;
+    if (joint.soft && joint.description.friction_coefficient > 0.0) return false;
     for (const std::uint32_t i : {joint.a, joint.b})
         if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
     return true;
@@ -19,13 +19,13 @@ bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
 }
 
 bool has_friction(const Joint& joint) {
-    for (std::size_t c = 0; c < joint.count(); ++c)
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
         if (joint.axis(c).friction > 0.0) return true;
     return false;
 }
 
 bool has_springs(const Joint& joint) {
-    for (std::size_t c = 0; c < joint.count(); ++c)
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
         if (joint.axis(c).spring) return true;
     return false;
 }

@@ -1,6 +1,7 @@
 // JointSet: the accounts of a frame.
 #include "sim/joints/joint_account.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/joints/joint_set.h"
 
 #include <algorithm>
@@ -16,7 +17,7 @@ double square(double x) { return x * x; }
 double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) {
     if (!joint.active || joint.broken) return 0.0;
     bool any = false;
-    for (std::size_t k = 0; k < joint.count(); ++k) any = any || joint.axis(k).spring;
+    for (std::size_t k = 0; joint.soft && k < joint.count(); ++k) any = any || joint.axis(k).spring;
     if (!any) return 0.0;
     const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
     if (joint.turns_alike() && joint.axis(3).spring) return 0.5 * joint.springs[3].stiffness * g.rotation.squaredNorm();
@@ -35,11 +36,23 @@ void JointSet::start_account(const std::vector<Body>& bodies) {
 }
 
 void JointSet::begin_frame() {
-    for (Joint& joint : joints_) joint.account.frame = {};
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        fetch_spans(k);
+        joints_[k].account.frame = {};
+    }
+}
+
+// Of the account of a later joint.
+void JointSet::fetch_spans(std::size_t k) const {
+    if (k + elements_ahead >= joints_.size()) return;
+    const JointAccount& account = joints_[k + elements_ahead].account;
+    fetch_ahead(&account.step, &account.events);
 }
 
 void JointSet::end_step() {
-    for (Joint& joint : joints_) {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        fetch_spans(k);
+        Joint& joint = joints_[k];
         JointAccount& account = joint.account;
         if (account.step.solves == 0) continue;
         joint.force = account.step.load.force / (to_ - from_);
@@ -79,7 +92,9 @@ void JointSet::take_events() {
 
 // Joints of sleeping bodies give their last forces in the steps without a solve.
 void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
-    for (Joint& joint : joints_) {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        fetch_spans(k);
+        Joint& joint = joints_[k];
         JointAccount& account = joint.account;
         const auto rests = [&](std::uint32_t i) {
             return i == Joint::world || !bodies[i].dynamic() || bodies[i].asleep;

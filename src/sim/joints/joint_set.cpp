@@ -147,9 +147,15 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
         for (const std::uint32_t i : {joint.a, joint.b})
             if (i != Joint::world && bodies[i].asleep) woken.push_back(i);
     };
-    for (const bool gears : {false, true})  // a gear holds while its joints hold
-        for (Joint& joint : joints_)
-            if (joint.gear() == gears) begin(joint);
+    bool gears = false;  // a gear holds while its joints hold
+    for (Joint& joint : joints_) {
+        if (joint.gear())
+            gears = true;
+        else
+            begin(joint);
+    }
+    for (Joint& joint : joints_)
+        if (gears && joint.gear()) begin(joint);
     if (changed) list();
 }
 

@@ -68,6 +68,7 @@ public:
     }
 
 private:
+    void fetch_spans(std::size_t k) const;
     void list();
 
     std::vector<Joint> joints_;  // in the order of the scene
