@@ -124,6 +124,7 @@ void ForwardDynamics::move(const double* coordinates, const double* speeds) {
         move_node(nodes[i], link, coordinates + nodes[i].at, speeds + nodes[i].speed_at);
         add_body(nodes[i], link);
         link.drive = 0.0;
+        link.held = false;
         link.turning.setZero();
     }
 }
@@ -162,12 +163,12 @@ void ForwardDynamics::sweep_in() {
             }
             case NodeKind::revolute:
                 link.column = {inertia.turning * s, inertia.mixed.transpose() * s};
-                link.pivot = 1.0 / s.dot(link.column.moment);
+                link.pivot = link.held ? 0.0 : 1.0 / s.dot(link.column.moment);
                 link.drive -= s.dot(p.moment);
                 break;
             case NodeKind::prismatic:
                 link.column = {inertia.mixed * s, inertia.moving * s};
-                link.pivot = 1.0 / s.dot(link.column.force);
+                link.pivot = link.held ? 0.0 : 1.0 / s.dot(link.column.force);
                 link.drive -= s.dot(p.force);
                 break;
             case NodeKind::fixed:

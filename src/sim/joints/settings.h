@@ -108,6 +108,11 @@ inline constexpr double joint_corner_turn = 0.005;
 /// settled. Not fitted: larger ones let resting bodies creep.
 inline constexpr double joint_contact_rest = 1e-6;
 
+/// The same where bodies come to rest, and the convergence of the rounds there, relative to the impulses: looser ones leave
+/// a creep that never ends, or let jammed bodies tremble. Related test: JointRest.AJammedFigureFallsAsleep.
+inline constexpr double joint_rest = 1e-8;
+inline constexpr double joint_rest_tolerance = 1e-6;
+
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;
 
