@@ -46,26 +46,25 @@ bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joi
 void JointFlight::kick_springs(double time) {
     std::span<FlightBody> bodies = locks_.bodies();
     for (FlightLocks::FlightJoint& j : locks_.joints()) {
-        each_spring(
-            locks_.joint(j), locks_.side(j.a), locks_.side(j.b), [&](const JointLoad& load, const Vec3& point) {
-                const Vec3 force = time * load.force, torque = time * load.torque;
-                // Returns the work: the impulse times the mean of the velocities before and after.
-                const auto give = [&](std::uint32_t place, double sign) {
-                    if (!locks_.moves(place)) return 0.0;
-                    FlightBody& body = bodies[place];
-                    RigidState& b = body.state;
-                    const Vec3 turn = sign * ((point - b.position).cross(force) + torque);
-                    const Vec3 momentum = b.momentum + 0.5 * sign * force, angular = b.angular_momentum + 0.5 * turn;
-                    b.momentum += sign * force;
-                    b.angular_momentum += turn;
-                    return body.inertia.inverse_mass * sign * force.dot(momentum) +
-                           turn.dot(body.inverse_inertia * angular);
-                };
-                const double on_a = give(j.a, -1.0), on_b = give(j.b, 1.0);
-                j.load.add({force, torque, point.cross(force) + torque});
-                j.work_a += on_a;
-                j.work_b += on_b;
-            });
+        each_spring(locks_.joint(j), locks_.side(j.a), locks_.side(j.b), [&](const JointLoad& load, const Vec3& point) {
+            const Vec3 force = time * load.force, torque = time * load.torque;
+            // Returns the work: the impulse times the mean of the velocities before and after.
+            const auto give = [&](std::uint32_t place, double sign) {
+                if (!locks_.moves(place)) return 0.0;
+                FlightBody& body = bodies[place];
+                RigidState& b = body.state;
+                const Vec3 turn = sign * ((point - b.position).cross(force) + torque);
+                const Vec3 momentum = b.momentum + 0.5 * sign * force, angular = b.angular_momentum + 0.5 * turn;
+                b.momentum += sign * force;
+                b.angular_momentum += turn;
+                return body.inertia.inverse_mass * sign * force.dot(momentum) +
+                       turn.dot(body.inverse_inertia * angular);
+            };
+            const double on_a = give(j.a, -1.0), on_b = give(j.b, 1.0);
+            j.load.add({force, torque, point.cross(force) + torque});
+            j.work_a += on_a;
+            j.work_b += on_b;
+        });
     }
 }
 
