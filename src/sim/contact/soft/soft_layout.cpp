@@ -1,6 +1,7 @@
 #include "sim/contact/soft/soft_layout.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/contact/soft/soft_turns.h"
 #include "sim/joints/joint.h"
 
 #include <algorithm>
@@ -111,7 +112,7 @@ void SoftLayout::add_joints(const IslandBatch& batch, const std::vector<Joint>& 
         const std::uint32_t a = slot_of(joint.a), b = slot_of(joint.b);
         const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
         const auto home = std::uint32_t(inside ? block_of_[a != 0 ? a : b] : blocks_.size());
-        joint_places_.push_back({a, b, home, joint.distance() ? soft::JointKind::distance : soft::JointKind::point});
+        joint_places_.push_back({a, b, home, kind_in_sweeps(joint)});
         joint_ends_.push_back({a, b, a != 0, b != 0});
         if (a != 0 && b != 0) continue;
         Island& island = islands_[island_of_[a != 0 ? a : b]];

@@ -51,8 +51,8 @@ struct IslandBatch {
     std::vector<std::uint32_t> bodies, manifolds;
     std::vector<BodyPair> pairs;           // body pairs of the manifolds, in their order
     std::vector<std::size_t> island_ends;  // positions in `bodies`
-    std::vector<std::uint32_t> joints;     // of one net: indices into JointSet::joints(), ascending
-    double lost = 0.0;                     // J, of the net: IslandEnergies::hold(); updated by the solve
+    std::vector<std::uint32_t> joints;     // of nets: indices into JointSet::joints(), net by net
+    std::vector<double> lost;  // J, of each net: IslandEnergies::hold(); updated by the solve. Empty without joints
     int substep_multiplier = 1;            // substep multiplier
 };
 
