@@ -11,6 +11,27 @@ namespace {
 
 double square(double x) { return x * x; }
 
+// Only gears have the second part: most joints spare the memory.
+void clear(const Joint& joint, JointAccount::Span& span) {
+    span.load = {};
+    span.work_a = span.work_b = 0.0;
+    span.work = {};
+    span.solves = 0;
+    if (!joint.gear()) return;
+    span.second_load = {};
+    span.second_work_a = span.second_work_b = 0.0;
+}
+
+void add(const Joint& joint, const JointAccount::Span& from, JointAccount::Span& to) {
+    to.load.add(from.load);
+    to.work_a += from.work_a;
+    to.work_b += from.work_b;
+    if (!joint.gear()) return;
+    to.second_load.add(from.second_load);
+    to.second_work_a += from.second_work_a;
+    to.second_work_b += from.second_work_b;
+}
+
 }  // namespace
 
 double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) {
@@ -35,7 +56,7 @@ void JointSet::start_account(const std::vector<Body>& bodies) {
 }
 
 void JointSet::begin_frame() {
-    for (Joint& joint : joints_) joint.account.frame = {};
+    for (Joint& joint : joints_) clear(joint, joint.account.frame);
 }
 
 void JointSet::end_step() {
@@ -44,17 +65,14 @@ void JointSet::end_step() {
         if (account.step.solves == 0) continue;
         joint.force = account.step.load.force / (to_ - from_);
         joint.torque = account.step.load.torque / (to_ - from_);
-        account.second = {};
-        account.second.add(account.step.second_load, 1.0 / (to_ - from_));
-        account.frame.load.add(account.step.load);
-        account.frame.work_a += account.step.work_a;
-        account.frame.work_b += account.step.work_b;
-        account.frame.second_load.add(account.step.second_load);
-        account.frame.second_work_a += account.step.second_work_a;
-        account.frame.second_work_b += account.step.second_work_b;
+        if (joint.gear()) {
+            account.second = {};
+            account.second.add(account.step.second_load, 1.0 / (to_ - from_));
+        }
+        add(joint, account.step, account.frame);
         ++account.frame.solves;
         account.work.add(account.step.work);
-        account.step = {};
+        clear(joint, account.step);
         account.holds = true;
     }
 }
@@ -65,15 +83,10 @@ void JointSet::take_events() {
         if (account.events.solves == 0) continue;
         joint.force += account.events.load.force / (to_ - from_);
         joint.torque += account.events.load.torque / (to_ - from_);
-        account.frame.load.add(account.events.load);
-        account.frame.work_a += account.events.work_a;
-        account.frame.work_b += account.events.work_b;
-        account.second.add(account.events.second_load, 1.0 / (to_ - from_));
-        account.frame.second_load.add(account.events.second_load);
-        account.frame.second_work_a += account.events.second_work_a;
-        account.frame.second_work_b += account.events.second_work_b;
+        if (joint.gear()) account.second.add(account.events.second_load, 1.0 / (to_ - from_));
+        add(joint, account.events, account.frame);
         account.work.add(account.events.work);
-        account.events = {};
+        clear(joint, account.events);
     }
 }
 
@@ -88,7 +101,7 @@ void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
         if (joint.active && rest > 0 && rests(joint.a) && rests(joint.b)) {
             const JointLoad last{joint.force, joint.torque, joint.point.cross(joint.force) + joint.torque};
             account.frame.load.add(last, rest * h);
-            account.frame.second_load.add(account.second, rest * h);
+            if (joint.gear()) account.frame.second_load.add(account.second, rest * h);
         }
         account.mean = {};
         account.mean.add(account.frame.load, 1.0 / (steps * h));

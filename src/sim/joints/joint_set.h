@@ -62,7 +62,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [joints, active, pairs, changes, from, to] = self;
+        auto& [joints, active, pairs, changes, gears, from, to] = self;
+        archive.rebuilt(gears);
         archive.keep_each(joints);
         archive.keep(active, pairs, changes, from, to);
     }
@@ -74,6 +75,7 @@ private:
     std::vector<std::uint32_t> active_;
     std::vector<BodyPair> pairs_;
     std::uint64_t changes_ = 0;
+    bool gears_ = false;  // some joint is a gear
     double from_ = 0.0, to_ = 0.0;  // s, of this step
 };
 

@@ -27,6 +27,7 @@ bool known_to_sweeps(const Joint& joint) {
     const JointDescription& description = joint.description;
     if (joint.gear() || description.ever_breaks()) return false;
     std::size_t rubs = 0;
+    bool drives = description.friction_coefficient > 0.0, swing_limited = false;
     for (std::size_t c = 0; c < joint.count(); ++c) {
         const JointAxis& axis = joint.axis(c);
         const bool turns = c >= 3, limited = axis.motion == JointAxis::Motion::limited;
@@ -35,12 +36,14 @@ bool known_to_sweeps(const Joint& joint) {
         if ((axis.spring || axis.friction > 0.0) && !turns) return false;
         if (axis.spring && (joint.springs[c].stiffness > 0.0 || axis.spring->frequency > 0.0)) return false;
         if (!joint.distance() && !turns && axis.motion != JointAxis::Motion::locked) return false;
-        if (turns && c > 3 && limited && description.swing) return false;
+        drives = drives || axis.spring || axis.friction > 0.0;
+        swing_limited = swing_limited || (turns && c > 3 && limited);
         rubs += turns && axis.motion != JointAxis::Motion::locked &&
                 (axis.friction > 0.0 || description.friction_coefficient > 0.0);
     }
     if (joint.distance()) return !(description.friction_coefficient > 0.0);
-    return rubs <= 1 || joint.turns_alike();  // friction has one bound
+    if (joint.turns_alike()) return !swing_limited || !(drives || description.swing);
+    return rubs <= 1 && !description.swing;  // friction has one bound
 }
 
 double factor_work(const JointGroup& group, const JointSet& joints) {

@@ -99,11 +99,11 @@ void prepare_joints(const JointGroups& groups, std::size_t first, std::size_t la
         m.inertia_b = load_inertia(bodies, g.b);
         find_ends(g, bodies);
         const Lanes both = load(bodies, g.a, 0).inverse_mass + load(bodies, g.b, 0).inverse_mass;
-        if (g.turn) prepare_turns(m, *g.turn);
         if (g.kind != JointKind::distance)
             m.mass = mass_at(m, both);
         else
             m.mass.xx = mass_along(m, m.direction, both);
+        if (g.turn) prepare_turns(m, *g.turn);
     }
 }
 
@@ -129,9 +129,12 @@ inline void add_up(Hold& m, const Vector& f) {
     m.carried_sum = m.carried_sum + cross(m.parted, f);
 }
 
-// The new impulse of a point joint; returns its change. `rate` (1/s): share of the gap that is closed, by time.
+// Change of the impulse of a point joint. `rate` (1/s): share of the gap that is closed, by time.
+inline Vector change_of_point(const Hold& m, const Vector& speed, Lanes rate, float leak) {
+    return all(-1.0f) * (m.mass * (speed + rate * m.gap)) - all(leak) * m.impulse;
+}
 inline Vector solve_point(Hold& m, const Vector& speed, Lanes rate, float leak) {
-    const Vector change = all(-1.0f) * (m.mass * (speed + rate * m.gap)) - all(leak) * m.impulse;
+    const Vector change = change_of_point(m, speed, rate, leak);
     m.impulse = m.impulse + change;
     return change;
 }
@@ -169,7 +172,8 @@ inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size
         const Lanes rate = pushing ? all(substep.joint_rate) : Lanes{};
         const float leak = pushing ? substep.joint_leak : 0.0f;
         if (g.turn) {
-            const Vector torque = solve_turns<pushing>(m, *g.turn, g.driven(), b.angular - a.angular, rate,
+            const Vector force = change_of_point(m, parting(m, a, b), rate, leak);
+            const Vector torque = solve_turns<pushing>(m, *g.turn, g.driven(), b.angular - a.angular, force, rate,
                                                        substep.per_second, leak);
             apply_torque(m, torque, a, b);
         }

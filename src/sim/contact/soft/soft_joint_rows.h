@@ -48,10 +48,12 @@ struct TurnRows {
     Vector3<Real> turned;                  // rad, the coordinates at present
     Vector3<Real> bend;    // coordinate x grows by bend.x y z, and so on: of two turns in sequence, as of a cross
     Real circle, twist;    // coordinate y grows by (circle z + twist x)^2: of a swing along a cone
-    Symmetric3<Real> gives;  // 1/(kg m^2), compliance about the axes
-    Vector3<Real> single;    // kg m^2, inverse of its diagonal
-    Symmetric3<Real> mass;   // kg m^2, inverse of the compliance of the locked axes
-    Vector3<Real> impulse;   // N m s, on B
+    Vector3<Real> pull_x, pull_y, pull_z;  // 1/kg m, speed at the anchors by an impulse about each axis
+    // 1/(kg m^2), compliance about the axes where the anchors stay together: less what the force gives back.
+    Symmetric3<Real> gives;
+    Vector3<Real> single;   // kg m^2, inverse of its diagonal
+    Symmetric3<Real> mass;  // kg m^2, inverse of the compliance of the locked axes
+    Vector3<Real> impulse;  // N m s, on B
     Vector3<Real> torque_sum;  // N m s, world, of all substeps
     // Of driven joints. Dampers: the compliance 1/(d C) of a substep d, 1/(kg m^2), 0 without one; and the inverse of all
     // compliance. Friction about the axes that have `rubs` 1: its largest impulse, N m s, and the increase of that with

@@ -87,8 +87,12 @@ public:
               std::size_t team);
     void color(const IslandBatch& batch, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team);
+    struct AllJoints {
+        const std::vector<Joint>& joints;
+        const std::vector<soft::JointKind>& kinds;  // by joint
+    };
     /// Of a batch with joints, before close().
-    void add_joints(const IslandBatch& batch, const std::vector<Joint>& joints, const std::vector<Body>& bodies,
+    void add_joints(const IslandBatch& batch, const AllJoints& all, const std::vector<Body>& bodies,
                     const std::vector<std::uint32_t>& slot, std::size_t lanes);
     void close(const IslandBatch& batch, std::size_t lanes);
 

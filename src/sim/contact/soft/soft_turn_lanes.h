@@ -3,6 +3,8 @@
 
 using Turn = TurnRows<Lanes>;
 
+constexpr float least_turn_gives = float(tuning::soft_least_turn_gives);
+
 struct Spin {  // quaternion
     Lanes w;
     Vector v;
@@ -54,13 +56,24 @@ inline Tensor inverse_of(const Tensor& k) {
             scale * (k.xx * k.yy - k.xy * k.xy)};
 }
 
-// After find_turns().
+// After find_turns(), with the mass at the anchors. With the compliances C about the axes, A at the anchors and B between
+// them, an impulse f = -A^-1 (v + B j) that keeps the anchors together leaves C - B^T A^-1 B.
 inline void prepare_turns(const Hold& m, Turn& t) {
-    const auto gives = [&](const Vector& n) { return m.inertia_a * n + m.inertia_b * n; };
-    const Vector kx = gives(t.now_x), ky = gives(t.now_y), kz = gives(t.now_z);
+    const auto pull = [&](const Vector& n, Vector& spin) {
+        const Vector of_a = m.inertia_a * n, of_b = m.inertia_b * n;
+        spin = of_a + of_b;
+        return cross(of_a, m.now_a) + cross(of_b, m.now_b);
+    };
+    Vector kx, ky, kz;
+    t.pull_x = pull(t.now_x, kx);
+    t.pull_y = pull(t.now_y, ky);
+    t.pull_z = pull(t.now_z, kz);
+    const Vector bx = m.mass * t.pull_x, by = m.mass * t.pull_y, bz = m.mass * t.pull_z;
     const Lanes absent = 1.0f - m.present;
-    t.gives = {dot(t.now_x, kx) + absent, dot(t.now_y, kx), dot(t.now_z, kx), dot(t.now_y, ky) + absent,
-               dot(t.now_z, ky),          dot(t.now_z, kz) + absent};
+    const auto own = [&](Lanes gives, Lanes back) { return larger(gives - back, least_turn_gives * gives) + absent; };
+    t.gives = {own(dot(t.now_x, kx), dot(t.pull_x, bx)), dot(t.now_y, kx) - dot(t.pull_y, bx),
+               dot(t.now_z, kx) - dot(t.pull_z, bx),     own(dot(t.now_y, ky), dot(t.pull_y, by)),
+               dot(t.now_z, ky) - dot(t.pull_z, by),     own(dot(t.now_z, kz), dot(t.pull_z, bz))};
     const auto damps = [&](Lanes soft, Lanes rigid) { return soft > 0.0f ? 1.0f / (rigid + soft) : Lanes{}; };
     t.damps = {damps(t.softness.x, t.gives.xx), damps(t.softness.y, t.gives.yy), damps(t.softness.z, t.gives.zz)};
     t.single = {m.present / t.gives.xx, m.present / t.gives.yy, m.present / t.gives.zz};
@@ -107,11 +120,13 @@ inline Vector solve_drives(const Hold& m, Turn& t, Vector& speed) {
     return rubbed + damped;
 }
 
-// New impulses about the axes; returns the change, world. `speed`: of B relative to A.
+// New impulses about the axes; returns the change, world. `spin`: of B relative to A; `force`: the coming change of the
+// impulse at the anchors.
 template <bool pushing>
-inline Vector solve_turns(const Hold& m, Turn& t, bool driven, const Vector& spin, Lanes rate, float per_second,
-                          float leak) {
-    Vector speed = along_axes(t, spin), change{};
+inline Vector solve_turns(const Hold& m, Turn& t, bool driven, const Vector& spin, const Vector& force, Lanes rate,
+                          float per_second, float leak) {
+    Vector speed = along_axes(t, spin) + Vector{dot(t.pull_x, force), dot(t.pull_y, force), dot(t.pull_z, force)};
+    Vector change{};
     if (!pushing && driven) change = solve_drives(m, t, speed);
     const auto limit = [&](Lanes Vector::*k, Lanes mass) {
         const Lanes was = t.impulse.*k;

@@ -66,13 +66,21 @@ TurnAxes turn_axes(const Joint& joint, const JointGeometry& g) {
     if (free == 2)  // turns x and y in sequence are a rotation vector with the component x y / 2 across both
         for (int k = 0; k < 3; ++k)
             if (t.locked[std::size_t(k)]) t.bend[k] = -0.5;
+    const auto free_turn = [&](std::size_t k) { return joint.axis(3 + k).motion == JointAxis::Motion::free; };
+    if (joint.turns_alike() && free_turn(1) && free_turn(2)) {
+        // Axes across each other, about which dampers and friction act alike.
+        if (free_turn(0) && !joint.description.swing) t.axis[0] = g.axes.col(0);
+        const Vec3 side = g.axes.col(1) - g.axes.col(1).dot(t.axis[0]) * t.axis[0];
+        t.axis[1] = side.squaredNorm() > 0.25 ? Vec3(side.normalized()) : Vec3(t.axis[0].unitOrthogonal());
+        t.axis[2] = t.axis[0].cross(t.axis[1]);
+        t.scale[1] = t.scale[2] = 1.0;
+    }
     if (joint.description.swing) {
         // Axes across each other: halfway between both twist axes; of the swing; and across both. Turns about the first
         // and third move the twist axis of B along the border, at a distance of the swing.
         const double angle = g.swing.value, half = 0.5 * angle;
         t.axis[1] = g.swing.direction;
         t.axis[2] = t.axis[0].cross(t.axis[1]);
-        t.scale[1] = t.scale[2] = 1.0;
         t.most[1] = g.swing_limit - angle;
         const double bent = std::max(angle, narrowest), curved = std::max(0.0, 0.5 * std::cos(bent) / std::sin(bent));
         t.circle = std::sqrt(curved) * std::cos(half);
