@@ -167,6 +167,7 @@ inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size
             add_up(m, impulse_of(m, g.kind));
             if (g.turn) add_up_turns(*g.turn, g.driven());
             find_ends(g, bodies);
+            if (g.turn && any(g.turn->round)) prepare_turns(m, *g.turn);
             if (g.kind == JointKind::distance) m.mass.xx = mass_along(m, m.direction, a.inverse_mass + b.inverse_mass);
         }
         const Lanes rate = pushing ? all(substep.joint_rate) : Lanes{};

@@ -47,7 +47,12 @@ struct TurnRows {
     Vector3<Real> locked;                  // 1: locked, 0: within the limits
     Vector3<Real> turned;                  // rad, the coordinates at present
     Vector3<Real> bend;    // coordinate x grows by bend.x y z, and so on: of two turns in sequence, as of a cross
-    Real circle, twist;    // coordinate y grows by (circle z + twist x)^2: of a swing along a cone
+    Real circle, twist;    // coordinate y grows by (circle z + twist x)^2: of a swing along the border of a cone
+    // Of a round cone the axes follow the swing: x halfway between the twist axes of A and B, y that of the swing.
+    // Coordinate y is the sine of the angle beyond the cone.
+    Real round;  // 1: of a round cone, else 0
+    Real limit_sine, limit_cosine;
+    Vector3<Real> twist_a, twist_b;  // unit, world, at the start of the step
     Vector3<Real> pull_x, pull_y, pull_z;  // 1/kg m, speed at the anchors by an impulse about each axis
     // 1/(kg m^2), compliance about the axes where the anchors stay together: less what the force gives back.
     Symmetric3<Real> gives;

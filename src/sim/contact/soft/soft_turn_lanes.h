@@ -34,6 +34,24 @@ inline Vector along_axes(const Turn& t, const Vector& v) { return {dot(t.now_x, 
 inline Vector from_axes(const Turn& t, const Vector& f) { return f.x * t.now_x + f.y * t.now_y + f.z * t.now_z; }
 inline Vector each(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
+// The axes of round cones, and the sine of the angle beyond. Near the middle of a cone its swing has no direction.
+inline void find_swing(Turn& t, const Spin& a, const Spin& b) {
+    const Vector twist_a = turned_by(a, t.twist_a), twist_b = turned_by(b, t.twist_b);
+    const Vector across = cross(twist_a, twist_b), both = twist_a + twist_b;
+    const Lanes sine = root(dot(across, across)), length = root(dot(both, both));
+    const auto clear = t.round > 0.0f && sine > 1e-3f && length > 1e-3f;
+    const Vector y = (1.0f / (sine + (1.0f - t.round))) * across, x = (1.0f / (length + (1.0f - t.round))) * both;
+    const Vector z = cross(x, y);
+    const auto choose = [&](const Vector& own, Vector& now) {
+        now = {clear ? own.x : now.x, clear ? own.y : now.y, clear ? own.z : now.z};
+    };
+    choose(x, t.now_x);
+    choose(y, t.now_y);
+    choose(z, t.now_z);
+    const Lanes beyond = sine * t.limit_cosine - dot(twist_a, twist_b) * t.limit_sine;
+    t.turned.y = t.round > 0.0f ? beyond : t.turned.y;
+}
+
 // Present axes and coordinates.
 inline void find_turns(Turn& t, const Vector& turn_a, const Vector& turn_b) {
     const Spin a = spin_of(turn_a), b = spin_of(turn_b);
@@ -43,6 +61,7 @@ inline void find_turns(Turn& t, const Vector& turn_a, const Vector& turn_b) {
     const Vector r = turn_between(a, b);
     const Lanes x = dot(t.axis_x, r), y = dot(t.axis_y, r), z = dot(t.axis_z, r), round = t.circle * z + t.twist * x;
     t.turned = {x + t.bend.x * y * z, y + t.bend.y * z * x + round * round, z + t.bend.z * x * y};
+    if (any(t.round)) find_swing(t, a, b);
 }
 
 inline Tensor inverse_of(const Tensor& k) {

@@ -1,5 +1,7 @@
 #include "sim/contact/soft/soft_turns.h"
 
+#include "core/deterministic_math.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -78,13 +80,24 @@ TurnAxes turn_axes(const Joint& joint, const JointGeometry& g) {
     if (joint.description.swing) {
         // Axes across each other: halfway between both twist axes; of the swing; and across both. Turns about the first
         // and third move the twist axis of B along the border, at a distance of the swing.
-        const double angle = g.swing.value, half = 0.5 * angle;
+        const double angle = g.swing.value;
         t.axis[1] = g.swing.direction;
         t.axis[2] = t.axis[0].cross(t.axis[1]);
+        const auto& [about_y, about_z] = *joint.description.swing;
+        if (about_y == about_z) {
+            t.round = true;
+            t.limit = about_y;
+            t.most[1] = 0.0;
+            t.twist_a = g.axes.col(0);
+            const SinCos swung = sincos(angle);
+            t.twist_b = swung.cos * t.twist_a + swung.sin * t.axis[1].cross(t.twist_a);
+            return t;
+        }
         t.most[1] = g.swing_limit - angle;
-        const double bent = std::max(angle, narrowest), curved = std::max(0.0, 0.5 * std::cos(bent) / std::sin(bent));
-        t.circle = std::sqrt(curved) * std::cos(half);
-        t.twist = std::sqrt(curved) * std::sin(half);
+        const SinCos bent = sincos(std::max(angle, narrowest)), half = sincos(0.5 * angle);
+        const double curved = std::sqrt(std::max(0.0, 0.5 * bent.cos / bent.sin));
+        t.circle = curved * half.cos;
+        t.twist = curved * half.sin;
     }
     return t;
 }
@@ -110,6 +123,14 @@ void pack_turns(const Joint& joint, const JointGeometry& g, const TurnAxes& axes
     lane.set(&Turns::bend, axes.bend);
     lane[&Turns::circle] = float(axes.circle);
     lane[&Turns::twist] = float(axes.twist);
+    if (axes.round) {
+        lane[&Turns::round] = 1.0f;
+        const SinCos limit = sincos(axes.limit);
+        lane[&Turns::limit_sine] = float(limit.sin);
+        lane[&Turns::limit_cosine] = float(limit.cos);
+        lane.set(&Turns::twist_a, axes.twist_a);
+        lane.set(&Turns::twist_b, axes.twist_b);
+    }
     lane.set(&Turns::impulse, impulse);
     if (!driven) return;
     const bool alike = joint.turns_alike();

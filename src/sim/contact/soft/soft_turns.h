@@ -20,6 +20,9 @@ struct TurnAxes {
     std::array<bool, 3> locked{};
     Vec3 bend = Vec3::Zero();            // as in soft::TurnRows
     double circle = 0.0, twist = 0.0;
+    bool round = false;  // of a round cone
+    double limit = 0.0;  // rad, its half angle
+    Vec3 twist_a, twist_b;
 };
 TurnAxes turn_axes(const Joint& joint, const JointGeometry& g);
 
