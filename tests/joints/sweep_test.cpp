@@ -301,6 +301,8 @@ TEST(SweptTurns, AHeapOfFiguresFallsAsleep) {
             *joint.second += first;
             joint.name += std::to_string(k);
             if (joint.type == JointType::hinge || joint.type == JointType::ball) joint.turn[0].friction = 0.02;
+            if (joint.type == JointType::universal)
+                for (const std::size_t axis : {0u, 1u}) joint.turn[axis].spring = JointSpring{.damping = 0.1};
             scene.joints.push_back(joint);
         }
     }
