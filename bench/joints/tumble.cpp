@@ -20,8 +20,8 @@ int main(int argc, char** argv) {
     splitting.integrator = tumble::IntegratorKind::splitting;
     exact.integrator = tumble::IntegratorKind::exact;
     sweeps.contact_solver = tumble::ContactSolverChoice::soft;
-    return run_joints(
-        argc, argv, "Tumble",
-        {way("default", {precision, load, speed, settling}, one), way("two threads", {settling}, two),
-         way("sleep", {settling}, asleep), way("sweeps", {settling}, sweeps), way("splitting", {precision}, splitting), way("exact", {precision}, exact)});
+    return run_joints(argc, argv, "Tumble",
+                      {way("default", {precision, load, speed, settling}, one), way("two threads", {settling}, two),
+                       way("sleep", {settling}, asleep), way("sweeps", {settling}, sweeps),
+                       way("splitting", {precision}, splitting), way("exact", {precision}, exact)});
 }

@@ -220,7 +220,7 @@ TEST(SweptTurns, AUniversalJointTurnsAboutBothAxes) {
 }
 
 TEST(SweptTurns, AFreeFigureKeepsItsMomentaAndGainsNoEnergy) {
-    for (const int steps : {4, 16}) {
+    for (const int steps : {8, 16}) {
         SceneDescription scene = swept(figure_scene(steps));
         scene.simulation.gravity.setZero();
         for (BodyDescription& body : scene.bodies) {
@@ -320,6 +320,52 @@ TEST(SweptTurns, AHeapOfFiguresFallsAsleep) {
     EXPECT_EQ(std::count_if(s.bodies.begin(), s.bodies.end(), awake), 0);
     EXPECT_LT(gap, 1e-2);
     EXPECT_EQ(world.joint_report().by_sweeps, 4u);
+}
+
+// A paddle turns by 1.5 rad in a second, and two vanes on hinges and a weld go along.
+TEST(SweptTurns, FollowAKinematicBody) {
+    SceneDescription scene = swept({});
+    scene.simulation.steps_per_frame = 8;
+    BodyDescription& paddle = add_box(scene, {0.4, 0.2, 0.4}, Vec3::Zero());
+    paddle.type = BodyType::kinematic;
+    paddle.keyframes = {{0.0, Vec3::Zero(), Quat::Identity()}, {1.0, {0.3, 0.2, 0.0}, turn(Vec3::UnitY(), 1.5)}};
+    add_box(scene, {0.4, 0.2, 0.1}, {0.4, 0.0, 0.0});
+    add_joint(scene, JointType::hinge, 0, 1, {0.2, 0.0, 0.0}, Vec3::UnitY());
+    add_box(scene, {0.4, 0.2, 0.1}, {-0.4, 0.0, 0.0});
+    add_joint(scene, JointType::fixed, 0, 2, {-0.2, 0.0, 0.0}, Vec3::UnitY());
+    World world(scene);
+    double gap = 0.0;
+    for (int frame = 0; frame < 60; ++frame) {
+        world.advance_frame();
+        gap = std::max(gap, largest_gap(world));
+    }
+    EXPECT_LT(gap, 5e-3);
+    EXPECT_GT(gap, 1e-8);
+    const Vec3 vane = world.snapshot().bodies[2].center_of_mass;
+    EXPECT_LT((vane - Vec3(0.3 - 0.4 * std::cos(1.5), 0.2, 0.4 * std::sin(1.5))).norm(), 5e-3);
+}
+
+// Fast spins, unlike masses and few steps: finite, and without energy from nothing.
+TEST(SweptTurns, AWildFigureStaysFinite) {
+    SceneDescription scene = swept(figure_scene(1));
+    scene.bodies[0].mass = 100.0;
+    scene.bodies[2].mass = 0.05;
+    scene.bodies[3].mass = 20.0;
+    scene.bodies[1].angular_velocity = {50.0, -80.0, 120.0};
+    scene.bodies[3].angular_velocity = {0.0, 60.0, 0.0};
+    scene.bodies[4].angular_velocity = {-70.0, 0.0, 200.0};
+    scene.bodies[4].velocity = {20.0, 5.0, -30.0};
+    for (BodyDescription& body : scene.bodies) body.position.y() += 1.0;
+    add_floor(scene);
+    World world(scene);
+    const double start = total_energy(world);
+    double most = start;
+    for (int frame = 0; frame < 240; ++frame) {
+        world.advance_frame();
+        most = std::max(most, total_energy(world));
+    }
+    EXPECT_LT(most, 1.001 * start);
+    EXPECT_LT(largest_gap(world), 0.1);
 }
 
 TEST(SweptTurns, HaveTheSameBytesForAnyThreads) {

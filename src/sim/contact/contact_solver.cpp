@@ -71,7 +71,8 @@ bool ContactSolver::in_sweeps(const ContactIslands& islands, std::size_t island)
 }
 
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
-    if (problem.joints) nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft ? NetRule::all : NetRule::dear);
+    if (problem.joints)
+        nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft ? NetRule::all : NetRule::dear);
     direct_.clear();
     softly_.clear();
     candidates_.clear();
@@ -174,7 +175,8 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
     batched_ = std::move(now);
     batches_used_ = 0;
     for (const int wanted : {1, 2, 4}) {
-        std::size_t open[2] = {SIZE_MAX, SIZE_MAX};  // batches of islands without joints, and of nets, whose sweeps differ
+        std::size_t open[2] = {SIZE_MAX,
+                               SIZE_MAX};  // batches of islands without joints, and of nets, whose sweeps differ
         for (std::size_t s = 0; s < softly_.size(); ++s) {
             if (substep_multipliers_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);

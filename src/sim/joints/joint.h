@@ -93,9 +93,8 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks, substeps,
-               active,
-               broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque, point,
-               account] = self;
+               active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque,
+               point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
         archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates,
                      force, torque, point, account);

@@ -84,7 +84,7 @@ void Nets::find(const JointSet& joints, const std::vector<Body>& bodies, NetRule
     found_ = joints.changes();
     role_.assign(bodies.size(), Role::plain);
     for (const JointGroup& group : find_joint_groups(joints, bodies)) {
-        const Role role = !all_known(group, joints, bodies)       ? Role::unknown
+        const Role role = !all_known(group, joints, bodies)      ? Role::unknown
                           : !is_net(group, joints, bodies, rule) ? Role::plain
                           : has_more_joints(group)               ? Role::entangled
                                                                  : Role::loose;

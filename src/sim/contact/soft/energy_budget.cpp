@@ -159,9 +159,9 @@ void IslandEnergies::find_lost(std::vector<double>& lost) const {
         EnergyBudget sum;
         for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
         const double most = sum.most(island.deep || !island.touches_static);
-        lost[i] = island.driven ? 0.0
-                                : std::clamp(lost[i] + most - sum.now, 0.0,
-                                             tuning::soft_energy_lent * std::min(most, sum.now));
+        lost[i] = island.driven
+                      ? 0.0
+                      : std::clamp(lost[i] + most - sum.now, 0.0, tuning::soft_energy_lent * std::min(most, sum.now));
     }
 }
 

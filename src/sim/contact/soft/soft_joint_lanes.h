@@ -167,8 +167,12 @@ inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size
             add_up(m, impulse_of(m, g.kind));
             if (g.turn) add_up_turns(*g.turn, g.driven());
             find_ends(g, bodies);
-            if (g.turn && any(g.turn->round)) prepare_turns(m, *g.turn);
-            if (g.kind == JointKind::distance) m.mass.xx = mass_along(m, m.direction, a.inverse_mass + b.inverse_mass);
+            const Lanes both = a.inverse_mass + b.inverse_mass;
+            if (g.kind == JointKind::distance) m.mass.xx = mass_along(m, m.direction, both);
+            if (g.turn) {  // axes and limbs turn by large angles in a step
+                m.mass = mass_at(m, both);
+                prepare_turns(m, *g.turn);
+            }
         }
         const Lanes rate = pushing ? all(substep.joint_rate) : Lanes{};
         const float leak = pushing ? substep.joint_leak : 0.0f;

@@ -46,19 +46,19 @@ struct TurnRows {
     Vector3<Real> least, most;             // rad, limits of the coordinates; locked ones have two equal limits
     Vector3<Real> locked;                  // 1: locked, 0: within the limits
     Vector3<Real> turned;                  // rad, the coordinates at present
-    Vector3<Real> bend;    // coordinate x grows by bend.x y z, and so on: of two turns in sequence, as of a cross
-    Real circle, twist;    // coordinate y grows by (circle z + twist x)^2: of a swing along the border of a cone
+    Vector3<Real> bend;  // coordinate x grows by bend.x y z, and so on: of two turns in sequence, as of a cross
+    Real circle, twist;  // coordinate y grows by (circle z + twist x)^2: of a swing along the border of a cone
     // Of a round cone the axes follow the swing: x halfway between the twist axes of A and B, y that of the swing.
     // Coordinate y is the sine of the angle beyond the cone.
     Real round;  // 1: of a round cone, else 0
     Real limit_sine, limit_cosine;
-    Vector3<Real> twist_a, twist_b;  // unit, world, at the start of the step
+    Vector3<Real> twist_a, twist_b;        // unit, world, at the start of the step
     Vector3<Real> pull_x, pull_y, pull_z;  // 1/kg m, speed at the anchors by an impulse about each axis
     // 1/(kg m^2), compliance about the axes where the anchors stay together: less what the force gives back.
     Symmetric3<Real> gives;
-    Vector3<Real> single;   // kg m^2, inverse of its diagonal
-    Symmetric3<Real> mass;  // kg m^2, inverse of the compliance of the locked axes
-    Vector3<Real> impulse;  // N m s, on B
+    Vector3<Real> single;      // kg m^2, inverse of its diagonal
+    Symmetric3<Real> mass;     // kg m^2, inverse of the compliance of the locked axes
+    Vector3<Real> impulse;     // N m s, on B
     Vector3<Real> torque_sum;  // N m s, world, of all substeps
     // Of driven joints. Dampers: the compliance 1/(d C) of a substep d, 1/(kg m^2), 0 without one; and the inverse of all
     // compliance. Friction about the axes that have `rubs` 1: its largest impulse, N m s, and the increase of that with
@@ -81,7 +81,7 @@ struct JointGroups {
     const std::uint32_t* bodies = nullptr;
     const std::uint16_t* moved = nullptr;
     const JointKind* kinds = nullptr;
-    float* turns = nullptr;  // of the groups that turn
+    float* turns = nullptr;                      // of the groups that turn
     const std::uint32_t* turn_places = nullptr;  // by group: its place among those that turn
 };
 

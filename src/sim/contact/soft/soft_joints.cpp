@@ -199,10 +199,13 @@ void SoftJoints::account(const ContactProblem& problem, std::size_t group) const
         const BodyVelocity a = mean_at(problem, j.a, j.point), b = mean_at(problem, j.b, j.point);
         step.work_a = -force.dot(a.velocity) - kept.torque.dot(a.angular_velocity);
         step.work_b = force.dot(b.velocity) + kept.torque.dot(b.angular_velocity);
+        // All that a joint takes from its bodies is lost: by friction and dampers, else at limits, where it catches its
+        // bodies, and by sweeps that damp.
         const Vec3 turning = b.angular_velocity - a.angular_velocity;
-        step.work.heat -= kept.friction.dot(turning);
-        step.work.springs += kept.damping.dot(turning);
-        if (!j.account.holds) step.work.impacts -= step.work_a + step.work_b - step.work.springs + step.work.heat;
+        const double rubbed = kept.friction.dot(turning), damped = kept.damping.dot(turning);
+        step.work.heat -= rubbed;
+        step.work.springs += damped;
+        step.work.impacts -= step.work_a + step.work_b - rubbed - damped;
         if (!ends.moved_a) step.work.carriers -= step.work_a;
         if (!ends.moved_b) step.work.carriers -= step.work_b;
         step.solves = 1;

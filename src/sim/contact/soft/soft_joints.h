@@ -32,8 +32,8 @@ public:
     void open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units);
     std::size_t size() const { return joints_.size(); }
     soft::JointGroups groups() {
-        return {rows_.data(),     lane_bodies_.data(),    lane_moved_.data(),
-                layout_->kinds(), turn_rows_.data(), layout_->turn_places()};
+        return {rows_.data(),     lane_bodies_.data(), lane_moved_.data(),
+                layout_->kinds(), turn_rows_.data(),   layout_->turn_places()};
     }
 
     /// Each group by one thread.
@@ -58,9 +58,9 @@ private:
     Joint& joint(const ContactProblem& problem, std::uint32_t place) const;
 
     struct Place {
-        Vec3 center_a, center_b;  // m, world: that moments are about
-        Vec3 point;               // m, world: B's anchor
-        Mat3 axes;                // of A's joint frame, world: of all but distance joints
+        Vec3 center_a, center_b;         // m, world: that moments are about
+        Vec3 point;                      // m, world: B's anchor
+        Mat3 axes;                       // of A's joint frame, world: of all but distance joints
         Vec3 torque, damping, friction;  // N m s, on B over the step: all, and the parts of dampers and of friction
     };
 
@@ -68,7 +68,7 @@ private:
     const SoftLayout* bodies_ = nullptr;
     const JointLayout* layout_ = nullptr;
     std::span<const std::uint32_t> joints_;
-    std::vector<Place> places_;  // at the start of the step
+    std::vector<Place> places_;        // at the start of the step
     std::vector<TurnAxes> turn_axes_;  // the same, of joints that turn
     AlignedFloats rows_, turn_rows_;
     std::vector<std::uint32_t> lane_bodies_;

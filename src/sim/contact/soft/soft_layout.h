@@ -52,8 +52,8 @@ struct IslandBatch {
     std::vector<BodyPair> pairs;           // body pairs of the manifolds, in their order
     std::vector<std::size_t> island_ends;  // positions in `bodies`
     std::vector<std::uint32_t> joints;     // of nets: indices into JointSet::joints(), net by net
-    std::vector<double> lost;  // J, of each net: IslandEnergies::hold(); updated by the solve. Empty without joints
-    int substep_multiplier = 1;            // substep multiplier
+    std::vector<double> lost;    // J, of each net: IslandEnergies::hold(); updated by the solve. Empty without joints
+    int substep_multiplier = 1;  // substep multiplier
 };
 
 struct Joint;

@@ -63,7 +63,8 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
     std::size_t all_small = 0;
     const auto size_of = [](const Batch& batch) { return batch.manifolds.size() + batch.joints.size(); };
     const auto close = [&](SoftLayout& layout, const Batch& batch) {
-        if (!batch.joints.empty()) layout.add_joints(batch, {problem.joints->joints(), kinds_}, problem.bodies, slot_, lanes);
+        if (!batch.joints.empty())
+            layout.add_joints(batch, {problem.joints->joints(), kinds_}, problem.bodies, slot_, lanes);
         layout.close(batch, lanes);
     };
     for (std::size_t k = 0; k < batches.size(); ++k) {

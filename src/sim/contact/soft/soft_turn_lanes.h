@@ -126,7 +126,8 @@ inline Vector solve_drives(const Hold& m, Turn& t, Vector& speed) {
     const auto slides = size > limit;
     if (any(Lanes(slides))) {
         const Vector rubs = t.rubs;
-        const Lanes mass = 1.0f / (rubs.x * t.gives.xx + rubs.y * t.gives.yy + rubs.z * t.gives.zz + (1.0f - m.present));
+        const Lanes none = rubs.x + rubs.y + rubs.z > 0.0f ? Lanes{} : all(1.0f);
+        const Lanes mass = 1.0f / (rubs.x * t.gives.xx + rubs.y * t.gives.yy + rubs.z * t.gives.zz + none);
         const Vector sliding = t.friction - mass * each(rubs, speed);
         const Lanes length = root(dot(sliding, sliding)), scale = length > limit ? limit / length : all(1.0f);
         held = {slides ? scale * sliding.x : held.x, slides ? scale * sliding.y : held.y,
@@ -149,8 +150,8 @@ inline Vector solve_turns(const Hold& m, Turn& t, bool driven, const Vector& spi
     if (!pushing && driven) change = solve_drives(m, t, speed);
     const auto limit = [&](Lanes Vector::*k, Lanes mass) {
         const Lanes was = t.impulse.*k;
-        const Lanes next = limited<pushing>(t.least.*k, t.most.*k, t.turned.*k, speed.*k, mass, was, rate, per_second,
-                                            leak);
+        const Lanes next =
+            limited<pushing>(t.least.*k, t.most.*k, t.turned.*k, speed.*k, mass, was, rate, per_second, leak);
         const Lanes by = (1.0f - t.locked.*k) * (next - was);
         t.impulse.*k += by;
         return by;

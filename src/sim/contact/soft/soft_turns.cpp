@@ -10,9 +10,9 @@ namespace {
 
 using Turns = soft::TurnRows<float>;
 
-constexpr double no_limit = 1e6;  // rad: far from any turn, and finite in products
+constexpr double no_limit = 1e6;      // rad: far from any turn, and finite in products
 constexpr double least_scale = 1e-6;  // of a coordinate that has no direction, as of a cross whose arms are in line
-constexpr double narrowest = 0.2;  // rad, swing below which the border of a cone counts as one of that radius
+constexpr double narrowest = 0.2;     // rad, swing below which the border of a cone counts as one of that radius
 
 bool damped(const JointAxis& axis) { return axis.spring && axis.spring->damping > 0.0; }
 
@@ -140,8 +140,7 @@ void pack_turns(const Joint& joint, const JointGeometry& g, const TurnAxes& axes
     double rough = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
         const JointAxis& axis = joint.axis(alike ? 3 : 3 + k);
-        softness[Eigen::Index(k)] =
-            damped(axis) ? units.mass / (units.substep * axis.spring->damping) : 0.0;
+        softness[Eigen::Index(k)] = damped(axis) ? units.mass / (units.substep * axis.spring->damping) : 0.0;
         const bool rubbing = !joint.locked(3 + k) && (axis.friction > 0.0 || bearing > 0.0);
         rubs[Eigen::Index(k)] = rubbing ? 1.0 : 0.0;
         if (rubbing) rough = std::max(rough, units.substep / units.mass * axis.friction);
@@ -169,8 +168,8 @@ void unpack_turns(const TurnAxes& axes, const Mat3& frame, const TurnUnits& unit
     const auto hand_over = [&](const soft::Vector3<float>& rows, Joint::Law law) {
         Vec3 impulse = vector_of(rows) / units.share;
         if (joint.turns_alike())
-            impulse = frame.transpose() *
-                      (impulse[0] * axes.axis[0] + impulse[1] * axes.axis[1] + impulse[2] * axes.axis[2]);
+            impulse =
+                frame.transpose() * (impulse[0] * axes.axis[0] + impulse[1] * axes.axis[1] + impulse[2] * axes.axis[2]);
         for (std::size_t k = 0; k < 3; ++k) joint.impulse[3 + k][law] = impulse[Eigen::Index(k)];
     };
     hand_over(lane.vector(&Turns::damping), Joint::spring);

@@ -14,11 +14,11 @@ soft::JointKind kind_in_sweeps(const Joint& joint);
 
 /// The axes of a joint's turns, one for each of the coordinates 3 to 5, of the poses at the start of a step.
 struct TurnAxes {
-    std::array<Vec3, 3> axis;            // unit, world
-    std::array<double, 3> scale;         // rate of the coordinate over that of the turn about the axis
-    std::array<double, 3> least, most;   // rad, about the axis
+    std::array<Vec3, 3> axis;           // unit, world
+    std::array<double, 3> scale;        // rate of the coordinate over that of the turn about the axis
+    std::array<double, 3> least, most;  // rad, about the axis
     std::array<bool, 3> locked{};
-    Vec3 bend = Vec3::Zero();            // as in soft::TurnRows
+    Vec3 bend = Vec3::Zero();  // as in soft::TurnRows
     double circle = 0.0, twist = 0.0;
     bool round = false;  // of a round cone
     double limit = 0.0;  // rad, its half angle
