@@ -54,6 +54,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
             {"camera", make_camera(run, arrays)},
             {"motion", std::move(motion.json)},
             {"energy", make_energy_data(run, arrays)},
+            {"joints", make_joint_data(run, arrays)},
             {"impacts", make_impact_data(run, precise, arrays)},
             {"all_impacts", run.all_impacts},
             {"contacts", make_contact_data(run, arrays)},

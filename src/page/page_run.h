@@ -47,6 +47,12 @@ struct EnergySample {
     double max_penetration = 0.0;                               // m, deepest overlap
 };
 
+/// A quantity of a joint over the run.
+struct JointColumn {
+    std::string name;            // as plots name it: "joint.hinge.force"
+    std::vector<double> values;  // by frame
+};
+
 struct PageRun {
     std::string label;       // tells it from the other runs of a clip; empty if it is the only one
     SceneDescription scene;  // with its own timing
@@ -56,6 +62,7 @@ struct PageRun {
     std::vector<BodyRecord> bodies;                    // by body
     std::vector<CameraDescription> cameras;            // one, or one a frame if it moves
     std::vector<EnergySample> energy;                  // by frame
+    std::vector<JointColumn> joints;                   // those that plots name
     std::vector<PageImpact> impacts;                   // in order of time; the strongest, if there are too many
     std::int64_t all_impacts = 0;                      // in the run
     std::vector<std::vector<ContactRecord>> contacts;  // by frame; those with the largest forces, if there are too many

@@ -13,7 +13,7 @@ namespace {
 
 using Json = ArrayStore::Json;
 
-constexpr int energy_bits = 40;           // of the mantissa: 1e-12 of the value
+constexpr int energy_bits = 40;           // of the mantissa, also of joints: 1e-12 of the value
 constexpr int impact_bits = 10;           // of many impacts: 5e-4
 constexpr double load_rounding = 1e-9;    // of the weight
 constexpr double load_resolution = 1e-7;  // of the largest component
@@ -99,6 +99,14 @@ Json make_energy_data(const PageRun& run, ArrayStore& arrays) {
     for (const auto& [name, member] : columns)
         json[name] = column(
             run.energy, [m = member](const EnergySample& sample) { return sample.*m; }, energy_bits, arrays);
+    return json;
+}
+
+Json make_joint_data(const PageRun& run, ArrayStore& arrays) {
+    Json json = Json::object();
+    for (const JointColumn& joint : run.joints)
+        json[joint.name] = column(
+            joint.values, [](double value) { return value; }, energy_bits, arrays);
     return json;
 }
 

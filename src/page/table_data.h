@@ -1,4 +1,4 @@
-// The tables of a run as numbers of the clip data: energy, impacts, contacts and loads.
+// The tables of a run as numbers of the clip data: energy, joints, impacts, contacts and loads.
 #pragma once
 
 #include "page/array_store.h"
@@ -7,6 +7,9 @@
 namespace tumble {
 
 ArrayStore::Json make_energy_data(const PageRun& run, ArrayStore& arrays);
+
+/// By the names of the columns.
+ArrayStore::Json make_joint_data(const PageRun& run, ArrayStore& arrays);
 
 /// `precise`: with all digits, and with the bodies' events, which must be part of the data.
 ArrayStore::Json make_impact_data(const PageRun& run, bool precise, ArrayStore& arrays);

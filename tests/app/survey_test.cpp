@@ -43,7 +43,7 @@ TEST(Survey, ShowsEachFrameOfTheClipToAllObservers) {
 }
 
 struct ImpactCounter : SurveyObserver {
-    void see(const Snapshot&, const Measurement&, const ContactRecords* records) override {
+    void see(const Snapshot&, const Survey&, const ContactRecords* records) override {
         impacts += records->impacts.size();
     }
     std::size_t impacts = 0;
@@ -66,6 +66,42 @@ TEST(Survey, ShowsTheImpactsOfAllIntervalsOfTheShutter) {
         survey(world, {21, intervals}, observers, interrupt);
         EXPECT_EQ(counter.impacts, 3u);  // at sqrt(2 h / g) (1 + 2 k) = 0.32, 0.96 and 1.60 s, h = 0.5 m
     }
+}
+
+// A rod on a hinge, from the horizontal: m g/(1 + m r^2/I) at the start, m g (1 + 2 m r^2/I_A) below the hinge.
+TEST(Survey, ShowsTheForceOfAJoint) {
+    SceneDescription scene;
+    scene.output.fps = 1000.0;
+    scene.simulation.integrator = IntegratorKind::exact;
+    BodyDescription rod;
+    rod.name = "rod.1";
+    rod.shape = BoxShape{{1.0, 0.1, 0.1}};
+    rod.mass = 2.0;
+    rod.position = {0.5, 0.0, 0.0};
+    scene.bodies = {rod};
+    JointDescription hinge;
+    hinge.name = "hinge.a";
+    hinge.type = JointType::hinge;
+    hinge.second = 0;
+    hinge.anchor_second = {-0.5, 0.0, 0.0};
+    hinge.frame_first = hinge.frame_second = Quat::FromTwoVectors(Vec3::UnitX(), Vec3::UnitZ());
+    hinge.turn[0].motion = JointAxis::Motion::free;
+    scene.joints = {hinge};
+
+    PlottedRun run("", parse_quantities("joint.hinge.a.force,joint.hinge.a.turn_x,joint.hinge.a.gap", scene));
+    EXPECT_TRUE(run.needs().joints);
+    EXPECT_FALSE(run.needs().measurement);
+    SurveyObserver* const observers[] = {&run};
+    World world(scene, 1);
+    Interrupt interrupt;
+    survey(world, {601, 1}, observers, interrupt);
+    const double weight = 2.0 * 9.81, inertia = 2.0 * 1.01 / 12.0, about_hinge = inertia + 2.0 * 0.25;
+    EXPECT_NEAR(run.values[0][0], weight / (1.0 + 0.5 / inertia), 1e-3);
+    EXPECT_NEAR(std::ranges::max(run.values[0]), weight * (1.0 + 1.0 / about_hinge), 1e-3);
+    EXPECT_LT(run.values[1].back(), -1.5);
+    EXPECT_LT(std::ranges::max(run.values[2]), 1e-14);
+    EXPECT_EQ(make_panels(std::span(&run, 1), false)[0].series[0].label, "hinge.a");
+    EXPECT_THROW(parse_quantities("joint.hinge.a.turn_y", scene), InputError);
 }
 
 TEST(Survey, PlotsHaveAPanelForEachUnitAndASeriesForEachRun) {

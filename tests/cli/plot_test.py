@@ -3,6 +3,14 @@
 import program
 
 SCENE = program.SCENE
+HINGE = """
+[[joint]]
+name = "hinge"
+type = "hinge"
+bodies = ["world", "crate"]
+anchor = [0.0, 4.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+"""
 
 
 class Plot(program.ProgramTest):
@@ -49,6 +57,14 @@ class Plot(program.ProgramTest):
         self.refused("needs two runs or more", *scene, "energy", "--difference")
         self.refused("must end with .svg, .png or .pdf", "scene.toml", "--of", "energy", "-o", "p.jpg")
         self.refused("--size", *scene, "energy", "--size", "0x10")
+
+    def test_quantities_of_joints(self):
+        self.write("scene.toml", SCENE + HINGE)
+        self.check(0, "plot", "scene.toml", "--of", "joint.hinge.force,joint.hinge.turn_x,total", "-o", "p.png")
+        (self.folder / "p.png").unlink()
+        scene = ("scene.toml", "-o", "p.svg", "--of")
+        self.refused('"joint.hing.force": no joint has the name "hing" (did you mean "hinge"?)', *scene, "joint.hing.force")
+        self.refused("this joint locks the coordinate; its free ones: turn_x", *scene, "joint.hinge.turn_z")
 
 
 if __name__ == "__main__":

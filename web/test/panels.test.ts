@@ -4,7 +4,7 @@ import { test } from "node:test";
 import type { Impact, Mat3, Run, Vec3 } from "../src/data/clip.ts";
 import { impulse_terms, solve_impulse } from "../src/panels/impulse_equation.ts";
 import { add, cross, dot, inverse, multiply, scaled, transform } from "../src/panels/linear.ts";
-import { read_subjects } from "../src/panels/quantities.ts";
+import { joint_column, read_subjects } from "../src/panels/quantities.ts";
 import { energy_stack, plot_series } from "../src/panels/series.ts";
 import { number_text, tick_text, trimmed_text } from "../src/ui/format.ts";
 import { moment_at, moment_text, moments_of, next_moment, previous_moment } from "../src/ui/moments.ts";
@@ -109,6 +109,17 @@ test("names of plots are read as `tumble plot` has them", () => {
   const named: Run = { ...run, scene: { ...run.scene, bodies: run.scene.bodies.map((body, i) => ({ ...body, name: ["a", "ball.v2", "c"][i] })) } };
   assert.deepEqual(read_subjects("energy, body.ball.v2.spin,total,body.none.y,nonsense", named),
     [{ kind: "energy" }, { kind: "body", quantity: "spin", body: 1 }, { kind: "scene", quantity: "total" }]);
+});
+
+test("a column of a joint is a plot, linear between frames", () => {
+  const name = "joint.arm.2.turn_x_speed";
+  const jointed: Run = { ...run, joints: new Map([[name, Float64Array.from({ length: run.frames }, (_, frame) => 2 * frame)]]) };
+  assert.deepEqual(read_subjects(`${name},joint.arm.2.force`, jointed), [{ kind: "joint", quantity: name }]);
+  assert.deepEqual(joint_column(name), { label: "speed about x of arm.2", unit: "rad/s" });
+  const { unit, series } = plot_series([jointed, run], { kind: "joint", quantity: name });
+  assert.equal(unit, "rad/s");
+  assert.ok(Math.abs(series[0].at(3.5 / run.fps, false) - 7) < 1e-9);
+  assert.ok(Number.isNaN(series[1].at(0, false)), "a run without the joint has no curve");
 });
 
 test("a state tells each listener once, and leaves the side of an impact with the moment", () => {

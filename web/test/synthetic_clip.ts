@@ -247,6 +247,7 @@ export function make_synthetic_run(restitution: number): Run {
     },
     motion,
     energy: make_energy(motion, contacts, impacts),
+    joints: new Map(),
     impacts,
     all_impacts: impacts.length,
     contacts,

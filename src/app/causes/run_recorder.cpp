@@ -47,7 +47,7 @@ PanelRecorder::PanelRecorder(const ClipPanel& panel, const std::vector<std::int6
     blocks_.assign(moving_.size(), 0);
 }
 
-void PanelRecorder::see(const Snapshot& snapshot, const Measurement&, const ContactRecords* records) {
+void PanelRecorder::see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) {
     if (next_ == 0)
         for (const BodyState& body : snapshot.bodies) record_.start.push_back({body.origin, body.orientation});
     add_trace(snapshot);

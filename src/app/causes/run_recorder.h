@@ -20,7 +20,7 @@ public:
     /// `frames`: those whose poses are recorded, ascending. `length`: frames that will be seen at most.
     PanelRecorder(const ClipPanel& panel, const std::vector<std::int64_t>& frames, std::int64_t length);
 
-    void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords* records) override;
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) override;
 
     /// A panel that has ended before a recorded frame has its last pose there.
     PanelRecord finish();

@@ -28,7 +28,7 @@ public:
     ExportObserver(MotionRecorder& motion, const CameraDescription& camera, std::int64_t moments, bool quiet)
         : motion_(motion), camera_(camera), progress_(moments, quiet) {}
 
-    void see(const Snapshot& snapshot, const Measurement&, const ContactRecords* records) override {
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) override {
         const CameraDescription camera = camera_.at(snapshot);
         if (seen_ == 0) start_ = camera;
         motion_.add(snapshot, camera, records);

@@ -91,6 +91,7 @@ PageClip record_page(const PageScenes& scenes, int threads, bool quiet, Interrup
         RecordSettings settings;
         settings.threads = threads;
         settings.label = scenes.variants[i].label;
+        settings.plot = scenes.scenes[i].overlay.plot;
         settings.progress = [&](std::int64_t done) { progress.update(before + done); };
         clip.runs.push_back(record_run(scenes.scenes[i], settings, interrupt));
         before += scenes.scenes[i].frame_count();

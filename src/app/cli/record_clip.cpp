@@ -24,7 +24,7 @@ struct RecordedPanel {
           run({.world = &world, .end = scenes.ends[index], .overlay = overlay.get()}, recording.shutter),
           poses(*scenes.composition.panels[index].scene),
           observers(scenes.observers(index)),
-          measures(std::ranges::any_of(observers, [](const auto* o) { return o->needs_measurement(); })) {
+          needs(needs_of(observers)) {
         if (recording.motion) motion.emplace(overlay ? MotionDetail::states : MotionDetail::poses);
         if (recording.records && !world.records_contacts()) world.record_contacts();
     }
@@ -38,17 +38,17 @@ struct RecordedPanel {
     std::optional<FrameRecorder> motion;
     PoseFilter poses;
     std::vector<SurveyObserver*> observers;
-    bool measures;
+    SurveyNeeds needs;
     std::optional<PanelState> ended;  // state before its last frame, which later frames repeat
 };
 
 void RecordedPanel::take(std::int64_t frame, std::int64_t clip_end) {
     const bool runs = run.runs(frame);
     if (runs && !run.runs(frame + 1) && frame + 1 < clip_end) ended = run.save();
-    const Measurement measurement = runs && measures ? world.measure() : Measurement{};
+    const Survey survey = runs ? Survey(world, needs) : Survey();
     PanelPoses samples = run.next(frame);
     if (runs)
-        for (SurveyObserver* observer : observers) observer->see(samples.front(), measurement, run.records());
+        for (SurveyObserver* observer : observers) observer->see(samples.front(), survey, run.records());
     if (runs && motion) motion->add(samples, run.records());
     for (Snapshot& sample : samples) poses.follow(sample);
 }

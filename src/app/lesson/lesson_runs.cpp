@@ -117,6 +117,7 @@ void LessonRuns::run_stage(std::size_t lesson, std::size_t stage) {
         CheckedRun checked(numbers, scenes[i].scene);
         RecordSettings settings;
         settings.label = scenes[i].label;
+        settings.plot = block.options.plot.empty() ? scenes[i].scene.overlay.plot : block.options.plot;
         settings.observers = {&checked.observer()};
         clip.runs.push_back(record_run(scenes[i].scene, settings, interrupt));
         for (std::size_t k = 0; k < of_run.size(); ++k)

@@ -1,5 +1,6 @@
 #include "app/page/record_run.h"
 
+#include "app/plots/plotted_run.h"
 #include "render/camera/camera_animation.h"
 #include "scene/keys/settings.h"
 #include "sim/world.h"
@@ -47,8 +48,8 @@ public:
           progress_(progress),
           contacts_a_frame_(std::size_t(std::max<std::int64_t>(least_contacts, most_contacts / run.frames))) {}
 
-    bool needs_measurement() const override { return true; }
-    void see(const Snapshot& snapshot, const Measurement& measured, const ContactRecords* records) override;
+    SurveyNeeds needs() const override { return {.measurement = true}; }
+    void see(const Snapshot& snapshot, const Survey& survey, const ContactRecords* records) override;
     void finish();
 
 private:
@@ -66,10 +67,10 @@ private:
     std::vector<std::size_t> events_;  // of the frame, by struck body: the body's event
 };
 
-void RunObserver::see(const Snapshot& snapshot, const Measurement& measured, const ContactRecords* records) {
+void RunObserver::see(const Snapshot& snapshot, const Survey& survey, const ContactRecords* records) {
     add_bodies(snapshot);
     if (run_.cameras.empty() || run_.scene.camera.moves()) run_.cameras.push_back(camera_.at(snapshot));
-    run_.energy.push_back(energy_of(measured, records->energy));
+    run_.energy.push_back(energy_of(survey.measurement, records->energy));
     add_impacts(*records);
     add_contacts(records->contacts);
     run_.loads.push_back(records->loads);
@@ -138,6 +139,13 @@ void RunObserver::finish() {
     run_.scales = scales_.scales();
 }
 
+std::vector<Quantity> joint_quantities_of(const std::string& plot, const SceneDescription& scene) {
+    if (plot.empty()) return {};
+    std::vector<Quantity> quantities = parse_quantities(plot, scene);
+    std::erase_if(quantities, [](const Quantity& quantity) { return !quantity.needs.joints; });
+    return quantities;
+}
+
 std::string integrator_name(const SimulationSettings& simulation) {
     for (const auto& choice : integrator_choices(simulation.method))
         if (choice.value == simulation.integrator) return std::string(choice.name);
@@ -157,10 +165,13 @@ PageRun record_run(const SceneDescription& scene, const RecordSettings& settings
     world.record_contacts();
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) run.reports.push_back(world.report(i));
     RunObserver observer(run, settings.progress);
-    std::vector<SurveyObserver*> observers{&observer};
+    PlottedRun joints("", joint_quantities_of(settings.plot, scene));
+    std::vector<SurveyObserver*> observers{&observer, &joints};
     observers.insert(observers.end(), settings.observers.begin(), settings.observers.end());
     survey(world, {run.frames, 1}, observers, interrupt);
     observer.finish();
+    for (std::size_t k = 0; k < joints.quantities.size(); ++k)
+        run.joints.push_back({joints.quantities[k].name, std::move(joints.values[k])});
     return run;
 }
 

@@ -17,9 +17,11 @@ struct RecordSettings {
     std::string label;                           // of the run, among several
     std::function<void(std::int64_t)> progress;  // called with the number of frames done; may be empty
     std::vector<SurveyObserver*> observers;      // that see the frames too
+    // Quantities of plots, separated by commas: the page has those of joints that are named here, and of bodies all.
+    std::string plot;
 };
 
-/// Throws RunError after an interrupt, or if the simulation fails.
+/// Throws RunError after an interrupt, or if the simulation fails; InputError for a plot that the scene does not have.
 PageRun record_run(const SceneDescription& scene, const RecordSettings& settings, Interrupt& interrupt);
 
 }  // namespace tumble

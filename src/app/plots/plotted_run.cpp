@@ -21,14 +21,18 @@ std::string line_label(const PlottedRun& run, const Quantity& quantity, bool sev
 PlottedRun::PlottedRun(std::string run_label, std::vector<Quantity> of_run)
     : label(std::move(run_label)), quantities(std::move(of_run)), values(quantities.size()) {}
 
-bool PlottedRun::needs_measurement() const {
-    return std::ranges::any_of(quantities, [](const Quantity& q) { return q.needs_measurement; });
+SurveyNeeds PlottedRun::needs() const {
+    SurveyNeeds needs;
+    for (const Quantity& quantity : quantities) needs = needs | quantity.needs;
+    return needs;
 }
 
-void PlottedRun::see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords*) {
+void PlottedRun::see(const Snapshot& snapshot, const Survey& survey, const ContactRecords*) {
     times.push_back(snapshot.time);
-    for (std::size_t k = 0; k < quantities.size(); ++k)
-        values[k].push_back(quantities[k].value({snapshot, measurement}));
+    for (std::size_t k = 0; k < quantities.size(); ++k) {
+        values[k].push_back(quantities[k].value({snapshot, survey}));
+        if (quantities[k].mean_of_frame && times.size() == 2) values[k][0] = values[k][1];
+    }
 }
 
 void PlottedRun::subtract(const PlottedRun& other) {
@@ -67,9 +71,8 @@ std::vector<Panel> make_panels(std::span<const PlottedRun> runs, bool several, c
             panel->series.push_back(std::move(series));
         }
     }
-    // With a single quantity the panel names its body.
-    if (quantities.size() == 1 && !several && quantities[0].label != quantities[0].panel &&
-        !quantities[0].needs_measurement)
+    // With a single quantity the panel names its body or joint.
+    if (quantities.size() == 1 && !several && quantities[0].of_part)
         panels[0].title = fmt::format("{} of {}", panels[0].title, quantities[0].label);
     return panels;
 }

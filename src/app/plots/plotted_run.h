@@ -16,8 +16,8 @@ public:
     /// `label`: its name among several runs.
     PlottedRun(std::string label, std::vector<Quantity> quantities);
 
-    bool needs_measurement() const override;
-    void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords*) override;
+    SurveyNeeds needs() const override;
+    void see(const Snapshot& snapshot, const Survey& survey, const ContactRecords*) override;
 
     /// Subtracts the values of another run at the same times; nothing is left where that has none.
     void subtract(const PlottedRun& other);
@@ -25,7 +25,7 @@ public:
     std::string label;
     std::vector<Quantity> quantities;
     std::vector<double> times;                // s
-    std::vector<std::vector<double>> values;  // by quantity
+    std::vector<std::vector<double>> values;  // by quantity; means over frames have the second one's at the first
 };
 
 /// How many panels the quantities take.

@@ -5,9 +5,11 @@
 #include "scene/toml/error_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -47,43 +49,126 @@ constexpr std::array body_quantities{
     BodyQuantity{"spin", "|ω| (rad/s)", [](const BodyState& b) { return b.angular_velocity.norm(); }},
 };
 
+struct JointQuantity {
+    std::string_view name, panel;
+    double (*value)(const JointState&);
+    std::optional<std::size_t> coordinate = {};  // index into JointState::free
+    bool mean_of_frame = false;
+};
+// The columns of `simulate --joints`, and the lengths of force and torque.
+constexpr std::array joint_quantities{
+    JointQuantity{"move_x", "displacement along x (m)", [](const JointState& j) { return j.position[0]; }, 0},
+    JointQuantity{"move_y", "displacement along y (m)", [](const JointState& j) { return j.position[1]; }, 1},
+    JointQuantity{"move_z", "displacement along z (m)", [](const JointState& j) { return j.position[2]; }, 2},
+    JointQuantity{"turn_x", "angle about x (rad)", [](const JointState& j) { return j.position[3]; }, 3},
+    JointQuantity{"turn_y", "angle about y (rad)", [](const JointState& j) { return j.position[4]; }, 4},
+    JointQuantity{"turn_z", "angle about z (rad)", [](const JointState& j) { return j.position[5]; }, 5},
+    JointQuantity{"move_x_speed", "speed along x (m/s)", [](const JointState& j) { return j.speed[0]; }, 0},
+    JointQuantity{"move_y_speed", "speed along y (m/s)", [](const JointState& j) { return j.speed[1]; }, 1},
+    JointQuantity{"move_z_speed", "speed along z (m/s)", [](const JointState& j) { return j.speed[2]; }, 2},
+    JointQuantity{"turn_x_speed", "speed about x (rad/s)", [](const JointState& j) { return j.speed[3]; }, 3},
+    JointQuantity{"turn_y_speed", "speed about y (rad/s)", [](const JointState& j) { return j.speed[4]; }, 4},
+    JointQuantity{"turn_z_speed", "speed about z (rad/s)", [](const JointState& j) { return j.speed[5]; }, 5},
+    JointQuantity{"force", "force of joints (N)", [](const JointState& j) { return j.mean_force.norm(); }, {}, true},
+    JointQuantity{"fx", "F_x of joints (N)", [](const JointState& j) { return j.mean_force.x(); }, {}, true},
+    JointQuantity{"fy", "F_y of joints (N)", [](const JointState& j) { return j.mean_force.y(); }, {}, true},
+    JointQuantity{"fz", "F_z of joints (N)", [](const JointState& j) { return j.mean_force.z(); }, {}, true},
+    JointQuantity{
+        "torque", "torque of joints (N m)", [](const JointState& j) { return j.mean_torque.norm(); }, {}, true},
+    JointQuantity{"tx", "τ_x of joints (N m)", [](const JointState& j) { return j.mean_torque.x(); }, {}, true},
+    JointQuantity{"ty", "τ_y of joints (N m)", [](const JointState& j) { return j.mean_torque.y(); }, {}, true},
+    JointQuantity{"tz", "τ_z of joints (N m)", [](const JointState& j) { return j.mean_torque.z(); }, {}, true},
+    JointQuantity{"gap", "gap of joints (m)", [](const JointState& j) { return j.gap; }},
+};
+
 [[noreturn]] void fail(std::string_view name, const std::string& problem) {
     throw InputError(fmt::format("\"{}\": {}", safe_text(name), problem));
 }
 
-Quantity of_scene(const SceneQuantity& q) {
-    return {std::string(q.label), std::string(q.panel),
-            [value = q.value](const Sample& s) { return value(s.measurement); }, true};
+template <class Items>
+std::vector<std::string_view> names_of(const Items& items) {
+    std::vector<std::string_view> names;
+    for (const auto& item : items) names.push_back(item.name);
+    return names;
 }
 
-/// "body.NAME.COMPONENT"; the name may have dots.
-Quantity of_body(std::string_view text, const SceneDescription& scene) {
-    const std::string_view path = text.substr(std::string_view("body.").size());
+Quantity of_scene(const SceneQuantity& q) {
+    return {.name = std::string(q.name),
+            .label = std::string(q.label),
+            .panel = std::string(q.panel),
+            .value = [value = q.value](const Sample& s) { return value(s.survey.measurement); },
+            .needs = {.measurement = true}};
+}
+
+template <class Part, class PartQuantity>
+struct Found {
+    std::size_t index;  // of the body or joint
+    const Part& part;
+    const PartQuantity& quantity;
+};
+
+/// "KIND.NAME.QUANTITY"; the name may have dots.
+template <class Part, class PartQuantity, std::size_t n>
+Found<Part, PartQuantity> find_part(std::string_view text, std::string_view kind, const std::vector<Part>& parts,
+                                    const std::array<PartQuantity, n>& quantities) {
+    const std::string_view path = text.substr(kind.size() + 1);
     const std::size_t dot = path.rfind('.');
-    if (dot == std::string_view::npos || dot == 0) fail(text, "must be body.NAME.QUANTITY, as in body.ball.y");
+    if (dot == std::string_view::npos || dot == 0)
+        fail(text, fmt::format("must be {0}.NAME.QUANTITY, as in {0}.{1}.{2}", kind,
+                               parts.empty() ? "NAME" : safe_text(parts.front().name), quantities[0].name));
     const std::string_view name = path.substr(0, dot), component = path.substr(dot + 1);
-    const auto body = std::find_if(scene.bodies.begin(), scene.bodies.end(),
-                                   [&](const BodyDescription& b) { return b.name == name; });
-    if (body == scene.bodies.end()) {
-        std::vector<std::string_view> names;
-        for (const BodyDescription& b : scene.bodies) names.push_back(b.name);
-        fail(text, fmt::format("no body has the name \"{}\"{}", safe_text(name), suggestion(name, names)));
+    const auto part = std::ranges::find(parts, name, &Part::name);
+    if (part == parts.end())
+        fail(text,
+             fmt::format("no {} has the name \"{}\"{}", kind, safe_text(name), suggestion(name, names_of(parts))));
+    const auto quantity = std::ranges::find(quantities, component, &PartQuantity::name);
+    if (quantity == quantities.end())
+        fail(text, fmt::format("a {} has no quantity \"{}\"{}", kind, safe_text(component),
+                               suggestion(component, names_of(quantities))));
+    return {std::size_t(part - parts.begin()), *part, *quantity};
+}
+
+Quantity of_body(std::string_view text, const SceneDescription& scene) {
+    const auto found = find_part(text, "body", scene.bodies, body_quantities);
+    return {.name = std::string(text),
+            .label = found.part.name,
+            .panel = std::string(found.quantity.panel),
+            .value = [index = found.index,
+                      value = found.quantity.value](const Sample& s) { return value(s.snapshot.bodies[index]); },
+            .needs = {},
+            .of_part = true};
+}
+
+bool is_free(const JointDescription& joint, std::size_t coordinate) {
+    const JointAxis& axis = coordinate < 3 ? joint.move[coordinate] : joint.turn[coordinate - 3];
+    return axis.motion != JointAxis::Motion::locked;
+}
+
+Quantity of_joint(std::string_view text, const SceneDescription& scene) {
+    const auto found = find_part(text, "joint", scene.joints, joint_quantities);
+    if (const auto coordinate = found.quantity.coordinate; coordinate && !is_free(found.part, *coordinate)) {
+        std::string free;
+        for (std::size_t k = 0; k < 6; ++k)
+            if (is_free(found.part, k)) free += fmt::format("{}{}", free.empty() ? "" : ", ", joint_quantities[k].name);
+        fail(text, fmt::format("this joint locks the coordinate; its free ones: {}", free.empty() ? "none" : free));
     }
-    const auto found = std::find_if(body_quantities.begin(), body_quantities.end(),
-                                    [&](const BodyQuantity& q) { return q.name == component; });
-    if (found == body_quantities.end()) {
-        std::vector<std::string_view> names;
-        for (const BodyQuantity& q : body_quantities) names.push_back(q.name);
-        fail(text, fmt::format("a body has no quantity \"{}\"{}", safe_text(component), suggestion(component, names)));
-    }
-    const auto index = std::size_t(body - scene.bodies.begin());
-    return {body->name, std::string(found->panel),
-            [index, value = found->value](const Sample& s) { return value(s.snapshot.bodies[index]); }, false};
+    return {.name = std::string(text),
+            .label = found.part.name,
+            .panel = std::string(found.quantity.panel),
+            .value = [index = found.index,
+                      value = found.quantity.value](const Sample& s) { return value(s.survey.joints[index]); },
+            .needs = {.joints = true},
+            .of_part = true,
+            .mean_of_frame = found.quantity.mean_of_frame};
 }
 
 void add(std::string_view text, const SceneDescription& scene, std::vector<Quantity>& quantities) {
     if (text.starts_with("body.")) {
         quantities.push_back(of_body(text, scene));
+        return;
+    }
+    if (text.starts_with("joint.")) {
+        quantities.push_back(of_joint(text, scene));
         return;
     }
     bool known = false;
@@ -96,7 +181,7 @@ void add(std::string_view text, const SceneDescription& scene, std::vector<Quant
     if (known) return;
     std::vector<std::string_view> names{"energy"};
     for (const SceneQuantity& q : scene_quantities) names.push_back(q.name);
-    fail(text, "unknown quantity" + suggestion(text, names) + "; of a body: body.NAME.y");
+    fail(text, "unknown quantity" + suggestion(text, names) + "; of a body: body.NAME.y; of a joint: joint.NAME.force");
 }
 
 }  // namespace
@@ -114,12 +199,11 @@ std::vector<Quantity> parse_quantities(std::string_view list, const SceneDescrip
 }
 
 std::string quantity_help() {
-    std::string of_scenes = "energy", of_bodies;
-    for (const SceneQuantity& q : scene_quantities) of_scenes += fmt::format(" {}", q.name);
-    for (const BodyQuantity& q : body_quantities) of_bodies += fmt::format(" {}", q.name);
+    const auto list = [](const auto& quantities) { return fmt::format("{}", fmt::join(names_of(quantities), " ")); };
     return fmt::format(
-        "Quantities of a scene: {}\n(energy: kinetic, potential and total); of a body, body.NAME.{{...}}:{}", of_scenes,
-        of_bodies);
+        "Quantities of a scene: energy {}\n(energy: kinetic, potential and total)\nOf a body, body.NAME.{{...}}: {}\n"
+        "Of a joint, joint.NAME.{{...}}: {}",
+        list(scene_quantities), list(body_quantities), list(joint_quantities));
 }
 
 }  // namespace tumble

@@ -1,9 +1,8 @@
-// Quantities of a run that plots can show, by the names of --of: sums over the scene, and values of one body.
+// Quantities of a run that plots can show, by the names of --of: sums over the scene, and values of a body or a joint.
 #pragma once
 
+#include "app/survey/survey.h"
 #include "scene/description/description.h"
-#include "sim/snapshot/report.h"
-#include "sim/snapshot/snapshot.h"
 
 #include <functional>
 #include <string>
@@ -15,18 +14,21 @@ namespace tumble {
 /// A run at one frame time.
 struct Sample {
     const Snapshot& snapshot;
-    const Measurement& measurement;  // empty unless a quantity needs it
+    const Survey& survey;  // with the needs of the quantities
 };
 
 struct Quantity {
+    std::string name;   // as in the list: "body.ball.y"
     std::string label;  // for its line: "kinetic", "ball"
     std::string panel;  // quantities with the same text share a panel; it is the panel's title, with the unit
     std::function<double(const Sample&)> value;
-    bool needs_measurement = false;
+    SurveyNeeds needs;
+    bool of_part = false;        // of a body or a joint, which its label names
+    bool mean_of_frame = false;  // over the frame that ends at the time; nothing ends at the first one
 };
 
-/// The quantities of a list separated by commas: "energy,body.ball.y". Throws InputError for an unknown name or body,
-/// with the nearest known one.
+/// The quantities of a list separated by commas: "energy,body.ball.y". Throws InputError for an unknown name, body or
+/// joint, with the nearest known one, and for a locked coordinate.
 std::vector<Quantity> parse_quantities(std::string_view list, const SceneDescription& scene);
 
 /// The names for the help, a line for each kind.

@@ -8,7 +8,7 @@ namespace tumble {
 
 struct ScaleObserver : SurveyObserver {
     explicit ScaleObserver(const SceneDescription& scene) : sizes(scene) {}
-    void see(const Snapshot& snapshot, const Measurement&, const ContactRecords* records) override {
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) override {
         sizes.add(snapshot, records);
     }
     ScaleSurvey sizes;

@@ -3,19 +3,27 @@
 #include "core/error.h"
 #include "sim/frames/frame_sequence.h"
 
-#include <algorithm>
-
 namespace tumble {
+
+Survey::Survey(const World& world, const SurveyNeeds& needs) {
+    if (needs.measurement) measurement = world.measure();
+    if (needs.joints) joints = world.joint_states();
+}
+
+SurveyNeeds needs_of(std::span<SurveyObserver* const> observers) {
+    SurveyNeeds needs;
+    for (const SurveyObserver* observer : observers) needs = needs | observer->needs();
+    return needs;
+}
 
 void survey(World& world, const SurveyFrames& frames, std::span<SurveyObserver* const> observers,
             Interrupt& interrupt) {
-    const bool measures =
-        std::ranges::any_of(observers, [](const SurveyObserver* observer) { return observer->needs_measurement(); });
+    const SurveyNeeds needs = needs_of(observers);
     FrameSequence sequence(world, {frames.intervals, 1});
     for (std::int64_t n = 0; n < frames.count; ++n) {
         const Snapshot snapshot = sequence.next_start();
-        const Measurement measurement = measures ? world.measure() : Measurement{};
-        for (SurveyObserver* observer : observers) observer->see(snapshot, measurement, sequence.records());
+        const Survey seen(world, needs);
+        for (SurveyObserver* observer : observers) observer->see(snapshot, seen, sequence.records());
         if (interrupt.pending()) throw Interrupted();
     }
 }

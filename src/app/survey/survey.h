@@ -8,17 +8,37 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace tumble {
+
+/// Numbers of a world that cost time, and that a frame has only if an observer needs them.
+struct SurveyNeeds {
+    bool measurement = false, joints = false;
+    SurveyNeeds operator|(const SurveyNeeds& other) const {
+        return {measurement || other.measurement, joints || other.joints};
+    }
+};
+
+/// The numbers of those needs, at the world's present time.
+struct Survey {
+    Survey() = default;
+    Survey(const World& world, const SurveyNeeds& needs);
+
+    Measurement measurement;         // empty unless needed
+    std::vector<JointState> joints;  // of all joints in the scene's order; empty unless needed
+};
 
 /// Sees every frame of a run in order.
 class SurveyObserver {
 public:
     virtual ~SurveyObserver() = default;
-    virtual bool needs_measurement() const { return false; }
-    /// The measurement is empty unless an observer needs it. `records`: of the frame (frame_sequence.h), if the world records contacts, else null.
-    virtual void see(const Snapshot& snapshot, const Measurement& measurement, const ContactRecords* records) = 0;
+    virtual SurveyNeeds needs() const { return {}; }
+    /// `records`: of the frame (frame_sequence.h), if the world records contacts, else null.
+    virtual void see(const Snapshot& snapshot, const Survey& survey, const ContactRecords* records) = 0;
 };
+
+SurveyNeeds needs_of(std::span<SurveyObserver* const> observers);
 
 /// Frames of the clip, each as many frames of the world as the shutter has intervals.
 struct SurveyFrames {

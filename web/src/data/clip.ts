@@ -31,6 +31,8 @@ export interface Run {
   scene: Scene;
   motion: Motion;
   energy: EnergyTable;
+  /** Quantities of joints by frame, by their names in `--plot`: "joint.hinge.force". Those of the scene's plots only. */
+  joints: Map<string, Float64Array>;
   /** In order of time; of too many, the strongest. */
   impacts: Impact[];
   /** How many there were in the run. */

@@ -5,7 +5,7 @@ import type { ClipHeader, RunHeader } from "./header.ts";
 import { inflate } from "./inflate.ts";
 import { DecodedMotion, read_events } from "./motion.ts";
 import { read_mesh, read_scene } from "./scene.ts";
-import { read_contacts, read_energy, read_impacts, read_struck_times, read_loads } from "./tables.ts";
+import { read_contacts, read_energy, read_impacts, read_joints, read_loads, read_struck_times } from "./tables.ts";
 
 const known_format = 1;
 
@@ -21,6 +21,7 @@ function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[])
     scene: read_scene(run, reader, meshes),
     motion,
     energy: read_energy(run, reader),
+    joints: read_joints(run, reader),
     impacts: read_impacts(run, reader, events, motion),
     all_impacts: run.all_impacts,
     contacts: read_contacts(run, reader),

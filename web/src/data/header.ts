@@ -22,6 +22,7 @@ export interface RunHeader {
   camera: Camera & { quantum?: number; frames?: PredictedReference[] };
   motion: MotionHeader;
   energy: Record<keyof EnergyTable, ArrayReference>;
+  joints: Record<string, ArrayReference>;
   impacts: ImpactsHeader;
   all_impacts: number;
   contacts: ContactsHeader;

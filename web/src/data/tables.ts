@@ -1,4 +1,4 @@
-// Energy, impacts, contacts and loads of a run (src/page/table_data.h).
+// Energy, joints, impacts, contacts and loads of a run (src/page/table_data.h).
 import { features, nobody, type ContactTable, type EnergyTable, type Impact, type LoadTable, type Vec3 } from "./clip.ts";
 import { sum_differences, type ArrayReference, type Container } from "./container.ts";
 import type { RunHeader } from "./header.ts";
@@ -11,6 +11,10 @@ type Reader = Container<unknown>;
 export function read_energy(run: RunHeader, reader: Reader): EnergyTable {
   const columns = Object.entries(run.energy).map(([name, array]) => [name, reader.doubles(array)]);
   return Object.fromEntries(columns);
+}
+
+export function read_joints(run: RunHeader, reader: Reader): Map<string, Float64Array> {
+  return new Map(Object.entries(run.joints).map(([name, array]) => [name, reader.doubles(array)]));
 }
 
 /** When the impulse of an impact acts: at its time, or at the start of the step that resolves it. */

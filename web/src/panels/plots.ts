@@ -5,7 +5,7 @@ import { icon } from "../ui/icons.ts";
 import type { PlayerState } from "../ui/player_state.ts";
 import { on_theme } from "../ui/theme.ts";
 import { Plot } from "./plot.ts";
-import { body_quantities, read_subjects, scene_quantities, type PlotSubject } from "./quantities.ts";
+import { body_quantities, joint_column, read_subjects, scene_quantities, type PlotSubject } from "./quantities.ts";
 
 interface Row {
   plot: Plot;
@@ -58,17 +58,20 @@ export class Plots {
 
   private add(first: PlotSubject): HTMLElement {
     let subject = first;
-    const bodies = this.state.run.scene.bodies;
+    const bodies = this.state.run.scene.bodies, joints = [...this.state.run.joints.keys()];
     const quantity = h("select", { class: "tp-select tp-quiet", "aria-label": "Quantity" },
       h("optgroup", { label: "Scene" }, h("option", { value: "energy" }, "energies, stacked"),
         ...[...scene_quantities].map(([key, each]) => h("option", { value: `scene.${key}` }, each.label))),
+      joints.length > 0 && h("optgroup", { label: "Joint" },
+        ...joints.map((name) => h("option", { value: `joint.${name}` }, joint_column(name).label))),
       bodies.length > 0 && h("optgroup", { label: "Body" },
         ...[...body_quantities].map(([key, each]) => h("option", { value: `body.${key}` }, each.label))));
     const body = h("select", { class: "tp-select tp-quiet", "aria-label": "Body of the plot" },
       ...bodies.map((each, index) => h("option", { value: index }, each.name)));
     const of = h("span", { class: "tp-of" }, "of");
     const name = (): string => (subject.kind === "body" ? `${body_quantities.get(subject.quantity)!.label} of ${bodies[subject.body].name}` :
-      subject.kind === "scene" ? scene_quantities.get(subject.quantity)!.label : "energies");
+      subject.kind === "scene" ? scene_quantities.get(subject.quantity)!.label :
+      subject.kind === "joint" ? joint_column(subject.quantity).label : "energies");
     const plot = new Plot(this.state, this.actions, first, name);
     const show = (): void => {
       quantity.value = subject_key(subject);
@@ -77,9 +80,10 @@ export class Plots {
       body.hidden = of.hidden = !of_body;
     };
     const choose = (): void => {
-      const [kind, key] = quantity.value.split(".");
-      subject = kind === "energy" ? { kind: "energy" } : kind === "scene" ? { kind: "scene", quantity: key } :
-        { kind: "body", quantity: key, body: Number(body.value) };
+      const dot = quantity.value.indexOf(".");
+      const kind = quantity.value.slice(0, dot), key = quantity.value.slice(dot + 1);
+      subject = kind === "body" ? { kind, quantity: key, body: Number(body.value) } :
+        kind === "scene" || kind === "joint" ? { kind, quantity: key } : { kind: "energy" };
       show();
       plot.rebuild(subject);
     };

@@ -1,4 +1,4 @@
-// Quantities that plots show: those of `tumble plot --of`, and more of a body.
+// Quantities that plots show: those of `tumble plot --of`, and more of a body. Of joints those that the page has.
 import type { BodyState, EnergyTable, Run, Vec3 } from "../data/clip.ts";
 import { add, cross, dot, norm, transform, turned } from "./linear.ts";
 
@@ -77,10 +77,39 @@ export const scene_quantities = new Map<string, SceneQuantity>([
   ["penetration", column("deepest overlap", "m", (e, i) => e.max_penetration[i])],
 ]);
 
-/** A plot: the stacked energies, a quantity of the scene, or one of a body. */
+interface JointQuantity {
+  label: string;
+  unit: string;
+}
+
+function joint_components(prefix: string, suffix: string, label: string, unit: string): [string, JointQuantity][] {
+  return axes.map((axis) => [prefix + axis + suffix, { label: `${label} ${axis}`, unit }]);
+}
+
+const joint_quantities = new Map<string, JointQuantity>([
+  ...joint_components("move_", "", "displacement", "m"),
+  ...joint_components("turn_", "", "angle about", "rad"),
+  ...joint_components("move_", "_speed", "speed along", "m/s"),
+  ...joint_components("turn_", "_speed", "speed about", "rad/s"),
+  ["force", { label: "force", unit: "N" }],
+  ...joint_components("f", "", "force", "N"),
+  ["torque", { label: "torque", unit: "N m" }],
+  ...joint_components("t", "", "torque", "N m"),
+  ["gap", { label: "gap", unit: "m" }],
+]);
+
+/** Of a column of `Run.joints`; the name of a joint may hold dots. */
+export function joint_column(name: string): JointQuantity {
+  const dot = name.lastIndexOf(".");
+  const quantity = joint_quantities.get(name.slice(dot + 1));
+  return { label: `${quantity?.label ?? name.slice(dot + 1)} of ${name.slice("joint.".length, dot)}`, unit: quantity?.unit ?? "" };
+}
+
+/** A plot: the stacked energies, a quantity of the scene, a column of a joint, or a quantity of a body. */
 export type PlotSubject =
   | { kind: "energy" }
   | { kind: "scene"; quantity: string }
+  | { kind: "joint"; quantity: string }
   | { kind: "body"; quantity: string; body: number };
 
 /** Of a text as `--plot` has it; names that the clip lacks are left out. */
@@ -89,6 +118,7 @@ export function read_subjects(text: string, run: Run): PlotSubject[] {
   for (const item of text.split(",").map((each) => each.trim())) {
     if (item === "energy") subjects.push({ kind: "energy" });
     else if (scene_quantities.has(item)) subjects.push({ kind: "scene", quantity: item });
+    else if (run.joints.has(item)) subjects.push({ kind: "joint", quantity: item });
     // Names of bodies may hold dots; quantities do not.
     const match = /^body\.(.+)\.([a-z]+)$/.exec(item);
     const body = match ? run.scene.bodies.findIndex((each) => each.name === match[1]) : -1;

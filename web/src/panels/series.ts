@@ -2,7 +2,7 @@
 // velocities jump.
 import type { EnergyTable, Run } from "../data/clip.ts";
 import { same_time } from "../ui/player_state.ts";
-import { body_quantities, scene_quantities, type PlotSubject } from "./quantities.ts";
+import { body_quantities, joint_column, scene_quantities, type PlotSubject } from "./quantities.ts";
 
 export interface Series {
   label: string;
@@ -74,14 +74,17 @@ function frame_times(runs: Run[]): Float64Array {
   return sample_times(runs, -1);
 }
 
-function scene_series(runs: Run[], name: string): PlotData {
-  const quantity = scene_quantities.get(name)!;
+function frame_series(runs: Run[], unit: string, value: (run: Run, frame: number) => number): PlotData {
   const times = frame_times(runs);
   const series = runs.map((run): Series => {
-    const at = (time: number): number => between_frames(run, time, (frame) => quantity.value(run, frame));
-    return { label: run.label, values: Array.from(times, (time) => (time > run.duration + same_time ? null : at(time))), at };
+    const at = (time: number): number => between_frames(run, time, (frame) => value(run, frame));
+    const shown = (time: number): number | null => {
+      const value_there = at(time);
+      return time > run.duration + same_time || Number.isNaN(value_there) ? null : value_there;
+    };
+    return { label: run.label, values: Array.from(times, shown), at };
   });
-  return { times, unit: quantity.unit, series };
+  return { times, unit, series };
 }
 
 interface EnergyLayer {
@@ -133,5 +136,9 @@ export function energy_stack(run: Run): EnergyStack {
 }
 
 export function plot_series(runs: Run[], subject: Exclude<PlotSubject, { kind: "energy" }>): PlotData {
-  return subject.kind === "scene" ? scene_series(runs, subject.quantity) : body_series(runs, subject);
+  if (subject.kind === "body") return body_series(runs, subject);
+  if (subject.kind === "joint")
+    return frame_series(runs, joint_column(subject.quantity).unit, (run, frame) => run.joints.get(subject.quantity)?.[frame] ?? NaN);
+  const quantity = scene_quantities.get(subject.quantity)!;
+  return frame_series(runs, quantity.unit, quantity.value);
 }
