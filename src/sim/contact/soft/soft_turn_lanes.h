@@ -96,10 +96,14 @@ inline void prepare_turns(const Hold& m, Turn& t) {
     const auto damps = [&](Lanes soft, Lanes rigid) { return soft > 0.0f ? 1.0f / (rigid + soft) : Lanes{}; };
     t.damps = {damps(t.softness.x, t.gives.xx), damps(t.softness.y, t.gives.yy), damps(t.softness.z, t.gives.zz)};
     t.single = {m.present / t.gives.xx, m.present / t.gives.yy, m.present / t.gives.zz};
-    const Vector l = t.locked;
-    // Axes that are not locked have the compliance 1, coupled with none.
-    t.mass = inverse_of({l.x * t.gives.xx + (1.0f - l.x), l.x * l.y * t.gives.xy, l.x * l.z * t.gives.xz,
-                         l.y * t.gives.yy + (1.0f - l.y), l.y * l.z * t.gives.yz, l.z * t.gives.zz + (1.0f - l.z)});
+    // Locked axes are solved at once, and so are those with friction; others have the compliance 1, coupled with none.
+    const Vector l = t.locked, r = t.rubs;
+    const auto alone = [&](Lanes locked, Lanes rubs, Lanes gives) {
+        return (locked + rubs) * gives + (1.0f - locked - rubs);
+    };
+    t.mass = inverse_of({alone(l.x, r.x, t.gives.xx), (l.x * l.y + r.x * r.y) * t.gives.xy,
+                         (l.x * l.z + r.x * r.z) * t.gives.xz, alone(l.y, r.y, t.gives.yy),
+                         (l.y * l.z + r.y * r.z) * t.gives.yz, alone(l.z, r.z, t.gives.zz)});
 }
 
 // Impulse about an axis within its limits, as of a distance joint.
@@ -116,12 +120,21 @@ inline Lanes limited(Lanes least, Lanes most, Lanes turned, Lanes speed, Lanes m
 
 // Dampers, and friction within its limit. Returns the changes.
 inline Vector solve_drives(const Hold& m, Turn& t, Vector& speed) {
-    const Vector damped = all(-1.0f) * each(t.damps, speed + each(t.softness, t.damping));
-    t.damping = t.damping + damped;
+    const auto damp = [&](Lanes Vector::*k) {
+        const Lanes change = -(t.damps.*k * (speed.*k + t.softness.*k * t.damping.*k));
+        t.damping.*k += change;
+        return change;
+    };
+    Vector damped{};
+    damped.x = damp(&Vector::x);
+    speed = {speed.x + t.gives.xx * damped.x, speed.y + t.gives.xy * damped.x, speed.z + t.gives.xz * damped.x};
+    damped.y = damp(&Vector::y);
+    speed = {speed.x + t.gives.xy * damped.y, speed.y + t.gives.yy * damped.y, speed.z + t.gives.yz * damped.y};
+    damped.z = damp(&Vector::z);
+    speed = {speed.x + t.gives.xz * damped.z, speed.y + t.gives.yz * damped.z, speed.z + t.gives.zz * damped.z};
     t.damping_sum = t.damping_sum + from_axes(t, damped);
-    speed = speed + t.gives * damped;
     // Stops the turn, if within the limit; else one mass for all axes, so that friction ends up opposite to the turn.
-    Vector held = t.friction - each(t.rubs, each(t.single, speed));
+    Vector held = t.friction - each(t.rubs, t.mass * each(t.rubs, speed));
     const Lanes limit = t.rough + t.bearing * root(dot(m.impulse, m.impulse)), size = root(dot(held, held));
     const auto slides = size > limit;
     if (any(Lanes(slides))) {
