@@ -81,6 +81,7 @@ double twist_of(const World& world, std::size_t joint) { return world.joint_stat
 // T = 4 sqrt(2 l / (3 g)) K(sin(a / 2)) of a rod that swings by a = 60 degrees: K(1/2) = 1.68575035481260.
 TEST(SweptTurns, ARodSwingsOnAHinge) {
     SceneDescription scene = swept(pendulum_scene(std::numbers::pi / 3.0));
+    scene.simulation.gravity.z() = 3.0;  // the hinge carries it
     World world(scene);
     const double quarter = std::sqrt(2.0 / (3.0 * g)) * 1.68575035481260;
     double low = 0.0, gap = 0.0;
@@ -92,7 +93,7 @@ TEST(SweptTurns, ARodSwingsOnAHinge) {
     EXPECT_NEAR(low, quarter, 3e-3);
     EXPECT_LT(gap, 1e-4);
     EXPECT_GT(gap, 1e-12);  // else it was solved directly
-    EXPECT_LT(std::abs(world.snapshot().bodies[0].center_of_mass.z()), 1e-6);
+    EXPECT_LT(std::abs(world.snapshot().bodies[0].center_of_mass.z()), 1e-4);
 }
 
 // A chain of eight plates on hinges swings down from its end, in sweeps as with the direct solver.
@@ -100,6 +101,7 @@ TEST(SweptTurns, AHingeChainSwingsAsWithTheDirectSolver) {
     SceneDescription scene = swept({});
     scene.simulation.steps_per_frame = 8;
     scene.simulation.sleep = false;
+    scene.simulation.gravity.z() = 1.0;  // the hinges carry it
     for (int i = 0; i < 8; ++i) {
         add_box(scene, {0.5, 0.1, 0.4}, {0.25 + 0.5 * i, 0.0, 0.0});
         const auto before = i == 0 ? std::optional<std::size_t>{} : std::size_t(i - 1);
@@ -122,7 +124,7 @@ TEST(SweptTurns, AHingeChainSwingsAsWithTheDirectSolver) {
     EXPECT_LT(off, 0.1);  // of 4 m
     EXPECT_LT(gap, 4e-3);
     EXPECT_GT(gap, 1e-9);
-    EXPECT_LT(across, 1e-5);
+    EXPECT_LT(across, 1e-2);
 }
 
 // Four boxes of 1 kg and 0.5 m, welded to each other and to the world: 4 m g, and the moment 4 m g at 1 m.
@@ -371,11 +373,11 @@ TEST(SweptTurns, AWildFigureStaysFinite) {
 TEST(SweptTurns, HaveTheSameBytesForAnyThreads) {
     SceneDescription scene = swept({});
     scene.simulation.steps_per_frame = 1;
-    for (int k = 0; k < 60; ++k) {
+    for (int k = 0; k < 160; ++k) {
         const SceneDescription figure = figure_scene(1);
         const std::size_t first = scene.bodies.size();
         for (BodyDescription body : figure.bodies) {
-            body.position += Vec3(1.2 * (k % 8), 0.8, 1.2 * (k / 8));
+            body.position += Vec3(0.9 * (k % 16), 0.8, 0.9 * (k / 16));
             body.angular_velocity = {0.1 * k, 1.0, 0.3};
             scene.bodies.push_back(body);
         }
