@@ -189,8 +189,9 @@ bool has_kind(const Scene& scene, JointKind kind) {
 bool has_cones(const Scene& scene) {
     return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.cone.has_value(); });
 }
-bool has_breaking(const Scene& scene) {
-    return std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.break_force > 0.0; });
+bool needs_breaking(const Scene& scene) {
+    return !scene.breaks_watched &&
+           std::any_of(scene.joints.begin(), scene.joints.end(), [](const Joint& j) { return j.break_force > 0.0; });
 }
 
 }  // namespace tumble::bench

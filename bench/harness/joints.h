@@ -42,6 +42,7 @@ Vector moved(const Scene& scene, std::size_t body, const Motion& motion, const V
 /// Whether a kind of joint or one of its features occurs.
 bool has_kind(const Scene& scene, JointKind kind);
 bool has_cones(const Scene& scene);
-bool has_breaking(const Scene& scene);
+/// Whether a joint must break.
+bool needs_breaking(const Scene& scene);
 
 }  // namespace tumble::bench

@@ -118,6 +118,15 @@ Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion) {
         sum.force = sum.force + force;
         sum.torque = cross(rotate(motion.orientation, scene.push->point), force);
     }
+    for (const Torque& turning : scene.torques)
+        if (turning.body == body) sum.torque = sum.torque + rotate(motion.orientation, turning.torque);
+    for (const Spring& spring : scene.springs) {
+        if (spring.body != body) continue;
+        const Vector arm = rotate(motion.orientation, spring.point), pull = spring.from - (motion.position + arm);
+        const Vector force = spring.stiffness * (1.0 - spring.length / norm(pull)) * pull;
+        sum.force = sum.force + force;
+        sum.torque = sum.torque + cross(arm, force);
+    }
     return sum;
 }
 

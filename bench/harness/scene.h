@@ -81,6 +81,18 @@ struct PointForce {
     Vector point, force;  // m and N, body frame
 };
 
+/// A torque that is fixed in the body.
+struct Torque {
+    std::size_t body = 0;
+    Vector torque;  // N m, body frame
+};
+/// A massless spring without damping between a point of the world and one of a body.
+struct Spring {
+    std::size_t body = 0;
+    Vector from, point;                    // m: world frame, and body frame from the center of mass
+    double stiffness = 0.0, length = 0.0;  // N/m; m, at rest
+};
+
 /// distance: a massless rod between two anchors. The rod's length is their distance at the start.
 enum class JointKind { ball, hinge, fixed, slider, distance };
 inline constexpr std::size_t the_world = std::size_t(-1);  // in place of a body's index
@@ -108,6 +120,11 @@ struct Scene {
     bool contacts = true;    // false: no bodies touch each other, and a program may leave out its search for contacts
     std::optional<Air> air;  // acts on all moving bodies
     std::optional<PointForce> push;  // acts on body 0
+    std::vector<Torque> torques;
+    std::vector<Spring> springs;
+    bool breaks_watched = false;  // joints may stay whole where they should break: a watch looks at their forces
+
+    bool has_forces() const { return air || push || !torques.empty() || !springs.empty(); }
 };
 
 /// Pose and velocities of a body; world frame.
@@ -120,7 +137,7 @@ struct Motion {
 struct Wrench {
     Vector force, torque;
 };
-/// Force of air and push on a body, for the peers, which get external forces from the harness.
+/// Force of air, push, torques and springs on a body, for the peers, which get external forces from the harness.
 Wrench wrench(const Scene& scene, std::size_t body, const Motion& motion);
 double mean_projected_area(const Body& body);
 

@@ -12,6 +12,8 @@ public:
     virtual ~Simulator() = default;
     virtual void step() = 0;
     virtual Motion motion(std::size_t body) const = 0;  // index in the scene; for moving bodies
+    /// When the joint broke, s; empty while it holds, and where a program does not tell it.
+    virtual std::optional<double> broken_at(std::size_t) const { return std::nullopt; }
     /// Force of the joint on its second body in the last step, N, world frame; empty where a program does not tell it.
     virtual std::optional<Vector> joint_force(std::size_t) const { return std::nullopt; }
 };

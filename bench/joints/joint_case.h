@@ -40,8 +40,8 @@ struct JointCase {
 std::vector<JointCase> joint_cases();
 
 // The parts of joint_cases(), one file each.
-void add_pendulums(std::vector<JointCase>& cases);   // J1, J2, J3, J4 of the note, and a free chain (J13)
-void add_mechanisms(std::vector<JointCase>& cases);  // four-bars (J9), Bricard's (J11), a door with a motor (J18)
+void add_pendulums(std::vector<JointCase>& cases);   // J1, J1c, J2, J3, J4 of the note, and a free chain (J13)
+void add_mechanisms(std::vector<JointCase>& cases);  // four-bars (J9), squeezer (J10), Bricard's (J11), door (J18)
 void add_loads(std::vector<JointCase>& cases);       // hanging chain (J5), bridge (J6), wrecking ball (J7), tower (J22)
 void add_chains(std::vector<JointCase>& cases);      // speed of chains and nets
 void add_figures(std::vector<JointCase>& cases);     // speed of a humanoid and of ragdolls

@@ -1,4 +1,5 @@
 // Closed loops, one of them over-constrained, and a door with a motor and a limit.
+#include "harness/squeezer.h"
 #include "joints/joint_shapes.h"
 
 #include <algorithm>
@@ -42,6 +43,66 @@ JointCase four_bars(int loops, double x, double height) {
                                      return norm(moved(scene, 0, m[0], up(0.0, 1.0, 0.0)) - there);
                                  }},
                         g * (loops + 1));
+    return c;
+}
+
+Vector in_plane(const squeezer::Point& p, double z = 0.0) { return up(p.x, p.y, z); }
+
+class SqueezerWatch : public Watch {
+public:
+    explicit SqueezerWatch(const Scene& scene) : scene_(scene), last_(scene.bodies.size()) {}
+
+    // The turns of all plates, which are at most half a turn from look to look.
+    void see(double time, const Simulator&, const std::vector<Motion>& m) override {
+        gap_ = std::max(gap_, largest_gap(scene_, m));
+        const Vector x{1.0, 0.0, 0.0}, axis = up(0.0, 0.0, 1.0);
+        for (std::size_t i = 0; i < m.size(); ++i) {
+            const Vector now = rotate(m[i].orientation, x);
+            if (time > 0.0) turned_[i] += angle_about(axis, last_[i], now);
+            last_[i] = now;
+        }
+        const auto hinges = squeezer::hinges();
+        error_ = 0.0;
+        for (std::size_t k = 0; k < squeezer::ends.size(); ++k) {
+            const auto turn_of = [&](int plate) { return plate < 0 ? 0.0 : turned_[std::size_t(plate)]; };
+            const double angle = squeezer::starts[k] + turn_of(hinges[k].second) - turn_of(hinges[k].first);
+            error_ = std::max(error_, std::fabs(angle - squeezer::ends[k]));
+        }
+    }
+    std::vector<Quantity> tell() const override { return {{"error", error_, "rad"}, {"gap", gap_, "m"}}; }
+
+private:
+    Scene scene_;
+    std::vector<Vector> last_;  // where a direction of each plate points
+    std::array<double, 7> turned_{};
+    double error_ = HUGE_VAL, gap_ = 0.0;
+};
+
+// J10: harness/squeezer.h.
+JointCase squeezing() {
+    JointCase c;
+    c.name = "Andrews' squeezer";
+    c.scene.contacts = false;
+    c.scene.gravity = 0.0;
+    const Vector axis = up(0.0, 0.0, 1.0);
+    for (const squeezer::Plate& plate : squeezer::plates()) {
+        const double side = plate.side(), z = squeezer::layer * double(c.scene.bodies.size());
+        Body body = box({side, squeezer::thickness, side}, plate.mass, in_plane(plate.center, z));
+        body.orientation = turn(axis, plate.angle);
+        c.scene.bodies.push_back(body);
+    }
+    for (const squeezer::Hinge& h : squeezer::hinges())
+        c.scene.joints.push_back(hinge_joint(h.first == squeezer::ground ? the_world : std::size_t(h.first),
+                                             std::size_t(h.second), in_plane(h.at), axis));
+    c.scene.torques = {{0, squeezer::torque * axis}};
+    const Body& sprung = c.scene.bodies[squeezer::spring_plate];
+    const Vector point = rotate_back(sprung.orientation, in_plane(squeezer::spring_end()) - sprung.position);
+    c.scene.springs = {
+        {squeezer::spring_plate, in_plane(squeezer::c), point, squeezer::stiffness, squeezer::rest_length}};
+    c.seconds = squeezer::duration;
+    c.rates = {3000.0, 6000.0, 12000.0, 24000.0, 48000.0, 96000.0};
+    c.quick_rates = {12000.0, 48000.0};
+    c.watch = [](const Scene& scene, double) { return std::make_unique<SqueezerWatch>(scene); };
     return c;
 }
 
@@ -123,6 +184,7 @@ JointCase door() {
 void add_mechanisms(std::vector<JointCase>& cases) {
     cases.push_back(four_bars(2, 0.328458111540815379, 0.944538518178600962));
     cases.push_back(four_bars(40, 0.18051222668672839, 0.983572740582311575));
+    cases.push_back(squeezing());
     cases.push_back(bricard());
     cases.push_back(door());
 }

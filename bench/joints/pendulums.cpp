@@ -1,4 +1,5 @@
 // Pendulums and tops against closed forms and integrations of 30 digits; a free chain.
+#include "harness/breaking_pendulum.h"
 #include "harness/random.h"
 #include "harness/shapes.h"
 #include "joints/watches.h"
@@ -50,6 +51,52 @@ JointCase pendulum(double start, double period) {
     c.watch = watch_end(
         EndError{"rad", [](const Simulator&, const std::vector<Motion>& m) { return std::fabs(angle_of(m[0])); }},
         0.5 * g * (1.0 - std::cos(start * degree)));
+    return c;
+}
+
+// Looks for the break. Afterwards the angular velocity is constant, and the angle follows at the moment of the break.
+class BreakWatch : public Watch {
+public:
+    explicit BreakWatch(const Scene& scene) : scene_(scene) {}
+
+    void see(double time, const Simulator& simulator, const std::vector<Motion>& m) override {
+        if (std::isfinite(error_)) return;
+        const std::optional<double> told = simulator.broken_at(0);
+        const std::optional<Vector> force = simulator.joint_force(0);
+        if (!told && !(time > 0.0 && force && norm(*force) > breaking_pendulum::strength)) {
+            gap_ = std::max(gap_, largest_gap(scene_, m));
+            return;
+        }
+        const double at = told.value_or(time), speed = m[0].angular_velocity.y;
+        error_ = std::fabs(at - breaking_pendulum::time);
+        angle_ = std::fabs(angle_of(m[0]) + speed * (time - at) - breaking_pendulum::angle);
+        speed_ = std::fabs(speed - breaking_pendulum::angular_speed);
+    }
+    std::vector<Quantity> tell() const override {
+        return {{"error", error_, "s"},
+                {"angle", angle_, "rad"},
+                {"angular velocity", speed_, "rad/s"},
+                {"gap", gap_, "m"}};
+    }
+
+private:
+    Scene scene_;
+    double error_ = HUGE_VAL, angle_ = HUGE_VAL, speed_ = HUGE_VAL, gap_ = 0.0;
+};
+
+// J1c: the hinge breaks. A program without breaking joints tells the force of the hinge.
+JointCase breaking() {
+    JointCase c;
+    c.name = "pendulum that breaks";
+    c.scene.contacts = false;
+    c.scene.breaks_watched = true;
+    c.scene.bodies = {rod({}, 90.0 * degree)};
+    c.scene.joints = {hinge(the_world, 0, {}, {0.0, 1.0, 0.0})};
+    c.scene.joints[0].break_force = breaking_pendulum::strength;
+    c.seconds = 0.5;
+    c.rates = {60.0, 120.0, 240.0, 480.0, 960.0, 1920.0, 3840.0};
+    c.quick_rates = {60.0, 960.0};
+    c.watch = [](const Scene& scene, double) { return std::make_unique<BreakWatch>(scene); };
     return c;
 }
 
@@ -140,6 +187,7 @@ JointCase free_chain() {
 void add_pendulums(std::vector<JointCase>& cases) {
     cases.push_back(pendulum(90.0, 1.9357500144084348));
     cases.push_back(pendulum(170.0, 4.00053715316770717));
+    cases.push_back(breaking());
     cases.push_back(double_pendulum(2.0, -0.0845270358378211, 0.3920419302606883));
     cases.push_back(double_pendulum(5.0, 0.8485748006037753, 2.3633801429516465));
     // After two periods of the angle from up it is at its start again, with the azimuth of two periods.

@@ -8,6 +8,8 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <stdexcept>
@@ -18,6 +20,9 @@ namespace {
 constexpr double long_enough = 0.1;      // CPU s of stepping, which makes the clock's own cost negligible
 constexpr int most_repetitions = 500;    // of a short run
 constexpr double joints_patience = 6.0;  // CPU s, unless --patience is given
+// Where a peer does not end a step, or the construction of its world: its process is ended after so many times the patience
+// in CPU time, and in wall time.
+constexpr double most_cpu = 10.0, most_wall = 40.0;
 
 struct Spending {
     double cpu = 0.0, wall = 0.0;
@@ -32,7 +37,11 @@ public:
           rate_(rate),
           seconds_(options.quick && c.quick_seconds > 0.0 ? c.quick_seconds : c.seconds),
           steps_(std::max(1L, std::lround(seconds_ * rate))),
-          patience_(c.task == JointTask::settling ? 5.0 * options.patience : options.patience) {}
+          patience_(patience_of(c, options)) {}
+
+    static double patience_of(const JointCase& c, const Options& options) {
+        return c.task == JointTask::settling ? 5.0 * options.patience : options.patience;
+    }
 
     /// The quantities; empty where the program cannot represent the scene.
     std::vector<Quantity> take(bool timed) {
@@ -115,6 +124,14 @@ void write_figures(const std::string& name, const std::string& program, const Jo
 
 enum class Ending { done, cut, absent, failed };
 
+// The system ends this process by a signal after that.
+void limit_process(double patience) {
+    const auto seconds = rlim_t(std::ceil(most_cpu * patience));
+    const rlimit limit{seconds, seconds + 1};
+    setrlimit(RLIMIT_CPU, &limit);
+    alarm(unsigned(std::ceil(most_wall * patience)));
+}
+
 // One step of one way, in a process of its own: a peer may end it by a failed assertion. `spent`: CPU s.
 Ending measure_apart(const JointCase& c, const std::string& program, const JointWay& way, double rate,
                      const Options& options, double& spent) {
@@ -122,6 +139,7 @@ Ending measure_apart(const JointCase& c, const std::string& program, const Joint
     const pid_t child = fork();
     if (child < 0) throw std::runtime_error("cannot start a process");
     if (child == 0) {
+        limit_process(Measurement::patience_of(c, options));
         Ending ending = Ending::failed;
         try {
             Measurement measurement(c, way, rate, options);
@@ -139,6 +157,9 @@ Ending measure_apart(const JointCase& c, const std::string& program, const Joint
     rusage usage{};
     wait4(child, &status, 0, &usage);
     spent = double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
+    if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGALRM))
+        std::fprintf(stderr, "%s, %s, %s, 1/%g s: took more than %g times the patience, and was ended\n",
+                     c.name.c_str(), program.c_str(), way.name.c_str(), rate, most_cpu);
     return WIFEXITED(status) ? Ending(WEXITSTATUS(status)) : Ending::failed;
 }
 

@@ -7,6 +7,7 @@
 #include <BulletDynamics/Featherstone/btMultiBodyConstraintSolver.h>
 #include <BulletDynamics/Featherstone/btMultiBodyDynamicsWorld.h>
 #include <BulletDynamics/Featherstone/btMultiBodyFixedConstraint.h>
+#include <BulletDynamics/Featherstone/btMultiBodyJointFeedback.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointLimitConstraint.h>
 #include <BulletDynamics/Featherstone/btMultiBodyJointMotor.h>
 #include <BulletDynamics/Featherstone/btMultiBodyLinkCollider.h>
@@ -34,7 +35,10 @@ public:
           h_(1.0 / rate),
           dispatcher_(&configuration_),
           world_(&dispatcher_, &broad_phase_, &solver_, &configuration_),
-          places_(scene.bodies.size()) {
+          places_(scene.bodies.size()),
+          joint_of_(scene.bodies.size(), the_world),
+          feedback_(scene.bodies.size()) {
+        world_.getSolverInfo().m_jointFeedbackInWorldSpace = true;
         world_.setGravity(vec({0.0, 0.0, -scene.gravity}));
         world_.getSolverInfo().m_restitutionVelocityThreshold = 0.0f;
         world_.getSolverInfo().m_numIterations = settings.iterations;
@@ -58,6 +62,7 @@ public:
     }
 
     void step() override {
+        if (scene_.has_forces()) push();
         world_.stepSimulation(btScalar(h_), 0, btScalar(h_));
         fresh_ = false;
     }
@@ -71,7 +76,43 @@ public:
         return {vector(at.getOrigin()), orientation(at.getRotation()), vector(turn * velocity), vector(turn * spin)};
     }
 
+    // At the end of the step, of trees without constraints. The report of a step counts centrifugal forces twice.
+    std::optional<Vector> joint_force(std::size_t joint) const override {
+        for (const std::size_t body : {scene_.joints[joint].first, scene_.joints[joint].second}) {
+            if (is_fixed(scene_, body) || joint_of_[body] != joint) continue;
+            compute_forces(*places_[body].multibody);
+            const btVector3& force = feedback_[body].m_reactionForces.m_topVec;
+            return vector(body == scene_.joints[joint].second ? force : -force);
+        }
+        return std::nullopt;  // it closes a loop
+    }
+
 private:
+    void compute_forces(btMultiBody& m) const {
+        for (int i = 0; i < m.getNumLinks(); ++i) m.addLinkForce(i, m.getLinkMass(i) * world_.getGravity());
+        btAlignedObjectArray<btScalar> numbers;
+        btAlignedObjectArray<btVector3> vectors;
+        btAlignedObjectArray<btMatrix3x3> matrices;
+        m.computeAccelerationsArticulatedBodyAlgorithmMultiDof(0, numbers, vectors, matrices, false, true, false);
+        m.clearForcesAndTorques();
+    }
+
+    // Forces of the start of the step.
+    void push() {
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            const auto& [m, link] = places_[i];
+            if (!m) continue;
+            const Wrench w = wrench(scene_, i, motion(i));
+            if (link < 0) {
+                m->addBaseForce(vec(w.force));
+                m->addBaseTorque(vec(w.torque));
+            } else {
+                m->addLinkForce(link, vec(w.force));
+                m->addLinkTorque(link, vec(w.torque));
+            }
+        }
+    }
+
     // The base is the first body; or it is fixed to the world at the joint of the first body.
     void add_tree(const std::vector<Node>& nodes) {
         const bool grounded = nodes[0].joint != the_world;
@@ -86,6 +127,10 @@ private:
         for (const Node& node : nodes) {
             places_[node.body] = {&m, link};
             if (link >= 0) set_link(m, link, node);
+            if (link >= 0 && scene_.breaks_watched) {
+                joint_of_[node.body] = node.joint;
+                m.getLink(link).m_jointFeedback = &feedback_[node.body];
+            }
             ++link;
         }
         m.setBaseWorldTransform(grounded ? btTransform::getIdentity() : pose(first.orientation, first.position));
@@ -102,6 +147,7 @@ private:
         m.useRK4Integration(settings_.rk4);
         m.useGlobalVelocities(false);
         m.setMaxAppliedImpulse(BT_LARGE_FLOAT);
+        m.setMaxCoordinateVelocity(BT_LARGE_FLOAT);  // default 100 rad/s
         world_.addMultiBody(&m);
         for (const Node& node : nodes) {
             const int at = places_[node.body].link;
@@ -236,6 +282,8 @@ private:
     btMultiBodyConstraintSolver solver_;
     btMultiBodyDynamicsWorld world_;
     std::vector<Place> places_;
+    std::vector<std::size_t> joint_of_;               // that a body hangs on, where its force is asked for
+    std::vector<btMultiBodyJointFeedback> feedback_;  // by body
     BulletShapes shapes_;
     std::vector<std::unique_ptr<btMultiBody>> multibodies_;
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
@@ -249,7 +297,7 @@ private:
 }  // namespace
 
 std::unique_ptr<Simulator> make_bullet_multibody(const Scene& scene, double rate, const MultibodySettings& settings) {
-    if (has_kind(scene, JointKind::distance) || has_cones(scene) || has_breaking(scene)) return nullptr;
+    if (has_kind(scene, JointKind::distance) || has_cones(scene) || needs_breaking(scene)) return nullptr;
     for (const std::size_t j : forest_of(scene).loops)
         if (scene.joints[j].kind != JointKind::ball && scene.joints[j].kind != JointKind::hinge) return nullptr;
     return std::make_unique<MultibodySimulator>(scene, rate, settings);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <stdexcept>
 
 namespace {
@@ -33,7 +34,10 @@ public:
         for (const JointForest::Node& node : forest.nodes) start(node);
         for (int i = 0; i < model_->nu; ++i)
             data_->ctrl[i] = *scene.joints[std::stoul(mj_id2name(model_, mjOBJ_ACTUATOR, i))].speed;
-        for (const JointForest::Node& node : forest.nodes) jointed_ |= node.joint != the_world;
+        for (const JointForest::Node& node : forest.nodes) {
+            jointed_ |= node.joint != the_world;
+            if (node.joint != the_world) node_of_[node.joint] = node.body;
+        }
     }
     ~MujocoSimulator() override {
         mj_deleteData(data_);
@@ -41,7 +45,7 @@ public:
     }
 
     void step() override {
-        const bool driven = scene_.air || scene_.push;
+        const bool driven = scene_.has_forces();
         if (driven) {  // evaluated at each stage of RK4 too
             current_ = this;
             mjcb_passive = &MujocoSimulator::push;
@@ -56,6 +60,17 @@ public:
         const double *x = data_->qpos + position(i), *v = data_->qvel + velocity(i);
         const Orientation q{x[3], x[4], x[5], x[6]};
         return {{x[0], x[1], x[2]}, q, {v[0], v[1], v[2]}, rotate(q, {v[3], v[4], v[5]})};
+    }
+
+    // At the end of the step; the interaction force of a body acts on it.
+    std::optional<Vector> joint_force(std::size_t joint) const override {
+        const auto node = node_of_.find(joint);
+        if (node == node_of_.end()) return std::nullopt;  // it closes a loop
+        mj_forward(model_, data_);
+        mj_rnePostConstraint(model_, data_);
+        const double* f = data_->cfrc_int + 6 * body_[node->second] + 3;
+        const double sign = node->second == scene_.joints[joint].second ? 1.0 : -1.0;
+        return Vector{sign * f[0], sign * f[1], sign * f[2]};
     }
 
 private:
@@ -95,18 +110,29 @@ private:
             mj_comVel(model_, data_);
             fresh_ = true;
         }
+        return pose_in_data(i);
+    }
+
+    Motion pose_in_data(std::size_t i) const {
         const double *x = data_->xpos + 3 * body_[i], *q = data_->xquat + 4 * body_[i];
         double v[6];  // of rotation, then of the center of mass
         mj_objectVelocity(model_, data_, mjOBJ_BODY, body_[i], v, 0);
         return {{x[0], x[1], x[2]}, {q[0], q[1], q[2], q[3]}, {v[3], v[4], v[5]}, {v[0], v[1], v[2]}};
     }
 
-    static void push(const mjModel*, mjData* data) {
+    static void push(const mjModel* model, mjData* data) {
         const MujocoSimulator& self = *current_;
         for (std::size_t i = 0; i < self.body_.size(); ++i) {
             if (self.body_[i] < 0) continue;
-            const Motion m = self.motion(i);
+            const Motion m = self.jointed_ ? self.pose_in_data(i) : self.motion(i);
             const Wrench w = wrench(self.scene_, i, m);
+            if (self.jointed_) {
+                const double at[3] = {m.position.x, m.position.y, m.position.z},
+                             force[3] = {w.force.x, w.force.y, w.force.z},
+                             torque[3] = {w.torque.x, w.torque.y, w.torque.z};
+                mj_applyFT(model, data, force, torque, at, self.body_[i], data->qfrc_passive);
+                continue;
+            }
             const Vector torque = rotate_back(m.orientation, w.torque);
             const double force[6] = {w.force.x, w.force.y, w.force.z, torque.x, torque.y, torque.z};
             for (int k = 0; k < 6; ++k) data->qfrc_passive[self.velocity(i) + k] += force[k];
@@ -118,7 +144,8 @@ private:
     Scene scene_;
     mjModel* model_ = nullptr;
     mjData* data_ = nullptr;
-    std::vector<int> body_;  // of MuJoCo, for each moving body of the scene
+    std::vector<int> body_;                       // of MuJoCo, for each moving body of the scene
+    std::map<std::size_t, std::size_t> node_of_;  // body that hangs on a joint, by joint of the forest
     bool jointed_ = false;
     mutable bool fresh_ = false;
 };

@@ -265,7 +265,7 @@ bool mujoco_can_represent(const Scene& scene, const JointForest& forest) {
         if (node.depth > deepest) return false;
     for (const std::size_t j : forest.loops)
         if (scene.joints[j].kind == JointKind::slider) return false;
-    return !has_breaking(scene);
+    return !needs_breaking(scene);
 }
 
 std::string mujoco_model(const Scene& scene, const JointForest& forest, double h, const MujocoSettings& settings) {

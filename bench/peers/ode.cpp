@@ -69,7 +69,7 @@ public:
     }
 
     void step() override {
-        if (scene_.air || scene_.push) {
+        if (scene_.has_forces()) {
             for (std::size_t i = 0; i < bodies_.size(); ++i) {
                 if (!bodies_[i]) continue;
                 const Wrench w = wrench(scene_, i, motion(i));

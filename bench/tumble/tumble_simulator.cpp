@@ -121,6 +121,28 @@ JointDescription described(const Scene& scene, const Joint& joint, std::size_t i
     return d;
 }
 
+// A couple of two forces.
+void add_torque(SceneDescription& d, const Torque& turning) {
+    const Vec3 torque = vec(turning.torque), arm = 0.5 * torque.unitOrthogonal();
+    const double infinite = std::numeric_limits<double>::infinity();
+    for (const double side : {-1.0, 1.0})
+        d.forces.push_back({turning.body, side * arm, side * 2.0 * torque.cross(arm), true, 0.0, infinite});
+}
+
+void add_spring(SceneDescription& d, const Spring& spring) {
+    JointDescription joint;
+    joint.name = "spring " + std::to_string(d.joints.size());
+    joint.type = JointType::distance;
+    joint.second = spring.body;
+    joint.anchor_first = vec(spring.from);
+    joint.anchor_second = vec(spring.point);
+    joint.collide = true;
+    for (JointAxis& axis : joint.turn) axis.motion = JointAxis::Motion::free;
+    for (JointAxis& axis : joint.move) axis.motion = JointAxis::Motion::free;
+    joint.move[0].spring = JointSpring{.stiffness = spring.stiffness, .damping = 0.0, .rest = spring.length};
+    d.joints.push_back(joint);
+}
+
 SceneDescription described(const Scene& scene, double rate, const TumbleSettings& settings) {
     SceneDescription d;
     d.output.fps = rate;  // one frame per step, so that step-free ways gain no more from frames than from steps
@@ -137,6 +159,8 @@ SceneDescription described(const Scene& scene, double rate, const TumbleSettings
     if (scene.push)
         d.forces.push_back(
             {0, vec(scene.push->point), vec(scene.push->force), true, 0.0, std::numeric_limits<double>::infinity()});
+    for (const Torque& turning : scene.torques) add_torque(d, turning);
+    for (const Spring& spring : scene.springs) add_spring(d, spring);
     return d;
 }
 
@@ -157,6 +181,8 @@ public:
         const Quat& q = s.orientation;
         return {vector(s.center_of_mass), {q.w(), q.x(), q.y(), q.z()}, vector(s.velocity), vector(s.angular_velocity)};
     }
+
+    std::optional<double> broken_at(std::size_t joint) const override { return world_.joint_states()[joint].broken_at; }
 
     std::optional<Vector> joint_force(std::size_t joint) const override {
         return vector(world_.joint_states()[joint].force);

@@ -1,6 +1,5 @@
-// Andrews' squeezer, IFToMM's A03: seven bodies, four loops, a crank that turns 15.9 rad in 0.03 s. Parameters: test set
-// for initial value problems; Hairer and Wanner, Solving Ordinary Differential Equations II. References: 113-bit
-// arithmetic; the published values agree with them to 1.4e-9.
+// Andrews' squeezer, IFToMM's A03, of bench/harness/squeezer.h.
+#include "harness/squeezer.h"
 #include "joint_scenes.h"
 
 #include <gtest/gtest.h>
@@ -10,71 +9,45 @@
 
 namespace tumble::squeezer_test {
 using namespace tumble::testing;
+namespace squeezer = bench::squeezer;
 
 namespace {
 
-constexpr double beta = -0.06171389001427644964, gamma = 0.45527981916307038026, phi = 0.22266839016588588467,
-                 delta = 0.48736497954384255023, omega = -phi, epsilon = 1.2305474445498211925;
-constexpr double duration = 0.03;  // s
-
-Vec3 at(double x, double y) { return {x, y, 0.0}; }
-/// (cos a, sin a), and (sin a, -cos a).
-Vec3 along(double angle) { return at(std::cos(angle), std::sin(angle)); }
-Vec3 aside(double angle) { return at(std::sin(angle), -std::cos(angle)); }
-
-/// A square plate with that moment of inertia about z.
-void add_plate(SceneDescription& scene, double mass, double inertia, double angle, const Vec3& center) {
-    const double side = std::sqrt(6.0 * inertia / mass);
-    const Vec3 layer(0.0, 0.0, 0.02 * double(scene.bodies.size()));  // the plates pass each other
-    add_box(scene, {side, side, 0.01}, center + layer, mass).rotation = turn(Vec3::UnitZ(), angle);
-}
+Vec3 at(const squeezer::Point& p, double z = 0.0) { return {p.x, p.y, z}; }
 
 SceneDescription squeezer_scene(int steps) {
-    constexpr double d = 0.028, da = 0.0115, e = 0.02, ea = 0.01421, rr = 0.007, ra = 0.00092, sa = 0.01874,
-                     sb = 0.01043, sc = 0.018, sd = 0.02, ta = 0.02308, tb = 0.00916, u = 0.04, ua = 0.01228,
-                     ub = 0.00449, zf = 0.02, zt = 0.04, fa = 0.01421;
-    const Vec3 a = at(-0.06934, -0.00227), b = at(-0.03635, 0.03273), c = at(0.014, 0.072);
     SceneDescription scene = empty_scene();
-    scene.output.fps = 1.0 / duration;
+    scene.output.fps = 1.0 / squeezer::duration;
     scene.simulation.steps_per_frame = steps;
     scene.simulation.sleep = false;
-    add_plate(scene, 0.04325, 2.194e-6, beta, ra * along(beta));
-    add_plate(scene, 0.00365, 4.410e-7, beta, rr * along(beta) - da * along(beta));
-    add_plate(scene, 0.02373, 5.255e-6, gamma, b + sa * aside(gamma) + sb * along(gamma));
-    add_plate(scene, 0.00706, 5.667e-7, phi + delta, a + zt * along(delta) + (e - ea) * aside(phi + delta));
-    add_plate(scene, 0.07050, 1.169e-5, delta, a + ta * along(delta) - tb * aside(delta));
-    add_plate(scene, 0.00706, 5.667e-7, omega + epsilon, a + u * aside(epsilon) + (zf - fa) * along(omega + epsilon));
-    add_plate(scene, 0.05498, 1.912e-5, epsilon, a + ua * aside(epsilon) - ub * along(epsilon));
-    const Vec3 meeting = rr * along(beta) - d * along(beta);
-    const auto hinge = [&](std::optional<std::size_t> first, std::size_t second, const Vec3& anchor) {
-        add_joint(scene, JointType::hinge, first, second, anchor, Vec3::UnitZ());
-    };
-    hinge(std::nullopt, 0, Vec3::Zero());
-    hinge(0, 1, rr * along(beta));
-    hinge(std::nullopt, 2, b);
-    hinge(std::nullopt, 4, a);
-    hinge(std::nullopt, 6, a);
-    hinge(4, 3, a + zt * along(delta));
-    hinge(6, 5, a + u * aside(epsilon));
-    hinge(1, 2, meeting);
-    hinge(1, 3, meeting);
-    hinge(1, 5, meeting);
+    for (const squeezer::Plate& plate : squeezer::plates()) {
+        const Vec3 center = at(plate.center, squeezer::layer * double(scene.bodies.size()));
+        add_box(scene, {plate.side(), plate.side(), squeezer::thickness}, center, plate.mass).rotation =
+            turn(Vec3::UnitZ(), plate.angle);
+    }
+    for (const squeezer::Hinge& hinge : squeezer::hinges()) {
+        std::optional<std::size_t> first;
+        if (hinge.first != squeezer::ground) first = std::size_t(hinge.first);
+        add_joint(scene, JointType::hinge, first, std::size_t(hinge.second), at(hinge.at), Vec3::UnitZ());
+    }
     // A couple of two forces, fixed in the crank.
     for (const double side : {-1.0, 1.0}) {
         ForceDescription force;
         force.body = 0;
-        force.point = at(0.0, -0.5 * side);
-        force.force = at(0.033 * side, 0.0);
+        force.point = {0.0, -0.5 * side, 0.0};
+        force.force = {squeezer::torque * side, 0.0, 0.0};
         force.body_frame = true;
         force.end = infinity;
         scene.forces.push_back(force);
     }
-    JointDescription& spring = add_joint(scene, JointType::distance, std::nullopt, 2, c);
-    spring.anchor_second =
-        scene.bodies[2].rotation.conjugate() * (b + sc * aside(gamma) + sd * along(gamma) - scene.bodies[2].position);
+    const std::size_t body = squeezer::spring_plate;
+    JointDescription& spring = add_joint(scene, JointType::distance, std::nullopt, body, at(squeezer::c));
+    const BodyDescription& plate = scene.bodies[body];
+    spring.anchor_second = plate.rotation.conjugate() * (at(squeezer::spring_end()) - plate.position);
     for (JointAxis& axis : spring.turn) axis.motion = JointAxis::Motion::free;
     for (JointAxis& axis : spring.move) axis.motion = JointAxis::Motion::free;
-    spring.move[0].spring = JointSpring{.stiffness = 4530.0, .damping = 0.0, .rest = 0.07785};
+    spring.move[0].spring =
+        JointSpring{.stiffness = squeezer::stiffness, .damping = 0.0, .rest = squeezer::rest_length};
     return scene;
 }
 
@@ -92,12 +65,9 @@ Squeezed squeeze(int steps, IntegratorKind integrator) {
         result.gap = std::max(result.gap, largest_gap(world));
     }
     const auto joints = world.joint_states();
-    const double expected[] = {15.81077119515371,   -15.75637105841184,   0.04082224011964581, 0.52440996587995407,
-                               1.04808074104193787, -0.53473011634207958, 0.53473011634207958};
-    const double start[] = {beta, 0.0, gamma, delta, epsilon, phi, omega};
-    for (std::size_t k = 0; k < 7; ++k) {
-        const double angle = start[k] + joints[k].position[3];
-        result.error = std::max(result.error, std::abs(angle - expected[k]));
+    for (std::size_t k = 0; k < squeezer::ends.size(); ++k) {
+        const double angle = squeezer::starts[k] + joints[k].position[3];
+        result.error = std::max(result.error, std::abs(angle - squeezer::ends[k]));
     }
     return result;
 }

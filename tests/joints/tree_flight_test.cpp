@@ -1,4 +1,5 @@
 // Trees in flight in joint coordinates against closed forms, references of 20 digits, and conservation laws.
+#include "harness/breaking_pendulum.h"
 #include "tree_scene.h"
 
 #include <gtest/gtest.h>
@@ -187,10 +188,66 @@ TEST(TreeFlight, StopsAtALimitAndAtAStrength) {
     while (limited.step(1.0 / 960.0) == Outcome::flown) ASSERT_LT(limited.time, 1.0);
     EXPECT_LT(limited.list[0]->value[3], -0.5);
     scene = pendulum_scene(0.5 * pi);
-    scene.joints[0].break_force = 15.0;
+    scene.joints[0].break_force = bench::breaking_pendulum::strength;
     TreeScene weak(scene);
     while (!weak.list[0]->broken) ASSERT_EQ(weak.step(1.0 / 960.0), Outcome::flown);
-    EXPECT_NEAR(weak.list[0]->broken_at, 0.300354695438428074, 1.0 / 960.0);
+    EXPECT_NEAR(weak.list[0]->broken_at, bench::breaking_pendulum::time, 1.0 / 960.0);
+}
+
+// At its time within a step, from where the rod flies freely: constant angular velocity, and the parabola of its center.
+TEST(TreeFlight, AJointBreaksAtItsTime) {
+    using namespace bench::breaking_pendulum;
+    for (const double rate : {60.0, 77.0, 960.0}) {
+        SceneDescription scene = pendulum_scene(0.5 * pi);
+        scene.joints[0].break_force = strength;
+        TreeScene t(scene);
+        const double energy = t.energy();
+        while (!t.list[0]->broken) {
+            const Vec3 before = t.momentum();
+            ASSERT_EQ(t.step(1.0 / rate), Outcome::flown);
+            const Vec3 given = t.list[0]->account.step.load.force + 1.0 / rate * t.forces.gravity();
+            EXPECT_LT((t.momentum() - before - given).norm(), 1e-14);
+        }
+        EXPECT_NEAR(t.list[0]->broken_at, time, 1e-14);
+        const Body& rod = t.set.bodies[0];
+        const double since = t.time - time, speed = -angular_speed;
+        EXPECT_NEAR(rod.angular_velocity.z(), speed, 1e-12);
+        EXPECT_NEAR(angle_of(rod), angle + speed * since, 1e-12);
+        const Vec3 along(std::sin(angle), -std::cos(angle), 0.0);
+        const Vec3 velocity = speed * Vec3::UnitZ().cross(0.5 * along);
+        const Vec3 fall = 0.5 * since * since * t.forces.gravity();
+        EXPECT_LT((rod.position - (0.5 * along + since * velocity + fall)).norm(), 1e-12);
+        EXPECT_NEAR(t.energy(), energy, 1e-12);
+    }
+}
+
+// A chain that swings and breaks in its middle: momentum and energy of both pieces, and the same time at any step.
+TEST(TreeFlight, PiecesFlyOnAfterABreak) {
+    const auto run_at = [](int rate) {
+        SceneDescription scene = double_pendulum_scene(1);
+        for (int i = 2; i < 4; ++i) {
+            add_box(scene, {1.0, 0.1, 0.1}, {0.5 + i, 0.0, 0.0});
+            add_joint(scene, JointType::hinge, std::size_t(i - 1), std::size_t(i), double(i) * Vec3::UnitX(),
+                      Vec3::UnitZ());
+        }
+        scene.joints[2].break_force = 25.0;
+        TreeScene t(scene);
+        const double energy = t.energy();
+        Vec3 before = Vec3::Zero();
+        while (!t.list[2]->broken) {
+            before = t.momentum();
+            EXPECT_EQ(t.step(1.0 / rate), Outcome::flown);
+            EXPECT_LT(t.time, 3.0);
+            const Vec3 given = t.list[0]->account.step.load.force + 4.0 / rate * t.forces.gravity();
+            EXPECT_LT((t.momentum() - before - given).norm(), 1e-13);
+        }
+        EXPECT_NEAR(t.energy(), energy, 1e-11);
+        t.joints.end_step();
+        return t.list[2]->broken_at;
+    };
+    const double time = run_at(60);
+    EXPECT_GT(time, 0.1);
+    EXPECT_NEAR(run_at(250), time, 1e-11);
 }
 
 // A ball of ten thousand and of a million times the mass of its links, which swing fast under tension: evaluations in

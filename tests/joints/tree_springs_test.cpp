@@ -104,10 +104,12 @@ TEST(TreeSprings, TheHeatOfADamperIsTheEnergyThatLeaves) {
 
 // A ball's spring is not along one coordinate: rows move it.
 TEST(TreeSprings, SpringsOfBallsAreDeclined) {
-    SceneDescription scene = free_chain_scene(2);
+    SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi);
+    scene.joints[0].type = JointType::ball;
+    for (JointAxis& axis : scene.joints[0].turn) axis.motion = JointAxis::Motion::free;
+    EXPECT_EQ(TreeScene(scene).step(1.0 / 60.0), Outcome::flown);
     for (JointAxis& axis : scene.joints[0].turn) axis.spring = JointSpring{};
-    TreeScene t(scene);
-    EXPECT_EQ(t.step(1.0 / 60.0), Outcome::declined);
+    EXPECT_EQ(TreeScene(scene).step(1.0 / 60.0), Outcome::declined);
 }
 
 }  // namespace

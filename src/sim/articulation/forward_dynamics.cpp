@@ -9,14 +9,6 @@ namespace {
 Quat quaternion_at(const double* q) { return Quat(q[3], q[0], q[1], q[2]).normalized(); }
 Vec3 vector_at(const double* v) { return {v[0], v[1], v[2]}; }
 
-// U D^-1 U^T less, for one column.
-void subtract_column(SpatialInertia& inertia, const SpatialForce& u, double pivot) {
-    inertia.turning.add_outer(-pivot, u.moment);
-    const Vec3 k = pivot * u.force;
-    for (int j = 0; j < 3; ++j) inertia.mixed.col(j) -= k[j] * u.moment;
-    inertia.moving.add_outer(-pivot, u.force);
-}
-
 // moving - mixed^T turning^-1 mixed: a ball passes forces at its point alone.
 Sym3 behind_ball(const SpatialInertia& inertia, const Sym3& inverse) {
     Vec3 solved[3];
@@ -132,6 +124,7 @@ void ForwardDynamics::move(const double* coordinates, const double* speeds) {
         move_node(nodes[i], link, coordinates + nodes[i].at, speeds + nodes[i].speed_at);
         add_body(nodes[i], link);
         link.drive = 0.0;
+        link.held = false;
         link.turning.setZero();
     }
 }
@@ -170,12 +163,12 @@ void ForwardDynamics::sweep_in() {
             }
             case NodeKind::revolute:
                 link.column = {inertia.turning * s, inertia.mixed.transpose() * s};
-                link.pivot = 1.0 / s.dot(link.column.moment);
+                link.pivot = link.held ? 0.0 : 1.0 / s.dot(link.column.moment);
                 link.drive -= s.dot(p.moment);
                 break;
             case NodeKind::prismatic:
                 link.column = {inertia.mixed * s, inertia.moving * s};
-                link.pivot = 1.0 / s.dot(link.column.force);
+                link.pivot = link.held ? 0.0 : 1.0 / s.dot(link.column.force);
                 link.drive -= s.dot(p.force);
                 break;
             case NodeKind::fixed:
@@ -184,7 +177,7 @@ void ForwardDynamics::sweep_in() {
         if (node.parent == TreeNode::ground) continue;
         SpatialInertia passed = inertia;
         if (node.kind != NodeKind::fixed) {
-            subtract_column(passed, link.column, link.pivot);
+            passed.subtract_outer(link.column, link.pivot);
             const double k = link.pivot * link.drive;
             p.moment += k * link.column.moment;
             p.force += k * link.column.force;

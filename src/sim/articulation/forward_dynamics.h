@@ -34,6 +34,7 @@ public:
         SpatialForce column;          // U = I^A S
         double pivot = 0.0;           // 1 / (S^T U)
         double drive = 0.0;           // u = tau - S^T p^A
+        bool held = false;            // its coordinate does not accelerate
         Sym3 inverse;                 // of a ball: D^-1
         Vec3 turning = Vec3::Zero();  // of a ball: u
     };
@@ -46,6 +47,14 @@ public:
     /// between move() and accelerate().
     void push(int node, const Wrench& wrench);
     void drive(int node, double effort) { links_[std::size_t(node)].drive += effort; }
+    /// Between the same: the coordinate of a revolute or prismatic node does not accelerate.
+    void hold(int node) { links_[std::size_t(node)].held = true; }
+    /// Effort (N m, N) that accelerates the coordinate of a held node if it is let go, after accelerate().
+    double net_effort(int node) const {
+        const Link& held = links_[std::size_t(node)];
+        return held.drive - held.column.moment.dot(held.acceleration.turn) -
+               held.column.force.dot(held.acceleration.move);
+    }
     /// Rates of the speeds. `base`: acceleration of the ground, which acts as gravity of -base; not of free trees.
     void accelerate(const Vec3& base, double* rates);
     /// Rates of the coordinates, after move().

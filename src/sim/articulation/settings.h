@@ -24,4 +24,24 @@ inline constexpr int tree_shortest = 16;
 inline constexpr double tree_gap = 1e-9;
 inline constexpr double tree_misfit = 1e-9;
 
+/// Speed of a coordinate with friction that is rest, as a share of the fastest body's: rounding of the momenta. Not fitted.
+inline constexpr double friction_rest = 1e-12;
+
+/// Effort above the bound of friction, as a share of it, at which a held coordinate is let go: it then leaves with an
+/// acceleration that is not rounding. Not fitted: far below the tolerances of the tests.
+inline constexpr double friction_let_go = 1e-10;
+
+/// Excess at a change of friction or at a break, in its unit, which is rounding; and the number of changes in a step, and
+/// of trials for one of them, beyond which the rows advance the bodies. Not fitted: bounds of the cost.
+inline constexpr double tree_event_located = 1e-14;
+inline constexpr int tree_most_events = 64;
+inline constexpr int tree_most_trials = 60;
+
+/// Load over strength of a joint at both ends of a part of a step, above which its largest load between them is looked for.
+/// Not fitted: a part is half a radian of the motion.
+inline constexpr double tree_near_break = 0.8;
+
+/// Rest of a step after a break, as a share of the step, that is left out. Not fitted: rounding of the places.
+inline constexpr double tree_least_rest = 1e-12;
+
 }  // namespace tumble::tuning

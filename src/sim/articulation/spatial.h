@@ -90,6 +90,13 @@ struct SpatialInertia {
         moving += i.moving;
         return *this;
     }
+    /// Subtracts pivot u u^T.
+    void subtract_outer(const SpatialForce& u, double pivot) {
+        turning.add_outer(-pivot, u.moment);
+        const Vec3 k = pivot * u.force;
+        for (int j = 0; j < 3; ++j) mixed.col(j) -= k[j] * u.moment;
+        moving.add_outer(-pivot, u.force);
+    }
     /// The same about another point: `r` (m) from that point to the present one.
     SpatialInertia shifted(const Vec3& r) const {
         // mixed' = mixed + r* moving, turning' = turning + r* mixed^T + (r* mixed^T)^T + r* moving r*^T.

@@ -97,12 +97,19 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
         momenta[i] = tree_.nodes()[std::size_t(node)].mass * velocity;
         if (!pushed.empty()) given[i] = pushed[i].push;
     }
-    if (sampled_) add_mean_forces(momenta, given, now, t);
+    if (sampled_ && t > time_) add_mean_forces(momenta, given, now, t);
     samples_.swap(now);
     momenta_.swap(momenta);
     pushes_.swap(given);
     time_ = t;
     sampled_ = true;
+}
+
+double TreeAccount::load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes) {
+    dynamics.joint_forces(pushes, forces_);
+    const Sample s = joint_sample(dynamics, joint, 0.0);
+    const JointDescription& strength = step_.joints[std::size_t(joint)]->description;
+    return std::max(s.force.norm() / strength.break_force, s.torque.norm() / strength.break_torque);
 }
 
 // As for the rows of the direct solver (JointRows::swing_rate): sqrt(4 T / (m l)) for a rod of length l.

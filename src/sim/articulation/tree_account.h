@@ -23,9 +23,12 @@ public:
     TreeAccount(const JointTree& tree, const TreeStep& step, const FallingFrame& frame);
 
     /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places of
-    /// the joints are in the falling frame; `pushed`: since the start of the step, by body, or none.
+    /// the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again at the same time
+    /// where the forces change.
     void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
                 std::span<const PushedImpulse> pushed);
+    /// Load of a joint (index among the island's) over its strength, after ForwardDynamics::accelerate().
+    double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes);
     /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
     double swing_rate() const;
 

@@ -44,6 +44,7 @@ bool TreeFlight::start() {
     const TreeStep& step = *step_;
     if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
     if (!springs_.find(tree_, step)) return false;
+    friction_.find(tree_, step);
     pushed_ = false;
     for (const std::uint32_t i : step.island)
         pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
@@ -66,7 +67,7 @@ bool TreeFlight::start() {
     for (const std::uint32_t i : step.island)
         velocities.push_back({step.bodies[i].angular_velocity, step.bodies[i].velocity - frame_.velocity});
     dynamics_.find_speeds(velocities, y_.data() + coordinates_);
-    return y_.allFinite() && fits();
+    return y_.allFinite() && fits() && (friction_.empty() || begin_friction());
 }
 
 // Whether the bodies' velocities are those of the tree.
@@ -87,6 +88,7 @@ TreeFlight::Vector TreeFlight::rate(const Vector& y) {
     const double *q = y.data(), *speeds = q + coordinates_;
     dynamics_.move(q, speeds);
     springs_.drive(dynamics_, q, speeds, dy.data() + heats_);
+    friction_.drive(dynamics_);
     if (pushed_) add_pushes(y, dy);
     dynamics_.accelerate(tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity), dy.data() + coordinates_);
     dynamics_.coordinate_rates(q, speeds, dy.data());
@@ -228,12 +230,17 @@ bool TreeFlight::integrate(double until, bool exact) {
             change = runge_kutta_4(y_, size, [this](const Vector& y) { return rate(y); }) - y_;
         }
         if (!change.allFinite()) return false;
+        const double tried = size;
+        if (events_possible() && !shorten_to_event({first, scale, exact}, size, change)) return false;
         y_ += change;
         normalize();
         const bool last = size >= rest * (1.0 - 1e-12);
         done = last ? span : done + size;
         time_ = begin + done;
-        size = std::min(2.0 * size, span);
+        size = std::min(2.0 * tried, span);
+        if (event_ == none) continue;
+        if (event_ >= friction_.count()) return true;
+        if (!change_friction()) return false;
     }
     time_ = until;
     return true;
@@ -312,10 +319,13 @@ void TreeFlight::count_turns() {
             step_->joints[std::size_t(node.joint)]->value[node.coordinate] += node.sign * y_[node.at];
 }
 
-TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
-    step_ = &step;
+TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKind method) {
+    own_.emplace(step);
+    step_ = &*own_;
+    event_ = none;
     if (!start()) return Outcome::declined;
-    account_.emplace(tree_, step, frame_);
+    account_.emplace(tree_, *own_, frame_);
+    find_weak();
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
         double next = end;
@@ -324,14 +334,17 @@ TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind met
         law_time_ = 0.5 * (now + next);
         if (!integrate(next < end ? next - step.from : step.h, method == IntegratorKind::exact))
             return Outcome::declined;
+        if (event_ != none) break;
         now = next;
     }
+    if (event_ != none) own_->h = time_;
     rate(y_);
     sample();
     place();
     count_turns();
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
-    springs_.account(step, y_.data(), y_.data() + heats_);
+    springs_.account(*own_, y_.data(), y_.data() + heats_);
+    friction_.account(*own_, dynamics_, y_.data());
     return Outcome::flown;
 }
 

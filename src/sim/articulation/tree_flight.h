@@ -7,6 +7,7 @@
 #pragma once
 
 #include "sim/articulation/tree_account.h"
+#include "sim/articulation/tree_friction.h"
 #include "sim/articulation/tree_springs.h"
 
 #include <optional>
@@ -28,6 +29,8 @@ public:
     };
     /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
     /// and joints, and leaves them in any state where they have not flown.
+    ///
+    /// The step ends in parts where the friction of a joint changes, and where a joint breaks: its pieces then fly on.
     Outcome advance(const TreeStep& step, IntegratorKind method);
 
     /// Evaluations of the dynamics in the last step.
@@ -41,13 +44,38 @@ private:
         double mass = 0.0;
     };
 
+    struct Part {  // of the step from the present state
+        const Vector& first;
+        double scale;
+        bool exact;
+    };
+    // Changes that end a part of the step: first those of friction, by coordinate, then the breaks, by joint.
+    static constexpr std::size_t none = std::size_t(-1);
+
     bool start();
+    Outcome advance_tree(const TreeStep& step, IntegratorKind method);
+    Outcome advance_pieces(const TreeStep& step, IntegratorKind method, int broken);
     bool fits() const;
     Totals totals() const;
     Vector rate(const Vector& y);
     void add_pushes(const Vector& y, Vector& dy);
     bool integrate(double until, bool exact);
     double extrapolate(const Vector& first, double h, double scale, Vector& change);
+    bool begin_friction();
+    bool settle_friction();
+    bool change_friction();
+    bool shorten_to_event(const Part& part, double& size, Vector& change);
+    bool events_possible() const { return !friction_.empty() || !weak_.empty(); }
+    void find_weak();
+    std::size_t events() const { return friction_.count() + weak_.size(); }
+    double excess(std::size_t event, const Vector& y);
+    double excess_at(std::size_t event, const Vector& y);
+    double unit_of(std::size_t event) const;
+    Vector go(const Part& part, double s);
+    std::size_t first_event(const Part& part, double& size, Vector& change);
+    std::size_t event_within(const Part& part, const Vector& end, const Vector& end_rate, double& size, Vector& change);
+    bool locate(const Part& part, std::size_t event, double& size, Vector& change);
+    double fastest_body() const;
     double error_of(const Vector& difference, double scale) const;
     double fastest(const Vector& y, const Vector& dy) const;
     void normalize();
@@ -56,10 +84,17 @@ private:
     void count_turns();
     std::vector<PushedImpulse> pushed_impulses() const;
 
+    std::optional<TreeStep> own_;  // the step, up to a break
     const TreeStep* step_ = nullptr;
     JointTree tree_;
     ForwardDynamics dynamics_{tree_};
     TreeSprings springs_;
+    TreeFriction friction_;
+    std::vector<int> weak_;      // joints that can break, and carry less than their strength
+    std::vector<double> loads_;  // of these over their strength, at the start of the part
+    std::size_t event_ = none;   // at the end of this part
+    double needed_ = 0.0;        // N m, N: net effort of a held coordinate there
+    int changes_ = 0;            // of friction in this step
     FallingFrame frame_;
     Totals start_;
     std::optional<TreeAccount> account_;

@@ -12,7 +12,7 @@ bool TreeSprings::find(const JointTree& tree, const TreeStep& step) {
     dampers_ = 0;
     fastest_ = 0.0;
     for (const Joint* joint : step.joints)
-        if (has_springs(*joint) && !springs_along_coordinates(*joint)) return false;
+        if (!acts_along_coordinates(*joint)) return false;
     for (int k = 0; k < int(tree.nodes().size()); ++k) {
         const TreeNode& node = tree.nodes()[std::size_t(k)];
         if (node.kind != NodeKind::revolute && node.kind != NodeKind::prismatic) continue;

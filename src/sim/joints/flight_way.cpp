@@ -4,23 +4,34 @@
 
 namespace tumble {
 
-bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
+bool undriven(const Joint& joint, const std::vector<Body>& bodies) {
     if (joint.gear()) return false;
-    for (std::size_t c = 0; c < joint.count(); ++c)
-        if (joint.axis(c).motor || joint.axis(c).friction > 0.0) return false;
-    if (joint.description.friction_coefficient > 0.0) return false;
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
+        if (joint.axis(c).motor) return false;
+    if (joint.soft && joint.description.friction_coefficient > 0.0) return false;
     for (const std::uint32_t i : {joint.a, joint.b})
         if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
     return true;
 }
 
+bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
+    return undriven(joint, bodies) && !has_friction(joint);
+}
+
+bool has_friction(const Joint& joint) {
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
+        if (joint.axis(c).friction > 0.0) return true;
+    return false;
+}
+
 bool has_springs(const Joint& joint) {
-    for (std::size_t c = 0; c < joint.count(); ++c)
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
         if (joint.axis(c).spring) return true;
     return false;
 }
 
-bool springs_along_coordinates(const Joint& joint) {
+bool acts_along_coordinates(const Joint& joint) {
+    if (!has_springs(joint) && !has_friction(joint)) return true;
     int turns = 0;
     for (std::size_t c = 3; c < joint.count(); ++c) turns += !joint.locked(c);
     return turns < 2;
@@ -31,8 +42,7 @@ bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies) 
         for (const std::uint32_t i : {joint->a, joint->b})
             if (i != Joint::world && bodies[i].dynamic() && bodies[i].integrator == IntegratorKind::explicit_euler)
                 return false;
-        return !joint->broken && free_but_for_springs(*joint, bodies) &&
-               (!has_springs(*joint) || springs_along_coordinates(*joint));
+        return !joint->broken && undriven(*joint, bodies) && acts_along_coordinates(*joint);
     });
 }
 

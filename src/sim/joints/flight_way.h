@@ -10,13 +10,17 @@
 
 namespace tumble {
 
-/// Whether the joint does nothing but lock coordinates, or limit or spring them, between bodies whose motion is not
-/// prescribed.
+/// Whether the joint does nothing but lock coordinates, limit or spring them, or brake them by a constant force, between
+/// bodies whose motion is not prescribed.
+bool undriven(const Joint& joint, const std::vector<Body>& bodies);
+/// The same without friction.
 bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies);
 bool has_springs(const Joint& joint);
-/// Whether each spring of the joint acts along one coordinate of a tree: not those of balls and universal joints.
-bool springs_along_coordinates(const Joint& joint);
-/// Whether the laws of these joints are those of trees in flight: locks, limits, springs and dampers.
+bool has_friction(const Joint& joint);  // of a constant bound
+/// Whether each spring and each friction of the joint acts along one coordinate of a tree: not those of balls and
+/// universal joints.
+bool acts_along_coordinates(const Joint& joint);
+/// Whether the laws of these joints are those of trees in flight: locks, limits, springs, dampers and friction.
 bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies);
 
 /// The method by which joined bodies move in joint coordinates, if their joints are a tree: extrapolation where one body's

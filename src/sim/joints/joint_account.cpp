@@ -1,6 +1,7 @@
 // JointSet: the accounts of a frame.
 #include "sim/joints/joint_account.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/joints/joint_set.h"
 
 #include <algorithm>
@@ -12,7 +13,7 @@ namespace {
 double square(double x) { return x * x; }
 
 // Only gears have the second part: most joints spare the memory.
-void clear(const Joint& joint, JointAccount::Span& span) {
+void clear_span(const Joint& joint, JointAccount::Span& span) {
     span.load = {};
     span.work_a = span.work_b = 0.0;
     span.work = {};
@@ -22,7 +23,7 @@ void clear(const Joint& joint, JointAccount::Span& span) {
     span.second_work_a = span.second_work_b = 0.0;
 }
 
-void add(const Joint& joint, const JointAccount::Span& from, JointAccount::Span& to) {
+void add_span(const Joint& joint, const JointAccount::Span& from, JointAccount::Span& to) {
     to.load.add(from.load);
     to.work_a += from.work_a;
     to.work_b += from.work_b;
@@ -37,7 +38,7 @@ void add(const Joint& joint, const JointAccount::Span& from, JointAccount::Span&
 double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) {
     if (!joint.active || joint.broken) return 0.0;
     bool any = false;
-    for (std::size_t k = 0; k < joint.count(); ++k) any = any || joint.axis(k).spring;
+    for (std::size_t k = 0; joint.soft && k < joint.count(); ++k) any = any || joint.axis(k).spring;
     if (!any) return 0.0;
     const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
     if (joint.turns_alike() && joint.axis(3).spring) return 0.5 * joint.springs[3].stiffness * g.rotation.squaredNorm();
@@ -56,11 +57,23 @@ void JointSet::start_account(const std::vector<Body>& bodies) {
 }
 
 void JointSet::begin_frame() {
-    for (Joint& joint : joints_) clear(joint, joint.account.frame);
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        fetch_spans(k);
+        clear_span(joints_[k], joints_[k].account.frame);
+    }
+}
+
+// Of the account of a later joint.
+void JointSet::fetch_spans(std::size_t k) const {
+    if (k + elements_ahead >= joints_.size()) return;
+    const JointAccount& account = joints_[k + elements_ahead].account;
+    fetch_ahead(&account.step, &account.events);
 }
 
 void JointSet::end_step() {
-    for (Joint& joint : joints_) {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        fetch_spans(k);
+        Joint& joint = joints_[k];
         JointAccount& account = joint.account;
         if (account.step.solves == 0) continue;
         joint.force = account.step.load.force / (to_ - from_);
@@ -69,10 +82,10 @@ void JointSet::end_step() {
             account.second = {};
             account.second.add(account.step.second_load, 1.0 / (to_ - from_));
         }
-        add(joint, account.step, account.frame);
+        add_span(joint, account.step, account.frame);
         ++account.frame.solves;
         account.work.add(account.step.work);
-        clear(joint, account.step);
+        clear_span(joint, account.step);
         account.holds = true;
     }
 }
@@ -84,15 +97,17 @@ void JointSet::take_events() {
         joint.force += account.events.load.force / (to_ - from_);
         joint.torque += account.events.load.torque / (to_ - from_);
         if (joint.gear()) account.second.add(account.events.second_load, 1.0 / (to_ - from_));
-        add(joint, account.events, account.frame);
+        add_span(joint, account.events, account.frame);
         account.work.add(account.events.work);
-        clear(joint, account.events);
+        clear_span(joint, account.events);
     }
 }
 
 // Joints of sleeping bodies give their last forces in the steps without a solve.
 void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
-    for (Joint& joint : joints_) {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        fetch_spans(k);
+        Joint& joint = joints_[k];
         JointAccount& account = joint.account;
         const auto rests = [&](std::uint32_t i) {
             return i == Joint::world || !bodies[i].dynamic() || bodies[i].asleep;

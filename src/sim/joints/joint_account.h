@@ -60,6 +60,16 @@ struct JointAccount {
         JointLoad second_load;
         double second_work_a = 0.0, second_work_b = 0.0;
 
+        void add(const Span& other) {
+            load.add(other.load);
+            work_a += other.work_a;
+            work_b += other.work_b;
+            second_load.add(other.second_load);
+            second_work_a += other.second_work_a;
+            second_work_b += other.second_work_b;
+            work.add(other.work);
+            solves += other.solves;
+        }
         /// Of locks alone; `catches`: the joint begins to hold its bodies.
         void add_flight(const JointLoad& given, double on_a, double on_b, bool catches) {
             load.add(given);
@@ -71,14 +81,9 @@ struct JointAccount {
     };
     /// A flight, or a solve, between events.
     void take_flight(const Span& span) {
-        events.load.add(span.load);
-        events.work_a += span.work_a;
-        events.work_b += span.work_b;
-        events.second_load.add(span.second_load);
-        events.second_work_a += span.second_work_a;
-        events.second_work_b += span.second_work_b;
-        events.work.add(span.work);
-        ++events.solves;
+        const int solves = events.solves + 1;
+        events.add(span);
+        events.solves = solves;
         holds = true;
     }
 

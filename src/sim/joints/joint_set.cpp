@@ -90,7 +90,6 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
     }
     for (Joint& joint : joints_) {
         joint.active = joint.description.start <= 0.0 && joint.description.end > 0.0;
-        gears_ = gears_ || joint.gear();
         if (joint.gear()) build_gear(joint, joints_, bodies);
     }
     for (Joint& joint : joints_)
@@ -153,11 +152,15 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
         for (const std::uint32_t i : {joint.a, joint.b})
             if (i != Joint::world && bodies[i].asleep) woken.push_back(i);
     };
+    bool gears = false;  // a gear holds while its joints hold
+    for (Joint& joint : joints_) {
+        if (joint.gear())
+            gears = true;
+        else
+            begin(joint);
+    }
     for (Joint& joint : joints_)
-        if (!joint.gear()) begin(joint);
-    if (gears_)  // a gear holds while its joints hold
-        for (Joint& joint : joints_)
-            if (joint.gear()) begin(joint);
+        if (gears && joint.gear()) begin(joint);
     if (changed) list();
 }
 

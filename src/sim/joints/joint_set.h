@@ -62,13 +62,13 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [joints, active, pairs, changes, gears, from, to] = self;
-        archive.rebuilt(gears);
+        auto& [joints, active, pairs, changes, from, to] = self;
         archive.keep_each(joints);
         archive.keep(active, pairs, changes, from, to);
     }
 
 private:
+    void fetch_spans(std::size_t k) const;
     void list();
 
     std::vector<Joint> joints_;  // in the order of the scene

@@ -110,12 +110,15 @@ void add_way(const JointGroup& group, bool tree, const JointSet& joints, const s
              JointReport& report) {
     for (const std::uint32_t i : group.bodies)
         if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
+    bool rattle = true;
     for (const std::uint32_t k : group.joints) {
-        if (!free_but_for_springs(joints.joints()[k], bodies)) return void(++report.by_rows);
         const Joint& joint = joints.joints()[k];
-        tree = tree && !joint.distance() && (!has_springs(joint) || springs_along_coordinates(joint));
+        if (!undriven(joint, bodies)) return void(++report.by_rows);
+        tree = tree && !joint.distance() && acts_along_coordinates(joint);
+        rattle = rattle && free_but_for_springs(joint, bodies);
     }
-    ++(tree && tree_method(bodies, group.bodies) ? report.by_coordinates : report.by_rattle);
+    tree = tree && tree_method(bodies, group.bodies);
+    ++(tree ? report.by_coordinates : rattle ? report.by_rattle : report.by_rows);
 }
 
 }  // namespace

@@ -56,10 +56,6 @@ inline constexpr double joint_push_small = 1e-6;
 /// JointLaws.AMotorOpensADoorToItsLimit.
 inline constexpr double joint_round_tolerance = 1e-8;
 
-/// Compliance of the rows of a tree in flight, over the island's mass and its number of joints: each pass of a projection
-/// makes the rest ten thousand times smaller. Not fitted: passes refine the rounding, which is larger for smaller values.
-inline constexpr double joint_flight_compliance = 1e-3;
-
 /// The velocities fit the joints at this share of the fastest one. Not fitted: rounding.
 inline constexpr double joint_flight_fits = 1e-15;
 
@@ -111,6 +107,11 @@ inline constexpr double joint_corner_turn = 0.005;
 /// Change of the velocities in a round, as a share of the change in the step, at which the impulses in contact count as
 /// settled. Not fitted: larger ones let resting bodies creep.
 inline constexpr double joint_contact_rest = 1e-6;
+
+/// The same where bodies come to rest, and the convergence of the rounds there, relative to the impulses: looser ones leave
+/// a creep that never ends, or let jammed bodies tremble. Related test: JointRest.AJammedFigureFallsAsleep.
+inline constexpr double joint_rest = 1e-8;
+inline constexpr double joint_rest_tolerance = 1e-6;
 
 /// Rounds of a step of an island with joints. Not fitted: a bound of the cost.
 inline constexpr int joint_rounds = 40;

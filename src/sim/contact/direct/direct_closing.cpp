@@ -99,9 +99,18 @@ void DirectSolver::set_friction_compliance(double compliance) {
     if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
 }
 
+// Whether no body in contact is faster than the forces change velocities in a step. Rounds that end with soft friction leave
+// a creep there, which the next steps go on with.
+bool DirectSolver::comes_to_rest(const JointIsland& island) const {
+    return !constraints_.empty() && std::all_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
+        const BodyVelocity& before = island.problem.before[i];
+        return before.velocity.norm() <= speed_scale_ && length_ * before.angular_velocity.norm() <= speed_scale_;
+    });
+}
+
 // Whether the last round has changed no velocity: where bodies jam, impulses may have no limit and keep changing.
 bool DirectSolver::moves_no_body() const {
-    const double least = tuning::joint_contact_rest * speed_scale_;
+    const double least = (near_rest_ ? tuning::joint_rest : tuning::joint_contact_rest) * speed_scale_;
     for (std::size_t k = 0; k < velocity_.size(); ++k)
         if (!(std::abs(velocity_[k] - kept_[k]) <= least)) return false;
     return true;
@@ -154,6 +163,7 @@ double DirectSolver::close_contacts(const JointIsland& island) {
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     joint_friction_softens_ = !constraints_.empty();
     set_friction_compliance(tuning::direct_friction_soft * compliance_);
+    near_rest_ = comes_to_rest(island);
     start();
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
     const double noise = joints_.rounding(fastest_);  // N s
@@ -165,6 +175,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     const bool turns = std::any_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
         return island.problem.bodies[i].angular_velocity.squaredNorm() > most_turn * most_turn;
     });
+    const int most_rounds = near_rest_ ? tuning::joint_rounds : tuning::direct_rounds;
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
     bool found = false;
@@ -199,7 +210,9 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         const double error = joints_.close(island, ends_);
         const double contact_error = turns ? close_contacts(island) : 0.0;
         if (!std::isfinite(error) || !std::isfinite(contact_error)) return Closing::open;
-        const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance : tuning::direct_round_tolerance;
+        const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance
+                                 : near_rest_         ? tuning::joint_rest_tolerance
+                                                      : tuning::direct_round_tolerance;
         const bool settled =
             change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
@@ -207,7 +220,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
             contact_error < tuning::joint_corner_closed)
             return Closing::closed;
         // Friction may change slowly from round to round; the joints are closed all the same.
-        if (!constraints_.empty() && round + 1 >= tuning::direct_rounds && error < tuning::joint_contact_closed)
+        if (!constraints_.empty() && round + 1 >= most_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;
         slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
         if (slow >= 3) {

@@ -212,8 +212,14 @@ void DirectSolver::set_back(const JointIsland& island) {
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = island.problem.bodies[island.bodies[k]];
         const Start& start = starts_[k];
-        set_state(body, {start.position, start.orientation, start.momentum - start.push,
-                         start.angular_momentum - start.turn});
+        const Vec3 momentum = start.momentum - start.push, angular_momentum = start.angular_momentum - start.turn;
+        if (body.position == start.position && body.orientation.coeffs() == start.orientation.coeffs()) {
+            body.momentum = momentum;
+            body.angular_momentum = angular_momentum;
+            body.derive_velocities();
+        } else {
+            set_state(body, {start.position, start.orientation, momentum, angular_momentum});
+        }
     }
 }
 
@@ -229,20 +235,23 @@ TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
 }
 
 // The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.
-bool DirectSolver::fly(const JointIsland& island, int& substeps) {
+bool DirectSolver::fly(const JointIsland& island, bool rows_fly, int& substeps) {
     swing_ = 0.0;
     if (const TreeFlight::Outcome outcome = fly_tree(island); outcome != TreeFlight::Outcome::declined)
         return outcome == TreeFlight::Outcome::flown;
-    if (!JointFlight::flies(island)) return false;
+    if (!rows_fly) return false;
     std::vector<StepForce> forces;
     for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
-    for (; substeps <= tuning::joint_swing_substeps; substeps *= 2) {
+    while (substeps <= tuning::joint_swing_substeps) {
         set_back(island);
         if (flight_.advance(island, forces, JointFlight::order(island), substeps)) {
             swing_ = flight_.swing();
             return true;
         }
         if (!(flight_.swing() > tuning::joint_swing)) return false;
+        const double phase = flight_.swing() * substeps;
+        do substeps *= 2;
+        while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
     }
     return false;
 }
@@ -294,8 +303,9 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
     bool flown = false;
-    if (manifolds.empty() && (JointFlight::flies(island) || flies_as_tree(island, joints_of(island)))) {
-        flown = fly(island, substeps);
+    const bool rows_fly = manifolds.empty() && JointFlight::flies(island);
+    if (rows_fly || (manifolds.empty() && flies_as_tree(island, joints_of(island)))) {
+        flown = fly(island, rows_fly, substeps);
         if (!flown) reset();
     }
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
@@ -304,7 +314,10 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     }
     const bool easy =
         swing_ < tuning::joint_easy_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
-    for (Joint* joint : island_joints) joint->substeps = easy ? std::max(1, substeps / 2) : substeps;
+    int next = easy ? std::max(1, substeps / 2) : substeps;
+    if (flown)  // the phase of a swing is proportional to the substep
+        while (next > 1 && 2.0 * swing_ * substeps < tuning::joint_easy_swing * next) next /= 2;
+    for (Joint* joint : island_joints) joint->substeps = next;
     const bool pushed = !flown && push_joined(island, substeps > 1);
     store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {

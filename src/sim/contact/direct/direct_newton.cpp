@@ -247,7 +247,8 @@ bool DirectSolver::minimize(int most_steps) {
     const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
     // Under a heavy load the links' velocities count, which are a small part of the energy.
     // With contacts too, the next round is as near as that.
-    const double loose = !joints_.empty() && !constraints_.empty() ? tuning::joint_contact_tolerance : 1.0;
+    const bool loosely = !joints_.empty() && !constraints_.empty() && !near_rest_;
+    const double loose = loosely ? tuning::joint_contact_tolerance : 1.0;
     const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * (loose * speed) * (loose * speed);
     const double stalled = tuning::joint_stall * fastest_, rounding = total_mass_ * stalled * stalled;
     double last = infinity;

@@ -82,9 +82,10 @@ private:
     Closing close_joints(const JointIsland& island);
     double close_contacts(const JointIsland& island);
     bool moves_no_body() const;
+    bool comes_to_rest(const JointIsland& island) const;
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
-    bool fly(const JointIsland& island, int& substeps);
+    bool fly(const JointIsland& island, bool rows_fly, int& substeps);
     void set_back(const JointIsland& island);
     TreeFlight::Outcome fly_tree(const JointIsland& island);
     void apply_solution(const JointIsland& island);
@@ -136,6 +137,7 @@ private:
     int rounds_ = 0;                       // most passes of a substep
     bool consistent_ = true;               // the impulses fit the velocities
     bool joint_friction_softens_ = false;  // the friction of joints is as soft as that of contacts
+    bool near_rest_ = false;               // see comes_to_rest()
     bool limits_held_ = false;             // friction's limits no longer follow the loads: the rounds did not settle
     bool factored_ = false;                // the matrix is that of the rows' weights
     std::vector<BlockCholesky::Pair> pairs_;

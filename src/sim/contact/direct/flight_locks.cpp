@@ -1,5 +1,6 @@
 #include "sim/contact/direct/flight_locks.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/joints/swing.h"
 
 #include <algorithm>
@@ -39,12 +40,6 @@ Quarters square(const Mat3& p, bool all, const Mat3& s_1, const Mat3& s_2, const
 
 }  // namespace
 
-void FlightBody::derive() {
-    rotation = state.orientation.toRotationMatrix();
-    if (!spherical_top) inverse_inertia = rotation * inertia.inverse_inertia * rotation.transpose();
-    derive_velocities();
-}
-
 std::uint32_t FlightLocks::add_still(const JointIsland& island, std::uint32_t body) {
     FlightBody& still = bodies_.emplace_back();
     if (body != Joint::world) {
@@ -57,18 +52,20 @@ std::uint32_t FlightLocks::add_still(const JointIsland& island, std::uint32_t bo
 
 void FlightLocks::list(const JointIsland& island) {
     joints_.clear();
+    frames_.clear();
     locks_.clear();
     bool still = false;
     for (const std::uint32_t index : listed_) {
-        Joint& joint = island.problem.joints->joints()[index];
+        const Joint& joint = island.problem.joints->joints()[index];
+        JointFrame& frame = frames_.emplace_back();
+        frame.index = index;
+        frame.locks = joint.locks;
+        frame.anchor_a = joint.anchor_a;
+        frame.anchor_b = joint.anchor_b;
+        frame.frame_a = joint.frame_a.toRotationMatrix();
+        frame.frame_b = joint.frame_b.toRotationMatrix();
         FlightJoint& j = joints_.emplace_back();
-        j.index = index;
-        j.frame_a = joint.frame_a.toRotationMatrix();
-        j.frame_b = joint.frame_b.toRotationMatrix();
         j.size = joint.size;
-        j.locks = joint.locks;
-        j.anchor_a = joint.anchor_a;
-        j.anchor_b = joint.anchor_b;
         j.first = std::uint32_t(locks_.size());
         for (std::size_t k = 0; k < joint.count(); ++k) {
             if (!joint.locked(k)) continue;
@@ -84,6 +81,7 @@ void FlightLocks::list(const JointIsland& island) {
         j.b = std::uint32_t(b);
         still = still || a == contact_rows::none || b == contact_rows::none;
     }
+    forces_.resize(locks_.size());
     // A connected graph is a tree if it has one edge less than nodes; all bodies that stand still are one node.
     tree_ = joints_.size() + 1 == island.bodies.size() + still;
 }
@@ -112,16 +110,27 @@ bool FlightLocks::load(const JointIsland& island) {
         to.mass = body.mass;
         to.inertia_body = body.inertia_body;
         to.spherical_top = body.spherical_top;
+        to.least_inertia = body.principal_inertia.minCoeff();
         to.rotation = body.rotation;
         to.inverse_inertia = body.inverse_inertia;
         to.velocity = body.velocity;
         to.spin = body.angular_velocity;
         total_mass_ += body.mass;
     }
-    for (FlightJoint& j : joints_) {
-        j.joint = &joints[j.index];
-        if (!moves(j.a)) j.a = add_still(island, j.joint->a);
-        if (!moves(j.b)) j.b = add_still(island, j.joint->b);
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        if (k + elements_ahead < joints_.size()) {
+            const Joint& later = joints[frames_[k + elements_ahead].index];
+            fetch_ahead(&later.constraint_force, &later.force);
+        }
+        FlightJoint& j = joints_[k];
+        Joint& joint = joints[frames_[k].index];
+        frames_[k].joint = &joint;
+        if (!moves(j.a)) j.a = add_still(island, joint.a);
+        if (!moves(j.b)) j.b = add_still(island, joint.b);
+        for (std::uint32_t i = j.first; i < j.first + j.count; ++i)
+            forces_[i] = {joint.constraint_force[locks_[i].coordinate], joint.constraint_rates[locks_[i].coordinate]};
+        j.load = {};
+        j.work_a = j.work_b = j.lock_work = j.springs = 0.0;
     }
     return !same;
 }
@@ -146,51 +155,34 @@ double FlightLocks::place_rounding() const {
     return 2.0 * std::numeric_limits<double>::epsilon() * farthest / smallest;
 }
 
-void FlightLocks::take_forces() {
-    for (const FlightJoint& j : joints_)
-        for (Lock& lock : locks(j)) {
-            lock.force = j.joint->constraint_force[lock.coordinate];
-            lock.rates = j.joint->constraint_rates[lock.coordinate];
-        }
-}
-
-void FlightLocks::keep_forces() {
-    for (const FlightJoint& j : joints_)
-        for (const Lock& lock : locks(j)) {
-            j.joint->constraint_force[lock.coordinate] = lock.force;
-            j.joint->constraint_rates[lock.coordinate] = lock.rates;
-        }
-}
-
 // Returns the anchor of B.
 Vec3 FlightLocks::measure_at(const FlightJoint& j, Coordinates& coordinates) const {
     const FlightBody &a = bodies_[j.a], &b = bodies_[j.b];
+    const JointFrame& constant = frame_of(j);
     JointFrames frames;
-    frames.anchor_a = a.state.position + a.rotation * j.anchor_a;
-    frames.anchor_b = b.state.position + b.rotation * j.anchor_b;
-    if (!j.locks.distance) {
-        frames.a = a.rotation * j.frame_a;
-        if (j.count > j.moves) frames.b = b.rotation * j.frame_b;
+    frames.anchor_a = a.state.position + a.rotation * constant.anchor_a;
+    frames.anchor_b = b.state.position + b.rotation * constant.anchor_b;
+    if (!constant.locks.distance) {
+        frames.a = a.rotation * constant.frame_a;
+        if (j.count > j.moves) frames.b = b.rotation * constant.frame_b;
         if (j.count == j.moves + 3) {
-            frames.turn_a = a.state.orientation * j.joint->frame_a;
-            frames.turn_b = b.state.orientation * j.joint->frame_b;
+            frames.turn_a = a.state.orientation * constant.joint->frame_a;
+            frames.turn_b = b.state.orientation * constant.joint->frame_b;
         }
     }
-    measure_locks(j.locks, frames, coordinates);
+    measure_locks(constant.locks, frames, coordinates);
     return frames.anchor_b;
 }
 
-double FlightLocks::look() {
+double FlightLocks::look(FlightJoint& j) {
     double worst = 0.0;
     Coordinates coordinates;
-    for (FlightJoint& j : joints_) {
-        j.point = measure_at(j, coordinates);
-        j.arm_a = j.point - bodies_[j.a].state.position;
-        j.arm_b = j.point - bodies_[j.b].state.position;
-        for (Lock& lock : locks(j)) {
-            lock.direction = coordinates[lock.coordinate].direction;
-            worst = std::max(worst, std::abs(coordinates[lock.coordinate].value) / (lock.turns ? 1.0 : j.size));
-        }
+    j.point = measure_at(j, coordinates);
+    j.arm_a = j.point - bodies_[j.a].state.position;
+    j.arm_b = j.point - bodies_[j.b].state.position;
+    for (Lock& lock : locks(j)) {
+        lock.direction = coordinates[lock.coordinate].direction;
+        worst = std::max(worst, std::abs(coordinates[lock.coordinate].value) / (lock.turns ? 1.0 : j.size));
     }
     return worst;
 }
@@ -223,33 +215,29 @@ void FlightLocks::fill(BlockCholesky& matrix, double compliance) const {
     }
 }
 
-double FlightLocks::ask_to_close(double h) {
+double FlightLocks::ask_to_close(const FlightJoint& j, double h) {
     double worst = 0.0;
     Coordinates coordinates;
-    for (const FlightJoint& j : joints_) {
-        measure_at(j, coordinates);
-        // The errors as vectors: the rows keep the directions that they had at the start.
-        Vec3 apart = Vec3::Zero(), turned = Vec3::Zero();
-        for (const Lock& lock : locks(j)) {
-            const auto& [direction, value] = coordinates[lock.coordinate];
-            (lock.turns ? turned : apart) += value * direction;
-            worst = std::max(worst, std::abs(value) / (lock.turns ? 1.0 : j.size));
-        }
-        for (Lock& lock : locks(j)) lock.asked = -unit(lock) / h * lock.direction.dot(lock.turns ? turned : apart);
+    measure_at(j, coordinates);
+    // The errors as vectors: the rows keep the directions that they had at the start.
+    Vec3 apart = Vec3::Zero(), turned = Vec3::Zero();
+    for (const Lock& lock : locks(j)) {
+        const auto& [direction, value] = coordinates[lock.coordinate];
+        (lock.turns ? turned : apart) += value * direction;
+        worst = std::max(worst, std::abs(value) / (lock.turns ? 1.0 : j.size));
     }
+    for (Lock& lock : locks(j)) lock.asked = -unit(lock) / h * lock.direction.dot(lock.turns ? turned : apart);
     return worst;
 }
 
-double FlightLocks::ask_to_fit() {
+double FlightLocks::ask_to_fit(const FlightJoint& j) {
     double worst = 0.0;
-    for (const FlightJoint& j : joints_) {
-        const FlightBody &a = bodies_[j.a], &b = bodies_[j.b];
-        const Vec3 turning = b.spin - a.spin;
-        const Vec3 apart = b.velocity + b.spin.cross(j.arm_b) - a.velocity - a.spin.cross(j.arm_a);
-        for (Lock& lock : locks(j)) {
-            lock.asked = -unit(lock) * lock.direction.dot(lock.turns ? turning : apart);
-            worst = std::max(worst, std::abs(lock.asked));
-        }
+    const FlightBody &a = bodies_[j.a], &b = bodies_[j.b];
+    const Vec3 turning = b.spin - a.spin;
+    const Vec3 apart = b.velocity + b.spin.cross(j.arm_b) - a.velocity - a.spin.cross(j.arm_a);
+    for (Lock& lock : locks(j)) {
+        lock.asked = -unit(lock) * lock.direction.dot(lock.turns ? turning : apart);
+        worst = std::max(worst, std::abs(lock.asked));
     }
     return worst;
 }
@@ -283,30 +271,33 @@ bool FlightLocks::take(const std::vector<double>& change, double compliance) {
         };
         add(j.a, j.arm_a, -1.0);
         add(j.b, j.arm_b, 1.0);
+        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         for (Lock& lock : locks(j)) {
-            lock.given += (lock.asked - lock.direction.dot(lock.turns ? turning : apart)) / compliance;
+            const double more = (lock.asked - lock.direction.dot(lock.turns ? turning : apart)) / compliance;
+            lock.given += more;
+            (lock.turns ? torque : force) += unit(lock) * more * lock.direction;
             sum += lock.given;
         }
+        give(j, force, torque);
     }
     return std::isfinite(sum);
 }
 
-void FlightLocks::estimate(double h, ConstraintRate ConstraintRates::*which) {
-    clear_given();
-    if (!tree_) return;
-    for (Lock& lock : locks_) {
-        const ConstraintRate& rate = lock.rates.*which;
-        lock.given = h / unit(lock) * (lock.force + h * (2.0 * rate.now - rate.before));
+void FlightLocks::estimate(const FlightJoint& j, double h, ConstraintRate ConstraintRates::*which) {
+    for (std::uint32_t k = j.first; k < j.first + j.count; ++k) {
+        const ConstraintRate& rate = forces_[k].rates.*which;
+        Lock& lock = locks_[k];
+        lock.given = tree_ ? h / unit(lock) * (forces_[k].force + h * (2.0 * rate.now - rate.before)) : 0.0;
     }
 }
 
-void FlightLocks::learn(double h, ConstraintRate ConstraintRates::*which) {
-    for (Lock& lock : locks_) {
-        ConstraintRate& rate = lock.rates.*which;
-        const double last = lock.force;
-        lock.force = unit(lock) / h * lock.given;
+void FlightLocks::learn(const FlightJoint& j, double h, ConstraintRate ConstraintRates::*which) {
+    for (std::uint32_t k = j.first; k < j.first + j.count; ++k) {
+        ConstraintRate& rate = forces_[k].rates.*which;
+        const double last = forces_[k].force;
+        forces_[k].force = unit(locks_[k]) / h * locks_[k].given;
         rate.before = rate.now;
-        rate.now = (lock.force - last) / h;
+        rate.now = (forces_[k].force - last) / h;
     }
 }
 
@@ -323,48 +314,39 @@ JointLoad FlightLocks::load_of(const FlightJoint& j) const {
     return load;
 }
 
-void FlightLocks::apply() {
-    for (FlightBody& body : bodies()) {
-        body.state.momentum = body.start.momentum;
-        body.state.angular_momentum = body.start.angular_momentum;
+void FlightLocks::give(const FlightJoint& j, const Vec3& force, const Vec3& torque) {
+    if (moves(j.a)) {
+        RigidState& a = bodies_[j.a].state;
+        a.momentum -= force;
+        a.angular_momentum -= j.arm_a.cross(force) + torque;
     }
-    for (const FlightJoint& j : joints_) {
-        const JointLoad load = load_of(j);
-        if (moves(j.a)) {
-            RigidState& a = bodies_[j.a].state;
-            a.momentum -= load.force;
-            a.angular_momentum -= j.arm_a.cross(load.force) + load.torque;
-        }
-        if (moves(j.b)) {
-            RigidState& b = bodies_[j.b].state;
-            b.momentum += load.force;
-            b.angular_momentum += j.arm_b.cross(load.force) + load.torque;
-        }
+    if (moves(j.b)) {
+        RigidState& b = bodies_[j.b].state;
+        b.momentum += force;
+        b.angular_momentum += j.arm_b.cross(force) + torque;
     }
 }
 
-double FlightLocks::swing_rate(double h, double enough) {
-    swing_.assign(moving_, 0.0);
+double FlightLocks::add_swing(const FlightJoint& j, const JointLoad& load, double h) {
+    const double force = load.force.norm() / (3.0 * std::abs(h));
     double bound = 0.0;
-    for (const FlightJoint& j : joints_) {
-        const double force = load_of(j).force.norm() / std::abs(h);
-        const auto add = [&](std::uint32_t place, const Vec3& arm) {
-            if (!moves(place)) return;
-            swing_[place] += force * arm.norm() / (3.0 * bodies_[place].inertia.principal_inertia.minCoeff());
-            bound = std::max(bound, swing_[place]);
-        };
-        add(j.a, j.arm_a);
-        add(j.b, j.arm_b);
-    }
-    return bound < enough * enough ? std::sqrt(bound) : exact_swing_rate(h);
+    const auto add = [&](std::uint32_t place, const Vec3& arm) {
+        if (!moves(place)) return;
+        swing_[place] += force * arm.norm() / bodies_[place].least_inertia;
+        bound = std::max(bound, swing_[place]);
+    };
+    add(j.a, j.arm_a);
+    add(j.b, j.arm_b);
+    return bound;
 }
 
-double FlightLocks::exact_swing_rate(double h) {
-    swing_.assign(moving_, 0.0);
+double FlightLocks::swing_rate(double h) {
+    begin_swing();
     double most = 0.0;
     for (const FlightJoint& j : joints_) {
         const Vec3 force = load_of(j).force / h;
-        const SwingAxes axes = swing_axes(*j.joint, measure(*j.joint, side(j.a), side(j.b)));
+        const Joint& its = joint(j);
+        const SwingAxes axes = swing_axes(its, measure(its, side(j.a), side(j.b)));
         const auto add = [&](std::uint32_t place, const Vec3& arm) {
             if (!moves(place)) return;
             swing_[place] += force.norm() * swing_compliance(axes, arm, bodies_[place].inverse_inertia);

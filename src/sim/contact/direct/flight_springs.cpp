@@ -9,14 +9,7 @@
 namespace tumble {
 namespace {
 
-/// A spring at one pose: its force along a coordinate.
-struct SpringForce {
-    JointLoad load;          // N, N m, on B, about the point
-    double stiffness = 0.0;  // N/m, N m/rad
-    Vec3 direction = Vec3::Zero();
-    bool turns = false;
-};
-
+// The force (N, N m) of each spring on B, about the point.
 template <class Visit>
 void each_spring(const Joint& joint, const JointSide& a, const JointSide& b, const Visit& visit) {
     if (!has_springs(joint)) return;
@@ -25,12 +18,9 @@ void each_spring(const Joint& joint, const JointSide& a, const JointSide& b, con
         if (!joint.axis(k).spring) continue;
         const JointSpring& spring = joint.springs[k];
         const auto& [direction, value] = g.coordinates[k];
-        SpringForce one;
-        one.stiffness = spring.stiffness;
-        one.direction = direction;
-        one.turns = k >= 3;
-        (one.turns ? one.load.torque : one.load.force) = spring.stiffness * (spring.rest - value) * direction;
-        visit(one, g.point);
+        JointLoad load;
+        (k >= 3 ? load.torque : load.force) = spring.stiffness * (spring.rest - value) * direction;
+        visit(load, g.point);
     }
 }
 
@@ -39,21 +29,15 @@ void each_spring(const Joint& joint, const JointSide& a, const JointSide& b, con
 // A ball's spring is not the gradient of a coordinate. The step must resolve the spring: explicit kicks need a phase
 // below 2, and rows of the solver are stable for any stiffness.
 bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joint) {
-    for (std::size_t k = 0; k < joint.count(); ++k)
-        if (joint.axis(k).spring && (joint.springs[k].damping > 0.0 || joint.turns_alike())) return false;
-    double most = 0.0;  // 1/s^2
+    if (!has_springs(joint)) return true;
     const std::vector<Body>& bodies = island.problem.bodies;
-    each_spring(
-        joint, side_of(bodies, joint.a), side_of(bodies, joint.b), [&](const SpringForce& spring, const Vec3& point) {
-            double gives = 0.0;
-            for (const std::uint32_t i : {joint.a, joint.b}) {
-                if (i == Joint::world || !bodies[i].dynamic()) continue;
-                const Body& b = bodies[i];
-                const Vec3 turn = spring.turns ? spring.direction : Vec3((point - b.position).cross(spring.direction));
-                gives += (spring.turns ? 0.0 : b.inverse_mass) + turn.dot(b.inverse_inertia * turn);
-            }
-            most += spring.stiffness * gives;
-        });
+    const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
+    double most = 0.0;  // 1/s^2
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        if (!joint.axis(k).spring) continue;
+        if (joint.springs[k].damping > 0.0 || joint.turns_alike()) return false;
+        most += joint.springs[k].stiffness * compliance_along(bodies, joint, g, k);
+    }
     const double h = island.problem.settings.h;
     return h * h * most <= tuning::joint_flight_spring * tuning::joint_flight_spring;
 }
@@ -61,9 +45,9 @@ bool JointFlight::flies_with_springs(const JointIsland& island, const Joint& joi
 // Equal and opposite, about one point.
 void JointFlight::kick_springs(double time) {
     std::span<FlightBody> bodies = locks_.bodies();
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        each_spring(*j.joint, locks_.side(j.a), locks_.side(j.b), [&](const SpringForce& spring, const Vec3& point) {
-            const Vec3 force = time * spring.load.force, torque = time * spring.load.torque;
+    for (FlightLocks::FlightJoint& j : locks_.joints()) {
+        each_spring(locks_.joint(j), locks_.side(j.a), locks_.side(j.b), [&](const JointLoad& load, const Vec3& point) {
+            const Vec3 force = time * load.force, torque = time * load.torque;
             // Returns the work: the impulse times the mean of the velocities before and after.
             const auto give = [&](std::uint32_t place, double sign) {
                 if (!locks_.moves(place)) return 0.0;
@@ -77,12 +61,9 @@ void JointFlight::kick_springs(double time) {
                        turn.dot(body.inverse_inertia * angular);
             };
             const double on_a = give(j.a, -1.0), on_b = give(j.b, 1.0);
-            j.joint->force += force;
-            j.joint->torque += torque;
-            JointAccount::Span& step = j.joint->account.step;
-            step.load.add({force, torque, point.cross(force) + torque});
-            step.work_a += on_a;
-            step.work_b += on_b;
+            j.load.add({force, torque, point.cross(force) + torque});
+            j.work_a += on_a;
+            j.work_b += on_b;
         });
     }
 }

@@ -1,5 +1,6 @@
 #include "sim/contact/direct/joint_flight.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/joints/flight_way.h"
@@ -59,73 +60,138 @@ int JointFlight::order(const JointIsland& island) {
     return order;
 }
 
-// The structure of the matrix, for the island's joints.
+// The structure of the equations, for the island's joints.
 void JointFlight::analyze(const JointIsland& island) {
     if (locks_.load(island)) {
         pairs_.clear();
+        places_.clear();
         springs_ = false;
         for (FlightLocks::FlightJoint& j : locks_.joints()) {
-            springs_ = springs_ || has_springs(*j.joint);
+            springs_ = springs_ || has_springs(locks_.joint(j));
             j.pair = std::uint32_t(pairs_.size());
             if (locks_.moves(j.a) && locks_.moves(j.b)) pairs_.push_back({j.a, j.b});
         }
-        matrix_.analyze(island.bodies.size(), pairs_);
+        if (locks_.tree()) {
+            tree_.analyze(locks_);
+            for (std::size_t i = 0; i < tree_.size(); ++i) places_.push_back(tree_.place(i));
+        } else {
+            matrix_.analyze(island.bodies.size(), pairs_);
+            for (std::uint32_t k = 0; k < island.bodies.size(); ++k) places_.push_back({k, LockTree::none});
+            for (std::uint32_t k = 0; k < locks_.joints().size(); ++k) places_.push_back({LockTree::none, k});
+        }
         change_.resize(6 * island.bodies.size());
     }
     swing_ = 0.0;
     loaded_ = false;
 }
 
-// The matrix at the present poses, of a stage of `h` s. Returns false where it cannot be factored.
+// Looks at all joints, for the equations of a tree too, and estimates their impulses of a stage of `h` s. Returns the
+// largest error, in sizes of the joint.
+double JointFlight::look(double h, std::optional<Rate> rate) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        if (places_[i].joint != LockTree::none) {
+            FlightLocks::FlightJoint& j = locks_.joints()[places_[i].joint];
+            worst = std::max(worst, locks_.look(j));
+            if (rate) estimate(j, h, *rate);
+        }
+        if (locks_.tree()) tree_.take(locks_, i);
+    }
+    return worst;
+}
+
+// The equations at the present poses, after look(), of a stage of `h` s. Returns false where they cannot be factored.
 bool JointFlight::load(double h) {
+    if (locks_.tree()) return true;  // factored where they are needed
     const double joints = double(locks_.joints().size()), bodies = double(locks_.bodies().size());
-    const double of_rows = locks_.tree() ? tuning::joint_flight_compliance : tuning::joint_compliance;
     // In a singular position the gap along the vanishing row is (h w)^2 / 2: without this compliance its correction
     // would be divided by zero.
     const double turn = h * locks_.fastest_turn();
     const double singular = tuning::joint_singular * turn * turn * turn * turn * bodies;
-    compliance_ = std::max(of_rows / joints, singular) / locks_.total_mass();
+    compliance_ = std::max(tuning::joint_compliance / joints, singular) / locks_.total_mass();
     locks_.fill(matrix_, compliance_);
     return matrix_.factor();
 }
 
-// The least impulses that change J u as asked, but for the compliance: M du = J^T f, f = (asked - J du) / R.
+// The least impulses that change J u as asked; with loops but for the compliance: M du = J^T f, f = (asked - J du) / R.
 bool JointFlight::change() {
+    if (locks_.tree()) return tree_.solve(locks_);
     locks_.add_asked(compliance_, change_);
     matrix_.solve(change_);
     return locks_.take(change_, compliance_);
 }
 
-void JointFlight::kick(const Stage& stage) {
+void JointFlight::kick(const Stage& stage, bool moved) {
     std::span<FlightBody> bodies = locks_.bodies();
     for (std::size_t k = 0; k < bodies.size(); ++k) {
-        bodies[k].state.momentum += 0.5 * stage.share * stage.forces[k].push;
-        bodies[k].state.angular_momentum += 0.5 * stage.share * stage.forces[k].turn;
+        FlightBody& body = bodies[k];
+        body.state.momentum += 0.5 * stage.share * stage.forces[k].push;
+        body.state.angular_momentum += 0.5 * stage.share * stage.forces[k].turn;
+        if (moved) {
+            body.derive_inertia();
+            if (!locks_.tree()) body.derive_velocities();  // for the fastest turn
+        }
+        body.start = body.state;
     }
-    if (springs_) kick_springs(0.5 * stage.h);
+    if (!springs_) return;
+    kick_springs(0.5 * stage.h);
+    for (FlightBody& body : bodies) body.start = body.state;
 }
 
-void JointFlight::begin_drift() {
-    for (FlightBody& body : locks_.bodies()) body.start = body.state;
+void JointFlight::drift(FlightBody& body, double h) const {
+    body.state.position = body.start.position;
+    body.state.orientation = body.start.orientation;
+    const Vec3 angular_momentum = body.state.angular_momentum;
+    free_drift(body.state, body.inertia, h);
+    body.state.angular_momentum = angular_momentum;
+    body.rotation = body.state.orientation.toRotationMatrix();
 }
 
-void JointFlight::drift(double h) {
-    for (FlightBody& body : locks_.bodies()) {
-        body.state.position = body.start.position;
-        body.state.orientation = body.start.orientation;
-        const Vec3 angular_momentum = body.state.angular_momentum;
-        free_drift(body.state, body.inertia, h);
-        body.state.angular_momentum = angular_momentum;
-        body.rotation = body.state.orientation.toRotationMatrix();
+// The equations, if they are not loaded, and the first estimate of the impulses.
+bool JointFlight::start(double h, Rate rate) {
+    if (loaded_) {
+        for (const FlightLocks::FlightJoint& j : locks_.joints()) estimate(j, h, rate);
+        return true;
     }
+    loaded_ = look(h, rate) <= tuning::joint_flight_open && load(h);
+    return loaded_;
+}
+
+void JointFlight::estimate(const FlightLocks::FlightJoint& j, double h, Rate rate) {
+    locks_.estimate(j, h, rate);
+    const JointLoad load = locks_.load_of(j);
+    locks_.give(j, load.force, load.torque);
+}
+
+// Keeps the impulses, and their swing where they closed the joints.
+void JointFlight::finish(const Stage& stage, Rate rate) {
+    const bool swings = rate == &ConstraintRates::closing;
+    double bound = 0.0;
+    if (swings) locks_.begin_swing();
+    for (FlightLocks::FlightJoint& j : locks_.joints()) {
+        locks_.learn(j, stage.h, rate);
+        const JointLoad load = locks_.load_of(j);
+        add_up(j, load);
+        if (swings) bound = std::max(bound, locks_.add_swing(j, load, stage.h));
+    }
+    if (swings) swing_ = std::max(swing_, find_swing(bound, stage.h));
+}
+
+// The phase of the fastest swing in a stage, from a bound of the square of its rate.
+double JointFlight::find_swing(double bound, double h) {
+    const double phase = std::abs(h) * std::sqrt(bound);
+    return phase < tuning::joint_easy_swing ? phase : std::abs(h) * locks_.swing_rate(h);
 }
 
 bool JointFlight::close(double h) {
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        locks_.apply();
-        drift(h);
-        const double error = locks_.ask_to_close(h);
+        double error = 0.0;
+        for (const LockTree::Place& place : places_) {
+            if (place.body != LockTree::none) drift(locks_.body(place.body), h);
+            if (place.joint != LockTree::none)
+                error = std::max(error, locks_.ask_to_close(locks_.joints()[place.joint], h));
+        }
         if (!std::isfinite(error)) return false;
         if (error <= closed_ || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
         // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
@@ -138,14 +204,17 @@ bool JointFlight::close(double h) {
 
 void JointFlight::close_poses(const JointIsland& island) {
     analyze(island);
+    for (FlightBody& body : locks_.bodies()) body.start = body.state;
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        locks_.look();
-        const double error = locks_.ask_to_close(1.0);
+        look(1.0, {});
+        double error = 0.0;
+        for (const FlightLocks::FlightJoint& j : locks_.joints()) error = std::max(error, locks_.ask_to_close(j, 1.0));
         if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) break;
         last = error;
         locks_.clear_given();
         if (!load(island.problem.settings.h) || !change()) return;
+        if (locks_.tree()) tree_.changes(locks_, change_);
         std::span<FlightBody> bodies = locks_.bodies();
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             FlightBody& body = bodies[k];
@@ -153,7 +222,10 @@ void JointFlight::close_poses(const JointIsland& island) {
             body.state.orientation =
                 (from_rotation_vector(Vec3::Map(&change_[6 * k + 3]) / island.length) * body.state.orientation)
                     .normalized();
-            body.derive();
+            body.rotation = body.state.orientation.toRotationMatrix();
+            body.derive_inertia();
+            body.state.momentum = body.start.momentum;
+            body.state.angular_momentum = body.start.angular_momentum;
         }
     }
     if (last < infinity) locks_.give_back(island);
@@ -163,13 +235,15 @@ void JointFlight::close_poses(const JointIsland& island) {
 bool JointFlight::fit() {
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        locks_.apply();
-        double fastest = 0.0;
-        for (FlightBody& body : locks_.bodies()) {
-            body.derive_velocities();
-            fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
+        double fastest = 0.0, worst = 0.0;
+        for (const LockTree::Place& place : places_) {
+            if (place.body != LockTree::none) {
+                FlightBody& body = locks_.body(place.body);
+                body.derive_velocities();
+                fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
+            }
+            if (place.joint != LockTree::none) worst = std::max(worst, locks_.ask_to_fit(locks_.joints()[place.joint]));
         }
-        const double worst = locks_.ask_to_fit();
         if (!(worst > coarse_ * tuning::joint_flight_fits * std::sqrt(fastest)) || worst >= 0.5 * last)
             return std::isfinite(worst);
         last = worst;
@@ -179,96 +253,89 @@ bool JointFlight::fit() {
 }
 
 bool JointFlight::fly(const Stage& stage) {
-    const double h = stage.h;
-    kick(stage);
-    begin_drift();
-    if (!loaded_) {
-        if (locks_.look() > tuning::joint_flight_open || !load(h)) return false;
-        closed_ = std::max(coarse_ * tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
-    }
-    locks_.estimate(h, &ConstraintRates::closing);
-    if (!close(h)) return false;
-    locks_.learn(h, &ConstraintRates::closing);
-    add_up();
-    swing_ = std::max(swing_, std::abs(h) * locks_.swing_rate(h, tuning::joint_easy_swing / std::abs(h)));
-    kick(stage);
-    begin_drift();
-    for (FlightBody& body : locks_.bodies()) body.derive();
-    locks_.look();
-    loaded_ = load(h);
-    if (!loaded_) return false;
-    locks_.estimate(h, &ConstraintRates::fitting);
-    if (!fit()) return false;
-    locks_.learn(h, &ConstraintRates::fitting);
-    add_up();
+    const bool fresh = !loaded_;
+    kick(stage, false);
+    if (!start(stage.h, &ConstraintRates::closing)) return false;
+    if (fresh) closed_ = std::max(coarse_ * tuning::joint_flight_closed, 2.0 * locks_.place_rounding());
+    if (!close(stage.h)) return false;
+    finish(stage, &ConstraintRates::closing);
+    if (swing_ > tuning::joint_swing) return false;
+    kick(stage, true);
+    loaded_ = false;
+    if (!start(stage.h, &ConstraintRates::fitting) || !fit()) return false;
+    finish(stage, &ConstraintRates::fitting);
     return true;
 }
 
-// Sums the impulses of the stages in Joint::force and torque, and in the accounts of the joints.
-void JointFlight::add_up() {
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        Joint& joint = *j.joint;
-        JointLoad load = locks_.load_of(j);
-        joint.force += load.force;
-        joint.torque += load.torque;
-        load.moment = j.point.cross(load.force) + load.torque;
-        const auto work = [&](std::uint32_t place, const Vec3& arm) {
-            if (!locks_.moves(place)) return 0.0;
-            const FlightBody& body = locks_.body(place);
-            const Vec3 turn = arm.cross(load.force) + load.torque;
-            return 0.5 * (body.inertia.inverse_mass * load.force.dot(body.start.momentum + body.state.momentum) +
-                          turn.dot(body.inverse_inertia * (body.start.angular_momentum + body.state.angular_momentum)));
-        };
-        joint.account.step.add_flight(load, -work(j.a, j.arm_a), work(j.b, j.arm_b), !joint.account.holds);
-    }
+// Adds the impulses of a stage, and their work, to the sums of the flight.
+void JointFlight::add_up(FlightLocks::FlightJoint& j, const JointLoad& load) {
+    const auto work = [&](std::uint32_t place, const Vec3& arm) {
+        if (!locks_.moves(place)) return 0.0;
+        const FlightBody& body = locks_.body(place);
+        const Vec3 turn = arm.cross(load.force) + load.torque;
+        return 0.5 * (body.inertia.inverse_mass * load.force.dot(body.start.momentum + body.state.momentum) +
+                      turn.dot(body.inverse_inertia * (body.start.angular_momentum + body.state.angular_momentum)));
+    };
+    const double on_a = -work(j.a, j.arm_a), on_b = work(j.b, j.arm_b);
+    j.load.add({load.force, load.torque, j.point.cross(load.force) + load.torque});
+    j.work_a += on_a;
+    j.work_b += on_b;
+    j.lock_work += on_a + on_b;
 }
 
 bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> forces, int order, int substeps) {
     analyze(island);
     const double h = island.problem.settings.h;
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        Joint& joint = *j.joint;
-        joint.force.setZero();
-        joint.torque.setZero();
-        joint.account.step = {};
-        if (springs_)  // no heat: without dampers
-            joint.account.step.work.springs = JointSet::potential(joint, island.problem.bodies);
-    }
-    locks_.take_forces();
+    if (springs_)
+        for (FlightLocks::FlightJoint& j : locks_.joints())
+            j.springs = JointSet::potential(locks_.joint(j), island.problem.bodies);
     const std::vector<double> stages = stages_of(order);
     coarse_ = stages.size() == 1 ? tuning::joint_flight_coarse : 1.0;
     for (int substep = 0; substep < substeps; ++substep)
         for (const double share : stages) {
             if (!fly({forces, share / substeps, h * (share / substeps)})) return false;
-            if (swing_ > tuning::joint_swing) return false;
             if (stages.size() > 1 || substeps > 1) count_turns();
         }
     locks_.give_back(island);
-    locks_.keep_forces();
     return end(island);
 }
 
 // Whole turns are counted from stage to stage.
 void JointFlight::count_turns() {
     for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        if (j.count == j.joint->count()) continue;
-        const JointGeometry g = measure(*j.joint, locks_.side(j.a), locks_.side(j.b));
-        for (std::size_t k = 0; k < j.joint->count(); ++k)
-            if (!j.joint->locked(k)) j.joint->value[k] = g.coordinates[k].value;
+        Joint& joint = locks_.joint(j);
+        if (j.count == joint.count()) continue;
+        const JointGeometry g = measure(joint, locks_.side(j.a), locks_.side(j.b));
+        for (std::size_t k = 0; k < joint.count(); ++k)
+            if (!joint.locked(k)) joint.value[k] = g.coordinates[k].value;
     }
 }
 
 // Limits and strengths are looked at once a step: a step that meets one is left to the solver of contacts.
 bool JointFlight::end(const JointIsland& island) {
     const double h = island.problem.settings.h;
-    for (const FlightLocks::FlightJoint& j : locks_.joints()) {
-        Joint& joint = *j.joint;
-        if (springs_) joint.account.step.work.springs -= JointSet::potential(joint, island.problem.bodies);
-        joint.force /= h;
-        joint.torque /= h;
+    std::span<const FlightLocks::FlightJoint> joints = locks_.joints();
+    for (std::size_t place = 0; place < joints.size(); ++place) {
+        if (place + elements_ahead < joints.size()) {
+            const Joint& later = locks_.joint(joints[place + elements_ahead]);
+            fetch_ahead(&later.anchor_a, &later.account.frame);
+        }
+        const FlightLocks::FlightJoint& j = joints[place];
+        Joint& joint = locks_.joint(j);
+        joint.force = j.load.force / h;
+        joint.torque = j.load.torque / h;
+        JointAccount::Span& step = joint.account.step;
+        step = {};
+        step.load = j.load;
+        step.work_a = j.work_a;
+        step.work_b = j.work_b;
+        if (!joint.account.holds) step.work.impacts = -j.lock_work;
+        if (springs_)  // no heat: without dampers
+            step.work.springs = j.springs - JointSet::potential(joint, island.problem.bodies);
+        step.solves = 1;
         if (j.count < joint.count()) {
             const JointGeometry g = measure(joint, locks_.side(j.a), locks_.side(j.b));
-            if (beyond_limit(joint, g)) return false;
+            if (joint.soft && beyond_limit(joint, g)) return false;
             for (std::size_t k = 0; k < joint.count(); ++k)
                 if (!joint.locked(k)) joint.value[k] = g.coordinates[k].value;
         }
@@ -284,8 +351,13 @@ bool JointFlight::end(const JointIsland& island) {
         joint.impulse = {};
         joint.curving = {};
         joint.point = j.point;
-        for (const FlightLocks::Lock& lock : locks_.locks(j))
-            joint.impulse[lock.coordinate][Joint::lock] = 2.0 * lock.force * h;
+        std::span<const FlightLocks::LockForce> forces = locks_.forces(j);
+        for (std::size_t k = 0; k < j.count; ++k) {
+            const std::size_t coordinate = locks_.locks(j)[k].coordinate;
+            joint.constraint_force[coordinate] = forces[k].force;
+            joint.constraint_rates[coordinate] = forces[k].rates;
+            joint.impulse[coordinate][Joint::lock] = 2.0 * forces[k].force * h;
+        }
     }
     return true;
 }

@@ -8,8 +8,10 @@
 #pragma once
 
 #include "sim/contact/direct/flight_locks.h"
+#include "sim/contact/direct/lock_tree.h"
 #include "sim/math/block_cholesky.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -44,29 +46,36 @@ private:
         double share = 1.0;  // of the step
         double h = 0.0;      // s; negative in some stages of the compositions
     };
+    using Rate = ConstraintRate ConstraintRates::*;
     void analyze(const JointIsland& island);
     bool load(double h);
+    double look(double h, std::optional<Rate> rate);
+    bool start(double h, Rate rate);
+    void estimate(const FlightLocks::FlightJoint& j, double h, Rate rate);
+    void finish(const Stage& stage, Rate rate);
     bool fly(const Stage& stage);
     bool close(double h);
     bool fit();
     bool change();
-    void kick(const Stage& stage);
-    void begin_drift();
-    void drift(double h);
-    void add_up();
+    void kick(const Stage& stage, bool moved);
+    void drift(FlightBody& body, double h) const;
+    double find_swing(double bound, double h);
+    void add_up(FlightLocks::FlightJoint& j, const JointLoad& load);
     static bool flies_with_springs(const JointIsland& island, const Joint& joint);
     void kick_springs(double time);  // s
     void count_turns();
     bool end(const JointIsland& island);
 
     FlightLocks locks_;
-    BlockCholesky matrix_;
+    LockTree tree_;         // of joints without loops
+    BlockCholesky matrix_;  // of joints with loops
     std::vector<BlockCholesky::Pair> pairs_;
-    std::vector<double> change_;  // du: six numbers per body
-    bool springs_ = false;        // a joint has springs
-    bool loaded_ = false;         // locks and matrix are those of the present poses
-    double coarse_ = 1.0;         // factor of the tolerances
-    double closed_ = 0.0;         // largest error of closed joints, in sizes of the joint
+    std::vector<LockTree::Place> places_;  // bodies and joints, each joint after its bodies; in a tree, by its nodes
+    std::vector<double> change_;           // du: six numbers per body
+    bool springs_ = false;                 // a joint has springs
+    bool loaded_ = false;                  // locks and equations are those of the present poses
+    double coarse_ = 1.0;                  // factor of the tolerances
+    double closed_ = 0.0;                  // largest error of closed joints, in sizes of the joint
     double swing_ = 0.0, compliance_ = 0.0;
 };
 

@@ -56,8 +56,12 @@ inline constexpr double sleep_sample_interval = sleep_times.front() / 16.0;
 inline constexpr int sleep_samples = 4;
 inline constexpr double sleep_steady = 0.97;
 
+/// A velocity decays if its change loses at least this times the share that the velocity loses: a velocity that goes
+/// to 0 as exp(-t/T) has 1, one that turns around has less as it nears 0. Related test: JointRest.ADoorThatTurnsBackStaysAwake.
+inline constexpr double sleep_decay = 0.5;
+
 /// Changes of velocity between two samples below this share of g h are rounding of the contact solver. Not fitted:
-/// far above double precision, far below a slide.
+/// far above double precision, far below a slide. That of joined bodies is tuning::joint_rest.
 inline constexpr double sleep_rounding = 1e-10;
 
 }  // namespace tumble::tuning

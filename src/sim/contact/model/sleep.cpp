@@ -4,6 +4,7 @@
 #include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
 #include "sim/joints/joint_set.h"
+#include "sim/joints/settings.h"
 
 #include <algorithm>
 
@@ -79,19 +80,33 @@ bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     return rests;
 }
 
-// Whether the body's velocity changes steadily.
-bool SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
+// Way (m) of the surface that is left to a motion that decays; infinite for others. With the shares l of the velocity and k
+// of its change that are lost from sample to sample, exp(-t/T) has k = l and the way |v| T; even braking, after which a
+// body turns back, has k = 0.
+double SleepMonitor::way_left(const Trend& before, const Trend& now) {
+    const auto lost = [](const Trend::Velocity& from, const Trend::Velocity& to) {
+        return 1.0 - to.dot(from) / from.squaredNorm();
+    };
+    const double of_velocity = lost(before.velocity, now.velocity), of_change = lost(before.change, now.change);
+    if (!(of_velocity > 0.0 && of_velocity < 1.0 && of_change >= tuning::sleep_decay * of_velocity)) return infinity;
+    return before.since * now.velocity.norm() / of_velocity;
+}
+
+// Samples the body's velocity.
+void SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
     trend.since += h;
-    if (trend.since >= tuning::sleep_sample_interval) {
-        Trend::Velocity velocity;
-        velocity << body.velocity, body.radius * body.angular_velocity;
-        const Trend::Velocity change = velocity - trend.velocity;
-        const bool grew = velocity.dot(trend.velocity) > trend.velocity.squaredNorm();
-        const bool same = change.dot(trend.change) > tuning::sleep_steady * trend.change.squaredNorm();
-        const bool any = change.norm() > tuning::sleep_rounding * speed_change;
-        trend = {velocity, change, 0.0, any && (grew || same) ? trend.steady + 1 : 0};
-    }
-    return trend.steady >= tuning::sleep_samples;
+    if (trend.since < tuning::sleep_sample_interval) return;
+    Trend now;
+    now.velocity << body.velocity, body.radius * body.angular_velocity;
+    now.change = now.velocity - trend.velocity;
+    const bool grew = now.velocity.dot(trend.velocity) > trend.velocity.squaredNorm();
+    const bool same = now.change.dot(trend.change) > tuning::sleep_steady * trend.change.squaredNorm();
+    const double rounding = body.jointed ? tuning::joint_rest : tuning::sleep_rounding;
+    const bool any = now.change.norm() > rounding * speed_change;
+    now.steady = any && (grew || same) ? trend.steady + 1 : 0;
+    if (body.jointed) now.left = way_left(trend, now);
+    if (now.left < infinity) now.damped = trend.damped + trend.since;
+    trend = now;
 }
 
 void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds,
@@ -100,8 +115,12 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
         bool still = true, supported = false;
         for (const std::uint32_t i : islands.bodies(island)) {
             // in each step, whatever the other bodies do
-            const bool under_way = follow(watches_[i].trend, bodies[i], h, speed_change);
-            const bool rests = follow(watches_[i].spans, bodies[i], h) && !under_way;
+            Trend& trend = watches_[i].trend;
+            follow(trend, bodies[i], h, speed_change);
+            const bool stays = follow(watches_[i].spans, bodies[i], h);
+            const bool ends = trend.damped >= tuning::sleep_times.front() &&
+                              trend.left <= tuning::sleep_drift(tuning::sleep_times.back()) * bodies[i].radius;
+            const bool rests = ends || (stays && trend.steady < tuning::sleep_samples);
             still = still && rests && !bodies[i].flying;
         }
         if (!still) continue;

@@ -1,7 +1,8 @@
 // Sleep: islands at rest are excluded from the simulation until something touches them.
 // A body is at rest when, in one of several time spans, its surface has stayed near its place and its velocity does not
 // change steadily. A slow slide gains speed from sample to sample and a body that turns back on a slope is slowed as
-// evenly, at any scale; trembling and settling bodies show neither.
+// evenly, at any scale; trembling and settling bodies show neither. Dampers in joints bring bodies to rest over seconds,
+// with a change that decreases in proportion to the velocity: they are at rest once the way that is left is as short.
 // An island sleeps when all its bodies are at rest and it touches a support that stands, fixed or kinematic. Bodies in
 // free flight never sleep, however slow.
 #pragma once
@@ -60,13 +61,14 @@ private:
     struct Trend {
         using Velocity = Eigen::Matrix<double, 6, 1>;  // m/s, of the center, and of the surface relative to it
         Velocity velocity = Velocity::Zero(),
-                 change = Velocity::Zero();  // at the last sample; change since the one before
-        double since = 0.0;                  // s, since the last sample
-        int steady = 0;                      // consecutive samples without rest
+                 change = Velocity::Zero();    // at the last sample; change since the one before
+        double since = 0.0;                    // s, since the last sample
+        int steady = 0;                        // consecutive samples without rest
+        double damped = 0.0, left = infinity;  // s and m: time for which it has decayed, and way that is left to it
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [velocity, change, since, steady] = self;
-            archive.keep(velocity, change, since, steady);
+            auto& [velocity, change, since, steady, damped, left] = self;
+            archive.keep(velocity, change, since, steady, damped, left);
         }
     };
     struct Watch {
@@ -80,7 +82,8 @@ private:
         }
     };
     static bool follow(Spans& spans, const Body& body, double h);
-    static bool follow(Trend& trend, const Body& body, double h, double speed_change);
+    static void follow(Trend& trend, const Body& body, double h, double speed_change);
+    static double way_left(const Trend& before, const Trend& now);
 
     std::vector<Watch> watches_;
     std::uint64_t changes_ = 0;

@@ -1,0 +1,105 @@
+#include "sim/articulation/tree_friction.h"
+
+#include "sim/articulation/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+void TreeFriction::find(const JointTree& tree, const TreeStep& step) {
+    list_.clear();
+    for (int k = 0; k < int(tree.nodes().size()); ++k) {
+        const TreeNode& node = tree.nodes()[std::size_t(k)];
+        if (node.kind != NodeKind::revolute && node.kind != NodeKind::prismatic) continue;
+        const double bound = step.joints[std::size_t(node.joint)]->axis(node.coordinate).friction;
+        if (bound > 0.0)
+            list_.push_back({k, node.joint, node.at, node.speed_at, node.coordinate, node.sign, bound, 0.0, 0.0, 0.0});
+    }
+}
+
+void TreeFriction::begin(double* speeds, double fastest, double length) {
+    for (Friction& f : list_) {
+        double& speed = speeds[f.speed_at];
+        // Angles in m/s of the mean radius; a displacement is not smaller.
+        if (std::abs(speed) * length <= tuning::friction_rest * fastest) speed = 0.0;
+        f.way = speed > 0.0 ? 1.0 : speed < 0.0 ? -1.0 : 0.0;
+    }
+}
+
+void TreeFriction::drive(ForwardDynamics& dynamics) const {
+    for (const Friction& f : list_) {
+        if (f.way == 0.0)
+            dynamics.hold(f.node);
+        else
+            dynamics.drive(f.node, -f.way * f.bound);
+    }
+}
+
+double TreeFriction::excess(std::size_t k, const ForwardDynamics& dynamics, const double* speeds) const {
+    const Friction& f = list_[k];
+    if (f.way != 0.0) return -f.way * speeds[f.speed_at];
+    return std::abs(dynamics.net_effort(f.node)) - (1.0 + tuning::friction_let_go) * f.bound;
+}
+
+double TreeFriction::unit(std::size_t k, const double* speeds) const {
+    const Friction& f = list_[k];
+    return f.way != 0.0 ? std::abs(speeds[f.speed_at]) : f.bound;
+}
+
+double TreeFriction::turns_back_at(std::size_t k, const double* speeds, const double* rates, const double* end_speeds,
+                                   const double* end_rates, double h) const {
+    const Friction& f = list_[k];
+    const auto i = std::size_t(f.speed_at);
+    const double v0 = f.way * speeds[i], v1 = f.way * end_speeds[i], a0 = f.way * rates[i] * h,
+                 a1 = f.way * end_rates[i] * h;
+    if (f.way == 0.0 || !(a0 < 0.0) || !(a1 > 0.0)) return 0.0;
+    // v0 + a0 t + b t^2 + c t^3, whose rate a0 + 2 b t + 3 c t^2 changes its sign once.
+    const double b = 3.0 * (v1 - v0) - 2.0 * a0 - a1, c = a0 + a1 - 2.0 * (v1 - v0);
+    double low = 0.0, high = 1.0;
+    for (int halving = 0; halving < 30; ++halving) {
+        const double t = 0.5 * (low + high);
+        (a0 + t * (2.0 * b + 3.0 * c * t) < 0.0 ? low : high) = t;
+    }
+    return v0 + low * (a0 + low * (b + low * c)) < 0.0 ? low : 0.0;
+}
+
+void TreeFriction::change(std::size_t k, const double* q, double* speeds, double net) {
+    Friction& f = list_[k];
+    f.heat += f.bound * std::abs(q[f.at] - f.since);
+    f.since = q[f.at];
+    speeds[f.speed_at] = 0.0;
+    f.way = f.way != 0.0 ? 0.0 : net > 0.0 ? 1.0 : -1.0;
+}
+
+bool TreeFriction::revise(const ForwardDynamics& dynamics, const double* speeds, const double* rates, bool one) {
+    bool any = false;
+    for (Friction& f : list_) {
+        if (speeds[f.speed_at] != 0.0) continue;
+        const double before = f.way;
+        if (f.way == 0.0) {
+            const double needed = dynamics.net_effort(f.node);
+            if (std::abs(needed) > (1.0 + 0.5 * tuning::friction_let_go) * f.bound) f.way = needed > 0.0 ? 1.0 : -1.0;
+        } else if (f.way * rates[f.speed_at] < 0.0) {
+            f.way = 0.0;
+        }
+        if (f.way == before) continue;
+        any = true;
+        if (one) break;
+    }
+    return any;
+}
+
+// A joint that begins to hold has counted its whole work as an impact's.
+void TreeFriction::account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q) {
+    for (Friction& f : list_) {
+        Joint& joint = *step.joints[std::size_t(f.joint)];
+        f.heat += f.bound * std::abs(q[f.at] - f.since);
+        joint.account.step.work.heat += f.heat;
+        if (!joint.account.holds) joint.account.step.work.impacts -= f.heat;
+        const double effort = f.way != 0.0 ? -f.way * f.bound : -dynamics.net_effort(f.node);
+        joint.impulse[f.coordinate][Joint::friction] = f.sign * effort * step.h;
+    }
+}
+
+}  // namespace tumble

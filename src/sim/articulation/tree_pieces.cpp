@@ -1,0 +1,78 @@
+// TreeFlight: the rest of a step in which a joint breaks.
+#include "sim/articulation/settings.h"
+#include "sim/articulation/tree_flight.h"
+
+#include <algorithm>
+
+namespace tumble {
+namespace {
+
+struct Piece {
+    std::vector<std::uint32_t> bodies;  // ascending
+    std::vector<Joint*> joints;
+};
+
+// Bodies that joints still connect.
+std::vector<Piece> pieces_of(const TreeStep& step) {
+    const std::size_t n = step.island.size();
+    std::vector<std::size_t> root(n);
+    for (std::size_t i = 0; i < n; ++i) root[i] = i;
+    const auto find = [&](std::size_t i) {
+        while (root[i] != i) i = root[i];
+        return i;
+    };
+    const auto place_of = [&](std::uint32_t body) {
+        const auto at = std::lower_bound(step.island.begin(), step.island.end(), body);
+        return at != step.island.end() && *at == body ? std::size_t(at - step.island.begin()) : n;
+    };
+    for (const Joint* joint : step.joints) {
+        const std::size_t a = place_of(joint->a), b = place_of(joint->b);
+        if (joint->broken || a == n || b == n) continue;
+        const std::size_t first = find(a), second = find(b);
+        root[std::max(first, second)] = std::min(first, second);
+    }
+    std::vector<Piece> pieces(n);
+    for (std::size_t i = 0; i < n; ++i) pieces[find(i)].bodies.push_back(step.island[i]);
+    for (Joint* joint : step.joints) {
+        const std::size_t a = place_of(joint->a);
+        if (!joint->broken) pieces[find(a == n ? place_of(joint->b) : a)].joints.push_back(joint);
+    }
+    std::erase_if(pieces, [](const Piece& piece) { return piece.bodies.empty(); });
+    return pieces;
+}
+
+}  // namespace
+
+TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
+    const Outcome outcome = advance_tree(step, method);
+    if (outcome != Outcome::flown || event_ == none) return outcome;
+    return advance_pieces(step, method, weak_[event_ - friction_.count()]);
+}
+
+// After the part up to the break.
+TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, IntegratorKind method, int broken) {
+    const double now = time_;
+    Joint& weak = *step.joints[std::size_t(broken)];
+    weak.broken = true;
+    weak.broken_at = step.from + now;
+    if (!(step.h - now > tuning::tree_least_rest * step.h)) return Outcome::flown;
+    std::vector<JointAccount::Span> spans;
+    for (const Joint* joint : step.joints) spans.push_back(joint->account.step);
+    int evaluations = evaluations_;
+    for (const Piece& piece : pieces_of(step)) {
+        const TreeStep rest{step.bodies,     piece.bodies, piece.joints, step.forces,
+                            step.from + now, step.h - now, step.length};
+        if (advance(rest, method) != Outcome::flown) return Outcome::stopped;
+        evaluations += evaluations_;
+    }
+    evaluations_ = evaluations;
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+        Joint& joint = *step.joints[k];
+        if (!joint.broken || joint.broken_at > weak.broken_at) joint.account.step.add(spans[k]);
+        joint.force = joint.account.step.load.force / step.h;
+        joint.torque = joint.account.step.load.torque / step.h;
+    }
+    return Outcome::flown;
+}
+
+}  // namespace tumble
