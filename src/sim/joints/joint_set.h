@@ -75,7 +75,6 @@ private:
     std::vector<std::uint32_t> active_;
     std::vector<BodyPair> pairs_;
     std::uint64_t changes_ = 0;
-    bool gears_ = false;            // some joint is a gear
     double from_ = 0.0, to_ = 0.0;  // s, of this step
 };
 
