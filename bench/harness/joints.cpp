@@ -127,6 +127,22 @@ double gap_of(const Scene& scene, const Joint& joint, const std::vector<Motion>&
     return apart;
 }
 
+double excess_of(const Scene& scene, const Joint& joint, const std::vector<Motion>& motions) {
+    const Vector axis = 1.0 / norm(joint.axis) * joint.axis;
+    const auto both = [&](const Vector& d) {
+        return std::pair(turned(scene, joint.first, motions, d), turned(scene, joint.second, motions, d));
+    };
+    if (joint.cone) {
+        const auto [a, b] = both(axis);
+        return std::atan2(norm(cross(a, b)), dot(a, b)) - *joint.cone;
+    }
+    if (joint.kind != JointKind::hinge || !joint.limits) return 0.0;
+    const Vector across = std::fabs(axis.x) < 0.7 ? cross(axis, {1.0, 0.0, 0.0}) : cross(axis, {0.0, 1.0, 0.0});
+    const auto [a, b] = both(1.0 / norm(across) * across);
+    const double angle = std::atan2(dot(turned(scene, joint.first, motions, axis), cross(a, b)), dot(a, b));
+    return std::max(angle - (*joint.limits)[1], (*joint.limits)[0] - angle);
+}
+
 }  // namespace
 
 bool is_fixed(const Scene& scene, std::size_t body) { return body == the_world || !scene.bodies[body].moves(); }
@@ -159,6 +175,12 @@ double largest_gap(const Scene& scene, const std::vector<Motion>& motions) {
         if (!(open <= gap)) gap = open;  // not a number too
     }
     return gap;
+}
+
+double largest_excess(const Scene& scene, const std::vector<Motion>& motions) {
+    double excess = 0.0;
+    for (const Joint& joint : scene.joints) excess = std::max(excess, excess_of(scene, joint, motions));
+    return excess;
 }
 
 bool has_kind(const Scene& scene, JointKind kind) {

@@ -33,6 +33,9 @@ Vector spin_of(const Scene& scene, std::size_t body);  // rad/s
 /// Largest error of the joints: m; errors of angles times the reach of the smaller body.
 double largest_gap(const Scene& scene, const std::vector<Motion>& motions);
 
+/// Largest angle beyond a limit of a hinge or beyond a cone, rad.
+double largest_excess(const Scene& scene, const std::vector<Motion>& motions);
+
 /// Where a point of a body at the start has gone.
 Vector moved(const Scene& scene, std::size_t body, const Motion& motion, const Vector& point);
 

@@ -85,15 +85,18 @@ public:
 
     void see(double, const Simulator&, const std::vector<Motion>& motions) override {
         raise(gap_, largest_gap(scene_, motions));
+        raise(beyond_, largest_excess(scene_, motions));
         fastest_ = 0.0;
         for (std::size_t i = 0; i < motions.size(); ++i)
             if (scene_.bodies[i].moves()) raise(fastest_, norm(motions[i].velocity));
     }
-    std::vector<Quantity> tell() const override { return {{"gap", gap_, "m"}, {"fastest body", fastest_, "m/s"}}; }
+    std::vector<Quantity> tell() const override {
+        return {{"gap", gap_, "m"}, {"beyond a limit", beyond_, "rad"}, {"fastest body", fastest_, "m/s"}};
+    }
 
 private:
     Scene scene_;
-    double gap_ = 0.0, fastest_ = 0.0;
+    double gap_ = 0.0, beyond_ = 0.0, fastest_ = 0.0;
 };
 
 }  // namespace

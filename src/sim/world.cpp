@@ -334,7 +334,9 @@ std::vector<JointState> World::joint_states() const {
 
 JointReport World::joint_report() const {
     const SimulationSettings& settings = state_->settings;
-    const bool nets = settings.contact_solver != ContactSolverChoice::direct && settings.impacts == ImpactMode::stepped;
+    NetRule nets = settings.contact_solver == ContactSolverChoice::soft ? NetRule::all : NetRule::dear;
+    if (settings.contact_solver == ContactSolverChoice::direct || settings.impacts != ImpactMode::stepped)
+        nets = NetRule::none;
     return describe_joints(state_->joints, state_->set.bodies, nets);
 }
 

@@ -71,7 +71,8 @@ bool ContactSolver::in_sweeps(const ContactIslands& islands, std::size_t island)
 }
 
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
-    if (problem.joints) nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft);
+    if (problem.joints)
+        nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft ? NetRule::all : NetRule::dear);
     direct_.clear();
     softly_.clear();
     candidates_.clear();
@@ -152,7 +153,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 // their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
                                       std::size_t island) {
-    if (nets_.way(islands.bodies(island)) == Nets::Way::sweeps) return tuning::net_substeps;
+    if (nets_.way(islands.bodies(island)) == Nets::Way::sweeps)
+        return nets_.entangled(islands.bodies(island)) ? tuning::net_substeps : 1;
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
@@ -173,7 +175,8 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
     batched_ = std::move(now);
     batches_used_ = 0;
     for (const int wanted : {1, 2, 4}) {
-        SoftSolver::Batch* batch = nullptr;
+        std::size_t open[2] = {SIZE_MAX,
+                               SIZE_MAX};  // batches of islands without joints, and of nets, whose sweeps differ
         for (std::size_t s = 0; s < softly_.size(); ++s) {
             if (substep_multipliers_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);
@@ -181,11 +184,13 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
             // Of islands with other joints the direct solver has failed.
             const bool net = nets_.way(bodies) == Nets::Way::sweeps;
             const auto joints = net ? islands.joints(softly_[s]) : std::span<const std::uint32_t>{};
-            // Islands with joints, whose sweeps differ, are batches of their own.
-            if (!batch || batch->manifolds.size() + manifolds.size() > tuning::soft_batch_manifolds ||
-                !joints.empty() || !batch->joints.empty()) {
+            std::size_t& current = open[net];
+            const std::size_t most = net ? tuning::soft_batch_of_nets : tuning::soft_batch_manifolds;
+            const auto size = [](const SoftSolver::Batch& b) { return b.manifolds.size() + b.joints.size(); };
+            if (current == SIZE_MAX || size(batches_[current]) + manifolds.size() + joints.size() > most) {
                 if (batches_used_ == batches_.size()) batches_.emplace_back();
-                batch = &batches_[batches_used_++];
+                current = batches_used_++;
+                SoftSolver::Batch* batch = &batches_[current];
                 batch->bodies.clear();
                 batch->manifolds.clear();
                 batch->pairs.clear();
@@ -193,6 +198,7 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
                 batch->joints.clear();
                 batch->substep_multiplier = wanted;
             }
+            SoftSolver::Batch* batch = &batches_[current];
             batch->bodies.insert(batch->bodies.end(), bodies.begin(), bodies.end());
             batch->manifolds.insert(batch->manifolds.end(), manifolds.begin(), manifolds.end());
             batch->pairs.insert(batch->pairs.end(), islands.pairs(softly_[s]).begin(), islands.pairs(softly_[s]).end());
@@ -236,11 +242,17 @@ void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& i
     if (!softly_.empty()) {
         const bool same = make_batches(islands, problem);
         const std::span<SoftSolver::Batch> batches = std::span(batches_).first(batches_used_);
-        for (SoftSolver::Batch& batch : batches)
-            batch.lost = batch.joints.empty() ? 0.0 : memory_[batch.bodies[0]].lost;
+        const auto each_net = [&](SoftSolver::Batch& batch, auto&& visit) {
+            if (batch.joints.empty()) return;
+            for (std::size_t i = 0, first = 0; i < batch.island_ends.size(); first = batch.island_ends[i++])
+                visit(batch.lost[i], memory_[batch.bodies[first]].lost);
+        };
+        for (SoftSolver::Batch& batch : batches) {
+            batch.lost.assign(batch.joints.empty() ? 0 : batch.island_ends.size(), 0.0);
+            each_net(batch, [](double& lost, double kept) { lost = kept; });
+        }
         soft_.solve(problem, batches, same, pool);
-        for (const SoftSolver::Batch& batch : batches)
-            if (!batch.joints.empty()) memory_[batch.bodies[0]].lost = batch.lost;
+        for (SoftSolver::Batch& batch : batches) each_net(batch, [](double lost, double& kept) { kept = lost; });
     }
     for (std::size_t k = 0; k < islands.size(); ++k)
         if (islands.is_free(k) && islands.bodies(k).size() > 1 && islands.joints(k).empty())

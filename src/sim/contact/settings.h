@@ -21,6 +21,9 @@ inline constexpr int soft_load_age = 8;
 /// the second-level cache of a core. Not fitted: follows from the size of the cache.
 inline constexpr std::size_t soft_batch_manifolds = 256;
 
+/// The same of nets, manifolds and joints: each color of a batch should fill some vectors of the kernel's lanes.
+inline constexpr std::size_t soft_batch_of_nets = 512;
+
 /// Islands with a body that turns by more than this in a step, rad, are solved softly, in substeps. Free islands
 /// are excluded: the direct solver keeps their angular momentum. Related tests:
 /// Rolling.WheelsOfCornersStayOnTheGround and ContactEnergy.FastTumblingPlanksGainNothing.

@@ -57,7 +57,8 @@ struct Joint {
     Quat frame_a = Quat::Identity(), frame_b = Quat::Identity();  // joint frame to body frame
     double size = 0.0;                                            // m, of its smaller body: unit of tolerances
     std::array<JointSpring, coordinates> springs;                 // with stiffness and damping in physical units
-    bool soft = false;  // has springs, motors, friction or limits: forces that depend on its motion
+    bool soft = false;    // has springs, motors, friction or limits: forces that depend on its motion
+    bool steady = false;  // holds at all times: no start or end, motors, strengths or gears
     JointLocks locks;
 
     // State.
@@ -91,10 +92,10 @@ struct Joint {
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks, substeps, active,
-               broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque, point,
-               account] = self;
-        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, locks);
+        auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks, substeps,
+               active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque,
+               point, account] = self;
+        archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
         archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates,
                      force, torque, point, account);
     }

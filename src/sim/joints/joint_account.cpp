@@ -12,6 +12,27 @@ namespace {
 
 double square(double x) { return x * x; }
 
+// Only gears have the second part: most joints spare the memory.
+void clear_span(const Joint& joint, JointAccount::Span& span) {
+    span.load = {};
+    span.work_a = span.work_b = 0.0;
+    span.work = {};
+    span.solves = 0;
+    if (!joint.gear()) return;
+    span.second_load = {};
+    span.second_work_a = span.second_work_b = 0.0;
+}
+
+void add_span(const Joint& joint, const JointAccount::Span& from, JointAccount::Span& to) {
+    to.load.add(from.load);
+    to.work_a += from.work_a;
+    to.work_b += from.work_b;
+    if (!joint.gear()) return;
+    to.second_load.add(from.second_load);
+    to.second_work_a += from.second_work_a;
+    to.second_work_b += from.second_work_b;
+}
+
 }  // namespace
 
 double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) {
@@ -38,7 +59,7 @@ void JointSet::start_account(const std::vector<Body>& bodies) {
 void JointSet::begin_frame() {
     for (std::size_t k = 0; k < joints_.size(); ++k) {
         fetch_spans(k);
-        joints_[k].account.frame = {};
+        clear_span(joints_[k], joints_[k].account.frame);
     }
 }
 
@@ -57,17 +78,14 @@ void JointSet::end_step() {
         if (account.step.solves == 0) continue;
         joint.force = account.step.load.force / (to_ - from_);
         joint.torque = account.step.load.torque / (to_ - from_);
-        account.second = {};
-        account.second.add(account.step.second_load, 1.0 / (to_ - from_));
-        account.frame.load.add(account.step.load);
-        account.frame.work_a += account.step.work_a;
-        account.frame.work_b += account.step.work_b;
-        account.frame.second_load.add(account.step.second_load);
-        account.frame.second_work_a += account.step.second_work_a;
-        account.frame.second_work_b += account.step.second_work_b;
+        if (joint.gear()) {
+            account.second = {};
+            account.second.add(account.step.second_load, 1.0 / (to_ - from_));
+        }
+        add_span(joint, account.step, account.frame);
         ++account.frame.solves;
         account.work.add(account.step.work);
-        account.step = {};
+        clear_span(joint, account.step);
         account.holds = true;
     }
 }
@@ -78,15 +96,10 @@ void JointSet::take_events() {
         if (account.events.solves == 0) continue;
         joint.force += account.events.load.force / (to_ - from_);
         joint.torque += account.events.load.torque / (to_ - from_);
-        account.frame.load.add(account.events.load);
-        account.frame.work_a += account.events.work_a;
-        account.frame.work_b += account.events.work_b;
-        account.second.add(account.events.second_load, 1.0 / (to_ - from_));
-        account.frame.second_load.add(account.events.second_load);
-        account.frame.second_work_a += account.events.second_work_a;
-        account.frame.second_work_b += account.events.second_work_b;
+        if (joint.gear()) account.second.add(account.events.second_load, 1.0 / (to_ - from_));
+        add_span(joint, account.events, account.frame);
         account.work.add(account.events.work);
-        account.events = {};
+        clear_span(joint, account.events);
     }
 }
 
@@ -103,7 +116,7 @@ void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
         if (joint.active && rest > 0 && rests(joint.a) && rests(joint.b)) {
             const JointLoad last{joint.force, joint.torque, joint.point.cross(joint.force) + joint.torque};
             account.frame.load.add(last, rest * h);
-            account.frame.second_load.add(account.second, rest * h);
+            if (joint.gear()) account.frame.second_load.add(account.second, rest * h);
         }
         account.mean = {};
         account.mean.add(account.frame.load, 1.0 / (steps * h));

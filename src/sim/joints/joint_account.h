@@ -54,11 +54,11 @@ struct JointAccount {
     struct Span {
         JointLoad load;
         double work_a = 0.0, work_b = 0.0;  // J, of the joint on each body
+        JointWork work;
+        int solves = 0;  // steps, or substeps
         // Of a gear: the same of its second joint, while the above are of its first.
         JointLoad second_load;
         double second_work_a = 0.0, second_work_b = 0.0;
-        JointWork work;
-        int solves = 0;  // steps, or substeps
 
         void add(const Span& other) {
             load.add(other.load);

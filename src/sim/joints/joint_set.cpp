@@ -72,10 +72,12 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
             if (i != Joint::world && bodies[i].dynamic()) joint.size = std::min(joint.size, bodies[i].radius);
         const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
         joint.soft = description.swing || description.friction_coefficient > 0.0;
+        joint.steady = description.start <= 0.0 && description.end == infinity && !description.ever_breaks();
         for (std::size_t k = 0; k < joint.count(); ++k) {
             joint.value[k] = joint.locked(k) ? 0.0 : g.coordinates[k].value;
             const JointAxis& axis = joint.axis(k);
             joint.soft = joint.soft || has_laws(axis);
+            joint.steady = joint.steady && !axis.motor;
             if (!axis.spring) continue;
             JointSpring& spring = joint.springs[k] = *axis.spring;
             if (!(spring.frequency > 0.0)) continue;
@@ -122,9 +124,12 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
     to_ = to;
     bool changed = false;
     const auto begin = [&](Joint& joint) {
-        bool active = !joint.broken && from >= joint.description.start && from < joint.description.end;
-        if (joint.gear()) active = active && gear_holds(joint, joints_);
-        bool wakes = active != joint.active || (active && driven(joint, from, to));
+        bool active = true, wakes = false;
+        if (!joint.steady) {
+            active = !joint.broken && from >= joint.description.start && from < joint.description.end;
+            if (joint.gear()) active = active && gear_holds(joint, joints_);
+            wakes = active != joint.active || (active && driven(joint, from, to));
+        }
         for (const std::uint32_t i : {joint.a, joint.b})
             if (active && i != Joint::world && !bodies[i].dynamic())
                 wakes = wakes || !bodies[i].velocity.isZero(0.0) || !bodies[i].angular_velocity.isZero(0.0);

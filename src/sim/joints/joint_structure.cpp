@@ -123,7 +123,7 @@ void add_way(const JointGroup& group, bool tree, const JointSet& joints, const s
 
 }  // namespace
 
-JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, bool nets) {
+JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, NetRule nets) {
     JointReport report;
     for (const JointGroup& group : find_joint_groups(joints, bodies)) {
         const std::size_t rows = locked_rows(group, joints), loops = loops_of(group, joints, bodies);
@@ -137,7 +137,7 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
         report.loops += loops;
         report.rows += rows;
         report.redundant += rows - rank;
-        if (nets && is_net(group, joints, bodies))
+        if (is_net(group, joints, bodies, nets))
             ++report.by_sweeps;
         else
             add_way(group, loops == 0, joints, bodies, report);

@@ -2,13 +2,14 @@
 #pragma once
 
 #include "sim/joints/joint_set.h"
+#include "sim/joints/net_way.h"
 #include "sim/snapshot/joint_report.h"
 
 #include <vector>
 
 namespace tumble {
 
-/// `nets`: nets are solved in sweeps.
-JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, bool nets);
+/// `nets`: the groups that are solved in sweeps.
+JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, NetRule nets);
 
 }  // namespace tumble

@@ -128,12 +128,14 @@ void IslandEnergies::end(std::size_t place, const Body& body) {
 }
 
 void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size_t last, std::vector<Body>& bodies,
-                          const std::vector<BodyVelocity>& before, double h, double lost) const {
+                          const std::vector<BodyVelocity>& before, double h,
+                          const std::vector<double>& all_lost) const {
     const auto begins_before = [](const Account& a, std::size_t place) { return a.first < place; };
     auto account = std::lower_bound(accounts_.begin(), accounts_.end(), first, begins_before);
     for (; account != accounts_.end() && account->first < last; ++account) {
         const Island& island = islands_[account->island];
         if (island.driven) continue;
+        const double lost = all_lost.empty() ? 0.0 : all_lost[account->island];
         EnergyBudget sum;
         for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
         const double excess = sum.excess(island.deep || !island.touches_static, lost);
@@ -151,13 +153,16 @@ void IslandEnergies::hold(const BodyBlocks& blocks, std::size_t first, std::size
     }
 }
 
-double IslandEnergies::lost(double before) const {
-    const Island& island = islands_[0];
-    EnergyBudget sum;
-    for (const Account& account : accounts_) sum.add(account.energy);
-    if (island.driven) return 0.0;
-    const double most = sum.most(island.deep || !island.touches_static);
-    return std::clamp(before + most - sum.now, 0.0, tuning::soft_energy_lent * std::min(most, sum.now));
+void IslandEnergies::find_lost(std::vector<double>& lost) const {
+    for (std::size_t i = 0; i < lost.size(); ++i) {
+        const Island& island = islands_[i];
+        EnergyBudget sum;
+        for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
+        const double most = sum.most(island.deep || !island.touches_static);
+        lost[i] = island.driven
+                      ? 0.0
+                      : std::clamp(lost[i] + most - sum.now, 0.0, tuning::soft_energy_lent * std::min(most, sum.now));
+    }
 }
 
 // A free island keeps its momentum: only motion outside its rigid-body mode can exceed the budget.

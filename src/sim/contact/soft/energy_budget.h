@@ -72,12 +72,12 @@ public:
 
     /// Removes the excess from the bodies at the positions first to last, which begin and end with blocks.
     /// Precondition: all positions have ended. The other arguments as in ContactProblem; h: the step, s.
-    /// `lost` (J): by a net in the steps before; sweeps swing about the solution, and would lose each swing's upper half
-    /// for good. The budget of all steps together holds.
+    /// `lost` (J): by each net in the steps before, empty without nets; sweeps swing about the solution, and would lose
+    /// each swing's upper half for good. The budget of all steps together holds.
     void hold(const BodyBlocks& blocks, std::size_t first, std::size_t last, std::vector<Body>& bodies,
-              const std::vector<BodyVelocity>& before, double h, double lost) const;
-    /// `lost` of the next step, of a net that is alone in the layout.
-    double lost(double before) const;
+              const std::vector<BodyVelocity>& before, double h, const std::vector<double>& lost) const;
+    /// Makes `lost` that of the next step.
+    void find_lost(std::vector<double>& lost) const;
 
 private:
     struct Account {

@@ -7,7 +7,7 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t joint_colors = 64;  // bits of a mask; a joint without a free color is solved one by one
-constexpr std::size_t joint_kinds = 2;
+using soft::joint_kinds;
 
 }  // namespace
 
@@ -59,6 +59,13 @@ void JointLayout::color(std::span<const Place> places, std::size_t slots, std::s
         }
     first_color_.push_back(first_group_.size());
     first_group_.push_back(groups);
+
+    turn_places_.resize(groups);
+    turning_ = 0;
+    for (std::size_t g = 0; g < groups; ++g) {
+        turn_places_[g] = std::uint32_t(turning_);
+        turning_ += soft::turns(kinds_[g]);
+    }
 
     lane_joints_.assign(groups * lanes, none);
     std::size_t alone = groups * lanes;

@@ -30,6 +30,9 @@ public:
     std::size_t first_group(std::size_t color) const { return first_group_[color]; }
     soft::JointKind kind(std::size_t group) const { return kinds_[group]; }
     const soft::JointKind* kinds() const { return kinds_.data(); }
+    /// By group: its place among those that turn; of others meaningless.
+    const std::uint32_t* turn_places() const { return turn_places_.data(); }
+    std::size_t turning_groups() const { return turning_; }
     /// By lane of all groups: index among the places; none in unused lanes.
     std::uint32_t joint(std::size_t lane) const { return lane_joints_[lane]; }
 
@@ -42,6 +45,8 @@ private:
     std::vector<std::uint32_t> at_;     // by class: number, then the next lane
     std::vector<std::size_t> first_group_{0}, first_color_{0};
     std::vector<soft::JointKind> kinds_;  // by group
+    std::vector<std::uint32_t> turn_places_;
+    std::size_t turning_ = 0;
     std::vector<std::uint32_t> lane_joints_;
 };
 

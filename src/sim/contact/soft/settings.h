@@ -86,6 +86,10 @@ inline constexpr std::size_t soft_shared_groups = 24;
 inline constexpr double soft_joint_rate = 0.05;
 inline constexpr double soft_joint_leak = 0.01;
 
+/// Least share of the compliance of a turn that is left where the anchors stay together. Not fitted: above the rounding of
+/// single precision.
+inline constexpr double soft_least_turn_gives = 1e-5;
+
 /// Largest impulse handed over from the direct solver, in impulses of the step's forces on the lighter body.
 /// Related test: Towers.HeavyBetweenLight.
 inline constexpr double direct_handover = 20.0;

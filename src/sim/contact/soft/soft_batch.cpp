@@ -96,7 +96,7 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
     lane_moved_.resize(2 * groups);
     lane_points_.resize(groups);
     sources_.resize(groups * lanes);
-    joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit});
+    joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit, d_});
 }
 
 // For the positions first to last in the blocks' order.
@@ -338,7 +338,7 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
     energies_.hold(blocks, first_body, end_body, problem.bodies, problem.before, problem.settings.h, batch.lost);
     if (!joined) return;
     meet();
-    if (thread == 0) batch.lost = energies_.lost(batch.lost);
+    if (thread == 0) energies_.find_lost(batch.lost);
     each_own(layout.joints(), [&](std::size_t first, std::size_t last) {
         for (std::size_t g = first; g < last; ++g) joints_.account(problem, g);
     });

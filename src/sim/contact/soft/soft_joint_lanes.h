@@ -2,11 +2,14 @@
 
 using Hold = JointRows<Lanes>;
 
+#include "sim/contact/soft/soft_turn_lanes.h"
+
 struct JointGroup {
     Hold& rows;
     const std::uint32_t *a, *b;
     std::uint32_t moved_a, moved_b;
     JointKind kind;
+    Turn* turn;  // of joints that turn
 
     JointGroup(const JointGroups& groups, std::size_t index)
         : rows(reinterpret_cast<Hold*>(groups.rows)[index]),
@@ -14,7 +17,9 @@ struct JointGroup {
           b(a + TUMBLE_LANES),
           moved_a(groups.moved[2 * index]),
           moved_b(groups.moved[2 * index + 1]),
-          kind(groups.kinds[index]) {}
+          kind(groups.kinds[index]),
+          turn(turns(kind) ? reinterpret_cast<Turn*>(groups.turns) + groups.turn_places[index] : nullptr) {}
+    bool driven() const { return kind == JointKind::driven; }
 };
 
 // Change of an arm r by the rotation vector t: sin|t|/|t| t x r + (1 - cos|t|)/|t|^2 t x (t x r), as series in |t|^2.
@@ -33,6 +38,11 @@ inline void apply(const Hold& m, const Vector& f, Motion& a, Motion& b) {
     b.angular = b.angular + m.inertia_b * cross(m.now_b, f);
 }
 
+inline void apply_torque(const Hold& m, const Vector& torque, Motion& a, Motion& b) {
+    a.angular = a.angular - m.inertia_a * torque;
+    b.angular = b.angular + m.inertia_b * torque;
+}
+
 // Velocity of B's anchor relative to the point of A there.
 inline Vector parting(const Hold& m, const Motion& a, const Motion& b) {
     return b.linear - a.linear + cross(b.angular, m.now_b) - cross(a.angular, m.now_a);
@@ -47,7 +57,8 @@ inline void find_ends(const JointGroup& g, const Bodies& bodies) {
     m.gap = m.apart - m.parted + (turned_b - turned_a);
     m.now_b = m.arm_b + turned_b;
     m.now_a = m.arm_a + turned_a + m.gap;
-    if (g.kind == JointKind::point) return;
+    if (g.turn) find_turns(*g.turn, a.angular, b.angular);
+    if (g.kind != JointKind::distance) return;
     const Lanes length = root(dot(m.gap, m.gap));
     const auto some = length > 0.0f;
     const Lanes inverse = some ? 1.0f / length : Lanes{};
@@ -88,15 +99,16 @@ void prepare_joints(const JointGroups& groups, std::size_t first, std::size_t la
         m.inertia_b = load_inertia(bodies, g.b);
         find_ends(g, bodies);
         const Lanes both = load(bodies, g.a, 0).inverse_mass + load(bodies, g.b, 0).inverse_mass;
-        if (g.kind == JointKind::point)
+        if (g.kind != JointKind::distance)
             m.mass = mass_at(m, both);
         else
             m.mass.xx = mass_along(m, m.direction, both);
+        if (g.turn) prepare_turns(m, *g.turn);
     }
 }
 
 inline Vector impulse_of(const Hold& m, JointKind kind) {
-    return kind == JointKind::point ? m.impulse : m.impulse.x * m.direction;
+    return kind != JointKind::distance ? m.impulse : m.impulse.x * m.direction;
 }
 
 void warm_start_joints(const JointGroups& groups, std::size_t first, std::size_t last, const Bodies& bodies) {
@@ -104,6 +116,7 @@ void warm_start_joints(const JointGroups& groups, std::size_t first, std::size_t
         const JointGroup g(groups, k);
         Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
         apply(g.rows, impulse_of(g.rows, g.kind), a, b);
+        if (g.turn) apply_torque(g.rows, torque_of(*g.turn, g.driven()), a, b);
         save(bodies, g.a, g.moved_a, a);
         save(bodies, g.b, g.moved_b, b);
     }
@@ -116,9 +129,12 @@ inline void add_up(Hold& m, const Vector& f) {
     m.carried_sum = m.carried_sum + cross(m.parted, f);
 }
 
-// The new impulse of a point joint; returns its change. `rate` (1/s): share of the gap that is closed, by time.
+// Change of the impulse of a point joint. `rate` (1/s): share of the gap that is closed, by time.
+inline Vector change_of_point(const Hold& m, const Vector& speed, Lanes rate, float leak) {
+    return all(-1.0f) * (m.mass * (speed + rate * m.gap)) - all(leak) * m.impulse;
+}
 inline Vector solve_point(Hold& m, const Vector& speed, Lanes rate, float leak) {
-    const Vector change = all(-1.0f) * (m.mass * (speed + rate * m.gap)) - all(leak) * m.impulse;
+    const Vector change = change_of_point(m, speed, rate, leak);
     m.impulse = m.impulse + change;
     return change;
 }
@@ -149,13 +165,25 @@ inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size
         Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
         if constexpr (!pushing) {
             add_up(m, impulse_of(m, g.kind));
+            if (g.turn) add_up_turns(*g.turn, g.driven());
             find_ends(g, bodies);
-            if (g.kind == JointKind::distance) m.mass.xx = mass_along(m, m.direction, a.inverse_mass + b.inverse_mass);
+            const Lanes both = a.inverse_mass + b.inverse_mass;
+            if (g.kind == JointKind::distance) m.mass.xx = mass_along(m, m.direction, both);
+            if (g.turn) {  // axes and limbs turn by large angles in a step
+                m.mass = mass_at(m, both);
+                prepare_turns(m, *g.turn);
+            }
         }
-        const Vector speed = parting(m, a, b);
         const Lanes rate = pushing ? all(substep.joint_rate) : Lanes{};
         const float leak = pushing ? substep.joint_leak : 0.0f;
-        const Vector change = g.kind == JointKind::point
+        if (g.turn) {
+            const Vector force = change_of_point(m, parting(m, a, b), rate, leak);
+            const Vector torque = solve_turns<pushing>(m, *g.turn, g.driven(), b.angular - a.angular, force, rate,
+                                                       substep.per_second, leak);
+            apply_torque(m, torque, a, b);
+        }
+        const Vector speed = parting(m, a, b);
+        const Vector change = g.kind != JointKind::distance
                                   ? solve_point(m, speed, rate, leak)
                                   : solve_distance<pushing>(m, speed, rate, substep.per_second, leak);
         if constexpr (!pushing) add_up(m, change);

@@ -1,5 +1,6 @@
 #include "sim/contact/soft/soft_joints.h"
 
+#include "sim/contact/soft/soft_turns.h"
 #include "sim/joints/joint_set.h"
 
 #include <algorithm>
@@ -8,6 +9,7 @@ namespace tumble {
 namespace {
 
 using Hold = soft::JointRows<float>;
+using Turned = soft::TurnRows<float>;
 
 Vec3 wide(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
 
@@ -61,6 +63,8 @@ void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> j
     const std::size_t groups = layout_->groups();
     places_.resize(joints.size());
     rows_.resize(groups * soft::joint_rows * units.lanes);
+    turn_axes_.resize(joints.size());
+    turn_rows_.resize(layout_->turning_groups() * soft::turn_rows * units.lanes);
     lane_bodies_.resize(2 * groups * units.lanes);
     lane_moved_.resize(2 * groups);
 }
@@ -75,11 +79,16 @@ void SoftJoints::each_lane(std::size_t group, Visit&& visit) const {
 void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
     const std::size_t lanes = units_.lanes;
     std::fill_n(rows_.data() + group * soft::joint_rows * lanes, soft::joint_rows * lanes, 0.0f);
+    const soft::JointKind kind = layout_->kind(group);
+    if (soft::turns(kind)) {
+        float* turns = turn_rows_.data() + layout_->turn_places()[group] * soft::turn_rows * lanes;
+        std::fill_n(turns, soft::turn_rows * lanes, 0.0f);
+    }
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     const double share = 1.0 / (units_.substeps * units_.mass);
     each_lane(group, [&](std::size_t l, std::uint32_t place) {
-        const Joint& j = joint(problem, place);
+        Joint& j = joint(problem, place);
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
         lane_bodies_[2 * lanes * group + l] = std::uint32_t(soft::body_floats) * ends.slot_a;
         lane_bodies_[2 * lanes * group + lanes + l] = std::uint32_t(soft::body_floats) * ends.slot_b;
@@ -96,11 +105,18 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
         row.set(&Hold::arm_a, a.anchor - a.center);
         row.set(&Hold::arm_b, b.anchor - b.center);
         row.set(&Hold::apart, apart);
-        if (layout_->kind(group) == soft::JointKind::point) {
+        kept.torque = kept.damping = kept.friction = Vec3::Zero();
+        if (kind != soft::JointKind::distance) {
             Vec3 impulse;
             for (std::size_t c = 0; c < 3; ++c) impulse[Eigen::Index(c)] = j.impulse[c][Joint::lock];
             kept.axes = axes_of(j, problem.bodies);
             row.set(&Hold::impulse, Vec3(share * (kept.axes * impulse)));
+            if (!soft::turns(kind)) return;
+            const JointGeometry g = measure(j, side_of(problem.bodies, j.a), side_of(problem.bodies, j.b));
+            for (std::size_t c = 3; c < Joint::coordinates; ++c)
+                if (!j.locked(c)) j.value[c] = g.coordinates[c].value;
+            turn_axes_[place] = turn_axes(j, g);
+            pack_turns(j, g, turn_axes_[place], turn_units(), turn_lane(group, l), kind == soft::JointKind::driven);
             return;
         }
         const JointAxis& axis = j.axis(0);
@@ -113,6 +129,19 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
     });
 }
 
+void SoftJoints::unpack_torque(std::size_t group, std::size_t l, std::uint32_t place, Joint& joint) {
+    const soft::JointKind kind = layout_->kind(group);
+    if (!soft::turns(kind)) return;
+    Place& kept = places_[place];
+    const soft::TurnLane lane = turn_lane(group, l);
+    kept.torque = units_.mass * wide(lane.vector(&Turned::torque_sum));
+    if (kind == soft::JointKind::driven) {
+        kept.damping = units_.mass * wide(lane.vector(&Turned::damping_sum));
+        kept.friction = units_.mass * wide(lane.vector(&Turned::friction_sum));
+    }
+    unpack_turns(turn_axes_[place], kept.axes, turn_units(), lane, joint, kind == soft::JointKind::driven);
+}
+
 void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::vector<std::uint8_t>& reached,
                         std::vector<Vec3>& carried) {
     const double h = problem.settings.h, whole = units_.substeps * units_.mass;
@@ -123,13 +152,14 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
                    moment = units_.mass * wide(row.vector(&Hold::moment_sum)),
                    extra = units_.mass * wide(row.vector(&Hold::carried_sum));
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
-        const Place& kept = places_[place];
         j.impulse = {};
         j.curving = {};
         j.constraint_force = {};
         j.constraint_rates = {};
+        unpack_torque(group, l, place, j);
+        const Place& kept = places_[place];
         const Vec3 last = whole * wide(row.vector(&Hold::impulse));
-        if (layout_->kind(group) == soft::JointKind::point) {
+        if (layout_->kind(group) != soft::JointKind::distance) {
             const Vec3 local = kept.axes.transpose() * last;
             for (std::size_t c = 0; c < 3; ++c) j.impulse[c][Joint::lock] = local[Eigen::Index(c)];
         } else {
@@ -137,23 +167,24 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
         }
         j.point = kept.point;
         j.force = force / h;
-        j.torque.setZero();
+        j.torque = kept.torque / h;
         JointAccount::Span& step = j.account.step;
         step = {};
         step.load.force = force;
-        step.load.moment = kept.center_a.cross(force) + moment + extra;
+        step.load.torque = kept.torque;
+        step.load.moment = kept.center_a.cross(force) + moment + extra + kept.torque;
         carried[joints_[place]] = extra;
         if (ends.moved_a) {
             reached[ends.slot_a] = 1;
             Body& body = problem.bodies[j.a];
             body.momentum -= force;
-            body.angular_momentum -= moment;
+            body.angular_momentum -= moment + kept.torque;
         }
         if (ends.moved_b) {
             reached[ends.slot_b] = 1;
             Body& body = problem.bodies[j.b];
             body.momentum += force;
-            body.angular_momentum += moment + (kept.center_a - kept.center_b).cross(force) + extra;
+            body.angular_momentum += moment + (kept.center_a - kept.center_b).cross(force) + extra + kept.torque;
         }
     });
 }
@@ -163,10 +194,18 @@ void SoftJoints::account(const ContactProblem& problem, std::size_t group) const
         Joint& j = joint(problem, place);
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
         JointAccount::Span& step = j.account.step;
+        const Place& kept = places_[place];
         const Vec3& force = step.load.force;
-        step.work_a = -force.dot(mean_at(problem, j.a, j.point).velocity);
-        step.work_b = force.dot(mean_at(problem, j.b, j.point).velocity);
-        if (!j.account.holds) step.work.impacts -= step.work_a + step.work_b;
+        const BodyVelocity a = mean_at(problem, j.a, j.point), b = mean_at(problem, j.b, j.point);
+        step.work_a = -force.dot(a.velocity) - kept.torque.dot(a.angular_velocity);
+        step.work_b = force.dot(b.velocity) + kept.torque.dot(b.angular_velocity);
+        // All that a joint takes from its bodies is lost: by friction and dampers, else at limits, where it catches its
+        // bodies, and by sweeps that damp.
+        const Vec3 turning = b.angular_velocity - a.angular_velocity;
+        const double rubbed = kept.friction.dot(turning), damped = kept.damping.dot(turning);
+        step.work.heat -= rubbed;
+        step.work.springs += damped;
+        step.work.impacts -= step.work_a + step.work_b - rubbed - damped;
         if (!ends.moved_a) step.work.carriers -= step.work_a;
         if (!ends.moved_b) step.work.carriers -= step.work_b;
         step.solves = 1;

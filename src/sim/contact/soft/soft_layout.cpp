@@ -97,13 +97,13 @@ void SoftLayout::color(const IslandBatch& batch, const std::vector<Body>& bodies
     }
 }
 
-void SoftLayout::add_joints(const IslandBatch& batch, const std::vector<Joint>& joints, const std::vector<Body>& bodies,
+void SoftLayout::add_joints(const IslandBatch& batch, const AllJoints& all, const std::vector<Body>& bodies,
                             const std::vector<std::uint32_t>& slot, std::size_t lanes) {
     joint_places_.clear();
     joint_ends_.clear();
     joint_movers_.clear();
     for (const std::uint32_t k : batch.joints) {
-        const Joint& joint = joints[k];
+        const Joint& joint = all.joints[k];
         const auto place = std::uint32_t(joint_places_.size());
         const auto slot_of = [&](std::uint32_t body) {  // 0: not moved by impulses
             return body != Joint::world && bodies[body].dynamic() ? slot[body] : 0u;
@@ -111,7 +111,7 @@ void SoftLayout::add_joints(const IslandBatch& batch, const std::vector<Joint>& 
         const std::uint32_t a = slot_of(joint.a), b = slot_of(joint.b);
         const bool inside = a == 0 || b == 0 || block_of_[a] == block_of_[b];
         const auto home = std::uint32_t(inside ? block_of_[a != 0 ? a : b] : blocks_.size());
-        joint_places_.push_back({a, b, home, joint.distance() ? soft::JointKind::distance : soft::JointKind::point});
+        joint_places_.push_back({a, b, home, all.kinds[k]});
         joint_ends_.push_back({a, b, a != 0, b != 0});
         if (a != 0 && b != 0) continue;
         Island& island = islands_[island_of_[a != 0 ? a : b]];

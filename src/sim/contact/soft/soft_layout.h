@@ -51,9 +51,9 @@ struct IslandBatch {
     std::vector<std::uint32_t> bodies, manifolds;
     std::vector<BodyPair> pairs;           // body pairs of the manifolds, in their order
     std::vector<std::size_t> island_ends;  // positions in `bodies`
-    std::vector<std::uint32_t> joints;     // of one net: indices into JointSet::joints(), ascending
-    double lost = 0.0;                     // J, of the net: IslandEnergies::hold(); updated by the solve
-    int substep_multiplier = 1;            // substep multiplier
+    std::vector<std::uint32_t> joints;     // of nets: indices into JointSet::joints(), net by net
+    std::vector<double> lost;    // J, of each net: IslandEnergies::hold(); updated by the solve. Empty without joints
+    int substep_multiplier = 1;  // substep multiplier
 };
 
 struct Joint;
@@ -87,8 +87,12 @@ public:
               std::size_t team);
     void color(const IslandBatch& batch, const std::vector<Body>& bodies, const std::vector<Manifold>& manifolds,
                const std::vector<std::uint32_t>& slot, std::size_t thread, std::size_t team);
+    struct AllJoints {
+        const std::vector<Joint>& joints;
+        const std::vector<soft::JointKind>& kinds;  // by joint
+    };
     /// Of a batch with joints, before close().
-    void add_joints(const IslandBatch& batch, const std::vector<Joint>& joints, const std::vector<Body>& bodies,
+    void add_joints(const IslandBatch& batch, const AllJoints& all, const std::vector<Body>& bodies,
                     const std::vector<std::uint32_t>& slot, std::size_t lanes);
     void close(const IslandBatch& batch, std::size_t lanes);
 

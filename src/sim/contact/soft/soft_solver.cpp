@@ -56,12 +56,15 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
     const auto lanes = std::size_t(kernel_.lanes);
     while (workers_.size() < threads) workers_.push_back(std::make_unique<SoftBatch>(kernel_));
     if (layouts_.size() < batches.size()) layouts_.resize(batches.size());
-    if (problem.joints) carried_.resize(problem.joints->joints().size());
+    if (problem.joints && kinds_.empty())
+        for (const Joint& joint : problem.joints->joints()) kinds_.push_back(kind_in_sweeps(joint));
+    carried_.resize(kinds_.size());
     small_.clear();
     std::size_t all_small = 0;
     const auto size_of = [](const Batch& batch) { return batch.manifolds.size() + batch.joints.size(); };
     const auto close = [&](SoftLayout& layout, const Batch& batch) {
-        if (!batch.joints.empty()) layout.add_joints(batch, problem.joints->joints(), problem.bodies, slot_, lanes);
+        if (!batch.joints.empty())
+            layout.add_joints(batch, {problem.joints->joints(), kinds_}, problem.bodies, slot_, lanes);
         layout.close(batch, lanes);
     };
     for (std::size_t k = 0; k < batches.size(); ++k) {

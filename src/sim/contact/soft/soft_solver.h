@@ -53,6 +53,7 @@ private:
     std::vector<std::unique_ptr<SoftBatch>> workers_;  // one per thread
     std::vector<SoftLayout> layouts_;                  // one per batch
     std::vector<std::size_t> small_;                   // batches that one thread solves
+    std::vector<soft::JointKind> kinds_;               // by joint; of the scene's joints, which do not change
     std::vector<Vec3> carried_;                        // by joint
     double mass_unit_ = 0.0;                           // kg; of the scene's bodies, which do not change
 };
