@@ -29,8 +29,8 @@ int write(const std::vector<std::string>& arguments) {
     const tumble::SceneDescription scene = tumble::load_scene(arguments[1], overrides);
     tumble::Interrupt interrupt;
     tumble::PageClip clip{scene.title, "test", {{"scene.toml", "text"}}, {}};
-    clip.runs.push_back(
-        tumble::record_run(scene, {.threads = 2, .label = "", .progress = {}, .observers = {}}, interrupt));
+    clip.runs.push_back(tumble::record_run(
+        scene, {.threads = 2, .label = "", .progress = {}, .observers = {}, .plot = scene.overlay.plot}, interrupt));
     const tumble::ClipData data = tumble::make_clip_data(clip);
     const std::string text = base64(data.bytes);
     std::ofstream(arguments[0]) << text;

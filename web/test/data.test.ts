@@ -295,6 +295,36 @@ test("contacts and loads are the rows of the tables", { skip }, async () => {
   }
 });
 
+test("columns of joints are those that the plots name, with the numbers of the table", { skip }, async () => {
+  const file = scene_file("rod.toml", `format = 1
+[simulation]
+duration = 0.5
+[overlay]
+plot = ["joint.hinge.turn_x", "joint.hinge.force", "energy"]
+[[body]]
+name = "rod"
+shape = { type = "box", size = [1.0, 0.1, 0.1] }
+position = [0.5, 2.0, 0.0]
+[[joint]]
+name = "hinge"
+type = "hinge"
+bodies = ["world", "rod"]
+anchor = [0.0, 2.0, 0.0]
+axis = [0.0, 0.0, 1.0]
+`);
+  const { run } = await make(file);
+  simulate(file, [], "joints");
+  assert.deepEqual([...run.joints.keys()].sort(), ["joint.hinge.force", "joint.hinge.turn_x"]);
+  const angle = run.joints.get("joint.hinge.turn_x")!, force = run.joints.get("joint.hinge.force")!;
+  const rows = table("joints.csv");
+  assert.equal(angle.length, rows.length);
+  rows.forEach((row, frame) => {
+    at_most(Math.abs(angle[frame] - Number(row.turn_x)), 1e-11, `angle of frame ${frame}`);
+    // No frame ends at the first one: it has the force of the next.
+    at_most(Math.abs(force[frame] - norm(vector(rows[Math.max(frame, 1)], "fx", "fy", "fz"))), 1e-9, `force of frame ${frame}`);
+  });
+});
+
 test("forces that cancel have a moment", { skip }, async () => {
   const force = (point: number, z: number) => `[[force]]\nbody = "bar"\npoint = [${point}, 0.0, 0.0]\nforce = [0.0, 0.0, ${z}]\nframe = "body"\n`;
   const { run } = await make(scene_file("couple.toml", `format = 1
