@@ -22,7 +22,7 @@ constexpr int most_repetitions = 500;    // of a short run
 constexpr double joints_patience = 6.0;  // CPU s, unless --patience is given
 // Where a peer does not end a step, or the construction of its world: its process is ended after so many times the patience
 // in CPU time, and in wall time.
-constexpr double most_cpu = 10.0, most_wall = 40.0;
+constexpr double most_cpu = 30.0, most_wall = 120.0;
 
 struct Spending {
     double cpu = 0.0, wall = 0.0;

@@ -63,6 +63,9 @@ TEST(TreeFriction, APendulumLosesTheTorqueTimesTheAngle) {
                 if (speed == 0.0) most_at_turn = std::abs(now - turn);
             } else {
                 covered += std::abs(now - last);
+                if (speed != 0.0) {
+                    EXPECT_NEAR(t.list[0]->torque.z(), -std::copysign(torque, speed), 1e-5);  // Simpson's rule
+                }
             }
             EXPECT_NEAR(t.energy(), energy - torque * covered, 1e-12);
             last = now;

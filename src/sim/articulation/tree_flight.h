@@ -24,13 +24,13 @@ public:
 
     enum class Outcome {
         flown,
-        declined,  // no tree, its joints have come apart, or a spring along no coordinate
-        stopped,   // a limit is met, or a joint breaks: a step for the solver of contacts
+        declined,  // no tree, its joints have come apart, or a spring or friction along no coordinate
+        stopped,   // a limit is met, or a joint loaded beyond its strength: a step for the solver of contacts
     };
     /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
     /// and joints, and leaves them in any state where they have not flown.
     ///
-    /// The step ends in parts where the friction of a joint changes, and where a joint breaks: its pieces then fly on.
+    /// Parts of the step end where the friction of a joint changes, and where a joint breaks: the pieces then fly on.
     Outcome advance(const TreeStep& step, IntegratorKind method);
 
     /// Evaluations of the dynamics in the last step.
@@ -75,7 +75,6 @@ private:
     std::size_t first_event(const Part& part, double& size, Vector& change);
     std::size_t event_within(const Part& part, const Vector& end, const Vector& end_rate, double& size, Vector& change);
     bool locate(const Part& part, std::size_t event, double& size, Vector& change);
-    double fastest_body() const;
     double error_of(const Vector& difference, double scale) const;
     double fastest(const Vector& y, const Vector& dy) const;
     void normalize();
@@ -90,11 +89,10 @@ private:
     ForwardDynamics dynamics_{tree_};
     TreeSprings springs_;
     TreeFriction friction_;
-    std::vector<int> weak_;      // joints that can break, and carry less than their strength
-    std::vector<double> loads_;  // of these over their strength, at the start of the part
-    std::size_t event_ = none;   // at the end of this part
-    double needed_ = 0.0;        // N m, N: net effort of a held coordinate there
-    int changes_ = 0;            // of friction in this step
+    std::vector<int> weak_;     // joints that can break, and carry less than their strength at the start
+    std::size_t event_ = none;  // at the end of this part
+    double needed_ = 0.0;       // N m, N: net effort of a held coordinate there
+    int changes_ = 0;           // of friction in this step
     FallingFrame frame_;
     Totals start_;
     std::optional<TreeAccount> account_;

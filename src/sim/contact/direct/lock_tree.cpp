@@ -121,7 +121,7 @@ void LockTree::list_frees(FlightLocks& locks, const Node& node) {
     if (node.joint != none)
         for (const FlightLocks::Lock& lock : locks.locks(locks.joints()[node.joint]))
             (lock.turns ? turns[turning++] : moves[moving++]) = lock.direction;
-    Free* free = &frees_[node.first];
+    Free* free = frees_.data() + node.first;
     for (int k = 0, n = span_rest(turns, turning, rest); k < n; ++k, ++free) {
         free->direction = rest[k];
         free->turns = true;
@@ -192,9 +192,9 @@ double LockTree::spread(FlightLocks& locks, Node& node) {
         const FlightLocks::FlightJoint& j = locks.joints()[node.joint];
         Vec3 given_force = Vec3::Zero(), given_torque = Vec3::Zero();  // along the locks alone
         for (FlightLocks::Lock& lock : locks.locks(j)) {
-            const double along = lock.direction.dot(lock.turns ? torque : force);
-            lock.given += along / locks.unit(lock);
-            (lock.turns ? given_torque : given_force) += along * lock.direction;
+            const double part = lock.direction.dot(lock.turns ? torque : force);
+            lock.given += part / locks.unit(lock);
+            (lock.turns ? given_torque : given_force) += part * lock.direction;
             sum += lock.given;
         }
         locks.give(j, given_force, given_torque);
