@@ -125,9 +125,7 @@ void write_figures(const std::string& name, const std::string& program, const Jo
 enum class Ending { done, cut, absent, failed };
 
 // The system ends this process by a signal after that.
-void limit_process(double patience) {
-    alarm(unsigned(std::ceil(most_wall * patience)));
-}
+void limit_process(double patience) { alarm(unsigned(std::ceil(most_wall * patience))); }
 
 // One step of one way, in a process of its own: a peer may end it by a failed assertion. `spent`: CPU s.
 Ending measure_apart(const JointCase& c, const std::string& program, const JointWay& way, double rate,
