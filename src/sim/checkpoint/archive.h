@@ -79,6 +79,7 @@ public:
 
 private:
     void raw(const void* from, std::size_t count) {
+        if (count == 0) return;  // an empty list may have no address
         if (size_ + count > bytes_.size()) bytes_.resize(std::max(2 * bytes_.size(), size_ + count + 4096));
         std::memcpy(bytes_.data() + size_, from, count);
         size_ += count;
@@ -193,6 +194,7 @@ public:
 private:
     void raw(void* to, std::size_t count) {
         if (count > bytes_.size()) fail("ends early");
+        if (count == 0) return;
         std::memcpy(to, bytes_.data(), count);
         bytes_ = bytes_.subspan(count);
     }
