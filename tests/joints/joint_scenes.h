@@ -3,6 +3,8 @@
 
 #include "support/scenes.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -17,7 +19,7 @@ inline JointDescription& add_joint(SceneDescription& scene, JointType type, std:
                                    std::optional<std::size_t> second, const Vec3& anchor,
                                    const Vec3& axis = Vec3::UnitX()) {
     JointDescription joint;
-    joint.name = "joint " + std::to_string(scene.joints.size());
+    joint.name = fmt::format("joint {}", scene.joints.size());
     joint.type = type;
     joint.first = first;
     joint.second = second;

@@ -1,6 +1,7 @@
 // Prints the bytes of trajectories that pass through every part of the simulation: boxes, spheres, hulls, a triangle
-// mesh, a kinematic paddle, wind, a point force, friction, restitution, sleep, every integrator. Argument: the number
-// of threads.
+// mesh, a kinematic paddle, wind, a point force, friction, restitution, sleep, joints, every integrator. Argument: the
+// number of threads.
+#include "../joints/swept_scenes.h"
 #include "sim/dynamics/body_builder.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "support/compounds.h"
@@ -60,6 +61,54 @@ SceneDescription block() {
     return scene;
 }
 
+// Figures that fall on a floor: by the direct solver, in sweeps, and from impact to impact.
+SceneDescription figures(ContactSolverChoice solver, ImpactMode impacts) {
+    SceneDescription scene = figure_scene(4);
+    const std::size_t bodies = scene.bodies.size(), joints = scene.joints.size();
+    for (std::size_t copy = 1; copy < 3; ++copy) {
+        for (std::size_t i = 0; i < bodies; ++i) {
+            BodyDescription body = scene.bodies[i];
+            body.position += Vec3(0.3 * double(copy), 1.3 * double(copy), 0.1);
+            scene.bodies.push_back(body);
+        }
+        for (std::size_t i = 0; i < joints; ++i) {
+            JointDescription joint = scene.joints[i];
+            *joint.first += copy * bodies;
+            *joint.second += copy * bodies;
+            joint.turn[0].friction = 0.05;
+            scene.joints.push_back(joint);
+        }
+    }
+    for (BodyDescription& body : scene.bodies) body.position.y() += 0.9;
+    add_floor(scene);
+    scene.simulation.contact_solver = solver;
+    scene.simulation.impacts = impacts;
+    return scene;
+}
+
+// A chain of hinges and balls in flight, with springs and friction.
+SceneDescription flying_chain(IntegratorKind integrator, bool loop) {
+    SceneDescription scene = empty_scene();
+    scene.simulation.integrator = integrator;
+    for (int i = 0; i < 6; ++i) {
+        BodyDescription& box = add_box(scene, {1.0, 0.1, 0.2}, {double(i), 0.0, 0.0});
+        box.integrator = integrator;
+        box.velocity = {0.1 * (i % 3), 0.25 * (i % 2), -0.125 * (i % 4)};
+        if (i == 0) continue;
+        const JointType type = i % 2 == 0 ? JointType::ball : JointType::hinge;
+        const auto before = std::size_t(i - 1);
+        JointDescription& joint = add_joint(scene, type, before, before + 1, {i - 0.5, 0.0, 0.0}, Vec3::UnitZ());
+        if (i == 3) joint.turn[0].spring = JointSpring{.stiffness = 2.0, .damping = loop ? 0.0 : 0.1};
+        if (i == 5 && !loop) joint.turn[0].friction = 0.02;
+    }
+    if (loop) {
+        JointDescription& rod = add_joint(scene, JointType::distance, 0, 5, {2.5, 0.0, 0.0});
+        rod.anchor_first = rod.anchor_second = Vec3::Zero();
+        rod.length = 5.0;
+    }
+    return scene;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -95,4 +144,10 @@ int main(int argc, char** argv) {
     const int threads = argc > 1 ? std::atoi(argv[1]) : 1;
     print_trajectory(scene, 70, threads);
     print_trajectory(block(), 12, threads);
+    print_trajectory(figures(ContactSolverChoice::direct, ImpactMode::stepped), 18, threads);
+    print_trajectory(figures(ContactSolverChoice::soft, ImpactMode::stepped), 30, threads);
+    print_trajectory(figures(ContactSolverChoice::by_island, ImpactMode::exact), 18, threads);
+    for (const IntegratorKind integrator : {IntegratorKind::symplectic_euler, IntegratorKind::splitting,
+                                            IntegratorKind::runge_kutta_4, IntegratorKind::exact})
+        for (const bool loop : {false, true}) print_trajectory(flying_chain(integrator, loop), 4, threads);
 }
