@@ -122,7 +122,7 @@ void write_figures(const std::string& name, const std::string& program, const Jo
     std::fflush(stdout);
 }
 
-enum class Ending { done, cut, absent, failed };
+enum class Ending { done, cut, absent, failed, stuck };
 
 // The system ends this process by a signal after that.
 void limit_process(double patience) { alarm(unsigned(std::ceil(most_wall * patience))); }
@@ -152,9 +152,11 @@ Ending measure_apart(const JointCase& c, const std::string& program, const Joint
     rusage usage{};
     wait4(child, &status, 0, &usage);
     spent = double(usage.ru_utime.tv_sec) + 1e-6 * double(usage.ru_utime.tv_usec);
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
+    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
         std::fprintf(stderr, "%s, %s, %s, 1/%g s: took more than %g times the patience, and was ended\n",
                      c.name.c_str(), program.c_str(), way.name.c_str(), rate, most_wall);
+        return Ending::stuck;
+    }
     return WIFEXITED(status) ? Ending(WEXITSTATUS(status)) : Ending::failed;
 }
 
@@ -166,7 +168,9 @@ void climb_rates(const JointCase& c, const std::string& program, const JointWay&
         if (slow && c.task == JointTask::precision) return;  // it would be cut short, without an error
         const Ending ending = measure_apart(c, program, way, rate, options, spent);
         if (ending == Ending::absent || ending == Ending::cut) return;
-        if (ending == Ending::failed) write_figures(c.name, program, way, rate, {{"ended by an error", 1.0, ""}});
+        if (ending == Ending::failed || ending == Ending::stuck)
+            write_figures(c.name, program, way, rate, {{"ended by an error", 1.0, ""}});
+        if (ending == Ending::stuck) return;
         last_rate = ending == Ending::done ? rate : 0.0;
     }
 }
