@@ -69,16 +69,15 @@ constexpr std::array joint_quantities{
     JointQuantity{"turn_x_speed", "speed about x (rad/s)", [](const JointState& j) { return j.speed[3]; }, 3},
     JointQuantity{"turn_y_speed", "speed about y (rad/s)", [](const JointState& j) { return j.speed[4]; }, 4},
     JointQuantity{"turn_z_speed", "speed about z (rad/s)", [](const JointState& j) { return j.speed[5]; }, 5},
-    JointQuantity{"force", "force of joints (N)", [](const JointState& j) { return j.mean_force.norm(); }, {}, true},
-    JointQuantity{"fx", "F_x of joints (N)", [](const JointState& j) { return j.mean_force.x(); }, {}, true},
-    JointQuantity{"fy", "F_y of joints (N)", [](const JointState& j) { return j.mean_force.y(); }, {}, true},
-    JointQuantity{"fz", "F_z of joints (N)", [](const JointState& j) { return j.mean_force.z(); }, {}, true},
-    JointQuantity{
-        "torque", "torque of joints (N m)", [](const JointState& j) { return j.mean_torque.norm(); }, {}, true},
-    JointQuantity{"tx", "τ_x of joints (N m)", [](const JointState& j) { return j.mean_torque.x(); }, {}, true},
-    JointQuantity{"ty", "τ_y of joints (N m)", [](const JointState& j) { return j.mean_torque.y(); }, {}, true},
-    JointQuantity{"tz", "τ_z of joints (N m)", [](const JointState& j) { return j.mean_torque.z(); }, {}, true},
-    JointQuantity{"gap", "gap of joints (m)", [](const JointState& j) { return j.gap; }},
+    JointQuantity{"force", "force (N)", [](const JointState& j) { return j.mean_force.norm(); }, {}, true},
+    JointQuantity{"fx", "F_x (N)", [](const JointState& j) { return j.mean_force.x(); }, {}, true},
+    JointQuantity{"fy", "F_y (N)", [](const JointState& j) { return j.mean_force.y(); }, {}, true},
+    JointQuantity{"fz", "F_z (N)", [](const JointState& j) { return j.mean_force.z(); }, {}, true},
+    JointQuantity{"torque", "torque (N m)", [](const JointState& j) { return j.mean_torque.norm(); }, {}, true},
+    JointQuantity{"tx", "τ_x (N m)", [](const JointState& j) { return j.mean_torque.x(); }, {}, true},
+    JointQuantity{"ty", "τ_y (N m)", [](const JointState& j) { return j.mean_torque.y(); }, {}, true},
+    JointQuantity{"tz", "τ_z (N m)", [](const JointState& j) { return j.mean_torque.z(); }, {}, true},
+    JointQuantity{"gap", "gap (m)", [](const JointState& j) { return j.gap; }},
 };
 
 [[noreturn]] void fail(std::string_view name, const std::string& problem) {
