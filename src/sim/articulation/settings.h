@@ -24,7 +24,7 @@ inline constexpr int tree_shortest = 16;
 inline constexpr double tree_gap = 1e-9;
 inline constexpr double tree_misfit = 1e-9;
 
-/// Speed of a coordinate with friction that is rest, as a share of the fastest body's: rounding of the momenta. Not fitted.
+/// Speed below which a coordinate with friction is at rest, as a share of the fastest body's: rounding of the momenta. Not fitted.
 inline constexpr double friction_rest = 1e-12;
 
 /// Effort above the bound of friction, as a share of it, at which a held coordinate is let go: it then leaves with an

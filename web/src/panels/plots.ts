@@ -80,8 +80,7 @@ export class Plots {
       body.hidden = of.hidden = !of_body;
     };
     const choose = (): void => {
-      const dot = quantity.value.indexOf(".");
-      const kind = quantity.value.slice(0, dot), key = quantity.value.slice(dot + 1);
+      const [, kind, key] = /^([a-z]+)\.(.+)$/.exec(quantity.value) ?? ["", "energy", ""];
       subject = kind === "body" ? { kind, quantity: key, body: Number(body.value) } :
         kind === "scene" || kind === "joint" ? { kind, quantity: key } : { kind: "energy" };
       show();
