@@ -133,6 +133,24 @@ double logarithm(double x) {
     return k * ln2_1 + (f - (s * (f - 2.0 * series) - k * ln2_2));
 }
 
+double hypotenuse(double x, double y) {
+    x = std::fabs(x), y = std::fabs(y);
+    if (x == HUGE_VAL || y == HUGE_VAL) return HUGE_VAL;
+    // A scale by a power of two rounds nothing that counts: beside a number in these bounds, one whose square underflows
+    // adds less than a rounding.
+    constexpr double least = 0x1p-500, most = 0x1p+500, shift = 0x1p+600;
+    const double larger = x < y ? y : x;
+    if (larger > most) {
+        x *= 1.0 / shift, y *= 1.0 / shift;
+        return std::sqrt(x * x + y * y) * shift;
+    }
+    if (larger < least) {
+        x *= shift, y *= shift;
+        return std::sqrt(x * x + y * y) * (1.0 / shift);
+    }
+    return std::sqrt(x * x + y * y);
+}
+
 TanhSech tanh_sech(double x) {
     const double e = exponential(-std::fabs(x)), square = e * e;
     const double t = (1.0 - square) / (1.0 + square);

@@ -150,6 +150,35 @@ TEST(DeterministicMath, Logarithm) {
     EXPECT_NEAR(logarithm(5e-324), -744.4400719213812, 1e-12);  // the smallest number
 }
 
+TEST(DeterministicMath, Hypotenuse) {
+    std::mt19937_64 random(7);
+    const auto expect = [](double x, double y) {
+        const long double truth = std::hypot(static_cast<long double>(x), static_cast<long double>(y));
+        const double at = hypotenuse(x, y);
+        // Numbers below 2^-1022 lie 2^-1074 apart.
+        EXPECT_LE(std::fabs(at - truth), std::max(2.3e-16L * truth, 0x1p-1074L)) << x << ", " << y;
+        EXPECT_EQ(at, hypotenuse(y, x));
+        EXPECT_EQ(at, hypotenuse(-x, y));
+    };
+    for (int i = 0; i < 20000; ++i) {
+        const double x = 1.0 + unit(random), y = 2.0 * unit(random);
+        expect(x, y);
+        // Near the largest and the smallest numbers, and near the bounds of scaling.
+        for (const int e : {-1070, -1030, -700, -501, -500, 499, 500, 501, 1022}) {
+            expect(std::ldexp(0.7 * x, e), std::ldexp(0.7 * y, e));
+            expect(std::ldexp(0.7 * x, e), std::ldexp(y, e - int(random() % 60)));
+        }
+    }
+    EXPECT_EQ(hypotenuse(3.0, -4.0), 5.0);
+    EXPECT_EQ(hypotenuse(0.0, -0.0), 0.0);
+    EXPECT_EQ(hypotenuse(5e-324, 0.0), 5e-324);
+    EXPECT_EQ(hypotenuse(0.0, -1.7e308), 1.7e308);
+    EXPECT_EQ(hypotenuse(1.7e308, 1.7e308), HUGE_VAL);
+    EXPECT_EQ(hypotenuse(NAN, -HUGE_VAL), HUGE_VAL);
+    EXPECT_TRUE(std::isnan(hypotenuse(NAN, 1.0)));
+    EXPECT_TRUE(std::isnan(hypotenuse(1e300, NAN)));
+}
+
 TEST(DeterministicMath, HyperbolicTangentAndSecant) {
     std::mt19937_64 random(5);
     for (int i = 0; i < 20000; ++i) {

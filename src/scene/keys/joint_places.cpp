@@ -187,7 +187,7 @@ double gap_of(JointType type, const Vec3& apart) {
     switch (type) {
         case JointType::slider:
         case JointType::cylindrical:
-            return std::hypot(apart.y(), apart.z());
+            return hypotenuse(apart.y(), apart.z());
         case JointType::planar:
             return std::fabs(apart.x());
         case JointType::distance:

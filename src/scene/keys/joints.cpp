@@ -95,10 +95,10 @@ void read_ball(const JointTable& given, JointDescription& joint) {
     if (const auto value = given.table.find("swing")) {
         joint.swing = read_swing(*value);
         const double share =
-            std::hypot(given.start.turn[1] / (*joint.swing)[0], given.start.turn[2] / (*joint.swing)[1]);
+            hypotenuse(given.start.turn[1] / (*joint.swing)[0], given.start.turn[2] / (*joint.swing)[1]);
         if (share > 1.0 + limits::start_tolerance && !given.snap) {
             value->fail(fmt::format("must contain the start, {:.6g} degrees; give a wider cone, or snap = true",
-                                    std::hypot(given.start.turn[1], given.start.turn[2]) * 180.0 / pi));
+                                    hypotenuse(given.start.turn[1], given.start.turn[2]) * 180.0 / pi));
         }
     }
     if (const auto value = given.table.find("twist")) {

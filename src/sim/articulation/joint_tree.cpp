@@ -1,5 +1,7 @@
 #include "sim/articulation/joint_tree.h"
 
+#include "core/deterministic_math.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +17,7 @@ Quat about(const Vec3& axis, double cosine, double sine) {
 
 /// Cosine and sine of a half angle, from two numbers in their ratio.
 std::array<double, 2> unit(double c, double s) {
-    const double length = std::hypot(c, s);
+    const double length = hypotenuse(c, s);
     return length > 0.0 ? std::array{c / length, s / length} : std::array{1.0, 0.0};
 }
 
@@ -71,7 +73,7 @@ struct Sequence {
         if (!forward) std::swap(m, n);
         const double w = relative.w(), x = relative.vec()[m], y = relative.vec()[n];
         const double z = forward ? relative.vec()[locked] : -relative.vec()[locked];
-        const auto [cm, sm] = std::hypot(w, x) >= std::hypot(y, z) ? unit(w, x) : unit(y, z);
+        const auto [cm, sm] = hypotenuse(w, x) >= hypotenuse(y, z) ? unit(w, x) : unit(y, z);
         const auto [cn, sn] = unit(w * cm + x * sm, y * cm + z * sm);
         TreeNode& first = add(NodeKind::revolute, std::size_t(3 + m));
         first.turned = (entry * about(Vec3::Unit(m), cm, sm)).normalized();

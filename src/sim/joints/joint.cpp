@@ -69,7 +69,7 @@ void measure_universal(const Joint& joint, const JointFrames& f, int k, JointGeo
 // Three free angles: twist about x, and the swing of x as a rotation vector across it (q = swing twist).
 void measure_ball(const Joint& joint, const JointFrames& f, JointGeometry& g) {
     const Quat q = nearer(f.turn_a.conjugate() * f.turn_b);
-    const double length = std::hypot(q.w(), q.x());
+    const double length = hypotenuse(q.w(), q.x());
     const Vec3 xa = f.a.col(0), xb = f.b.col(0);
     const double open = 1.0 + xa.dot(xb);
     // The twist's gradient (xa + xb) / (1 + xa.xb) grows without bound towards a swing of pi.
@@ -77,7 +77,7 @@ void measure_ball(const Joint& joint, const JointFrames& f, JointGeometry& g) {
     g.coordinates[3] = {twist_direction, unwrapped(2.0 * atan2_stable(q.x(), q.w()), joint.value[3])};
     const Quat twist = length > 0.0 ? Quat(q.w() / length, q.x() / length, 0.0, 0.0) : Quat::Identity();
     const Quat swing = q * twist.conjugate();
-    const double sine = std::hypot(swing.y(), swing.z());
+    const double sine = hypotenuse(swing.y(), swing.z());
     const double angle = 2.0 * atan2_stable(sine, swing.w()), scale = sine > 0.0 ? angle / sine : 2.0;
     const double sy = scale * swing.y(), sz = scale * swing.z();
     g.coordinates[4] = {f.a.col(1), sy};
@@ -89,7 +89,7 @@ void measure_ball(const Joint& joint, const JointFrames& f, JointGeometry& g) {
     const auto [ly, lz] = *joint.description.swing;
     // Elliptic cone: (sy / ly)^2 + (sz / lz)^2 <= 1; across its border along the gradient.
     const Vec3 axis = sine > 0.0 ? Vec3(0.0, sy / (ly * ly), sz / (lz * lz)).normalized() : Vec3(0.0, 1.0, 0.0);
-    const double share = std::hypot(sy / ly, sz / lz);
+    const double share = hypotenuse(sy / ly, sz / lz);
     g.swing_limit = share > 0.0 ? angle / share : std::min(ly, lz);
     g.swing = {f.a * axis, angle};
 }

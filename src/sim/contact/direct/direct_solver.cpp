@@ -1,5 +1,6 @@
 #include "sim/contact/direct/direct_solver.h"
 
+#include "core/deterministic_math.h"
 #include "sim/contact/direct/settings.h"
 #include "sim/contact/model/predicted_gap.h"
 #include "sim/contact/model/settings.h"
@@ -108,7 +109,7 @@ void DirectSolver::load_constraints(const ContactProblem& problem, std::span<con
         const double gives =
             n.dot((a.inverse_inertia + b.inverse_inertia) * n);  // zero for bodies that no impulse moves
         constraint.free_slip =
-            std::hypot(constraint.friction[0].offset + dot(constraint, constraint.friction[0], free_),
+            hypotenuse(constraint.friction[0].offset + dot(constraint, constraint.friction[0], free_),
                        constraint.friction[1].offset + dot(constraint, constraint.friction[1], free_));
         constraint.free_spin = std::abs(constraint.torsion.offset + dot(constraint, constraint.torsion, free_));
         constraint.torsion_mass = 1.0 / gives;
@@ -166,7 +167,7 @@ bool DirectSolver::admissible() const {
             // A body squeezed between walls has no solution.
             if (row.offset + dot(constraint, row, velocity_) < row.target - closing) return false;
         }
-        const double friction = std::hypot(constraint.friction[0].impulse, constraint.friction[1].impulse);
+        const double friction = hypotenuse(constraint.friction[0].impulse, constraint.friction[1].impulse);
         if (friction > tuning::direct_cone * constraint.coefficient * load + 1e-6 * total_mass_ * speed_scale_)
             return false;
     }

@@ -1,5 +1,6 @@
 #include "sim/contact/direct/joint_rows.h"
 
+#include "core/deterministic_math.h"
 #include "sim/joints/settings.h"
 #include "sim/math/keyframe_track.h"
 
@@ -145,7 +146,7 @@ double JointRows::objective(const std::vector<double>& u) const {
             if (row.starts_ball) {  // Huber's function of the length
                 for (std::size_t i = 1; i < 3; ++i) {
                     const Row& next = rows_[++k];
-                    y = std::hypot(y,
+                    y = hypotenuse(y,
                                    next.estimate + (next.target - next.offset - dot(block, next, u)) / next.compliance);
                 }
             }
