@@ -69,10 +69,11 @@ public:
     void keep_each(const std::vector<T>& values) {
         put(values);
     }
-    /// The first elements of an array.
+    /// The first elements of an array, by pointer: g++ 12 -O2 -fipa-icf merges functions that index arrays of different
+    /// lengths, and ends the loop of the longer one early.
     template <class Array>
     void keep_first(std::size_t count, const Array& values) {
-        for (std::size_t i = 0; i < count; ++i) put(values[i]);
+        for (const auto& value : std::span(values).first(count)) put(value);
     }
 
     std::span<const std::byte> bytes() const { return {bytes_.data(), size_}; }
@@ -185,7 +186,7 @@ public:
     template <class Array>
     void keep_first(std::size_t count, Array& values) {
         if (count > std::size(values)) fail("has a length beyond its place");
-        for (std::size_t i = 0; i < count; ++i) get(values[i]);
+        for (auto& value : std::span(values).first(count)) get(value);
     }
 
     bool at_end() const { return bytes_.empty(); }
