@@ -67,7 +67,9 @@ double pressing(const Body& a, const Body& b) {
     const std::vector<Body> bodies{a, b};
     std::vector<Contact> contacts;
     add_contacts(m, bodies, contacts);
-    return pressing_acceleration(contacts[0], a, b, gravity, false, false);
+    std::vector<ContactGap> gaps;
+    make_gaps({m}, contacts, bodies, gaps);
+    return pressing_acceleration(contacts[0], gaps[0], a, b, gravity, false, false);
 }
 
 Body ground() {
@@ -166,9 +168,10 @@ TEST(MarkHeld, DoesNotDependOnTheOrderOfContacts) {
             contacts.push_back(c);
         }
         std::vector<bool> held(bodies.size(), false), other(bodies.size(), false);
-        mark_held(contacts, bodies, gravity, 0.0, 0.2, held);
+        const std::vector<ContactGap> gaps(contacts.size());
+        mark_held(contacts, gaps, bodies, gravity, 0.0, 0.2, held);
         std::reverse(contacts.begin(), contacts.end());
-        mark_held(contacts, bodies, gravity, 0.0, 0.2, other);
+        mark_held(contacts, gaps, bodies, gravity, 0.0, 0.2, other);
         ASSERT_EQ(held, other) << trial;
     }
 }
@@ -188,7 +191,7 @@ TEST(MarkHeld, ReleasesRestingBodiesThatPart) {
     const auto held = [&](double separation) {
         c.separation = separation;
         std::vector<bool> marks(2, false);
-        mark_held({c}, bodies, gravity, 0.0, 0.01, marks);
+        mark_held({c}, {{}}, bodies, gravity, 0.0, 0.01, marks);
         return bool(marks[1]);
     };
     EXPECT_FALSE(held(0.0));

@@ -18,13 +18,13 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 }  // namespace
 
-bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                                 const ForceField& forces, std::int64_t step) {
+bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std::vector<ContactGap>& gaps,
+                                 std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
     held_.assign(bodies.size(), false);
     // A body that rolls over a hill leaves it along the tangent in each step, by v^2 h^2 / 2 R: less than gravity's
     // displacement while it stays on.
     const double g = settings_.gravity.norm();
-    mark_held(contacts, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
+    mark_held(contacts, gaps, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
     bool any = false;
     for (const std::uint32_t i : movers_) {
         if (!held(bodies[i]) || held_[i] || bodies[i].jointed) continue;
@@ -93,7 +93,8 @@ void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const Force
     held_.resize(bodies.size());
     for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
     for (const std::uint32_t k : receivers) held_[k] = false;
-    mark_held(cluster_.contacts(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_, held_);
+    mark_held(cluster_.contacts(), cluster_.gaps(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_,
+              held_);
     for (const std::uint32_t k : receivers) {
         if (!held(bodies[k]) || held_[k] || bodies[k].jointed) continue;
         bodies[k].flying = true;
@@ -120,10 +121,12 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
     std::vector<std::uint32_t> switching;
     do {  // in rounds: the result must not depend on the contacts' order
         switching.clear();
-        for (const Contact& c : cluster_.contacts()) {
+        for (std::size_t i = 0; i < cluster_.contacts().size(); ++i) {
+            const Contact& c = cluster_.contacts()[i];
             const Body &a = bodies[c.a], &b = bodies[c.b];
             if (!a.flying && !b.flying) continue;
-            const double acceleration = pressing_acceleration(c, a, b, settings_.gravity, !a.flying, !b.flying);
+            const double acceleration =
+                pressing_acceleration(c, cluster_.gaps()[i], a, b, settings_.gravity, !a.flying, !b.flying);
             const double time = std::max(a.flying ? zeno_limit(c.a) : 0.0, b.flying ? zeno_limit(c.b) : 0.0);
             const double speed = std::abs(relative_velocity(c, a, b));
             const bool below_limit = (a.flying && below_zeno_limit(c.a, bodies, speed)) ||

@@ -53,8 +53,8 @@ public:
     /// Groups of joined bodies end their flights of the step.
     void end_flights() { groups_.end_all(); }
     /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
-    bool take_off(const std::vector<Contact>& contacts, std::vector<Body>& bodies, const ForceField& forces,
-                  std::int64_t step);
+    bool take_off(const std::vector<Contact>& contacts, const std::vector<ContactGap>& gaps, std::vector<Body>& bodies,
+                  const ForceField& forces, std::int64_t step);
     /// Whether any body needs stepping: one in contact, a moving kinematic one, one under varying forces.
     bool stepping(const std::vector<Body>& bodies) const;
     /// Starts the trajectories of stepped and kinematic bodies through the coming step. By body: `motions`, of stepped

@@ -202,6 +202,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const std::uint32_t k : reached.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbor_boxes, bring);
         }
+        make_gaps(manifolds_, contacts_, bodies, gaps_);
         for (const Contact& c : contacts_) {
             if (c.impact <= 0.0) continue;
             add_impact(c, bodies[c.a], bodies[c.b]);

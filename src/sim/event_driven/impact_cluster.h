@@ -4,6 +4,7 @@
 // bodies takes part as a whole.
 #pragma once
 
+#include "sim/event_driven/contact_transition.h"
 #include "sim/event_driven/group_flights.h"
 #include "sim/event_driven/neighbor_boxes.h"
 #include "sim/geometry/collide.h"
@@ -42,6 +43,7 @@ public:
 
     /// Of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }
+    const std::vector<ContactGap>& gaps() const { return gaps_; }  // by contact
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& impulse_receivers() const { return receivers_; }
     const std::vector<JointBlow>& blows() const { return blows_; }
@@ -51,12 +53,12 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [groups, brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach, scratch,
-               widening, broken, blows] = self;
+        auto& [groups, brought, expanded, looked_at, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
+               scratch, widening, broken, blows] = self;
         archive.rebuilt(groups);
         archive.keep(scratch, widening);
-        archive.scratch(brought, expanded, looked_at, receivers, pairs, manifolds, contacts, own, before, reach, broken,
-                        blows);
+        archive.scratch(brought, expanded, looked_at, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
+                        broken, blows);
     }
 
 private:
@@ -77,7 +79,9 @@ private:
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<Manifold> manifolds_;
     enum class Reach : char { none, motion, impulse };  // effect of an impact on the two bodies of a contact
-    std::vector<Contact> contacts_, own_;
+    std::vector<Contact> contacts_;
+    std::vector<ContactGap> gaps_;
+    std::vector<Contact> own_;
     std::vector<double> before_;  // by contact: v_rel before the impact
     std::vector<Reach> reach_;    // by contact
     CollisionScratch scratch_;

@@ -16,15 +16,14 @@ constexpr std::size_t none = SIZE_MAX;
 
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
-ContactFeatures features_of(Corners corners, const PointGeometry& geometry, int points, const Body& a, const Body& b) {
+ContactFeatures features_of(Corners corners, GeometryKind kind, int points, const Body& a, const Body& b) {
     const auto is = [&]<class Shape>(std::in_place_type_t<Shape>) {
         return std::holds_alternative<Shape>(a.collider) || std::holds_alternative<Shape>(b.collider);
     };
     if (is(std::in_place_type<std::shared_ptr<const CollisionMesh>>)) return ContactFeatures::mesh;
-    if (is(std::in_place_type<Ball>) || std::holds_alternative<BallOverFace>(geometry) ||
-        std::holds_alternative<CurvedGap>(geometry))
-        return ContactFeatures::sphere;
-    if (std::holds_alternative<CrossingEdges>(geometry)) return ContactFeatures::edge_edge;
+    const bool edges = kind == GeometryKind::crossing_edges;
+    if (is(std::in_place_type<Ball>) || (kind != GeometryKind::none && !edges)) return ContactFeatures::sphere;
+    if (edges && points == 1) return ContactFeatures::edge_edge;
     if (points > 2 && !is(std::in_place_type<HalfSpace>)) return ContactFeatures::face_face;
     return corners == Corners::of_a ? ContactFeatures::vertex_face : ContactFeatures::face_vertex;
 }
@@ -150,7 +149,7 @@ void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, c
     record.b = c.b;
     record.point = origin_ + point;
     record.normal = c.normal;
-    record.features = features_of(c.corners, c.geometry, c.points, a, b);
+    record.features = features_of(c.corners, c.kind, c.points, a, b);
     record.speed_before = entry.speed_before;
     record.speed_after = entry.speed_after;
     record.restitution = entry.restitution;
@@ -199,7 +198,7 @@ void ContactLog::set_place(ContactRecord& record, const Manifold& m, int i, cons
     record.point = origin_ + at;
     record.normal = m.normal;
     record.gap = m.points[std::size_t(i)].separation;
-    record.features = features_of(m.corners, m.geometry(), m.count, a, b);
+    record.features = features_of(m.corners, m.kind, m.count, a, b);
     record.slip = across(b.point_velocity(at - b.position) - a.point_velocity(at - a.position), m.normal);
 }
 

@@ -24,9 +24,10 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
                                                                 const std::vector<Manifold>& manifolds) {
     std::vector<Body>& bodies = step.set.bodies;
     make_contacts(manifolds, bodies, contacts_);
+    make_gaps(manifolds, contacts_, bodies, gaps_);
     events_.record_in(step.log);
     events_.join(step.joints, bodies, step.forces.field());
-    events_.take_off(contacts_, bodies, step.forces.field(), step.index);
+    events_.take_off(contacts_, gaps_, bodies, step.forces.field(), step.index);
     stepped_.clear();
     for (const std::uint32_t i : step.set.awake)
         if (!bodies[i].flying) stepped_.push_back(i);

@@ -30,9 +30,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [motions, events, contacts, stepped, pairs] = self;
+        auto& [motions, events, contacts, gaps, stepped, pairs] = self;
         archive.keep(motions, events);
-        archive.scratch(contacts, stepped, pairs);
+        archive.scratch(contacts, gaps, stepped, pairs);
     }
 
 private:
@@ -41,6 +41,7 @@ private:
     ClampedMotions motions_;
     EventDrivenMotion events_;
     std::vector<Contact> contacts_;
+    std::vector<ContactGap> gaps_;        // by contact
     std::vector<std::uint32_t> stepped_;  // bodies, ascending
     std::vector<BroadPhase::Pair> pairs_;
 };

@@ -66,13 +66,7 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
     c.friction = pair_friction(a, b);
     c.touch_distance = touch_distance(a.radius, b.radius);
     c.corners = m.corners;
-    c.geometry = m.geometry();
-    const auto* gap = std::get_if<CurvedGap>(&c.geometry);
-    const auto* ball = std::get_if<BallOverFace>(&c.geometry);
-    if (gap || ball) {
-        c.gap_arm_a = (gap ? gap->on_a : ball->center) - a.position;
-        c.gap_arm_b = (gap ? gap->on_b : ball->center) - b.position;
-    }
+    c.kind = m.kind;
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& p = m.points[std::size_t(i)];
         c.feature = p.feature;
@@ -80,10 +74,6 @@ void add_contacts(const Manifold& m, const std::vector<Body>& bodies, std::vecto
         const Vec3 place = acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
         c.arm_a = place - a.position;
         c.arm_b = place - b.position;
-        if (!gap && !ball) {
-            c.gap_arm_a = c.arm_a;
-            c.gap_arm_b = c.arm_b;
-        }
         contacts.push_back(c);
     }
     if (m.count > 1) set_rubbing(m, std::span(contacts).last(std::size_t(m.count)));

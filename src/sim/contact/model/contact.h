@@ -15,19 +15,19 @@
 
 namespace tumble {
 
+/// Heaps make one for each point of colliding islands in each step, and wait for memory: a member that few readers need
+/// has a list of its own (ContactGap in event_driven/contact_transition.h).
 struct Contact {
-    std::uint32_t a = 0, b = 0, part = 0;  // body indices, and the triangle index of a mesh
+    std::uint32_t a = 0, b = 0, part = 0;    // body indices, and the triangle index of a mesh
+    std::int16_t points = 1;                 // of its manifold
+    Corners corners = Corners::neither;      // the normal rotates with the other body's face
+    GeometryKind kind = GeometryKind::none;  // of its manifold
     std::uint64_t feature = 0;
-    int points = 1;           // of its manifold
-    Vec3 normal;              // away from A
-    Vec3 arm_a, arm_b;        // r = p - x, world
-    Vec3 rub = Vec3::Zero();  // m, world: from the contact to the point where its friction acts (contact_area.h)
-    Corners corners = Corners::neither;  // the normal rotates with the other body's face
-    PointGeometry geometry;              // of the manifold's single point
-    // m, world, from the bodies' centers: the points of a CurvedGap, or the center of a BallOverFace. Else the arms
-    Vec3 gap_arm_a = Vec3::Zero(), gap_arm_b = Vec3::Zero();
-    double separation = 0.0;                   // m; negative: overlap
-    double touch_distance = 0.0;               // m, contact tolerance
+    Vec3 normal;                  // away from A
+    Vec3 arm_a, arm_b;            // r = p - x, world
+    Vec3 rub = Vec3::Zero();      // m, world: from the contact to the point where its friction acts (contact_area.h)
+    double separation = 0.0;      // m; negative: overlap
+    double touch_distance = 0.0;  // m, contact tolerance
     double restitution = 0.0, friction = 0.0;  // of the pair of materials
 
     double impact = 0.0;  // N s, impulse of this step's impact
