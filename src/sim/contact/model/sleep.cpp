@@ -11,13 +11,15 @@
 namespace tumble {
 
 void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
-    const auto group = watches_[body].group;
+    const auto group = groups_[body];
     if (!group) return;
     ++changes_;
     sleepers_ -= group->size();
     for (const std::uint32_t i : *group) {
         bodies[i].asleep = false;
         watches_[i] = Watch{};
+        trends_[i] = Trend{};
+        groups_[i].reset();
     }
 }
 
@@ -83,19 +85,17 @@ bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
 // Way (m) of the surface that is left to a motion that decays; infinite for others. With the shares l of the velocity and k
 // of its change that are lost from sample to sample, exp(-t/T) has k = l and the way |v| T; even braking, after which a
 // body turns back, has k = 0.
-double SleepMonitor::way_left(const Trend& before, const Trend& now) {
+double SleepMonitor::way_left(const Trend& before, const Trend& now, double since) {
     const auto lost = [](const Trend::Velocity& from, const Trend::Velocity& to) {
         return 1.0 - to.dot(from) / from.squaredNorm();
     };
     const double of_velocity = lost(before.velocity, now.velocity), of_change = lost(before.change, now.change);
     if (!(of_velocity > 0.0 && of_velocity < 1.0 && of_change >= tuning::sleep_decay * of_velocity)) return infinity;
-    return before.since * now.velocity.norm() / of_velocity;
+    return since * now.velocity.norm() / of_velocity;
 }
 
 // Samples the body's velocity.
-void SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed_change) {
-    trend.since += h;
-    if (trend.since < tuning::sleep_sample_interval) return;
+void SleepMonitor::sample(Watch& watch, Trend& trend, const Body& body, double speed_change) {
     Trend now;
     now.velocity << body.velocity, body.radius * body.angular_velocity;
     now.change = now.velocity - trend.velocity;
@@ -103,9 +103,12 @@ void SleepMonitor::follow(Trend& trend, const Body& body, double h, double speed
     const bool same = now.change.dot(trend.change) > tuning::sleep_steady * trend.change.squaredNorm();
     const double rounding = body.jointed ? tuning::joint_rest : tuning::sleep_rounding;
     const bool any = now.change.norm() > rounding * speed_change;
-    now.steady = any && (grew || same) ? trend.steady + 1 : 0;
-    if (body.jointed) now.left = way_left(trend, now);
-    if (now.left < infinity) now.damped = trend.damped + trend.since;
+    watch.steady = any && (grew || same) ? watch.steady + 1 : 0;
+    if (body.jointed) now.left = way_left(trend, now, watch.since);
+    if (now.left < infinity) now.damped = trend.damped + watch.since;
+    watch.ends = now.damped >= tuning::sleep_times.front() &&
+                 now.left <= tuning::sleep_drift(tuning::sleep_times.back()) * body.radius;
+    watch.since = 0.0;
     trend = now;
 }
 
@@ -115,12 +118,11 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
         bool still = true, supported = false;
         for (const std::uint32_t i : islands.bodies(island)) {
             // in each step, whatever the other bodies do
-            Trend& trend = watches_[i].trend;
-            follow(trend, bodies[i], h, speed_change);
-            const bool stays = follow(watches_[i].spans, bodies[i], h);
-            const bool ends = trend.damped >= tuning::sleep_times.front() &&
-                              trend.left <= tuning::sleep_drift(tuning::sleep_times.back()) * bodies[i].radius;
-            const bool rests = ends || (stays && trend.steady < tuning::sleep_samples);
+            Watch& watch = watches_[i];
+            watch.since += h;
+            if (watch.since >= tuning::sleep_sample_interval) sample(watch, trends_[i], bodies[i], speed_change);
+            const bool stays = follow(watch.spans, bodies[i], h);
+            const bool rests = watch.ends || (stays && watch.steady < tuning::sleep_samples);
             still = still && rests && !bodies[i].flying;
         }
         if (!still) continue;
@@ -146,7 +148,7 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
             body.momentum.setZero();
             body.angular_momentum.setZero();
             body.derive();
-            watches_[i].group = group;
+            groups_[i] = group;
         }
     }
 }

@@ -21,7 +21,7 @@ class JointSet;
 
 class SleepMonitor {
 public:
-    explicit SleepMonitor(std::size_t bodies) : watches_(bodies) {}
+    explicit SleepMonitor(std::size_t bodies) : watches_(bodies), trends_(bodies), groups_(bodies) {}
 
     /// Wakes bodies that an awake or moving kinematic body touches, or will before the end of the step of h seconds
     /// (speeds change by up to `speed_change`, m/s), each with the whole group that it fell asleep with. Precondition:
@@ -42,8 +42,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [watches, changes, sleepers] = self;
-        archive.keep(watches, changes, sleepers);
+        auto& [watches, trends, groups, changes, sleepers] = self;
+        archive.keep(watches, trends, groups, changes, sleepers);
     }
 
 private:
@@ -62,30 +62,33 @@ private:
         using Velocity = Eigen::Matrix<double, 6, 1>;  // m/s, of the center, and of the surface relative to it
         Velocity velocity = Velocity::Zero(),
                  change = Velocity::Zero();    // at the last sample; change since the one before
-        double since = 0.0;                    // s, since the last sample
-        int steady = 0;                        // consecutive samples without rest
         double damped = 0.0, left = infinity;  // s and m: time for which it has decayed, and way that is left to it
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [velocity, change, since, steady, damped, left] = self;
-            archive.keep(velocity, change, since, steady, damped, left);
+            auto& [velocity, change, damped, left] = self;
+            archive.keep(velocity, change, damped, left);
         }
     };
+    /// Read and written for each awake body in each step; the rest of a body's state is at its samples only.
     struct Watch {
         Spans spans;
-        Trend trend;
-        std::shared_ptr<const std::vector<std::uint32_t>> group;  // bodies that fell asleep together; set while asleep
+        double since = 0.0;  // s, since the last sample
+        int steady = 0;      // consecutive samples without rest
+        bool ends = false;   // whether the way that is left to a motion that decays is short enough
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [spans, trend, group] = self;
-            archive.keep(spans, trend, group);
+            auto& [spans, since, steady, ends] = self;
+            archive.keep(spans, since, steady, ends);
         }
     };
     static bool follow(Spans& spans, const Body& body, double h);
-    static void follow(Trend& trend, const Body& body, double h, double speed_change);
-    static double way_left(const Trend& before, const Trend& now);
+    static void sample(Watch& watch, Trend& trend, const Body& body, double speed_change);
+    static double way_left(const Trend& before, const Trend& now, double since);
 
-    std::vector<Watch> watches_;
+    std::vector<Watch> watches_;  // by body
+    std::vector<Trend> trends_;
+    // Bodies that fell asleep together; set while asleep.
+    std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> groups_;
     std::uint64_t changes_ = 0;
     std::size_t sleepers_ = 0;
 };
