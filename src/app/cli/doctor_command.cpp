@@ -46,11 +46,13 @@ Finding check_ffmpeg(TimeLimit& time_limit) try {
 }
 
 /// Frames with text are the same on two machines only with the same font.
-Finding check_font() {
+Finding check_font() try {
     const std::string family = Canvas(1, 1, 1.0).font_family();
     if (family == "Inter") return {true, family};
     return {false,
             family.empty() ? "no font for text in clips and plots" : fmt::format("{} in place of Inter", family)};
+} catch (const RunError& error) {
+    return {false, error.what()};
 }
 
 Finding check_player() try { return {true, find_web_folder().string()}; } catch (const RunError&) {

@@ -1,7 +1,7 @@
 #include "render/gl/gl_context.h"
 
+#include "core/dynamic_library.h"
 #include "core/error.h"
-#include "render/gl/dynamic_library.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
@@ -19,7 +19,7 @@ constexpr const char* packages = "libegl1 libegl-mesa0 libgl1-mesa-dri";
 class EglContext final : public GlContext {
 public:
     EglContext()
-        : library_(egl_library_names, packages),
+        : library_(egl_library_names, "the rendering library", packages),
           get_proc_address_(library_.require<decltype(&eglGetProcAddress)>("eglGetProcAddress")),
           get_error_(library_.require<decltype(&eglGetError)>("eglGetError")),
           make_current_(library_.require<decltype(&eglMakeCurrent)>("eglMakeCurrent")),

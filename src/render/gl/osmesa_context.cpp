@@ -1,8 +1,8 @@
 #include "render/gl/gl_context.h"
 
+#include "core/dynamic_library.h"
 #include "core/error.h"
 #include "core/memory_limit.h"
-#include "render/gl/dynamic_library.h"
 
 #include <GL/osmesa.h>
 #include <fmt/format.h>
@@ -20,7 +20,7 @@ constexpr int default_framebuffer_size = 4;  // pixels
 class OsmesaContext final : public GlContext {
 public:
     OsmesaContext()
-        : library_(osmesa_library_names, "libosmesa6"),
+        : library_(osmesa_library_names, "the rendering library", "libosmesa6"),
           destroy_(library_.require<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")),
           make_current_(library_.require<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")),
           get_proc_address_(library_.require<decltype(&OSMesaGetProcAddress)>("OSMesaGetProcAddress")) {

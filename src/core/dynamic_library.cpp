@@ -1,4 +1,4 @@
-#include "render/gl/dynamic_library.h"
+#include "core/dynamic_library.h"
 
 #include "core/error.h"
 #include "core/memory_limit.h"
@@ -20,7 +20,7 @@ bool is_out_of_memory(std::string_view reason) {
 
 }  // namespace
 
-DynamicLibrary::DynamicLibrary(std::span<const char* const> names, const std::string& package) {
+DynamicLibrary::DynamicLibrary(std::span<const char* const> names, const char* what, const std::string& package) {
     std::string tried;
     bool missing = true;
     for (const char* name : names) {
@@ -37,10 +37,8 @@ DynamicLibrary::DynamicLibrary(std::span<const char* const> names, const std::st
         tried += "\n  " + reason;
     }
     if (!missing)
-        throw RunError(
-            fmt::format("the rendering library cannot be opened (it is in the package {}). Tried:{}", package, tried));
-    throw RunError(fmt::format("the rendering library is missing; install it with 'apt-get install {}'. Tried:{}",
-                               package, tried));
+        throw RunError(fmt::format("{} cannot be opened (it is in the package {}). Tried:{}", what, package, tried));
+    throw RunError(fmt::format("{} is missing; install it with 'apt-get install {}'. Tried:{}", what, package, tried));
 }
 
 void* DynamicLibrary::find(const char* symbol) const { return dlsym(handle_, symbol); }

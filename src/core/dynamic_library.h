@@ -9,8 +9,8 @@ namespace tumble {
 class DynamicLibrary {
 public:
     /// Opens the first library of `names` that exists. Throws RunError with the reasons and the Debian package to
-    /// install if none exists; MemoryError if memory ran out.
-    DynamicLibrary(std::span<const char* const> names, const std::string& package);
+    /// install if none exists; MemoryError if memory ran out. `what`: its name in errors, "the rendering library".
+    DynamicLibrary(std::span<const char* const> names, const char* what, const std::string& package);
 
     /// The address of a function, or null.
     void* find(const char* symbol) const;
@@ -24,7 +24,7 @@ public:
 private:
     void* require_address(const char* symbol) const;
 
-    void* handle_ = nullptr;  // never closed: Mesa and LLVM keep threads and exit handlers in it
+    void* handle_ = nullptr;  // never closed: Mesa, LLVM and GLib keep threads, exit handlers and types in it
     std::string name_;
 };
 
