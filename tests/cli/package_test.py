@@ -61,13 +61,13 @@ class Package(unittest.TestCase):
 
     def test_dependencies(self):
         depends = [name.split(" ")[0] for name in self.field("Depends").split(", ")]
-        for name in ("libc6", "libstdc++6", "libpng16-16", "libosmesa6", "fonts-inter", "zlib1g", "libassimp5"):
+        for name in ("libc6", "libstdc++6", "libpng16-16", "libosmesa6", "libpangocairo-1.0-0", "fonts-inter", "zlib1g", "libassimp5"):
             self.assertIn(name, depends)
         self.assertEqual([name for name in depends if name.endswith("-dev")], [])
         self.assertEqual(self.field("Recommends"), "ffmpeg")
         # Libraries that are opened by name: each is a dependency, or suggested.
-        names = {name for path in (ROOT / "src/render/gl").glob("*.cpp") for name in re.findall(r'"(lib\w+)\.so', path.read_text())}
-        self.assertEqual({name.lower() for name in names}, {"libosmesa", "libegl"})
+        names = {name for path in (ROOT / "src").rglob("*.cpp") for name in re.findall(r'"(lib[\w.-]+?)\.so', path.read_text())}
+        self.assertEqual({name.lower() for name in names}, {"libosmesa", "libegl", "libpangocairo-1.0"})
 
     def test_version_is_that_of_the_program(self):
         version = self.field("Version")

@@ -1,5 +1,7 @@
 """`plot`: files of each kind, several runs in one plot, the messages for wrong names."""
 
+import os
+
 import program
 
 SCENE = program.SCENE
@@ -39,6 +41,21 @@ class Plot(program.ProgramTest):
     def test_several_scenes(self):
         self.write("other.toml", SCENE.replace("3.0, 0.0]", "4.0, 0.0]"))
         self.check(0, "plot", "scene.toml", "other.toml", "--of", "body.crate.y", "-o", "p.svg")
+
+    def test_cairo_and_pango_are_opened_for_plots_alone(self):
+        loaded = self.run_tumble("--version", env={**os.environ, "LD_TRACE_LOADED_OBJECTS": "1"}).stdout
+        self.assertIn("libassimp", loaded)
+        self.assertNotRegex(loaded, "pango|cairo|glib")
+        # A file that is no library in the place of Pango.
+        (self.folder / "libraries").mkdir()
+        for name in ("libpangocairo-1.0.so.0", "libpangocairo-1.0.so"):
+            (self.folder / "libraries" / name).write_text("no library")
+        without = {"env": {**os.environ, "LD_LIBRARY_PATH": str(self.folder / "libraries")}}
+        self.check(0, "simulate", "scene.toml", **without)
+        run = self.check(1, "plot", "scene.toml", "--of", "energy", "-o", "p.svg", **without)
+        self.assertIn("the library of plots and text cannot be opened (it is in the package libpangocairo-1.0-0)", run.stderr)
+        self.assertFalse((self.folder / "p.svg").exists())
+        self.assertIn("libpangocairo-1.0-0", self.run_tumble("doctor", **without).stdout)
 
     def refused(self, message, *arguments):
         run = self.check(2, "plot", *arguments)

@@ -131,6 +131,32 @@ std::vector<std::string> cyclic_includes(const FolderGraph& graph) {
     return cyclic;
 }
 
+/// Types outside unnamed namespaces by their names, each with its files.
+using TypeFiles = std::map<std::string, std::set<std::string>>;
+
+/// Namespaces are not indented, so definitions in them begin a line.
+void add_types(std::istream& text, const std::string& file, TypeFiles& types) {
+    static const std::regex opens("^namespace ?([a-z_0-9:]*) ?\\{$"),
+        defines("^(?:struct|class|enum class|enum) (\\w+)(?: final)?(?: : .*)? ?\\{.*$");
+    std::vector<std::string> spaces;
+    std::smatch match;
+    for (std::string line; std::getline(text, line);) {
+        if (std::regex_match(line, match, opens)) spaces.push_back(match[1]);
+        if (line.rfind("}  // namespace", 0) == 0 && !spaces.empty()) spaces.pop_back();
+        if (!std::regex_match(line, match, defines) || std::count(spaces.begin(), spaces.end(), "") > 0) continue;
+        std::string name;
+        for (const std::string& space : spaces) name += space + "::";
+        types[name + match[1].str()].insert(file);
+    }
+}
+
+std::vector<std::string> types_of_several_files(const TypeFiles& types) {
+    std::vector<std::string> several;
+    for (const auto& [name, files] : types)
+        if (files.size() > 1) several.push_back(name + " in " + *files.begin() + " and " + *files.rbegin());
+    return several;
+}
+
 TEST(Architecture, EveryTopFolderHasALayer) {
     for (const auto& entry : fs::directory_iterator(source)) {
         if (!entry.is_directory()) continue;
@@ -151,6 +177,27 @@ TEST(Architecture, NoIncludeLeavesItsLayer) {
 
 TEST(Architecture, NoCycleBetweenFolders) {
     for (const std::string& include : cyclic_includes(folder_graph())) ADD_FAILURE() << "in a cycle: " << include;
+}
+
+// The linker keeps one std::vector<T> for both: objects of one size would be taken for objects of the other.
+TEST(Architecture, NoTwoTypesHaveOneName) {
+    TypeFiles types;
+    for (const fs::path& file : source_files()) {
+        std::ifstream text(file);
+        add_types(text, file.lexically_relative(source).string(), types);
+    }
+    EXPECT_GT(types.size(), 300u);
+    for (const std::string& name : types_of_several_files(types)) ADD_FAILURE() << name;
+}
+
+TEST(Architecture, ASecondTypeOfAnExistingNameIsFound) {
+    TypeFiles types;
+    std::istringstream first(
+        "namespace tumble {\nnamespace {\nstruct Own {\n};\n}  // namespace\n\nclass A final : B {\n");
+    std::istringstream second("namespace tumble {\nstruct A {};\nstruct Own {};\n}  // namespace tumble\nstruct B {\n");
+    add_types(first, "1.h", types);
+    add_types(second, "2.h", types);
+    EXPECT_EQ(types_of_several_files(types), (std::vector<std::string>{"tumble::A in 1.h and 2.h"}));
 }
 
 TEST(Architecture, AForbiddenIncludeIsFound) {

@@ -25,8 +25,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Those that the drawing opens at run time: the software renderer, and EGL with its driver.
-constexpr std::array drawing_libraries = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", "libEGL.so.1"};
+// Those that the drawing opens at run time: the software renderer, EGL with its driver, and Pango with Cairo.
+constexpr std::array drawing_libraries = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", "libEGL.so.1",
+                                          "libpangocairo-1.0.so.0"};
 // Mesa and LLVM read them, and pixels may depend on them.
 constexpr std::array driver_variables = {"GALLIUM_DRIVER",
                                          "LP_NATIVE_VECTOR_WIDTH",

@@ -6,13 +6,13 @@
 namespace tumble {
 namespace {
 
-RigidMotion between(const PartPlace& now, const PartPlace& next) {
+FrameMotion between(const PartPlace& now, const PartPlace& next) {
     const Mat3 turn = next.axes * now.axes.transpose();
     return {turn, next.origin - turn * now.origin};
 }
 
 /// A cord stays attached at both ends; offsets perpendicular to it only rotate with it.
-RigidMotion between(const CordPlace& now, const CordPlace& next) {
+FrameMotion between(const CordPlace& now, const CordPlace& next) {
     const Mat3 turn = rotation_between(now.to - now.from, next.to - next.from).toRotationMatrix();
     return {turn, next.from - turn * now.from};
 }
@@ -38,7 +38,7 @@ SurfaceMotion::SurfaceMotion(const ScenePlaces& now, const PinholeCamera& camera
 }
 
 Eigen::Vector2d SurfaceMotion::of_surface(std::uint32_t surface, const Vec3& point, int column, int row) const {
-    const RigidMotion& motion = surfaces_[surface];
+    const FrameMotion& motion = surfaces_[surface];
     Vec3 next = motion.turn * point + motion.shift;
     if (surface >= parts_) {
         // A cord that gets longer displaces each point by its share of the length.

@@ -9,7 +9,7 @@
 namespace tumble {
 
 /// A point p of this frame (camera frame) is at turn p + shift in the next frame (its camera frame).
-struct RigidMotion {
+struct FrameMotion {
     Mat3 turn = Mat3::Identity();
     Vec3 shift = Vec3::Zero();  // m
 };
@@ -33,7 +33,7 @@ public:
 private:
     Eigen::Vector2d to(const Vec3& next_point, int column, int row) const;
 
-    std::vector<RigidMotion> surfaces_;  // parts, then cords
+    std::vector<FrameMotion> surfaces_;  // parts, then cords
     std::vector<char> rests_;            // of each surface
     std::vector<CordPlace> cords_now_, cords_next_;
     std::size_t parts_;
