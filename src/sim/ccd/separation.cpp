@@ -156,7 +156,7 @@ std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& 
     return v;
 }
 
-Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance) {
+TrackedAxis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance) {
     const Feature fa = feature_along(a, normal, tolerance), fb = feature_along(b, -normal, tolerance);
     const Vec3 &omega_a = a.angular_velocity, &omega_b = b.angular_velocity;
     if (fa.size >= 3) return {normal, omega_a.cross(normal)};
@@ -197,12 +197,13 @@ struct Height {
     double at(double s) const { return value + s * rate; }
 };
 
-Height height(const SupportPoints& points, std::size_t i, const Axis& axis) {
+Height height(const SupportPoints& points, std::size_t i, const TrackedAxis& axis) {
     return {axis.normal.dot(points.arms[i]), axis.rate.dot(points.arms[i]) + axis.normal.dot(points.arm_velocity(i))};
 }
 
 // The lowest of B's points and the highest of A's at time s, as one line; at equal heights the faster closing one.
-Height lowest_line(const SupportPoints& a, const SupportPoints& b, const Axis& axis, const Height& centers, double s) {
+Height lowest_line(const SupportPoints& a, const SupportPoints& b, const TrackedAxis& axis, const Height& centers,
+                   double s) {
     Height low{infinity, 0.0}, high{-infinity, 0.0};
     for (std::size_t i = 0; i < b.arms.size(); ++i) {
         const Height h = height(b, i, axis);
@@ -217,8 +218,8 @@ Height lowest_line(const SupportPoints& a, const SupportPoints& b, const Axis& a
 
 }  // namespace
 
-SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon,
-                                 double nearest) {
+SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const TrackedAxis& axis,
+                                 double horizon, double nearest) {
     const Vec3 d = b.center - a.center, v = b.velocity - a.velocity, acceleration = b.acceleration - a.acceleration;
     const Height centers{axis.normal.dot(d) - a.radius - b.radius, axis.rate.dot(d) + axis.normal.dot(v)};
     const Height line = lowest_line(a, b, axis, centers, 0.0);

@@ -38,7 +38,7 @@ struct SupportPoints {
 };
 
 /// An axis from A to B that rotates with the features that it separates.
-struct Axis {
+struct TrackedAxis {
     Vec3 normal = Vec3::UnitY();  // unit
     Vec3 rate = Vec3::Zero();     // 1/s, perpendicular to the normal
 };
@@ -51,7 +51,7 @@ std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& 
 
 /// The axis with that normal, rotating with the features that meet along it: with a face, with a pair of edges, or with
 /// the line between two points. `tolerance` (m): points within it of the farthest belong to the feature.
-Axis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance);
+TrackedAxis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance);
 
 struct SeparationBound {
     double gap = 0.0;        // m, f(0)
@@ -62,7 +62,7 @@ struct SeparationBound {
 
 /// Valid up to `horizon` s: safe_time is limited to it. `nearest` (m): points within it of the nearest pair count as
 /// nearest.
-SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const Axis& axis, double horizon,
-                                 double nearest);
+SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b, const TrackedAxis& axis,
+                                 double horizon, double nearest);
 
 }  // namespace tumble

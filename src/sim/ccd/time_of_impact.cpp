@@ -262,12 +262,12 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         // The axis with the widest gap, rotating with its features or fixed: both bounds are certain, the longer is
         // taken.
         SeparationBound best;
-        Axis best_axis;
+        TrackedAxis best_axis;
         best.gap = -infinity;
         double safe = 0.0;
         for (const Vec3& normal : normals_) {
-            const Axis axis = pair.plane ? Axis{normal, a_.angular_velocity.cross(normal)}
-                                         : tracking_axis(a_, b_, normal, tuning::impact_feature * pair.size);
+            const TrackedAxis axis = pair.plane ? TrackedAxis{normal, a_.angular_velocity.cross(normal)}
+                                                : tracking_axis(a_, b_, normal, tuning::impact_feature * pair.size);
             const SeparationBound bound = bound_separation(a_, b_, axis, horizon - t, 2.0 * pair.scale.touch);
             if (bound.gap > 0.0) safe = std::max(safe, bound.safe_time);
             if (bound.gap <= best.gap) continue;
