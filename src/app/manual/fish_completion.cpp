@@ -28,7 +28,7 @@ complete -c PROGRAM -f
 )fish";
 
 std::string fish_quoted(const std::string& text) {
-    return "'" + replaced(replaced(text, "\\", "\\\\"), "'", "\\'") + "'";
+    return fmt::format("'{}'", replaced(replaced(text, "\\", "\\\\"), "'", "\\'"));
 }
 
 /// The offers for a value, as options of fish's `complete`.
@@ -55,12 +55,12 @@ void add_fish_command(const CommandText& command, const std::string& program, co
         lines += begin;
         for (const std::string& name : option.names)
             lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
-        if (option.takes_value()) lines += " " + offers(option.hint);
+        if (option.takes_value()) lines += fmt::format(" {}", offers(option.hint));
         lines += " -d " + fish_quoted(short_help(option.help)) + "\n";
     }
     // Arguments of one command are of one kind, or the shell offers all kinds.
     for (const OptionText& argument : command.arguments)
-        if (!argument.hint.empty()) lines += begin + " " + offers(argument.hint) + "\n";
+        if (!argument.hint.empty()) lines += fmt::format("{} {}\n", begin, offers(argument.hint));
     for (const CommandText& part : command.commands) {
         lines += fmt::format("{} -a {} -d {}\n", begin, part.name, fish_quoted(short_help(part.description)));
         const std::string part_path = path.empty() ? part.name : path + ' ' + part.name;
