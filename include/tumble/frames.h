@@ -32,8 +32,8 @@ public:
     /// Frames of the clip; the last one shows the scene at or before its duration.
     std::int64_t frame_count() const;
 
-    /// The next frame, from frame 0 on: one snapshot, or `blur_samples` of them in order of time with a shutter. Their
-    /// `frame` is its number. There is no last one: motion AOVs of a clip's last frame need the frame after it. Throws
+    /// The next frame, from frame 0 on: one snapshot, or `blur_samples` of them in order of time with a shutter, which
+    /// is open for as many equal parts: each is the middle of one. Their `frame` is its number. There is no last one: motion AOVs of a clip's last frame need the frame after it. Throws
     /// Error (run) with the step and the body when a state is not finite; the sequence cannot go on after that.
     std::vector<Snapshot> next();
 

@@ -54,17 +54,21 @@ FrameSequence::~FrameSequence() = default;
 FrameSequence::FrameSequence(FrameSequence&&) noexcept = default;
 FrameSequence& FrameSequence::operator=(FrameSequence&&) noexcept = default;
 
-std::int64_t FrameSequence::frame_count() const { return state_->count; }
+std::int64_t FrameSequence::frame_count() const {
+    return guarded([&] { return state_of(state_, "FrameSequence").count; });
+}
 
 std::vector<Snapshot> FrameSequence::next() {
     return guarded([&] {
-        std::vector<Snapshot> samples;
-        for (const tumble::Snapshot& moment : state_->sequence.next()) {
-            samples.push_back(to_public(moment));
-            samples.back().frame = state_->made;
+        State& state = state_of(state_, "FrameSequence");
+        std::vector<Snapshot> moments;
+        for (const tumble::Snapshot& moment : state.sequence.next()) {
+            moments.push_back(to_public(moment));
+            moments.back().frame = state.made;
         }
-        ++state_->made;
-        return samples;
+        ++state.made;
+        if (moments.size() > 1) moments.erase(moments.begin());  // when the shutter opens
+        return moments;
     });
 }
 

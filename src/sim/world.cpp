@@ -12,6 +12,7 @@
 #include "sim/log/contact_log.h"
 #include "sim/notes/notes_method.h"
 #include "sim/snapshot/measurement.h"
+#include "sim/snapshot/snapshot_middle.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/event_driven_stage.h"
 #include "sim/step/force_stage.h"
@@ -109,6 +110,8 @@ struct World::State {
         archive.scratch(woken, motion, log, totals, records, asleep, pool);
     }
 
+    void begin_frame();
+    void end_frame();
     void advance(std::int64_t to);
     void step();
     void run_stages(const StepContext& step);
@@ -158,6 +161,16 @@ void World::State::step() {
     set.place_kinematic(clock, steps);
     stop_if_not_finite(context());
     fall_asleep();  // islands at rest are excluded from the simulation
+}
+
+void World::State::begin_frame() {
+    if (log) log->begin_frame(set.bodies);
+    joints.begin_frame();
+}
+
+void World::State::end_frame() {
+    joints.end_frame(settings.steps_per_frame, clock.seconds(1), set.bodies);
+    if (log) finish_records(clock.seconds(settings.steps_per_frame));
 }
 
 // Steps only while a body needs stepping: bodies in free flight do not.
@@ -275,12 +288,24 @@ World::World(World&&) noexcept = default;
 
 void World::step() { state_->advance(state_->steps + 1); }
 void World::advance_frame() {
+    state_->begin_frame();
+    state_->advance(state_->steps + state_->settings.steps_per_frame);
+    state_->end_frame();
+}
+
+Snapshot World::advance_frame_by_middle() {
     State& s = *state_;
-    if (s.log) s.log->begin_frame(s.set.bodies);
-    s.joints.begin_frame();
-    s.advance(s.steps + s.settings.steps_per_frame);
-    s.joints.end_frame(s.settings.steps_per_frame, s.clock.seconds(1), s.set.bodies);
-    if (s.log) s.finish_records(s.clock.seconds(s.settings.steps_per_frame));
+    const int steps = s.settings.steps_per_frame;
+    s.begin_frame();
+    s.advance(s.steps + steps / 2);
+    Snapshot middle = snapshot();
+    if (steps % 2 != 0) {
+        s.advance(s.steps + 1);
+        middle = middle_of(middle, snapshot());
+    }
+    s.advance(s.steps + steps / 2);
+    s.end_frame();
+    return middle;
 }
 
 void World::record_contacts() {

@@ -30,6 +30,9 @@ public:
     void step();
     /// The steps of one frame.
     void advance_frame();
+    /// The same; returns the bodies at the middle of the frame: between the two states around it where the number of
+    /// steps is odd.
+    Snapshot advance_frame_by_middle();
 
     /// Collects impacts, contacts and energy losses of each frame from now on. The motion is the same.
     void record_contacts();

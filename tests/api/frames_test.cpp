@@ -22,8 +22,9 @@ TEST(Frames, AreThoseOfTheWorldAtNormalSpeed) {
     }
 }
 
-// At a quarter of the speed, with four moments in a whole frame, each moment is one of 16 steps of a normal frame.
-TEST(Frames, OfSlowMotionAndBlurHaveStatesOfTheNormalRun) {
+// At a quarter of the speed, with four moments in a whole frame, each moment is the middle of one of 16 steps of a
+// normal frame.
+TEST(Frames, OfSlowMotionAndBlurAreInTheMiddleOfStepsOfTheNormalRun) {
     const Scene scene(crate_and_ball());
     FrameSequence frames(scene, {0.25, 360.0, 4}, 2);
     EXPECT_EQ(frames.frame_count(), 4 * (scene.frame_count() - 1) + 1);
@@ -32,10 +33,14 @@ TEST(Frames, OfSlowMotionAndBlurHaveStatesOfTheNormalRun) {
         const std::vector<Snapshot> moments = frames.next();
         ASSERT_EQ(moments.size(), 4u);
         for (const Snapshot& moment : moments) {
-            EXPECT_EQ(moment.frame, n);
-            EXPECT_NEAR(moment.time, world.snapshot().time, 1e-12);
-            EXPECT_EQ(moment.bodies[1].origin, world.snapshot().bodies[1].origin);
+            const Snapshot before = world.snapshot();
             world.advance_step();
+            const Snapshot after = world.snapshot();
+            EXPECT_EQ(moment.frame, n);
+            EXPECT_NEAR(moment.time, 0.5 * (before.time + after.time), 1e-12);
+            const Vec3 a = before.bodies[1].origin, b = after.bodies[1].origin, middle = moment.bodies[1].origin;
+            EXPECT_NEAR(middle.x, 0.5 * (a.x + b.x), 1e-12);
+            EXPECT_NEAR(middle.y, 0.5 * (a.y + b.y), 1e-12);
         }
     }
 }
@@ -47,8 +52,8 @@ TEST(Frames, AShutterOfHalfAFrameLeavesOutTheOtherHalf) {
     for (int n = 0; n < 3; ++n) {
         const std::vector<Snapshot> moments = frames.next();
         ASSERT_EQ(moments.size(), 2u);
-        EXPECT_NEAR(moments[0].time, n * frame, 1e-12);
-        EXPECT_NEAR(moments[1].time, (n + 0.25) * frame, 1e-12);
+        EXPECT_NEAR(moments[0].time, (n + 0.125) * frame, 1e-12);
+        EXPECT_NEAR(moments[1].time, (n + 0.375) * frame, 1e-12);
     }
 }
 

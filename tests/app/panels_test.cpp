@@ -45,9 +45,9 @@ Snapshot at_frame(std::int64_t n, double speed) {
 }
 
 PanelPoses blurred(std::int64_t n, double speed) {
-    PanelPoses samples{at_frame(n, speed), at_frame(n, speed)};
-    if (n < 5) samples[1].bodies[1].origin.y() += 0.5 * speed;
-    return samples;
+    PanelPoses moments(3, at_frame(n, speed));
+    if (n < 5) moments[2].bodies[1].origin.y() += 0.5 * speed;
+    return moments;
 }
 
 /// The poses of two panels: the box of the second one is faster.

@@ -46,11 +46,11 @@ void RecordedPanel::take(std::int64_t frame, std::int64_t clip_end) {
     const bool runs = run.runs(frame);
     if (runs && !run.runs(frame + 1) && frame + 1 < clip_end) ended = run.save();
     const Survey survey = runs ? Survey(world, needs) : Survey();
-    PanelPoses samples = run.next(frame);
+    PanelPoses moments = run.next(frame);
     if (runs)
-        for (SurveyObserver* observer : observers) observer->see(samples.front(), survey, run.records());
-    if (runs && motion) motion->add(samples, run.records());
-    for (Snapshot& sample : samples) poses.follow(sample);
+        for (SurveyObserver* observer : observers) observer->see(moments.front(), survey, run.records());
+    if (runs && motion) motion->add(moments, run.records());
+    for (Snapshot& moment : drawn_moments(moments)) poses.follow(moment);
 }
 
 PanelState RecordedPanel::state() const {

@@ -39,12 +39,16 @@ bool FrameFilter::follow_image(MotionBlurFrame& frame_poses) {
 }
 
 /// Replaces the samples by those to draw; false: the image of the panel equals that of the previous frame. If nothing
-/// moves while the shutter is open, one sample is left.
-bool FrameFilter::PanelFilter::follow(PanelPoses& samples) {
+/// moves while the shutter is open, one moment is left.
+bool FrameFilter::PanelFilter::follow(PanelPoses& moments) {
     bool first = false, later = false;
+    const std::span<Snapshot> samples = drawn_moments(moments);
     for (std::size_t i = 0; i < samples.size(); ++i)
         if (poses.follow(samples[i])) (i == 0 ? first : later) = true;
-    if (!later) samples.resize(1);
+    if (!later) {
+        if (moments.size() > 1) moments.front() = std::move(samples.front());
+        moments.resize(1);
+    }
     const bool moved_before = std::exchange(moves, later);
     return first || later || moved_before;
 }

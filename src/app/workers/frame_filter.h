@@ -29,7 +29,7 @@ private:
     /// The filtered poses of one panel.
     struct PanelFilter {
         explicit PanelFilter(const SceneDescription& scene) : poses(scene) {}
-        bool follow(PanelPoses& samples);
+        bool follow(PanelPoses& moments);
         PoseFilter poses;
         std::vector<std::byte> overlay;  // of the previous frame
         bool moves = false;              // whether bodies moved while the shutter was open for the previous frame

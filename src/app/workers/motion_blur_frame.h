@@ -7,18 +7,24 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace tumble {
 
-/// The blur samples of a panel in order; a single one without motion blur.
+/// The moments of a panel: the frame's own, when the shutter opens; with motion blur its samples follow.
 using PanelPoses = std::vector<Snapshot>;
+
+/// The moments whose images are averaged.
+inline std::span<Snapshot> drawn_moments(PanelPoses& poses) {
+    return std::span(poses).subspan(poses.size() > 1 ? 1 : 0);
+}
 
 /// Content of one frame. The poses of the panels are omitted if no image is requested, or if it equals that of the
 /// previous frame; the poses for the AOVs likewise.
 struct MotionBlurFrame {
     std::int64_t frame = 0;
-    double time = 0.0;  // s, of the first blur samples
+    double time = 0.0;  // s, when the shutter opens
     std::vector<PanelPoses> panels;
     std::vector<std::vector<std::byte>> overlays;  // by panel: its OverlayFrame as bytes, or none
     std::optional<AovPoses> aovs;                  // the true poses at the frame's own time, when the shutter opens

@@ -18,7 +18,7 @@ public:
     /// Opens an OpenGL context.
     PanelDrawing(const ClipPanel& panel, const RenderSwitches& options);
 
-    /// Draws the samples of the panel in the shared memory.
+    /// Draws the moments of the panel in the shared memory.
     void draw(const SharedFrames& memory, std::size_t panel, std::int64_t frame);
 
     /// Of the last draw().
@@ -37,7 +37,8 @@ private:
     std::vector<Rectangle> whole_;  // the rectangle of the whole image
     std::optional<OverlayPainter> painter_;
     OverlayFrame shapes_;
-    DepthImage first_depths_;  // of the first of several samples, which is at the time of the overlay
+    std::optional<Camera> opening_camera_;
+    DepthImage opening_depths_;  // of a blurred image: when the shutter opens, the time of the overlay
     const Image* image_ = nullptr;
     const std::vector<Rectangle>* changed_ = nullptr;
 };

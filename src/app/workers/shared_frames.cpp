@@ -31,7 +31,7 @@ std::size_t whole_pages(std::size_t bytes) { return (bytes + page - 1) / page * 
 SharedFrames::SharedFrames(const Composition& composition, const FrameOutputs& outputs, int slots, int max_blur_samples)
     : motion_(outputs.aovs.has(Aov::motion)) {
     for (const ClipPanel& panel : composition.panels)
-        panels_.push_back(add_region(*panel.scene, std::size_t(max_blur_samples)));
+        panels_.push_back(add_region(*panel.scene, 1 + std::size_t(max_blur_samples)));
     for (const ClipPanel& panel : composition.panels) {
         overlays_at_.emplace_back();
         if (!panel.overlay) continue;
@@ -105,7 +105,7 @@ void SharedFrames::write_poses(std::size_t panel, const PanelPoses& poses) {
     for (std::size_t i = 0; i < poses.size(); ++i) write(panels_[panel], i, poses[i]);
 }
 
-std::size_t SharedFrames::samples(std::size_t panel) const { return std::size_t(*count(panels_[panel])); }
+std::size_t SharedFrames::moments(std::size_t panel) const { return std::size_t(*count(panels_[panel])); }
 
 void SharedFrames::read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const {
     read(panels_[panel], sample, snapshot);

@@ -40,7 +40,7 @@ public:
     /// Writes the samples of a panel of the next frame to draw: times, origins and orientations, and the center of mass
     /// of the body that the camera follows. There is space for one frame.
     void write_poses(std::size_t panel, const PanelPoses& poses);
-    std::size_t samples(std::size_t panel) const;
+    std::size_t moments(std::size_t panel) const;
     void read_poses(std::size_t panel, std::size_t sample, Snapshot& snapshot) const;
 
     /// All that the next frame is made from.

@@ -17,7 +17,7 @@ FrameTiming timing_at_speed(const SceneDescription& scene, double speed);
 /// The timing with `parts` frames in place of each (for the samples of a shutter). The step follows the same rule.
 FrameTiming divided(const FrameTiming& timing, int parts);
 
-/// Each frame is simulated in equal intervals; the first of them begin with the samples while the shutter is open.
+/// Each frame is simulated in equal intervals; while the shutter is open, a sample is at the middle of each.
 struct Shutter {
     int intervals = 1, blur_samples = 1;
 

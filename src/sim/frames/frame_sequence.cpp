@@ -4,8 +4,8 @@
 
 namespace tumble {
 
-void FrameSequence::advance() {
-    world_.advance_frame();
+/// Of the interval that ends now.
+void FrameSequence::keep_impacts() {
     if (!world_.records_contacts()) return;
     const ContactRecords& records = world_.contact_records();
     for (ImpactRecord impact : records.impacts) {
@@ -17,7 +17,10 @@ void FrameSequence::advance() {
 }
 
 void FrameSequence::reach_next() {
-    for (; intervals_to_start_ > 0; --intervals_to_start_) advance();
+    for (; intervals_to_start_ > 0; --intervals_to_start_) {
+        world_.advance_frame();
+        keep_impacts();
+    }
 }
 
 Snapshot FrameSequence::next_start() {
@@ -32,13 +35,13 @@ Snapshot FrameSequence::next_start() {
 }
 
 std::vector<Snapshot> FrameSequence::next() {
-    std::vector<Snapshot> samples{next_start()};
-    while (int(samples.size()) < shutter_.blur_samples) {
-        advance();
-        --intervals_to_start_;
-        samples.push_back(world_.snapshot());
+    std::vector<Snapshot> moments{next_start()};
+    if (shutter_.blur_samples == 1) return moments;
+    for (int i = 0; i < shutter_.blur_samples; ++i, --intervals_to_start_) {
+        moments.push_back(world_.advance_frame_by_middle());
+        keep_impacts();
     }
-    return samples;
+    return moments;
 }
 
 }  // namespace tumble

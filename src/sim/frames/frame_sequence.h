@@ -13,7 +13,8 @@ public:
     /// Precondition: the world is at time 0, and its frames are the intervals of the shutter (see divided()).
     FrameSequence(World& world, Shutter shutter) : world_(world), shutter_(shutter) {}
 
-    /// The samples of the next frame in order; the first call: of frame 0. The frame is simulated only as far as its
+    /// The moments of the next frame in order; the first call: of frame 0. First its own, when the shutter opens; with
+    /// motion blur the samples follow, each at the middle of its interval. The frame is simulated only as far as its
     /// shutter is open.
     std::vector<Snapshot> next();
 
@@ -36,7 +37,7 @@ public:
     }
 
 private:
-    void advance();
+    void keep_impacts();
 
     World& world_;
     Shutter shutter_;
