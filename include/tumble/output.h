@@ -1,5 +1,6 @@
 // Files: PNG images, clips, tables. Each file is written aside and gets its name when it is whole. Errors are Error
-// (run) with the path, unless a comment says otherwise.
+// (run) with the path, unless a comment says otherwise. Every member of a writer throws Error (input) after finish(),
+// after an Error (run), and where it was moved from.
 #pragma once
 
 #include "contacts.h"

@@ -60,7 +60,7 @@ public:
 
     // For the library.
     explicit Scene(std::shared_ptr<const SceneData> data);
-    const SceneData& data() const { return *data_; }
+    const SceneData& data() const;
 
 private:
     std::shared_ptr<const SceneData> data_;

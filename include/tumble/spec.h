@@ -45,7 +45,7 @@ struct SimulationSettings {
 
 struct OutputSettings {
     int width = 1280, height = 720;  // pixels
-    double fps = 60.0;               // frames per second
+    double fps = 60.0;               // frames per second; 24000.0 / 1001.0 is exact in clips
     int samples = 4;                 // per pixel: 1, 2 or 4
 };
 

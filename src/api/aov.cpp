@@ -45,15 +45,17 @@ AovRenderer& AovRenderer::operator=(AovRenderer&&) noexcept = default;
 
 AovFrame AovRenderer::render(const Snapshot& snapshot) {
     return guarded([&] {
-        if (state_->motion) throw InputError("motion needs the snapshot of the next frame");
-        return state_->render({v0::to_internal(snapshot, state_->scene.body_count()), std::nullopt});
+        State& state = state_of(state_, "AovRenderer");
+        if (state.motion) throw InputError("motion needs the snapshot of the next frame");
+        return state.render({v0::to_internal(snapshot, state.scene.body_count()), std::nullopt});
     });
 }
 
 AovFrame AovRenderer::render(const Snapshot& snapshot, const Snapshot& next) {
     return guarded([&] {
-        const std::size_t bodies = state_->scene.body_count();
-        return state_->render({v0::to_internal(snapshot, bodies), v0::to_internal(next, bodies)});
+        State& state = state_of(state_, "AovRenderer");
+        const std::size_t bodies = state.scene.body_count();
+        return state.render({v0::to_internal(snapshot, bodies), v0::to_internal(next, bodies)});
     });
 }
 

@@ -24,7 +24,7 @@ void write_free(RecordTable& table, const std::array<bool, 6>& free, const std::
 
 }  // namespace
 
-struct JointTable::State {
+struct JointTable::State : Writing {
     State(const std::string& file, const Scene& whole)
         : scene(whole),
           table(file,
@@ -44,9 +44,9 @@ JointTable::JointTable(JointTable&&) noexcept = default;
 JointTable& JointTable::operator=(JointTable&&) noexcept = default;
 
 void JointTable::add(std::int64_t frame, double time, const std::vector<JointState>& joints) {
-    guarded([&] {
-        const Scene& scene = state_->scene;
-        RecordTable& table = state_->table;
+    write_with(state_, "JointTable", [&](State& state) {
+        const Scene& scene = state.scene;
+        RecordTable& table = state.table;
         if (joints.size() != scene.joint_count())
             throw InputError(fmt::format("the states must be those of each joint of the scene: {} (given {})",
                                          scene.joint_count(), joints.size()));
@@ -67,7 +67,7 @@ void JointTable::add(std::int64_t frame, double time, const std::vector<JointSta
 }
 
 void JointTable::finish() {
-    guarded([&] { state_->table.finish(); });
+    finish_with(state_, "JointTable", [](State& state) { state.table.finish(); });
 }
 
 }  // namespace tumble::v0

@@ -71,7 +71,7 @@ Comparison compare_png_files(const std::string& a, const std::string& b, const C
 
 // -- ClipWriter
 
-struct ClipWriter::State {
+struct ClipWriter::State : Writing {
     State(const std::string& file, const OutputSettings& output, const ClipOptions& options)
         : width(output.width), height(output.height), writer(file, width, height, output.fps, to_internal(options)) {}
 
@@ -92,8 +92,7 @@ ClipWriter::ClipWriter(ClipWriter&&) noexcept = default;
 ClipWriter& ClipWriter::operator=(ClipWriter&&) noexcept = default;
 
 void ClipWriter::write(const Image& image) {
-    guarded([&] {
-        State& s = *state_;
+    write_with(state_, "ClipWriter", [&](State& s) {
         if (image.width != s.width || image.height != s.height)
             throw InputError(fmt::format("a frame must have the size of the clip, {} x {} pixels (given {} x {})",
                                          s.width, s.height, image.width, image.height));
@@ -104,9 +103,9 @@ void ClipWriter::write(const Image& image) {
 }
 
 void ClipWriter::finish() {
-    guarded([&] {
-        if (state_->frames == 0) throw InputError("a clip needs at least one frame");
-        state_->writer.finish();
+    finish_with(state_, "ClipWriter", [](State& s) {
+        if (s.frames == 0) throw InputError("a clip needs at least one frame");
+        s.writer.finish();
     });
 }
 

@@ -57,42 +57,45 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 
 const Image& Renderer::render(const Snapshot& snapshot) {
     return guarded([&]() -> const Image& {
-        tumble::Snapshot drawn = v0::to_internal(snapshot, state_->scene.body_count());
-        state_->filter.follow(drawn);
-        const tumble::Image& image = state_->renderer.render(drawn);
-        if (state_->image.pixels.empty())
-            state_->image = {image.width, image.height, image.pixels};
+        State& state = state_of(state_, "Renderer");
+        tumble::Snapshot drawn = v0::to_internal(snapshot, state.scene.body_count());
+        state.filter.follow(drawn);
+        const tumble::Image& image = state.renderer.render(drawn);
+        if (state.image.pixels.empty())
+            state.image = {image.width, image.height, image.pixels};
         else
-            copy_pixels(image, state_->renderer.changed(), state_->image);
-        return state_->image;
+            copy_pixels(image, state.renderer.changed(), state.image);
+        return state.image;
     });
 }
 
 const Image& Renderer::render_blurred(const std::vector<Snapshot>& moments) {
     return guarded([&]() -> const Image& {
+        State& state = state_of(state_, "Renderer");
         if (moments.empty()) throw InputError("a frame needs at least one moment");
-        if (state_->transparent && moments.size() > most_images_with_alpha)
+        if (state.transparent && moments.size() > most_images_with_alpha)
             throw InputError(fmt::format("a transparent frame is the mean of at most {} moments (given {})",
                                          most_images_with_alpha, moments.size()));
         if (moments.size() == 1) return render(moments.front());
-        ImageMean mean(state_->transparent);
+        ImageMean mean(state.transparent);
         for (const Snapshot& moment : moments) mean.add(v0::to_internal(render(moment)));
         tumble::Image blurred;
         mean.take(blurred);
-        state_->blurred = take(std::move(blurred));
-        return state_->blurred;
+        state.blurred = take(std::move(blurred));
+        return state.blurred;
     });
 }
 
 void Renderer::skip(const Snapshot& snapshot) {
     guarded([&] {
-        tumble::Snapshot drawn = v0::to_internal(snapshot, state_->scene.body_count());
-        state_->filter.follow(drawn);
+        State& state = state_of(state_, "Renderer");
+        tumble::Snapshot drawn = v0::to_internal(snapshot, state.scene.body_count());
+        state.filter.follow(drawn);
     });
 }
 
 std::string Renderer::driver() const {
-    return guarded([&] { return state_->renderer.driver(); });
+    return guarded([&] { return state_of(state_, "Renderer").renderer.driver(); });
 }
 
 }  // namespace tumble::v0

@@ -123,18 +123,24 @@ Scene load_scene(const std::string& file, const LoadOptions& options) {
     });
 }
 
-const std::string& Scene::title() const { return data_->description.title; }
-const OutputSettings& Scene::output() const { return data_->output; }
-double Scene::duration() const { return data_->description.simulation.duration; }
-double Scene::step() const { return data_->description.step(); }
-int Scene::steps_per_frame() const { return data_->description.simulation.steps_per_frame; }
-std::int64_t Scene::frame_count() const { return data_->description.frame_count(); }
-std::size_t Scene::body_count() const { return data_->description.bodies.size(); }
+const SceneData& Scene::data() const {
+    if (data_ == nullptr)
+        throw Error(ErrorKind::input, {}, "this Scene was moved from: use the object that it was moved to");
+    return *data_;
+}
 
-const std::string& Scene::body_name(std::size_t body) const { return body_of(*data_, body).name; }
+const std::string& Scene::title() const { return data().description.title; }
+const OutputSettings& Scene::output() const { return data().output; }
+double Scene::duration() const { return data().description.simulation.duration; }
+double Scene::step() const { return data().description.step(); }
+int Scene::steps_per_frame() const { return data().description.simulation.steps_per_frame; }
+std::int64_t Scene::frame_count() const { return data().description.frame_count(); }
+std::size_t Scene::body_count() const { return data().description.bodies.size(); }
+
+const std::string& Scene::body_name(std::size_t body) const { return body_of(data(), body).name; }
 
 BodyType Scene::body_type(std::size_t body) const {
-    switch (body_of(*data_, body).type) {
+    switch (body_of(data(), body).type) {
         case tumble::BodyType::fixed:
             return BodyType::fixed;
         case tumble::BodyType::kinematic:
@@ -145,19 +151,19 @@ BodyType Scene::body_type(std::size_t body) const {
 }
 
 std::optional<std::size_t> Scene::find_body(const std::string& name) const {
-    const auto found = data_->names.find(name);
-    if (found == data_->names.end()) return std::nullopt;
+    const auto found = data().names.find(name);
+    if (found == data().names.end()) return std::nullopt;
     return found->second;
 }
 
-std::size_t Scene::joint_count() const { return data_->description.joints.size(); }
+std::size_t Scene::joint_count() const { return data().description.joints.size(); }
 
 const std::string& Scene::joint_name(std::size_t joint) const {
-    const auto& joints = data_->description.joints;
+    const auto& joints = data().description.joints;
     if (joint < joints.size()) return joints[joint].name;
     throw Error(ErrorKind::input, {}, fmt::format("a joint's index must be below {} (given {})", joints.size(), joint));
 }
 
-std::vector<std::string> Scene::files() const { return {data_->files.begin(), data_->files.end()}; }
+std::vector<std::string> Scene::files() const { return {data().files.begin(), data().files.end()}; }
 
 }  // namespace tumble::v0

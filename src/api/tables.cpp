@@ -28,7 +28,7 @@ const char* name_of(Contact::State state) {
 
 // -- TrajectoryTable
 
-struct TrajectoryTable::State {
+struct TrajectoryTable::State : Writing {
     State(const std::string& file, const Scene& whole)
         : scene(whole), table(file, "frame,time,body,x,y,z,qw,qx,qy,qz,vx,vy,vz,wx,wy,wz") {}
 
@@ -44,9 +44,9 @@ TrajectoryTable::TrajectoryTable(TrajectoryTable&&) noexcept = default;
 TrajectoryTable& TrajectoryTable::operator=(TrajectoryTable&&) noexcept = default;
 
 void TrajectoryTable::add(const Snapshot& snapshot) {
-    guarded([&] {
-        const Scene& scene = state_->scene;
-        TableWriter& table = state_->table;
+    write_with(state_, "TrajectoryTable", [&](State& state) {
+        const Scene& scene = state.scene;
+        TableWriter& table = state.table;
         if (snapshot.bodies.size() != scene.body_count())
             throw InputError(fmt::format("the snapshot must hold each body of the scene: {} (given {})",
                                          scene.body_count(), snapshot.bodies.size()));
@@ -65,12 +65,12 @@ void TrajectoryTable::add(const Snapshot& snapshot) {
 }
 
 void TrajectoryTable::finish() {
-    guarded([&] { state_->table.finish(); });
+    finish_with(state_, "TrajectoryTable", [](State& state) { state.table.finish(); });
 }
 
 // -- EnergyTable
 
-struct EnergyTable::State {
+struct EnergyTable::State : Writing {
     State(const std::string& file, bool of_joints)
         : joints(of_joints),
           table(file, std::string("frame,time,kinetic,potential,total,px,py,pz,lx,ly,lz,contacts,max_penetration,"
@@ -92,8 +92,8 @@ EnergyTable::EnergyTable(EnergyTable&&) noexcept = default;
 EnergyTable& EnergyTable::operator=(EnergyTable&&) noexcept = default;
 
 void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
-    guarded([&] {
-        TableWriter& table = state_->table;
+    write_with(state_, "EnergyTable", [&](State& state) {
+        TableWriter& table = state.table;
         table.integer(frame)
             .number(time)
             .number(e.kinetic)
@@ -104,18 +104,18 @@ void EnergyTable::add(std::int64_t frame, double time, const Energies& e) {
         table.integer(e.contacts).number(e.max_penetration);
         table.number(e.kinetic_linear).number(e.kinetic_angular);
         table.number(e.work).number(e.impact_loss).number(e.friction_loss).number(e.elastic);
-        if (state_->joints) table.number(e.motor_work).number(e.joint_heat);
+        if (state.joints) table.number(e.motor_work).number(e.joint_heat);
         table.end_row();
     });
 }
 
 void EnergyTable::finish() {
-    guarded([&] { state_->table.finish(); });
+    finish_with(state_, "EnergyTable", [](State& state) { state.table.finish(); });
 }
 
 // -- ImpactTable
 
-struct ImpactTable::State {
+struct ImpactTable::State : Writing {
     State(const std::string& file, const Scene& whole)
         : scene(whole),
           table(file,
@@ -134,11 +134,11 @@ ImpactTable::ImpactTable(ImpactTable&&) noexcept = default;
 ImpactTable& ImpactTable::operator=(ImpactTable&&) noexcept = default;
 
 void ImpactTable::add(const FrameContacts& contacts) {
-    guarded([&] {
-        RecordTable& table = state_->table;
+    write_with(state_, "ImpactTable", [&](State& state) {
+        RecordTable& table = state.table;
         for (const Impact& i : contacts.impacts) {
             table.number(i.time).integer(i.exact_time).integer(i.frame);
-            table.text(state_->scene.body_name(i.a)).text(state_->scene.body_name(i.b));
+            table.text(state.scene.body_name(i.a)).text(state.scene.body_name(i.b));
             table.vector(i.point).vector(i.normal).text(name_of(i.features));
             table.number(i.speed_before).number(i.speed_after).number(i.restitution).number(i.impulse);
             table.vector(i.friction).integer(i.pass).vector(i.moment);
@@ -148,12 +148,12 @@ void ImpactTable::add(const FrameContacts& contacts) {
 }
 
 void ImpactTable::finish() {
-    guarded([&] { state_->table.finish(); });
+    finish_with(state_, "ImpactTable", [](State& state) { state.table.finish(); });
 }
 
 // -- ContactTable
 
-struct ContactTable::State {
+struct ContactTable::State : Writing {
     State(const std::string& file, const Scene& whole)
         : scene(whole),
           table(file, "frame,time,a,b,px,py,pz,nx,ny,nz,gap,normal_force,fx,fy,fz,torsion,sx,sy,sz,state,mx,my,mz") {}
@@ -170,12 +170,12 @@ ContactTable::ContactTable(ContactTable&&) noexcept = default;
 ContactTable& ContactTable::operator=(ContactTable&&) noexcept = default;
 
 void ContactTable::add(std::int64_t frame, double time, const FrameContacts& contacts) {
-    guarded([&] {
-        RecordTable& table = state_->table;
+    write_with(state_, "ContactTable", [&](State& state) {
+        RecordTable& table = state.table;
         for (const Contact& c : contacts.contacts) {
             table.integer(frame).number(time);
-            table.text(c.a == Contact::nobody ? std::string() : state_->scene.body_name(c.a));
-            table.text(state_->scene.body_name(c.b));
+            table.text(c.a == Contact::nobody ? std::string() : state.scene.body_name(c.a));
+            table.text(state.scene.body_name(c.b));
             table.vector(c.point).vector(c.normal).number(c.gap).number(c.normal_force);
             table.vector(c.tangential_force).number(c.torsion).vector(c.slip).text(name_of(c.state));
             table.vector(c.moment);
@@ -185,12 +185,12 @@ void ContactTable::add(std::int64_t frame, double time, const FrameContacts& con
 }
 
 void ContactTable::finish() {
-    guarded([&] { state_->table.finish(); });
+    finish_with(state_, "ContactTable", [](State& state) { state.table.finish(); });
 }
 
 // -- LoadTable
 
-struct LoadTable::State {
+struct LoadTable::State : Writing {
     State(const std::string& file, const Scene& whole)
         : scene(whole), table(file, "frame,time,body,fx,fy,fz,mx,my,mz") {}
 
@@ -206,10 +206,10 @@ LoadTable::LoadTable(LoadTable&&) noexcept = default;
 LoadTable& LoadTable::operator=(LoadTable&&) noexcept = default;
 
 void LoadTable::add(std::int64_t frame, double time, const FrameContacts& contacts) {
-    guarded([&] {
-        RecordTable& table = state_->table;
+    write_with(state_, "LoadTable", [&](State& state) {
+        RecordTable& table = state.table;
         for (const ExternalLoad& load : contacts.loads) {
-            table.integer(frame).number(time).text(state_->scene.body_name(load.body));
+            table.integer(frame).number(time).text(state.scene.body_name(load.body));
             table.vector(load.force).vector(load.moment);
             table.end_row();
         }
@@ -217,7 +217,7 @@ void LoadTable::add(std::int64_t frame, double time, const FrameContacts& contac
 }
 
 void LoadTable::finish() {
-    guarded([&] { state_->table.finish(); });
+    finish_with(state_, "LoadTable", [](State& state) { state.table.finish(); });
 }
 
 }  // namespace tumble::v0

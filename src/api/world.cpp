@@ -28,41 +28,46 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::advance_step() {
-    guarded([&] { state_->world.step(); });
+    guarded([&] { state_of(state_, "World").world.step(); });
 }
 void World::advance_frame() {
-    guarded([&] { state_->world.advance_frame(); });
+    guarded([&] { state_of(state_, "World").world.advance_frame(); });
 }
 
 void World::record_contacts() {
-    guarded([&] { state_->world.record_contacts(); });
+    guarded([&] { state_of(state_, "World").world.record_contacts(); });
 }
 
 FrameContacts World::contacts() const {
     return guarded([&] {
-        if (!state_->world.records_contacts())
+        State& state = state_of(state_, "World");
+        if (!state.world.records_contacts())
             throw InputError("contacts are not recorded: call record_contacts() before the first step");
-        return to_public(state_->world.contact_records());
+        return to_public(state.world.contact_records());
     });
 }
 
 Snapshot World::snapshot() const {
-    return guarded([&] { return to_public(state_->world.snapshot()); });
+    return guarded([&] { return to_public(state_of(state_, "World").world.snapshot()); });
 }
 
 std::vector<JointState> World::joints() const {
-    return guarded([&] { return to_public(state_->world.joint_states()); });
+    return guarded([&] { return to_public(state_of(state_, "World").world.joint_states()); });
 }
 
 Energies World::energies() const {
-    return guarded([&] { return to_public(state_->world.measure(), state_->world.contact_records().energy); });
+    return guarded([&] {
+        State& state = state_of(state_, "World");
+        return to_public(state.world.measure(), state.world.contact_records().energy);
+    });
 }
 
 BodyProperties World::properties(std::size_t body) const {
     return guarded([&] {
-        if (body >= state_->bodies)
-            throw InputError(fmt::format("a body's index must be below {} (given {})", state_->bodies, body));
-        const BodyReport report = state_->world.report(body);
+        State& state = state_of(state_, "World");
+        if (body >= state.bodies)
+            throw InputError(fmt::format("a body's index must be below {} (given {})", state.bodies, body));
+        const BodyReport report = state.world.report(body);
         return BodyProperties{report.mass, to_public(report.principal_inertia), to_public(report.center_of_mass)};
     });
 }
