@@ -1,4 +1,5 @@
 // Grids and scatters: places of the copies, and their dependence on the seed only.
+#include "core/error.h"
 #include "scene/description/shape_bounds.h"
 #include "scene/keys/random.h"
 #include "scene/load.h"
@@ -129,6 +130,37 @@ TEST(Arrays, MeshesOfOneSizeAreShared) {
     }
     EXPECT_EQ(alike.size(), 1u);
     EXPECT_EQ(sizes.size(), 9u);
+}
+
+/// The box that the error of a crowded scatter names: "(3 x 2 x 3 m is enough)".
+std::string large_enough_box(const std::string& scatter, int seed, const std::string& shape) {
+    try {
+        bodies(scatter, seed, shape);
+    } catch (const InputError& error) {
+        const std::string text = error.message();
+        EXPECT_NE(text.find("is too crowded: only "), std::string::npos) << text;
+        const std::size_t first = text.find("make the box larger (") + 21, end = text.find(" m is enough)");
+        if (end != std::string::npos) return text.substr(first, end - first);
+        ADD_FAILURE() << text;
+    }
+    return "";
+}
+
+TEST(Scatter, NamesABoxThatIsLargeEnough) {
+    for (const std::string shape : {"{ type = \"box\", size = [1, 2, 3] }", "{ type = \"sphere\", radius = 0.031 }",
+                                    "{ type = \"box\", size = [70, 70, 70] }"})
+        for (const std::string size : {"[1, 1, 1]", "[2, 0.01, 1]", "[0, 0.02, 0]", "[0, 0, 0]"})
+            for (const int seed : {1, 2}) {
+                const auto scatter = [](const std::string& box) {
+                    return "scale = [0.5, 1]\nscatter = { count = 40, clearance = 0.1, size = " + box + " }";
+                };
+                const std::string box = large_enough_box(scatter(size), seed, shape);
+                if (box.empty()) continue;  // it has failed
+                std::string list = "[" + box + "]";
+                for (std::size_t at; (at = list.find(" x ")) != std::string::npos;) list.replace(at, 3, ", ");
+                EXPECT_EQ(bodies(scatter(list), seed, shape).size(), 40u) << list;
+                EXPECT_LT(list.size(), 26u) << list;
+            }
 }
 
 TEST(Scatter, StaysInItsBoxAndApart) {

@@ -328,6 +328,19 @@ TEST(Templates, AreCopied) {
     EXPECT_NEAR((position_of(scattered, "a.2.hand") - position_of(scattered, "a.2.shoulder")).norm(), 4.0, 1e-13);
 }
 
+TEST(Templates, HaveOneColor) {
+    const auto colors = [](const std::string& keys) {
+        std::vector<Color> list;
+        for (const BodyDescription& body : scene_with(keys).bodies) list.push_back(body.appearance.color);
+        return list;
+    };
+    EXPECT_EQ(colors("color = \"#010203\"\n"), std::vector<Color>(5, Color{1, 2, 3}));
+    EXPECT_EQ(colors("color = \"#010203\"\ngrid = { count = [2, 1, 1], spacing = 20 }\n"),
+              std::vector<Color>(10, Color{1, 2, 3}));
+    EXPECT_EQ(colors("color = \"#010203\"\ncolors = [\"#040506\"]\ngrid = { count = [2, 1, 1], spacing = 20 }\n"),
+              std::vector<Color>(10, Color{4, 5, 6}));
+}
+
 TEST(Templates, ComeFromAFile) {
     const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "tumble_templates";
     std::filesystem::create_directories(folder);
@@ -366,6 +379,7 @@ TEST(Templates, RefuseMistakes) {
         {instance + "[[instance]]\ntemplate = \"arm\"\nname = @\"a\"", "name must be unique, and another body has it"},
         {instance + "scale = @0", "scale must be from 0.001"},
         {instance + "mass = @0", "mass must be above 0"},
+        {instance + "color = @\"red\"", "color must be a color"},
         {instance + "colors = @[\"#010101\"]", "needs a grid or a scatter"},
         {instance + "pose = { elbo = @3 }", "is not the name of a joint of the template (did you mean \"elbow\"?)"},
         {instance + "pose = { rope = @3 }", "is for hinges and sliders (given a joint of type \"distance\")"},

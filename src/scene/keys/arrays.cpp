@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 
@@ -178,6 +179,36 @@ ScatterPlaces scatter_places(const std::vector<BoundingSphere>& spheres, const V
     return places;
 }
 
+/// The length rounded up to two digits, so that a message is short.
+double short_length(double length) {
+    if (length <= 0.0) return 0.0;
+    double whole = 1.0, part = 1.0;  // powers of ten: the unit of the second digit is whole / part
+    while (length / whole >= 100.0) whole *= 10.0;
+    while (length * part < 10.0) part *= 10.0;
+    return std::ceil(length / whole * part) * whole / part;
+}
+
+/// A box with the proportions of `size` that has room for all spheres with these random numbers; nothing if none of a
+/// usable size has. A box without extent becomes a cube.
+std::optional<Vec3> large_enough_box(const std::vector<BoundingSphere>& spheres, const ScatterRequest& scatter,
+                                     const Random& start) {
+    constexpr double growth = 1.1;  // a third more volume each time
+    Vec3 size = scatter.size;
+    if (size.isZero(0.0)) size = Vec3::Constant(2.0 * spheres.front().radius + scatter.clearance);
+    for (;;) {
+        size *= growth;
+        if (!limits::size_or_zero.contains(size.maxCoeff())) return std::nullopt;
+        const Vec3 box(short_length(size.x()), short_length(size.y()), short_length(size.z()));
+        Random random = start;
+        const ScatterPlaces places = scatter_places(spheres, box, scatter.clearance, limits::scatter_attempts, random);
+        if (places.offsets.size() == spheres.size()) return box;
+    }
+}
+
+std::string box_text(const Vec3& box) {
+    return fmt::format("{} x {} x {} m", number_text(box.x()), number_text(box.y()), number_text(box.z()));
+}
+
 void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin, Random& position_random,
                      Random& rotation_random, std::vector<BodyDescription>& copies) {
     std::vector<BoundingSphere> spheres;
@@ -195,14 +226,16 @@ void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin
         sphere.center = copy.rotation * sphere.center;
         spheres.push_back(sphere);
     }
+    const Random start = position_random;
     const ScatterPlaces places =
         scatter_places(spheres, scatter.size, scatter.clearance, limits::scatter_attempts, position_random);
     if (places.offsets.size() < copies.size()) {
+        const auto enough = large_enough_box(spheres, scatter, start);
         origin.fail(
             fmt::format("is too crowded: only {} of {} copies found a place without touching another (given a box "
-                        "of {} x {} x {} m, clearance {} m); make the box larger or the count smaller",
-                        places.offsets.size(), copies.size(), number_text(scatter.size.x()),
-                        number_text(scatter.size.y()), number_text(scatter.size.z()), number_text(scatter.clearance)));
+                        "of {}, clearance {} m); make the box larger{} or the count smaller",
+                        places.offsets.size(), copies.size(), box_text(scatter.size), number_text(scatter.clearance),
+                        enough ? fmt::format(" ({} is enough)", box_text(*enough)) : ""));
     }
     for (std::size_t i = 0; i < copies.size(); ++i) copies[i].position += places.offsets[i];
 }

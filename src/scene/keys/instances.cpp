@@ -102,7 +102,7 @@ public:
 
     void read(const TomlTable& table) {
         table.expect_keys({"template", "name", "position", "rotation", "scale", "mass", "velocity", "angular_velocity",
-                           "pose", "grid", "scatter", "colors"});
+                           "pose", "color", "grid", "scatter", "colors"});
         SceneTemplate content = find_template(templates_, table.require("template"));
         const TomlValue name = table.require("name");
         if (name.text().empty()) name.fail("must not be empty");
@@ -115,12 +115,14 @@ public:
         if (const auto rotation = table.find("rotation")) model.rotation = read_rotation(*rotation);
         table.read("velocity", model.velocity, limits::velocity);
         table.read("angular_velocity", model.angular_velocity, limits::angular_velocity);
+        table.read("color", model.appearance.color);
+        const bool colored = table.has("color") || table.has("colors");
         const std::vector<BodyDescription> places = make_places(table, model, content);
         const SourcePosition origin = name.origin();
         check_number_of_bodies(std::int64_t(bodies_.size()) + std::int64_t(places.size() * content.bodies.size()),
                                origin);
         check_number_of_joints(joints_.size() + places.size() * content.joints.size(), origin);
-        for (const BodyDescription& place : places) append(content, place, table.has("colors"), origin);
+        for (const BodyDescription& place : places) append(content, place, colored, origin);
         ++number_;
     }
 
