@@ -23,9 +23,11 @@ std::size_t character_length(std::string_view text) {
     return bad ? 0 : length;
 }
 
-bool forbidden_control(char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return (byte < 0x20 && c != '\t' && c != '\n' && c != '\r') || byte == 0x7f;
+/// Control characters that HTML forbids, and U+FFFE and U+FFFF, which XML 1.0 forbids too.
+bool is_forbidden(std::string_view character) {
+    const auto byte = static_cast<unsigned char>(character[0]);
+    return (byte < 0x20 && byte != '\t' && byte != '\n' && byte != '\r') || byte == 0x7f ||
+           character == "\xef\xbf\xbe" || character == "\xef\xbf\xbf";
 }
 
 }  // namespace
@@ -35,7 +37,7 @@ std::string html_text(std::string_view text) {
     html.reserve(text.size() + text.size() / 8);
     while (!text.empty()) {
         const std::size_t length = character_length(text);
-        if (length == 0 || forbidden_control(text[0]))
+        if (length == 0 || is_forbidden(text.substr(0, length)))
             html += replacement;
         else if (text[0] == '&')
             html += "&amp;";

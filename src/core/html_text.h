@@ -8,8 +8,8 @@
 
 namespace tumble {
 
-/// The text with & < > " ' as character references, for content and for values in quotes. Control characters that HTML
-/// forbids, and bytes that are not UTF-8, become U+FFFD.
+/// The text with & < > " ' as character references, for content and for values in quotes. Characters that HTML or
+/// XML 1.0 forbids, and bytes that are not UTF-8, become U+FFFD.
 std::string html_text(std::string_view text);
 
 /// RFC 4648, with padding.

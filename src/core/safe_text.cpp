@@ -101,4 +101,8 @@ std::string safe_lines(std::string_view text, std::size_t longest) { return esca
 
 std::string safe_path(const std::filesystem::path& path) { return safe_text(path.native(), path_text_bytes); }
 
+bool has_control_characters(std::string_view text) {
+    return std::ranges::any_of(text, [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
+}
+
 }  // namespace tumble

@@ -29,4 +29,7 @@ std::string safe_lines(std::string_view text, std::size_t longest = message_text
 /// The same for a file name.
 std::string safe_path(const std::filesystem::path& path);
 
+/// True of characters that neither a line of a script nor a name can hold, such as line breaks and zero bytes.
+bool has_control_characters(std::string_view text);
+
 }  // namespace tumble

@@ -2,6 +2,7 @@
 
 import json
 import pathlib
+import resource
 import shutil
 import xml.etree.ElementTree
 
@@ -266,6 +267,21 @@ class Outputs(Golden):
         self.assertEqual([len(case.findall("failure")) for case in tree.iter("testcase")], [0, 1])
         self.assertEqual(sorted(p.name for p in (self.folder / "failures").iterdir()),
                          ["difference_fall_000024.png", "new_fall_000024.png"])
+
+    def test_a_full_disk_leaves_no_cut_failures(self):
+        self.golden(0, "accept", "--all")
+        self.change("restitution = 0.5", "restitution = 0.8")
+        self.golden(1, "check")   # the images are in the cache
+        limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+        run = self.check(2, "golden", "check", "golden.toml", "--cache", "cache", "--failures", "failures", preexec_fn=limit)
+        self.assertRegex(run.stderr, r"^error: cannot write 'failures/new_fall_000024\.png': File too large\n$")
+        self.assertEqual(list((self.folder / "failures").iterdir()), [])
+
+    def test_outputs_are_not_failures(self):
+        for name in ("new_fall_000024.png", "difference_fall_000000.png"):
+            run = self.golden(2, "check", "--failures", "failures", "--report", "failures/" + name)
+            self.assertIn("must be two files", run.stderr)
+        self.assertFalse((self.folder / "failures").exists())
 
     def test_differences_show_the_tolerances_of_the_case(self):
         self.write("golden.toml", SUITE + "tolerances = { exact = true }\n")

@@ -120,6 +120,14 @@ class OneFile(program.ProgramTest):
         os.link(self.folder / "e.csv", self.folder / "hard.csv")
         self.refused("simulate", "scene.toml", "--energy", "e.csv", "--trajectory", "hard.csv", said="must be two files")
 
+    def test_a_table_among_checkpoints(self):
+        for table in ("states/clip.tumble", "states/checkpoint_000002.tumble", "./states/motion_000000.tumble", "states"):
+            for option in ("--energy", "--trajectory", "--contacts"):
+                self.refused("simulate", "scene.toml", "--checkpoints", "states", option, table, said="must be two files")
+        self.check(0, "simulate", "scene.toml", "--checkpoints", "states")
+        self.check(0, "simulate", "scene.toml", "--checkpoints", "states", "--energy", "states/energy.csv")
+        self.refused("simulate", "scene.toml", "--checkpoints", "states", "--energy", "states/clip.tumble", said="must be two files")
+
     def test_standard_output_may_be_a_file_that_is_named_too(self):
         with open(self.folder / "t.csv", "wb") as file:
             run = subprocess.run([program.TUMBLE, "simulate", "scene.toml", "--energy", "-", "--trajectory", "t.csv"],

@@ -189,10 +189,25 @@ class WrongUse(FarmTest):
         self.refused("Slurm cannot write its logs", *usual, "--folder", "100%a")
         self.refused("Slurm cannot write its logs", *usual, "--folder", "a\\b")
         self.refused("--sbatch", *usual, "--sbatch", "account")
-        self.refused("--sbatch: --array", *usual, "--sbatch=--array=1-3")
+        for option in ("--array=1-3", "-a1-3", "-a 1-3", "-o/tmp/log", "-o", "-o x", "--output=x", "--out=x", "--outp x", "-Qox",
+                       "-dafterok:1", "--dep=afterok:1", "--parsable", "--open-mode=truncate", "-J name", "--job-name=x",
+                       "--no-requeue", "--wrap=true", "-pcpu", "--partition=cpu", "-t10", "--time=10", "-c4", "--cpus-per-task=4",
+                       "--test-only", "-W"):
+            self.refused("--sbatch: -", *usual, "--sbatch=" + option)
+        for text in ("account", "-", "--", "-A film -o x", "--comment a b", "--account=a\nb", "-A -ox", "--a'b=1"):
+            self.refused("--sbatch: must be one option of sbatch", *usual, "--sbatch=" + text)
         self.refused("--cpus-per-task", *usual, "--cpus-per-task", "0")
         self.refused("--frames", *usual, "--frames", "out")
         self.refused("--workers", *usual, "--workers", "2")
+
+    def test_other_options_of_sbatch(self):
+        given = ("--account=film", "-A film", "-Afilm", "--mem=2G", "--time-min=5", "--exclusive", "-vHk", "--comment=it's #1 -o x")
+        folder = self.write(*("--sbatch=" + option for option in given))
+        lines = [line[8:] for line in (folder / "frames.sh").read_text().splitlines() if line.startswith("#SBATCH ")]
+        self.assertEqual(lines[-len(given):], [*given[:-1], "--comment=\"it's #1 -o x\""])
+
+    def test_the_folder_is_not_the_clip(self):
+        self.refused("must be two files", self.scene, "--write-only", "--parts", "4", "-o", "a.mp4", "--folder", "a.mp4")
 
     def test_folders(self):
         self.refused("there is no folder", self.scene, "--write-only", "--parts", "4", "-o", "missing/a.mp4")
@@ -210,6 +225,16 @@ class WrongUse(FarmTest):
         for text in ("", "[]", "{}", '{"format": 2}', '{"format": 1, "scene": "a", "clip": "b", "frames": 4, "parts": [[0, 1], [3, 3]]}'):
             (self.folder / "farm.json").write_text(text)
             self.assertIn("farm.json: error: is ", self.farm("status", ".", code=2).stderr)
+
+    def test_status_of_absurdly_many_frames(self):
+        for frames, code in ((10**15, 2), (10**18, 2), (10**7 + 1, 2), (10**7, 3)):
+            (self.folder / "farm.json").write_text(
+                f'{{"format": 1, "clip": "b", "frames": {frames}, "parts": [[0, {frames - 1}]]}}')
+            run = self.farm("status", ".", code=code)
+            if code == 2:
+                self.assertIn("farm.json: error: is broken: its parts are not the frames of a clip", run.stderr)
+            else:
+                self.assertIn(f"0 of 1 parts are complete, 0 of {frames} frames", run.stdout)
 
 
 if __name__ == "__main__":

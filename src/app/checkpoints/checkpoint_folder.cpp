@@ -1,9 +1,11 @@
 #include "app/checkpoints/checkpoint_folder.h"
 
 #include "app/checkpoints/checkpoint_file.h"
+#include "app/files/output_plan.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
+#include "scene/toml/limits.h"
 #include "sim/checkpoint/archive.h"
 #include "tumble/version.h"
 
@@ -52,6 +54,14 @@ CheckpointHeader header_of(const std::string& kind, std::int64_t frame, const Ch
 
 fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
     return folder / fmt::format("checkpoint_{:06}.tumble", frame);
+}
+
+void add_checkpoints(OutputPlan& plan, const fs::path& folder) {
+    constexpr const char* option = "--checkpoints";
+    const auto path_of_motion = [](const fs::path& in, std::int64_t frame) { return motion_path(in, frame, 0); };
+    plan.add(option, clip_path(folder));
+    plan.add({option, folder, "checkpoint_", ".tumble", checkpoint_path, 0, limits::frames});
+    plan.add({option, folder, "motion_", ".tumble", path_of_motion, 0, limits::frames});
 }
 
 CheckpointWriting::CheckpointWriting(const fs::path& folder, CheckpointIdentity identity)

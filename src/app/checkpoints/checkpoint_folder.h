@@ -17,7 +17,12 @@
 
 namespace tumble {
 
+class OutputPlan;
+
 std::filesystem::path checkpoint_path(const std::filesystem::path& folder, std::int64_t frame);
+
+/// The files of such a folder as values of --checkpoints. Throws InputError where another output is one of them.
+void add_checkpoints(OutputPlan& plan, const std::filesystem::path& folder);
 
 /// Throws RunError if the folder cannot be made or written into, or if another run writes into it.
 class CheckpointWriting {

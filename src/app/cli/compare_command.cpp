@@ -3,13 +3,10 @@
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
 #include "core/error.h"
-#include "core/safe_text.h"
 #include "tumble/output.h"
 
 #include <fmt/format.h>
 
-#include <exception>
-#include <new>
 #include <string>
 
 namespace tumble {
@@ -27,15 +24,9 @@ void print(const v0::Comparison& result) {
     finish_standard_output();
 }
 
-// Exit code 1 means "different", so every failure of the comparison itself must be 2.
-int cannot_compare(const std::string& message) {
-    say("{}\n", message);
-    return 2;
-}
-
 }  // namespace
 
-int run_compare(const CompareCommand& command) try {
+int run_compare(const CompareCommand& command) {
     const double fraction = command.options.fraction;
     if (!(fraction >= 0.0 && fraction <= 1.0))  // CLI11's range check lets NaN through
         throw InputError(fmt::format("--fraction: must be between 0 and 1 (was {})", fraction));
@@ -47,17 +38,6 @@ int run_compare(const CompareCommand& command) try {
         v0::compare_png_files(command.a, command.b, command.options, command.difference.value_or(""));
     print(result);
     return result.alike ? 0 : 1;
-} catch (const v0::Error& error) {
-    if (error.kind() == v0::ErrorKind::input) throw;
-    return cannot_compare(error.what());
-} catch (const RunError& error) {
-    return cannot_compare(error.what());
-} catch (const std::bad_alloc&) {
-    return cannot_compare("error: out of memory");
-} catch (const InputError&) {
-    throw;
-} catch (const std::exception& error) {
-    return cannot_compare(fmt::format("error: {}", safe_lines(error.what())));
 }
 
 }  // namespace tumble

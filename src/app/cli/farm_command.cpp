@@ -6,6 +6,7 @@
 #include "app/farm/openjd_template.h"
 #include "app/files/output_plan.h"
 #include "core/error.h"
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "output/process.h"
 #include "output/temporary_file.h"
@@ -47,7 +48,7 @@ FarmJob job_of(const FarmCommand& command, const RenderScenes& scenes) {
     job.simulate_options = command.simulate_options;
     job.render_options = command.render_options;
     job.encode_options = command.encode_options;
-    job.encode_options.insert(job.encode_options.begin(), {"--fps", fmt::format("{}", job.fps)});
+    job.encode_options.insert(job.encode_options.begin(), {"--fps", fps_text(job.fps)});
     job.retries = command.retries;
     return job;
 }
@@ -83,6 +84,7 @@ void check_clip(const FarmJob& job, const RenderCommand& render) {
     OutputPlan plan;
     add_inputs(plan, job);
     plan.add("--output", job.clip);
+    if (!job.folder.empty()) plan.add("--folder", job.folder);
 }
 
 /// Throws InputError for a folder that holds other files than a job's, which scripts would replace, and for a clip whose

@@ -15,6 +15,8 @@
 #include "compare/report/comparison_report.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/file_bytes.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
 #include "scene/toml/error_text.h"
@@ -22,6 +24,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <system_error>
 
 namespace tumble {
@@ -52,6 +55,11 @@ void save_report(const GoldenCommand& command, const GoldenSuite& suite, const S
     write_comparison_report(result, options, *command.report);
 }
 
+/// The new image and the difference.
+std::array<fs::path, 2> failure_files(const fs::path& folder, const std::string& image) {
+    return {folder / ("new_" + image), folder / ("difference_" + image)};
+}
+
 void plan_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
     OutputPlan plan;
     plan.add_input(suite.file);
@@ -60,20 +68,24 @@ void plan_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
     if (command.report) plan.add("--report", *command.report);
     if (command.json) plan.add("--json", *command.json);
     if (command.junit) plan.add("--junit", *command.junit);
+    if (!command.failures) return;
+    for (const GoldenCase& golden : suite.cases)
+        for (const std::int64_t frame : golden.frames)
+            for (const fs::path& file : failure_files(*command.failures, golden.image_name(frame)))
+                plan.add("--failures", file);
 }
 
 /// new_NAME, and difference_NAME where there is a reference of the same size.
 void keep_failures(const fs::path& folder, const GoldenSuite& suite, const SetResult& result) {
     for (const ImageResult& image : result.images) {
         if (image.verdict == Verdict::same || image.verdict == Verdict::alike || image.image.empty()) continue;
-        std::error_code error;
-        fs::create_directories(folder, error);
-        fs::copy_file(image.image, folder / ("new_" + image.name), fs::copy_options::overwrite_existing, error);
-        if (error)
-            throw RunError(fmt::format("--failures: cannot write into '{}': {}", safe_path(folder), error.message()));
+        const std::optional<std::string> bytes = bytes_of_file(image.image);
+        if (!bytes) throw RunError(fmt::format("--failures: cannot read '{}' again", safe_path(image.image)));
+        make_folder(folder);
+        const auto [new_image, difference] = failure_files(folder, image.name);
+        write_file(new_image, *bytes);
         if (image.verdict == Verdict::different)
-            compare_png_files(image.reference, image.image, suite.tolerances_of(image.name).pixels,
-                              folder / ("difference_" + image.name));
+            compare_png_files(image.reference, image.image, suite.tolerances_of(image.name).pixels, difference);
     }
 }
 

@@ -1,4 +1,5 @@
 #include "api/scene_data.h"
+#include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/broken_joints.h"
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
@@ -57,6 +58,7 @@ void check_tables(const SimulateCommand& command, const FileList& inputs) {
     OutputPlan plan;
     for (const std::filesystem::path& file : inputs) plan.add_input(file);
     command.tables.add_to(plan);
+    if (command.checkpoints) add_checkpoints(plan, *command.checkpoints);
 }
 
 void simulate_tables(const SimulateCommand& command) {

@@ -3,6 +3,7 @@
 #include "core/safe_text.h"
 #include "output/file_bytes.h"
 #include "output/temporary_file.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -32,14 +33,14 @@ FarmJob farm_job_of(const FarmJson& json, const fs::path& job_folder) {
     return job;
 }
 
-/// The parts must be the frames, in order and without gaps.
+/// The parts must be the frames of a clip, in order and without gaps.
 bool parts_are_whole(const FarmJob& job) {
     std::int64_t next = 0;
     for (const FarmPart& part : job.parts) {
         if (part.first != next || part.last < part.first || part.last >= job.frames) return false;
         next = part.last + 1;
     }
-    return next == job.frames && !job.parts.empty();
+    return next == job.frames && !job.parts.empty() && job.frames <= limits::frames;
 }
 
 }  // namespace
@@ -68,7 +69,7 @@ FarmJob read_farm_file(const fs::path& job_folder) {
     } catch (const FarmJson::exception& error) {
         refuse_farm_file(file, fmt::format("is broken: {}", safe_text(error.what())));
     }
-    if (!parts_are_whole(job)) refuse_farm_file(file, "is broken: its parts are not the frames");
+    if (!parts_are_whole(job)) refuse_farm_file(file, "is broken: its parts are not the frames of a clip");
     return job;
 }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <system_error>
@@ -37,10 +38,15 @@ FarmStatus look_at_farm(const FarmJob& job) {
     const fs::path folder = frames_folder(job.folder);
     const std::optional<FrameIdentity> manifest = read_manifest(manifest_path(folder, FrameFiles::pictures));
     const std::optional<std::string> mark = manifest ? std::optional(manifest->mark()) : std::nullopt;
+    std::error_code ignored;
+    const std::vector<std::int64_t> there =
+        fs::is_directory(folder, ignored) ? frames_in(folder) : std::vector<std::int64_t>();
+    const auto is_missing = [&](std::int64_t n) {
+        return !std::ranges::binary_search(there, n) || !is_drawn(frame_path(folder, n), mark);
+    };
     FarmStatus status;
     for (const FarmPart& part : job.parts) {
-        const FrameSet frames(part.first, part.last + 1);
-        status.missing.push_back(frames.where([&](std::int64_t n) { return !is_drawn(frame_path(folder, n), mark); }));
+        status.missing.push_back(FrameSet(part.first, part.last + 1).where(is_missing));
         status.drawn += part.count() - status.missing.back().count();
     }
     return status;

@@ -1,7 +1,5 @@
 #include "app/farm/shell_text.h"
 
-#include <algorithm>
-
 namespace tumble {
 
 bool is_plain_word(std::string_view text) {
@@ -19,10 +17,6 @@ std::string shell_word(std::string_view text) {
             word += c;
     }
     return word + "'";
-}
-
-bool has_control_characters(std::string_view text) {
-    return std::any_of(text.begin(), text.end(), [](char c) { return (c >= 0 && c < ' ') || c == '\x7f'; });
 }
 
 std::string shell_array(std::string_view name, const std::vector<std::string>& words) {

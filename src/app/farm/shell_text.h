@@ -13,9 +13,6 @@ bool is_plain_word(std::string_view text);
 /// The word as a POSIX shell reads it, for any characters: plain where possible, else in single quotes.
 std::string shell_word(std::string_view text);
 
-/// True of characters that neither a line of a script nor a template can hold, such as line breaks.
-bool has_control_characters(std::string_view text);
-
 /// "NAME=( WORD WORD )": an array of bash.
 std::string shell_array(std::string_view name, const std::vector<std::string>& words);
 

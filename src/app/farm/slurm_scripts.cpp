@@ -1,5 +1,6 @@
 #include "app/farm/slurm_scripts.h"
 
+#include "app/farm/sbatch_option.h"
 #include "app/farm/shell_text.h"
 #include "core/error.h"
 #include "core/safe_text.h"
@@ -111,17 +112,6 @@ job=$(sbatch --parsable "--dependency=afterany:${job%%;*}" "$folder/stitch.sh" "
 echo "job ${job%%;*}: clip"
 )bash"};
 
-/// A value in a line of #SBATCH, which sbatch takes apart by its own rules: '#' begins a comment, quotes are removed.
-std::string sbatch_value(std::string_view text) {
-    if (is_plain_word(text)) return std::string(text);
-    std::string quoted = "\"";
-    for (const char c : text) {
-        if (c == '"' || c == '\\') quoted += '\\';
-        quoted += c;
-    }
-    return quoted + "\"";
-}
-
 /// The options of sbatch in the script of a job.
 std::string sbatch_lines(const FarmJob& job, const SlurmSettings& settings, const std::string& name,
                          const std::string& log) {
@@ -136,12 +126,7 @@ std::string sbatch_lines(const FarmJob& job, const SlurmSettings& settings, cons
     option("cpus-per-task", std::to_string(settings.cpus_per_task));
     if (!settings.partition.empty()) option("partition", settings.partition);
     if (!settings.time.empty()) option("time", settings.time);
-    for (const std::string& more : settings.more) {
-        const std::size_t equals = std::min(more.find('='), more.size());
-        text += fmt::format("#SBATCH {}", more.substr(0, equals));
-        if (equals < more.size()) text += fmt::format("={}", sbatch_value(more.substr(equals + 1)));
-        text += '\n';
-    }
+    for (const std::string& more : settings.more) text += fmt::format("#SBATCH {}\n", sbatch_line(more));
     return text;
 }
 
@@ -188,14 +173,7 @@ void check_slurm(const FarmJob& job, const SlurmSettings& settings) {
          {std::pair("--partition", settings.partition), std::pair("--time", settings.time)})
         if (has_control_characters(value))
             throw InputError(fmt::format("{}: must have no control characters (was '{}')", option, safe_text(value)));
-    for (const std::string& more : settings.more) {
-        if (!more.starts_with("-") || has_control_characters(more))
-            throw InputError(fmt::format(
-                "--sbatch: must be an option of sbatch, as in --sbatch=--account=film (was '{}')", safe_text(more)));
-        for (const char* ours : {"--array", "--dependency", "--output", "--parsable", "-a", "-d", "-o"})
-            if (more.substr(0, more.find('=')) == ours)
-                throw InputError(fmt::format("--sbatch: {} is set by the scripts themselves", ours));
-    }
+    for (const std::string& more : settings.more) check_sbatch_option(more);
 }
 
 void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings) {

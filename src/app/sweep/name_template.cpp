@@ -1,5 +1,6 @@
 #include "app/sweep/name_template.h"
 
+#include "app/sweep/manifest.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "scene/toml/error_text.h"
@@ -75,8 +76,9 @@ void check_path(const std::string& name) {
         const std::string text = part.string();
         if (text.front() == '.') fail("must have no part that begins with a dot");
         if (text.size() > longest_part) fail(fmt::format("gives a name of more than {} bytes", longest_part));
-        if (text.find('\0') != std::string::npos) fail("must not have a zero byte");
     }
+    if (has_control_characters(name)) fail("must have no control characters");
+    if (*path.begin() == ManifestFile::path_in({})) fail("must not be in the place of the manifest of the sweep");
 }
 
 }  // namespace

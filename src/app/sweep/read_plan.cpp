@@ -185,6 +185,7 @@ SampleOutputs read_outputs(const TomlTable& table) {
         outputs.clip = clip->text();
         if (outputs.clip.empty() || outputs.clip.front() == '.' || outputs.clip.find('/') != std::string::npos)
             clip->fail("must be a file name such as \"clip.mp4\"");
+        if (has_control_characters(outputs.clip)) clip->fail("must have no control characters");
         for (const char* taken : {"sample.json", "scene.toml", "scene.json", "frames", "aov"})
             if (outputs.clip == taken) clip->fail("must differ from the other files of a sample");
     }
