@@ -7,6 +7,11 @@
 
 namespace tumble {
 
+struct ImageSize {
+    int width = 0, height = 0;  // pixels
+    friend bool operator==(const ImageSize&, const ImageSize&) = default;
+};
+
 /// RGBA, 8 bits per channel, sRGB encoded, top row first, rows without padding.
 struct Image {
     int width = 0;

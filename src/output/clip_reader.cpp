@@ -1,6 +1,7 @@
 #include "output/clip_reader.h"
 
 #include "core/error.h"
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "output/png_reader.h"
 #include "output/video_writer.h"
@@ -37,7 +38,7 @@ std::vector<std::string> arguments_for(const fs::path& clip, std::optional<doubl
     arguments.insert(arguments.end(), {"-i", "file:" + clip.string(), "-map", "0:v:0", "-sws_flags",
                                        "accurate_rnd+bitexact", "-pix_fmt", "rgba", "-c:v", "pam", "-f", "image2pipe"});
     if (fps)
-        arguments.insert(arguments.end(), {"-fps_mode", "cfr", "-r", fmt::format("{}", *fps)});
+        arguments.insert(arguments.end(), {"-fps_mode", "cfr", "-r", to_frame_rate(*fps).text()});
     else
         arguments.insert(arguments.end(), {"-fps_mode", "passthrough"});
     arguments.push_back("pipe:1");

@@ -13,11 +13,6 @@
 
 namespace tumble {
 
-struct ImageSize {
-    int width = 0, height = 0;  // pixels
-    friend bool operator==(const ImageSize&, const ImageSize&) = default;
-};
-
 /// Largest number of pixels of a image: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
 inline constexpr std::int64_t max_image_pixels = std::int64_t(1) << 28;
 

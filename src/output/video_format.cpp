@@ -19,11 +19,10 @@ namespace {
 namespace fs = std::filesystem;
 using Arguments = std::vector<std::string>;
 
-constexpr std::int64_t max_term = 1'000'000;  // ffmpeg reads rates with terms up to 1,001,000
-constexpr double slowest = 0.001;             // frames/s: players do not support longer frames, GIF at most 655 s
-constexpr double fastest = 1e6;               // frames/s: the scene format's own limit
-constexpr double fastest_matroska = 1000.0;   // its time stamps are whole milliseconds
-constexpr double fastest_gif = 50.0;          // its delays are whole 1/100 s, and players treat 1 as 10
+constexpr double slowest = 0.001;            // frames/s: players do not support longer frames, GIF at most 655 s
+constexpr double fastest = 1e6;              // frames/s: the scene format's own limit
+constexpr double fastest_matroska = 1000.0;  // its time stamps are whole milliseconds
+constexpr double fastest_gif = 50.0;         // its delays are whole 1/100 s, and players treat 1 as 10
 
 void append(Arguments& to, const Arguments& more) { to.insert(to.end(), more.begin(), more.end()); }
 
@@ -34,27 +33,6 @@ std::string file_argument(const fs::path& path) {
 
 /// Without -xerror, ffmpeg 5.1 ends with exit code 0 if the disk was full at the end of the clip.
 Arguments common() { return {"-hide_banner", "-nostdin", "-loglevel", "error", "-xerror", "-y"}; }
-
-/// The continued fraction of x, cut off before a term grows beyond `limit`.
-FrameRate best_fraction(double x, std::int64_t limit) {
-    std::int64_t n0 = 0, d0 = 1, n1 = 1, d1 = 0;
-    double rest = x;
-    for (int i = 0; i < 64; ++i) {
-        const double whole = std::floor(rest);
-        if (whole > double(limit)) break;
-        const auto a = static_cast<std::int64_t>(whole);
-        const std::int64_t n2 = a * n1 + n0, d2 = a * d1 + d0;
-        if (n2 > limit || d2 > limit) break;
-        n0 = n1;
-        d0 = d1;
-        n1 = n2;
-        d1 = d2;
-        // Digits beyond the rounding of double are meaningless: 29.97 is 2997/100, not a fraction 1e-15 beside it.
-        if (std::fabs(double(n1) / double(d1) - x) <= 1e-12 * x) break;
-        rest = 1.0 / (rest - whole);
-    }
-    return {n1, d1};
-}
 
 bool has_its_head_last(const VideoFormat& format) { return format.container == "mp4" || format.container == "mov"; }
 
@@ -72,13 +50,20 @@ Arguments gif_from(const Arguments& input, const fs::path& output) {
 
 }  // namespace
 
-std::string FrameRate::text() const { return fmt::format("{}/{}", numerator, denominator); }
+ImageSize stored_size(VideoKind kind, const ImageSize& images) {
+    if (kind != VideoKind::h264) return images;
+    return {images.width + images.width % 2, images.height + images.height % 2};
+}
 
-FrameRate to_frame_rate(double fps) {
-    // Below 1 the first term would be 0; the reciprocal has the same digits.
-    if (fps >= 1.0) return best_fraction(fps, max_term);
-    const FrameRate upside_down = best_fraction(1.0 / fps, max_term);
-    return {upside_down.denominator, upside_down.numerator};
+std::string size_text(VideoKind kind, const ImageSize& images) {
+    const ImageSize stored = stored_size(kind, images);
+    std::string text = fmt::format("{} x {}", stored.width, stored.height);
+    if (stored == images) return text;
+    const char* const twice = stored.width == images.width     ? "row"
+                              : stored.height == images.height ? "column"
+                                                               : "column and row";
+    return text +
+           fmt::format(" ({} x {} with the last {} twice: H.264 has even sizes)", images.width, images.height, twice);
 }
 
 bool is_subsampled(PixelFormat form) { return form != PixelFormat::rgba; }
@@ -122,9 +107,10 @@ VideoFormat video_format(const fs::path& clip, double fps, bool transparent) {
     }
     if (!(fps >= slowest && fps <= limit))
         throw InputError(
-            at, fmt::format(
-                    "a {} clip holds {} to {} frames a second ({} were asked for{})", ending, slowest, limit, fps,
-                    limit < fps && fps <= fastest ? (transparent ? "; .mov holds more" : "; .mp4 holds more") : ""));
+            at,
+            fmt::format(
+                "a {} clip holds {} to {} frames a second ({} were asked for{})", ending, slowest, limit, fps_text(fps),
+                limit < fps && fps <= fastest ? (transparent ? "; .mov holds more" : "; .mp4 holds more") : ""));
 
     if (has_its_head_last(format) && is_written_in_place(clip))
         throw InputError(at,
@@ -136,9 +122,13 @@ VideoFormat video_format(const fs::path& clip, double fps, bool transparent) {
     return format;
 }
 
-Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const fs::path& output) {
+Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const ImageSize& images,
+                             const fs::path& output) {
     Arguments arguments = common();
     append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
+    const bool odd = images.width % 2 != 0 || images.height % 2 != 0;
+    if (odd && is_subsampled(format.pixels) && stored_size(format.kind, images) == images)
+        append(arguments, {"-vf", fmt::format("crop={}:{}:0:0:exact=1", images.width, images.height)});
     if (format.kind == VideoKind::prores_4444)
         // To the same color space as yuv420.h, with the same bytes on every processor. The encoder takes the tags from
         // the frames.

@@ -6,24 +6,15 @@
 // .gif             256 colors chosen over the whole clip, at most 50 frames/s (players slow down beyond that)
 #pragma once
 
+#include "core/frame_rate.h"
+#include "core/image.h"
+
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 namespace tumble {
-
-/// A frame rate in the form of containers.
-struct FrameRate {
-    std::int64_t numerator = 60;   // frames
-    std::int64_t denominator = 1;  // s
-    std::string text() const;      // "30000/1001"
-    friend bool operator==(const FrameRate&, const FrameRate&) = default;
-};
-
-/// The closest fraction with both parts at most a million (ffmpeg's limit): 29.97 is 2997/100.
-FrameRate to_frame_rate(double fps);
 
 enum class VideoKind { h264, vp9, gif, vp9_alpha, prores_4444 };
 
@@ -36,6 +27,13 @@ enum class PixelFormat {
 
 /// True for forms with half as many columns and rows of color, which need an even size.
 bool is_subsampled(PixelFormat form);
+
+/// The size of the pictures in a file, for images of that size. H.264 stores half as many colors in each direction and has even sides: the last column or row
+/// of an odd one is there twice. Other kinds keep odd sides.
+ImageSize stored_size(VideoKind kind, const ImageSize& images);
+
+/// "640 x 360", or for odd sides "162 x 122 (161 x 121 and ...)".
+std::string size_text(VideoKind kind, const ImageSize& images);
 
 /// Size of one frame of an image of this size.
 std::size_t frame_bytes(PixelFormat form, int width, int height);
@@ -76,11 +74,11 @@ VideoFormat video_format(const std::filesystem::path& clip, double fps, bool tra
 /// Output argument for ffmpeg's own standard output. By a file name, ffmpeg would open and truncate an existing file.
 constexpr const char* clip_to_standard_output = "/dev/stdout";
 
-/// Arguments that make ffmpeg read raw frames from its standard input (a matroska_stream.h) into `output`. For a GIF
-/// that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known only when all
+/// Arguments that make ffmpeg read raw frames of images of that size from its standard input (a matroska_stream.h) into
+/// `output`. For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known only when all
 /// frames are, and reading them twice keeps memory constant.
 std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
-                                            const std::filesystem::path& output);
+                                            const ImageSize& images, const std::filesystem::path& output);
 std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);
 
 /// The format of a segment of a clip of this format, and the ending of its name. Segments have exact times where the

@@ -47,9 +47,10 @@ VideoWriter::VideoWriter(const fs::path& clip, int width, int height, double fps
     }
     if (file_.in_place()) report_.emplace();
     if (lossless_)
-        encoder_.emplace(program_, encoding_arguments(format_, options, lossless_->path()));
+        encoder_.emplace(program_, encoding_arguments(format_, options, {width, height}, lossless_->path()));
     else
-        encoder_.emplace(program_, with_report(encoding_arguments(format_, options, output_argument())),
+        encoder_.emplace(program_,
+                         with_report(encoding_arguments(format_, options, {width, height}, output_argument())),
                          file_.descriptor());
     const bool even = is_subsampled(format_.pixels);
     send(matroska_head(format_.pixels, even ? width + width % 2 : width, even ? height + height % 2 : height,

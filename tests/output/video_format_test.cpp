@@ -8,36 +8,11 @@
 
 #include <sys/stat.h>
 
-#include <cmath>
 #include <limits>
 #include <string>
 
 namespace tumble::video_format_test {
 namespace {
-
-TEST(FrameRate, IsTheFractionMeant) {
-    EXPECT_EQ(to_frame_rate(60.0), (FrameRate{60, 1}));
-    EXPECT_EQ(to_frame_rate(29.97), (FrameRate{2997, 100}));
-    EXPECT_EQ(to_frame_rate(30000.0 / 1001.0), (FrameRate{30000, 1001}));
-    EXPECT_EQ(to_frame_rate(0.5), (FrameRate{1, 2}));
-    EXPECT_EQ(to_frame_rate(1.0 / 3.0), (FrameRate{1, 3}));
-    EXPECT_EQ(to_frame_rate(12.5), (FrameRate{25, 2}));
-    EXPECT_EQ(to_frame_rate(1e6), (FrameRate{1000000, 1}));
-    EXPECT_EQ(to_frame_rate(0.001), (FrameRate{1, 1000}));
-    EXPECT_EQ(to_frame_rate(60.0).text(), "60/1");
-}
-
-TEST(FrameRate, IsCloseForAnyNumber) {
-    for (double fps = 0.0013; fps < 1e6; fps *= 1.0371) {
-        const FrameRate rate = to_frame_rate(fps);
-        ASSERT_GE(rate.numerator, 1);
-        ASSERT_GE(rate.denominator, 1);
-        EXPECT_LE(rate.numerator, 1'000'000);
-        EXPECT_LE(rate.denominator, 1'000'000);
-        // A best fraction p/q is closer than 1/(q * limit): the worst case is a numerator at the limit.
-        EXPECT_NEAR(double(rate.numerator) / double(rate.denominator), fps, fps * fps * 1e-6 + fps * 1e-6) << fps;
-    }
-}
 
 // Only clips whose header can be written first.
 TEST(VideoFormat, DependsOnTheKindOfThePath) {
@@ -88,6 +63,21 @@ TEST(VideoFormat, ImpossibleRatesAreRefused) {
     EXPECT_NO_THROW(video_format("a.mkv", 1000.0));
     EXPECT_THROW(video_format("a.mkv", 1001.0), InputError);
     EXPECT_THROW(video_format("a.webm", 1e6), InputError);
+}
+
+TEST(VideoFormat, OddSizesGrowInH264Alone) {
+    EXPECT_EQ(stored_size(VideoKind::h264, {161, 121}), (ImageSize{162, 122}));
+    EXPECT_EQ(stored_size(VideoKind::h264, {160, 120}), (ImageSize{160, 120}));
+    for (const VideoKind kind : {VideoKind::vp9, VideoKind::gif, VideoKind::vp9_alpha, VideoKind::prores_4444})
+        EXPECT_EQ(stored_size(kind, {161, 121}), (ImageSize{161, 121}));
+    EXPECT_EQ(size_text(VideoKind::h264, {160, 120}), "160 x 120");
+    EXPECT_EQ(size_text(VideoKind::h264, {1, 2}), "2 x 2 (1 x 2 with the last column twice: H.264 has even sizes)");
+}
+
+TEST(VideoFormat, FractionsAreExact) {
+    for (const char* clip : {"a.mp4", "a.mkv", "a.webm"})
+        EXPECT_EQ(video_format(clip, 24000.0 / 1001.0).rate, (FrameRate{24000, 1001}));
+    EXPECT_EQ(video_format("a.gif", 60000.0 / 1001.0).rate, (FrameRate{30000, 1001}));
 }
 
 TEST(VideoFormat, AGifLeavesFramesOutEvenly) {

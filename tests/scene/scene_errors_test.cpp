@@ -157,6 +157,8 @@ TEST(SceneErrors, OfTheSimulation) {
         {"format = 1\n[simulation]\nrotation = @\"euler\"", "rotation must be one of \"quaternion\", \"matrix\""},
         {"format = 1\n[simulation]\nsleep = @1", "sleep must be true or false (given 1)"},
         {"format = 1\n[simulation]\nseed = @-1", "seed must be from 0"},
+        {"format = 1\n[simulation]\nintegrator = @\"exat\"", "(given \"exat\") (did you mean \"exact\"?)"},
+        {"format = 1\ntitle = @\"a\\u0000b\"", "title must have no zero byte (given \"a\\x00b\")"},
         {"format = 1\nsimulation = @3", "simulation must be a table (given 3)"},
         {"format = 1\nsimulation.duration = @1979-05-27", "duration must be a number (given a date or time)"},
     });
@@ -166,6 +168,11 @@ TEST(SceneErrors, OfThePicture) {
     expect_errors({
         {"format = 1\n[output]\nfps = @0", "fps must be from 1e-09 to 1000000 frames per second (given 0)"},
         {"format = 1\n[output]\nfps = @1000001", "(given 1000001)"},
+        {"format = 1\n[output]\nfps = @\"24000/0\"",
+         "fps must be a number of frames per second, or a fraction of two whole numbers from 1 to 1000000, as in "
+         "\"24000/1001\" (given \"24000/0\")"},
+        {"format = 1\n[output]\nfps = @\"60\"", "fps must be a number"},
+        {"format = 1\n[output]\nfps = @[24000, 1001]", "fps must be a number (given [24000, 1001])"},
         {"format = 1\n[output]\nsamples = @3", "samples must be 1, 2 or 4 (given 3)"},
         {"format = 1\n[output]\nsamples = @8", "samples must be 1, 2 or 4 (given 8)"},
         {"format = 1\n[output]\nsize = [@0, 100]", "size must be from 1 to 16384 (given 0)"},

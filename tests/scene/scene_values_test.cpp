@@ -247,6 +247,18 @@ TEST(SceneValues, AStepThatDividesTheFrameBecomesItsNumberOfSteps) {
     EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 1e-6\n[output]\nfps = 1e6").simulation.steps_per_frame, 1);
 }
 
+TEST(SceneValues, AFractionIsAFrameRate) {
+    const SceneDescription film =
+        parse("format = 1\n[simulation]\nduration = 10.01\nsteps_per_frame = 4\n[output]\nfps = \"24000/1001\"");
+    EXPECT_EQ(film.output.fps, 24000.0 / 1001.0);
+    EXPECT_EQ(film.frame_count(), 241);  // the last one at 240 * 1001 / 24000 = 10.01 s
+    EXPECT_EQ(film.step(), 1.0 / (24000.0 / 1001.0 * 4));
+    EXPECT_EQ(parse("format = 1\n[output]\nfps = \"60/1\"").output.fps, 60.0);
+    EXPECT_EQ(parse("format = 1\n[simulation]\nstep = 0.0033366666666666667\n[output]\nfps = \"30000/1001\"")
+                  .simulation.steps_per_frame,
+              10);
+}
+
 TEST(SceneValues, AMovingCamera) {
     const auto camera = parse(R"(
 format = 1

@@ -1,6 +1,7 @@
 #include "app/causes/described_values.h"
 
 #include "core/fnv_hash.h"
+#include "core/frame_rate.h"
 #include "scene/description/shape_bounds.h"
 
 #include <fmt/format.h>
@@ -176,7 +177,7 @@ ValueMap values_of(const Composition& composition) {
     ValueMap values;
     values["size"] = fmt::format("{} x {}", composition.width, composition.height);
     values["samples"] = fmt::format("{}", first.output.samples);
-    values["fps"] = fmt::format("{}", first.output.fps);
+    values["fps"] = fps_text(first.output.fps);
     const ClipText& text = composition.text;
     values["text.title"] = text.title;
     values["text.mode"] = text.mode;

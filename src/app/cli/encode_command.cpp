@@ -164,8 +164,8 @@ void run_encode(const EncodeCommand& command) {
         encode(command.frames, frames, video, interrupt, progress);
     }
     if (!command.quiet)
-        say("wrote {}: {} frames of {} x {}\n", safe_path(command.clip), video.frames_in_clip(), size.width,
-            size.height);
+        say("wrote {}: {} frames of {}\n", safe_path(command.clip), video.frames_in_clip(),
+            size_text(format.kind, {size.width, size.height}));
 }
 
 }  // namespace tumble

@@ -4,6 +4,7 @@
 #include "app/page/record_run.h"
 #include "app/plots/quantities.h"
 #include "core/error.h"
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ std::string options_text(const SceneOverrides& overrides, std::span<const std::s
     add("--method", overrides.method);
     add("--integrator", overrides.integrator);
     add("--duration", overrides.duration);
-    add("--fps", overrides.fps);
+    if (overrides.fps) text += fmt::format("--fps {}\n", fps_text(*overrides.fps));
     for (const std::string& value : overrides.set) text += fmt::format("--set {}\n", value);
     for (const std::string& values : vary) text += fmt::format("--vary {}\n", values);
     add("--overlay", overrides.overlay);

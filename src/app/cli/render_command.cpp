@@ -56,6 +56,10 @@ void log_summary(const RenderFigures& done) {
     if (done.folder) wrote["frames"] = done.folder->string();
     if (done.aov_folder) wrote["aovs"] = done.aov_folder->string();
     wrote.update({{"width", done.width}, {"height", done.height}, {"fps", done.fps}, {"count", done.frames.count()}});
+    if (done.clip) {
+        const ImageSize size = stored_size(done.kind, {done.width, done.height});
+        wrote.update({{"clip_width", size.width}, {"clip_height", size.height}});
+    }
     messages().event("wrote", wrote);
     messages().event("times", {{"seconds", done.seconds},
                                {"cpu",
@@ -75,8 +79,8 @@ void print_summary(const RenderFigures& done, const AovSet& aovs) {
     if (messages().json()) return log_summary(done);
     const std::int64_t first = done.frames.first(), last = done.frames.last();
     if (done.clip)
-        say("wrote {}: {} frames of {} x {}{}{}\n", safe_path(*done.clip), done.frames_in_clip, done.width, done.height,
-            frame_step_note(done), stored(done));
+        say("wrote {}: {} frames of {}{}{}\n", safe_path(*done.clip), done.frames_in_clip,
+            size_text(done.kind, {done.width, done.height}), frame_step_note(done), stored(done));
     if (done.folder)
         say("wrote {} to {}\n", safe_path(frame_path(*done.folder, first)),
             frame_path(*done.folder, last).filename().string());

@@ -4,6 +4,7 @@
 #include "app/cli/say.h"
 #include "app/threads/thread_budget.h"
 #include "core/error.h"
+#include "core/frame_rate.h"
 #include "core/html_text.h"
 #include "core/safe_text.h"
 #include "output/process.h"
@@ -74,10 +75,11 @@ std::string times_html(const RenderFigures& done) {
 
 std::string outputs_html(const RenderFigures& done) {
     Pairs rows;
+    const ImageSize size = stored_size(done.kind, {done.width, done.height});
     if (done.clip)
         rows.push_back(
-            {"clip", fmt::format("{}: {} frames of {} \u00d7 {} at {:g} a second", done.clip->filename().string(),
-                                 done.frames_in_clip, done.width, done.height, done.fps)});
+            {"clip", fmt::format("{}: {} frames of {} \u00d7 {} at {} a second", done.clip->filename().string(),
+                                 done.frames_in_clip, size.width, size.height, fps_text(done.fps))});
     if (done.folder)
         rows.push_back({"frames", fmt::format("{}: {} of {} \u00d7 {}", done.folder->filename().string(),
                                               done.frames.count(), done.width, done.height)});

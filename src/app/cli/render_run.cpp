@@ -96,6 +96,7 @@ RenderFigures figures_of(const RenderPlan& plan, const RenderScenes& scenes) {
     figures.clip_frames = scenes.clip_frames;
     figures.rendered = plan.needed();
     figures.clip = plan.clip;
+    if (plan.format) figures.kind = plan.format->kind;
     figures.folder = plan.folder;
     figures.aov_folder = plan.aov_folder;
     return figures;

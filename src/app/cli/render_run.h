@@ -26,7 +26,8 @@ struct RenderFigures {
     std::optional<std::filesystem::path> clip, folder;  // written; of the frames
     std::optional<std::filesystem::path> aov_folder;
     std::int64_t frames_in_clip = 0, frames_stored = 0;
-    int frame_step = 1;  // of the clip's format
+    VideoKind kind = VideoKind::h264;  // of the clip
+    int frame_step = 1;                // of the clip's format
     int workers = 1, threads = 1;
     StageSeconds cpu;
     double seconds = 0.0;          // wall clock

@@ -4,6 +4,7 @@
 #include "app/survey/survey.h"
 #include "core/check.h"
 #include "core/error.h"
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "scene/hash/scene_hash.h"
 #include "sim/checkpoint/archive.h"
@@ -38,8 +39,8 @@ void require_same_rate(const std::vector<ClipScene>& scenes) {
     for (const ClipScene& other : scenes)
         if (other.scene->output.fps != first.scene->output.fps)
             throw InputError(fmt::format(
-                "scenes side by side need the same frames per second: {} has {:g}, {} has {:g} (--fps sets all)",
-                name_of(first), first.scene->output.fps, name_of(other), other.scene->output.fps));
+                "scenes side by side need the same frames per second: {} has {}, {} has {} (--fps sets all)",
+                name_of(first), fps_text(first.scene->output.fps), name_of(other), fps_text(other.scene->output.fps)));
 }
 
 }  // namespace

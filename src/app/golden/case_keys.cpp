@@ -101,7 +101,7 @@ void read_overrides(CaseTable& table, GoldenCase& golden) {
         overrides.width = int(sides[0].integer(1, limits::image_side));
         overrides.height = int(sides[1].integer(1, limits::image_side));
     }
-    table.read("fps", overrides.fps, [](const TomlValue& v) { return v.number(limits::fps); });
+    table.read("fps", overrides.fps, [](const TomlValue& v) { return v.frame_rate(); });
     table.read("duration", overrides.duration, [](const TomlValue& v) { return v.number(limits::duration); });
     table.read("samples", overrides.samples, [](const TomlValue& v) { return int(v.integer(1, 4)); });
     table.read("method", overrides.method, [](const TomlValue& v) { return v.text(); });

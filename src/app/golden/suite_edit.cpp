@@ -1,5 +1,6 @@
 #include "app/golden/suite_edit.h"
 
+#include "core/frame_rate.h"
 #include "scene/toml/toml_text.h"
 
 #include <fmt/format.h>
@@ -23,6 +24,12 @@ std::string text_of(const fs::path& file) {
     return text;
 }
 
+/// A fraction is a text in TOML.
+std::string rate_value(double fps) {
+    const std::string text = fps_text(fps);
+    return text.find('/') == std::string::npos ? text : toml_string(text);
+}
+
 std::string case_text(const NewCase& added, const fs::path& suite) {
     std::error_code error;
     const fs::path folder = suite.has_parent_path() ? suite.parent_path() : fs::path(".");
@@ -35,7 +42,7 @@ std::string case_text(const NewCase& added, const fs::path& suite) {
     if (!added.frames.empty()) add("frames", fmt::format("[{}]", fmt::join(added.frames, ", ")));
     const SceneOverrides& o = added.overrides;
     if (o.width && o.height) add("size", fmt::format("[{}, {}]", *o.width, *o.height));
-    if (o.fps) add("fps", fmt::format("{}", *o.fps));
+    if (o.fps) add("fps", rate_value(*o.fps));
     if (o.duration) add("duration", fmt::format("{}", *o.duration));
     if (o.samples) add("samples", fmt::format("{}", *o.samples));
     if (o.method) add("method", toml_string(*o.method));

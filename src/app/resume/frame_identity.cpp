@@ -1,5 +1,6 @@
 #include "app/resume/frame_identity.h"
 
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "core/sha256.h"
 #include "output/file_bytes.h"
@@ -83,7 +84,7 @@ FrameIdentity identity_of(std::span<const ClipScene> scenes, const NamedValues& 
         entry.label = one.label;
         entry.hash = scene_hash(scene);
         entry.parts = scene_parts(scene);
-        entry.parts.emplace_back("frames per second", fmt::format("{}", scene.output.fps));
+        entry.parts.emplace_back("frames per second", fps_text(scene.output.fps));
         entry.parts.emplace_back("samples", fmt::format("{}", scene.output.samples));
         entry.parts.emplace_back("frames of the motion",
                                  fmt::format("{} x {}", one.timing.fps, one.timing.steps_per_frame));

@@ -1,5 +1,6 @@
 #include "scene/keys/settings.h"
 
+#include "core/frame_rate.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -104,7 +105,7 @@ void read_output(const TomlTable& table, OutputSettings& output, TimeRequest& ti
         output.width = static_cast<int>(side[0].integer(1, limits::image_side));
         output.height = static_cast<int>(side[1].integer(1, limits::image_side));
     }
-    read_time(table, "fps", time.fps, limits::fps);
+    if (const auto value = table.find("fps")) time.fps = {value->frame_rate(), value->origin()};
     if (const auto value = table.find("samples")) {
         const std::int64_t samples =
             value->integer(std::numeric_limits<std::int64_t>::min(), std::numeric_limits<std::int64_t>::max());
@@ -175,7 +176,7 @@ int steps_in_a_frame(const TimeRequest& time, double fps) {
     const double steps = std::max(1.0, std::nearbyint(ratio));
     if (steps > static_cast<double>(limits::steps_per_frame)) {
         origin.fail(fmt::format("makes more than {} steps a frame (a step of {} s in a frame of 1/{} s)",
-                                limits::steps_per_frame, number_text(step), number_text(fps)));
+                                limits::steps_per_frame, number_text(step), fps_text(fps)));
     }
     if (std::fabs(steps * step - frame) > limits::step_tolerance) {
         const double more = std::max(1.0, std::ceil(ratio)), fewer = std::max(1.0, std::floor(ratio));
@@ -184,7 +185,7 @@ int steps_in_a_frame(const TimeRequest& time, double fps) {
         origin.fail(
             fmt::format("does not fit: a step must divide the frame's 1/{} s; the nearest that does is {} s "
                         "(given a step of {} s)",
-                        number_text(fps), number_text(nearest), number_text(step)));
+                        fps_text(fps), number_text(nearest), number_text(step)));
     }
     return static_cast<int>(steps);
 }
@@ -197,9 +198,10 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
     const bool blame_fps =
         !time.duration || (time.fps && time.fps->origin.is_option() && !time.duration->origin.is_option());
     (blame_fps ? time.fps : time.duration)
-        ->origin.fail(fmt::format(
-            "makes too many frames: {} s at {} frames a second are {:.4g}, and the limit is {} (given {})",
-            number_text(duration), number_text(fps), frames, limits::frames, number_text(blame_fps ? fps : duration)));
+        ->origin.fail(
+            fmt::format("makes too many frames: {} s at {} frames a second are {:.4g}, and the limit is {} (given {})",
+                        number_text(duration), fps_text(fps), frames, limits::frames,
+                        blame_fps ? fps_text(fps) : number_text(duration)));
 }
 
 }  // namespace

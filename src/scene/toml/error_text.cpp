@@ -31,6 +31,10 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return last[b.size()];
 }
 
+std::size_t common_start(std::string_view a, std::string_view b) {
+    return std::size_t(std::ranges::mismatch(a, b).in1 - a.begin());
+}
+
 }  // namespace
 
 std::string number_text(double value) {
@@ -44,20 +48,25 @@ std::string quoted_list(const std::vector<std::string_view>& names) {
     return fmt::format("{}", fmt::join(quoted, ", "));
 }
 
-std::string suggestion(std::string_view given, const std::vector<std::string_view>& known) {
-    constexpr std::size_t readable_list = 12;  // names in a message
+std::string did_you_mean(std::string_view given, const std::vector<std::string_view>& known) {
     constexpr std::size_t longest_guess = 64;  // characters: the cost is the product of both lengths
     std::size_t best = std::string_view::npos;
     std::string_view nearest;
     for (std::string_view name : known) {
         if (given.size() > longest_guess || name.size() > longest_guess) continue;
         const std::size_t distance = edit_distance(given, name);
-        if (distance < best) best = distance, nearest = name;
+        // Beginnings are typed with more care: "sped" is "speed" rather than "seed".
+        if (distance < best || (distance == best && common_start(given, name) > common_start(given, nearest)))
+            best = distance, nearest = name;
     }
     // Up to a third of the letters wrong is a typing error; more is another word.
-    if (best != std::string_view::npos && best <= std::max<std::size_t>(1, nearest.size() / 3)) {
-        return fmt::format(" (did you mean \"{}\"?)", safe_text(nearest));
-    }
+    if (best == std::string_view::npos || best > std::max<std::size_t>(1, nearest.size() / 3)) return "";
+    return fmt::format(" (did you mean \"{}\"?)", safe_text(nearest));
+}
+
+std::string suggestion(std::string_view given, const std::vector<std::string_view>& known) {
+    constexpr std::size_t readable_list = 12;  // names in a message
+    if (std::string nearest = did_you_mean(given, known); !nearest.empty()) return nearest;
     if (known.empty() || known.size() > readable_list) return "";
     return fmt::format(" (known: {})", quoted_list(known));
 }

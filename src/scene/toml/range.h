@@ -44,7 +44,8 @@ Value chosen(std::string_view given, std::span<const Choice<Value>> choices, con
         if (choice.name == given) return choice.value;
         names.push_back(choice.name);
     }
-    origin.fail("must be one of " + quoted_list(names) + " (given \"" + safe_text(given) + "\")");
+    origin.fail("must be one of " + quoted_list(names) + " (given \"" + safe_text(given) + "\")" +
+                did_you_mean(given, names));
 }
 
 }  // namespace tumble

@@ -2,6 +2,7 @@
 #include "scene/toml/toml_reader.h"
 
 #include "core/safe_text.h"
+#include "scene/toml/frame_rate_text.h"
 #include "scene/toml/limits.h"
 #include "scene/toml/set_values.h"
 #include "scene/toml/toml_scan.h"
@@ -76,6 +77,8 @@ double TomlValue::number(const Range& range) const {
     return checked(value, range, origin_);
 }
 
+double TomlValue::frame_rate() const { return is_text() ? read_rate_fraction(text(), origin_) : number(limits::fps); }
+
 std::int64_t TomlValue::integer(std::int64_t min, std::int64_t max) const {
     if (!node_->is_integer()) fail("must be a whole number");
     return checked(node_->as_integer()->get(), min, max, origin_);
@@ -88,7 +91,10 @@ bool TomlValue::boolean() const {
 
 std::string TomlValue::text() const {
     if (!node_->is_string()) fail("must be a string");
-    return node_->as_string()->get();
+    const std::string& text = node_->as_string()->get();
+    // Names of files would end there, and so would texts of pictures.
+    if (text.find('\0') != std::string::npos) fail("must have no zero byte");
+    return text;
 }
 
 Color TomlValue::color() const {

@@ -43,6 +43,7 @@ public:
     const toml::node& node() const { return *node_; }
 
     double number(const Range& range) const;  // integers are accepted
+    double frame_rate() const;                // a number, or a fraction: "24000/1001"
     std::int64_t integer(std::int64_t min, std::int64_t max) const;
     bool boolean() const;
     std::string text() const;
