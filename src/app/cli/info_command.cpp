@@ -1,10 +1,10 @@
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
+#include "app/cli/simulation_cost.h"
 #include "app/files/output_plan.h"
-#include "app/threads/wall_clock.h"
 #include "app/workers/frame_memory.h"
 #include "core/available_memory.h"
-#include "core/error.h"
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "output/table_writer.h"
 #include "scene/keys/joint_keys.h"
@@ -22,7 +22,6 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t listed_bodies = 24;  // a screenful; the groups summarize all bodies
-constexpr double trial_seconds = 0.25;     // of stepping, to estimate the time of the whole run
 
 const char* type_text(BodyType type) {
     switch (type) {
@@ -75,8 +74,8 @@ void print_head(const SceneDescription& scene) {
     put("{}{}\n", scene.title.empty() ? file : safe_text(scene.title), scene.title.empty() ? "" : " (" + file + ")");
     const std::int64_t frames = scene.frame_count();
     const int steps = scene.simulation.steps_per_frame;
-    put("  time      {:.6g} s, {} frames at {:.6g} frames/s, {} steps of {:.6g} s ({} a frame)\n",
-        scene.simulation.duration, frames, scene.output.fps, (frames - 1) * steps, scene.step(), steps);
+    put("  time      {:.6g} s, {} frames at {} frames/s, {} steps of {:.6g} s ({} a frame)\n",
+        scene.simulation.duration, frames, fps_text(scene.output.fps), (frames - 1) * steps, scene.step(), steps);
     put("  picture   {} x {} pixels, {} samples each, shadows {}\n", scene.output.width, scene.output.height,
         scene.output.samples, scene.light.shadows ? "on" : "off");
     put("  camera    from {} to {}, {:.4g} degrees vertical field of view{}\n", vector_text(scene.camera.eye),
@@ -173,25 +172,6 @@ void print_joints(const SceneDescription& scene, const World& world) {
         put("  nets      {} in sweeps: joints open by millimeters under load; less with more steps_per_frame,\n"
             "            not at all with contact_solver = \"direct\", which takes longer\n",
             count_text(report.by_sweeps, "group", "groups"));
-}
-
-/// Steps the world for a moment and extrapolates; heaps that form later cost more.
-std::string simulation_cost(const SceneDescription& scene, World& world) {
-    const std::int64_t frames = scene.frame_count() - 1;
-    if (frames <= 0) return "nothing to simulate";
-    const double start = wall_seconds();
-    std::int64_t done = 0;
-    try {
-        while (done < frames && wall_seconds() - start < trial_seconds) {
-            world.advance_frame();
-            ++done;
-        }
-    } catch (const RunError& error) {
-        return fmt::format("the simulation fails: {}", error.what());
-    }
-    const double seconds = wall_seconds() - start;
-    return fmt::format("about {:.3g} s on one thread, estimated from the first {} frames",
-                       seconds * double(frames) / double(done), done);
 }
 
 void print_cost(const SceneDescription& scene, World& world) {
