@@ -153,6 +153,21 @@ class InstallTest(unittest.TestCase):
         version = re.search(r"project\(tumble VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text())[1]
         self.assertEqual(run(pkg_config, "--modversion", "tumble", env=path).stdout.decode().strip(), version)
 
+    def test_the_commands_of_the_tutorial_without_cmake(self):
+        page = (ROOT / "docs/tutorials/from-cpp.md").read_text()
+        commands = re.search(r"Without CMake:\n\n```sh\n(.*?)```", page, re.S)[1]
+        home = self.folder / "home"
+        home.mkdir()
+        (home / "tumble").symlink_to(self.prefix)
+        (home / "fall.cpp").write_text(re.search(r"```cpp\n(.*?)```", page, re.S)[1])
+        compiler = home / "bin/c++"
+        compiler.parent.mkdir()
+        compiler.write_text(f'#!/bin/sh\nexec {CXX} {FLAGS} "$@"\n')
+        compiler.chmod(0o755)
+        run("bash", "-eu", "-c", commands, cwd=home,
+            env={"HOME": str(home), "PATH": f"{compiler.parent}:{os.environ['PATH']}"})
+        self.assertTrue((home / "fall.mp4").is_file())
+
     def test_each_header_stands_alone(self):
         headers = sorted((self.prefix / "include/tumble").glob("*.h"))
         self.assertEqual([h.name for h in headers], sorted(h.name for h in (ROOT / "include/tumble").glob("*.h")))

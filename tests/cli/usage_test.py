@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 
 import program
 
@@ -24,8 +25,16 @@ class Help(program.ProgramTest):
             self.assertIn("Usage: tumble " + command, text)
             if command != "doctor":
                 self.assertIn("Example", text)
+
+    def test_help_has_at_most_100_columns(self):
+        def commands(*words):
+            text = self.check(0, *words, "--help").stdout
             for line in text.splitlines():
-                self.assertLessEqual(len(line), 120, line)
+                self.assertLessEqual(len(line), 100, line)
+            listed = re.search(r"^Subcommands:\n((?:  .*\n)+)", text, re.M)
+            names = re.findall(r"^  ([a-z]+) ", listed[1], re.M) if listed else []
+            return 1 + sum(commands(*words, name) for name in names)
+        self.assertGreater(commands(), 18)
 
     def test_help_has_the_documented_options(self):
         options = {"render": ["-o", "--frames", "--size", "--fps", "--duration", "--samples", "--threads", "--gl", "--quiet"],
@@ -39,6 +48,43 @@ class Help(program.ProgramTest):
 
 
 class WrongUsage(program.ProgramTest):
+    def test_misspelled_words_get_suggestions(self):
+        for words, told in (
+                (["rendr", "scene.toml"], 'unknown command "rendr" (did you mean "render"?)'),
+                (["simulat"], 'unknown command "simulat" (did you mean "simulate"?)'),
+                (["golden", "chek", "golden.toml"], 'unknown command "chek" (did you mean "check"?)'),
+                (["farm", "slrum"], 'unknown command "slrum" (did you mean "slurm"?)'),
+                (["zzz"], 'unknown command "zzz" (see'),
+                (["render", "scene.toml", "--sped", "2"], 'unknown option "--sped" of tumble render (did you mean "--speed"?)'),
+                (["render", "--sped=2"], 'unknown option "--sped" of tumble render (did you mean "--speed"?)'),
+                (["render", "scene.toml", "-fps", "2"], 'unknown option "-fps" of tumble render (did you mean "--fps"?)'),
+                (["render", "--set", "--sped", "--quite", "scene.toml"], 'unknown option "--quite" of tumble render (did you mean "--quiet"?)'),
+                (["golden", "check", "a.toml", "--rport", "r"], 'unknown option "--rport" of golden check (did you mean "--report"?)'),
+                (["--verson"], 'unknown option "--verson" of tumble (did you mean "--version"?)'),
+                (["render", "scene.toml", "--qqqqqq"], 'unknown option "--qqqqqq" of tumble render (see'),
+                (["render", "scene.toml", "--quality", "darft"], "must be one of draft, normal, best (was 'darft') (did you mean \"draft\"?)"),
+                (["render", "scene.toml", "--layout", "gird"], '(did you mean "grid"?)'),
+                (["render", "scene.toml", "--aov", "dept"], '(did you mean "depth"?)'),
+                (["render", "scene.toml", "--overlay", "velocty"], '(did you mean "velocity"?)'),
+                (["render", "scene.toml", "--plot-place", "besid"], '(did you mean "beside"?)'),
+                (["render", "scene.toml", "--method", "note"], '(did you mean "notes"?)'),
+                (["simulate", "scene.toml", "--integrator", "exat"], '(did you mean "exact"?)'),
+                (["simulate", "scene.toml", "--impacts", "steped"], '(did you mean "stepped"?)'),
+                (["simulate", "scene.toml", "--impact-law", "simultanous"], '(did you mean "simultaneous"?)'),
+                (["export", "scene.toml", "-o", "a.glb", "--keys", "cubc"], '(did you mean "cubic"?)'),
+                (["completion", "bsh"], '(did you mean "bash"?)'),
+                (["info", "scene.toml", "--set", 'body.crate.type="fixd"'], '(did you mean "fixed"?)')):
+            with self.subTest(words=words):
+                run = self.check(2, *words)
+                self.assertIn("error: ", run.stderr)
+                self.assertIn(told, run.stderr)
+                self.assertEqual((run.stdout, self.names()), ("", []))
+
+    def test_values_are_no_options(self):
+        """The word after an option is its value, and a word after -- is an argument."""
+        self.assertNotIn("unknown", self.check(2, "render", "scene.toml", "--start", "-1").stderr)
+        self.assertNotIn("unknown option", self.check(2, "render", "--", "--sped").stderr)
+
     def test_exit_code_2_and_nothing_written(self):
         for arguments in ([], ["paint"], ["render"], ["render", "scene.toml", "--colour"], ["render", "scene.toml", "more"],
                           ["render", "none.toml"], ["simulate", "."], ["render", "scene.toml", "--size", "48"],

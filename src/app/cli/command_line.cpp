@@ -2,33 +2,12 @@
 
 #include "core/error.h"
 #include "scene/description/overlay.h"
+#include "scene/toml/frame_rate_text.h"
 
 #include <charconv>
 #include <filesystem>
 
 namespace tumble {
-namespace {
-
-/// Breaks a list after the commas into lines for the help.
-std::string broken_list(const std::string& list) {
-    constexpr std::size_t most = 72;  // characters of a line
-    std::string lines;
-    std::size_t line = 0;
-    for (std::size_t first = 0; first < list.size();) {
-        const std::size_t end = std::min(list.find(',', first), list.size() - 1) + 1;
-        if (line > 0 && line + end - first > most) {
-            lines += '\n';
-            line = 0;
-        }
-        lines += list.substr(first, end - first);
-        line += end - first;
-        first = end;
-    }
-    return lines;
-}
-
-}  // namespace
-
 CLI::Validator number_within(double least, double most) {
     return CLI::Validator(
         [=](const std::string& text) {
@@ -93,10 +72,21 @@ void add_values(CLI::App& command, SceneOverrides& overrides) {
         ->type_name("N");
 }
 
+void add_fps(CLI::App& command, std::optional<double>& fps, const std::string& help) {
+    command
+        .add_option_function<std::string>(
+            "--fps",
+            [&fps](const std::string& text) {
+                fps = read_frame_rate(text, {"--fps", {}});
+            },
+            help)
+        ->type_name("N");
+}
+
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
     add_values(command, overrides);
-    command.add_option("--fps", overrides.fps, "Frames per second, in place of the scene's (up to 1e6)")
-        ->type_name("N");
+    add_fps(command, overrides.fps,
+            "Frames per second, in place of the scene's (up to 1e6), or a fraction: 24000/1001");
     command
         .add_option("--duration", overrides.duration, "Seconds to simulate, in place of the scene's; 0 is one frame")
         ->type_name("S");
@@ -106,7 +96,7 @@ void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string
     std::string names;
     for (const OverlayName& overlay : overlay_names)
         names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
-    command.add_option("--overlay", overrides.overlay, help + "\n" + broken_list(names))->type_name("LIST");
+    command.add_option("--overlay", overrides.overlay, help + " " + names)->type_name("LIST");
 }
 
 void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what) {

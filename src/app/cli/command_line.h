@@ -5,11 +5,14 @@
 #include "app/cli/golden_command.h"
 #include "app/threads/thread_budget.h"
 #include "core/safe_text.h"
+#include "scene/toml/error_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <CLI/CLI.hpp>
 
 #include <string>
+#include <string_view>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -85,6 +88,8 @@ CLI::Option* add_size(CLI::App& command, Number& width, Number& height, const st
         ->check(some_name())
         ->type_name("WxH");
 }
+/// --fps: a number, or a fraction.
+void add_fps(CLI::App& command, std::optional<double>& fps, const std::string& help);
 /// --method, --set and --seed.
 void add_values(CLI::App& command, SceneOverrides& overrides);
 /// The same with --fps and --duration.
@@ -108,15 +113,16 @@ CLI::Option* add_choice(CLI::App& command, const std::string& option, T& value,
     return command.add_option_function<std::string>(
         option,
         [=, &value](const std::string& text) {
-            std::string names;
+            std::vector<std::string_view> names;
             for (const auto& [name, choice] : choices) {
                 if (name == text) {
                     value = choice;
                     return;
                 }
-                names += (names.empty() ? "" : ", ") + name;
+                names.push_back(name);
             }
-            throw CLI::ValidationError(option, fmt::format("must be one of {} (was '{}')", names, safe_text(text)));
+            throw CLI::ValidationError(option, fmt::format("must be one of {} (was '{}'){}", fmt::join(names, ", "),
+                                                           safe_text(text), did_you_mean(text, names)));
         },
         help);
 }

@@ -1,5 +1,4 @@
 #include "app/cli/command_line.h"
-#include "scene/toml/limits.h"
 
 #include <algorithm>
 
@@ -27,12 +26,9 @@ void add_sets(CLI::App& command, CompareCommand& c) {
         ->check(some_name())
         ->type_name("NAME");
     command.add_flag("--allow-added", c.allow_added, "A picture without a reference is no difference");
-    command
-        .add_option("--fps", c.overrides.fps,
-                    "Frames per second: of a scene, in place of its own; of a clip, to take the frame\nshown at each "
-                    "moment (--variable-rate), in place of the stored frames")
-        ->check(number_within(limits::fps.min, limits::fps.max))
-        ->type_name("N");
+    add_fps(command, c.overrides.fps,
+            "Frames per second: of a scene, in place of its own; of a clip, to take the frame\nshown at each "
+            "moment (--variable-rate), in place of the stored frames");
     add_values(command, c.overrides);
     c.workers = std::min(machine_threads(), enough_workers);
     command.add_option("--workers", c.workers, "Pairs compared at a time, and render processes of a scene")
@@ -89,10 +85,11 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
         ->option_text("N [as cluster]");
     add_sets(*command, c);
     command->footer(
-        "Pictures are alike if all four rules hold. A rule that fails is named with its value, its limit and its\n"
-        "place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass; a small\n"
-        "object moved by one pixel (cluster), a lost shadow (window) or a shifted color (shade) do not. The 8 x 8\n"
-        "pixels begin at every fourth row and column. To let single pixels differ by any amount: --window 255.\n"
+        "Pictures are alike if all four rules hold. A rule that fails is named with its value, its limit and\n"
+        "its place (x from the left, y from the top, from 0). Pictures of one scene from two processors pass;\n"
+        "a small object moved by one pixel (cluster), a lost shadow (window) or a shifted color (shade) do\n"
+        "not. The 8 x 8 pixels begin at every fourth row and column. To let single pixels differ by any\n"
+        "amount: --window 255.\n"
         "Folders are compared file by file, by their relative names. Keys, files and verdicts:\n"
         "docs/reference/comparison.md.\n"
         "Examples:\n"

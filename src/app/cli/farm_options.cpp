@@ -113,7 +113,7 @@ void add_slurm(CLI::App& farm, FarmCommand& c) {
     command->footer(
         "Examples:\n"
         "  tumble farm slurm scene.toml --parts 40 -o clip.mp4 --partition cpu --time 30:00\n"
-        "  tumble farm slurm scene.toml --parts 40 -o clip.mp4 --write-only   and later: bash clip.mp4.farm/submit.sh\n"
+        "  tumble farm slurm scene.toml --parts 40 -o clip.mp4 --write-only   then: bash clip.mp4.farm/submit.sh\n"
         "Guide: docs/how-to/farm.md");
     command->callback([&c, command] {
         c.action = FarmAction::slurm;

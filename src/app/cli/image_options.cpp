@@ -11,11 +11,9 @@ CLI::App* add_encode(CLI::App& app, CommandLine& line) {
     command->add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
         ->required()
         ->type_name("CLIP");
-    command
-        ->add_option("--fps", c.fps,
-                     "Frames per second, in place of that of the run that drew the frames (frames.json in\n"
-                     "the folder; without it 60)")
-        ->type_name("N");
+    add_fps(*command, c.fps,
+            "Frames per second, in place of that of the run that drew the frames (frames.json in\n"
+            "the folder; without it 60)");
     command->add_flag("--allow-missing", c.allow_missing,
                       "Encode the frames that are there. Without this, a folder with missing frames is refused");
     command->add_flag("--transparent", c.transparent,

@@ -34,7 +34,7 @@ CLI::App* add_lesson(CLI::App& app, CommandLine& line) {
         ->option_text(fmt::format("N [{}]", c.workers));
     add_run(*command, c.threads, std::to_string(c.threads), c.quiet);
     command->footer(
-        "Lessons need the player and the compiler of lessons, which scripts/build-web builds once, and Node.js.\n"
+        "Lessons need Node.js, and the player and the compiler of lessons, which scripts/build-web builds.\n"
         "A question's answer or a measure that the run does not give is an error; then nothing is written.\n"
         "Examples:\n"
         "  tumble lesson bouncing.md -o site\n"

@@ -2,12 +2,17 @@
 
 #include "app/cli/command_line.h"
 #include "app/cli/command_reader.h"
+#include "app/cli/help_formatter.h"
 #include "app/cli/say.h"
+#include "app/cli/unknown_word.h"
 #include "app/farm/shell_text.h"
 #include "core/safe_text.h"
 
 #include <nlohmann/json.hpp>
 
+#include <exception>
+#include <memory>
+#include <span>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -39,6 +44,17 @@ void begin_log(const LogOptions& log, int argc, char** argv) {
     messages().event("start", {{"version", TUMBLE_VERSION}, {"command", std::vector<std::string>(argv, argv + argc)}});
 }
 
+/// The exit code of a command whose 1 is a verdict about images: a failure of the run has 2, as wrong input.
+template <class Command>
+int judged(const Command& command) {
+    try {
+        return command();
+    } catch (const std::exception& error) {
+        messages().fail(error);
+        return 2;
+    }
+}
+
 /// The command as a shell reads it. Empty if a word has control characters or the text is too long for a message.
 std::string call_text(int argc, char** argv) {
     std::string text;
@@ -53,18 +69,19 @@ int run_command_line(int argc, char** argv) {
     CLI::App app("Tumble: clips of rigid bodies that fall, bounce and come to rest, drawn without a screen.", "tumble");
     app.set_version_flag("--version", "tumble " TUMBLE_VERSION, "Print the version");
     app.require_subcommand(1);
+    app.formatter(std::make_shared<HelpFormatter>());
     app.get_formatter()->column_width(32);
     app.footer(
         "Start here:\n"
         "  tumble doctor                                     is everything there?\n"
         "  tumble info assets/scenes/falling_boxes.toml      bodies, shapes and settings of the scene\n"
         "  tumble render assets/scenes/falling_boxes.toml    makes falling_boxes.mp4\n"
-        "\"tumble COMMAND --help\" lists options. Exit codes: 0 done, 1 failed while running (or interrupted), 2 wrong "
-        "usage\n"
-        "or bad input. Messages and progress go to standard error.");
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
+        "\"tumble COMMAND --help\" lists options. Exit codes: 0 done, 1 failed while running (or interrupted),\n"
+        "2 wrong usage or bad input. Messages and progress go to standard error.");
+    app.failure_message([&](const CLI::App*, const CLI::Error& error) {
+        const std::string unknown = unknown_word(app, std::span(argv + 1, argv + argc));
         return fmt::format("error: {} (see \"tumble --help\" and \"tumble COMMAND --help\")\n",
-                           safe_text(error.what(), path_text_bytes));
+                           unknown.empty() ? safe_text(error.what(), path_text_bytes) : unknown);
     });
     const CLI::App* render = add_render(app, line);
     const CLI::App* simulate = add_simulate(app, line);
@@ -108,9 +125,9 @@ int run_command_line(int argc, char** argv) {
     else if (encode->parsed())
         run_encode(line.encode);
     else if (compare->parsed())
-        return run_compare(line.compare);
+        return judged([&] { return run_compare(line.compare); });
     else if (golden->parsed())
-        return run_golden(*golden, line.golden);
+        return judged([&] { return run_golden(*golden, line.golden); });
     else if (info->parsed())
         run_info(line.info);
     else if (sweep->parsed())

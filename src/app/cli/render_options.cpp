@@ -11,12 +11,18 @@ namespace {
 /// "depth,normal" to a set.
 AovSet read_aovs(const std::string& text) {
     AovSet aovs, all;
-    for (const Aov aov : all_aovs) all.add(aov);
+    std::vector<std::string_view> aov_names;
+    for (const Aov aov : all_aovs) {
+        all.add(aov);
+        aov_names.push_back(name_of(aov));
+    }
     for (std::size_t first = 0; first <= text.size();) {
         const std::size_t end = std::min(text.find(',', first), text.size());
         const std::string name = text.substr(first, end - first);
         const std::optional<Aov> aov = aov_named(name);
-        if (!aov) throw InputError(fmt::format("--aov: unknown name '{}' (known: {})", safe_text(name), names_of(all)));
+        if (!aov)
+            throw InputError(fmt::format("--aov: unknown name '{}' (known: {}){}", safe_text(name), names_of(all),
+                                         did_you_mean(name, aov_names)));
         aovs.add(*aov);
         first = end + 1;
     }
@@ -89,7 +95,7 @@ void add_render_options(CLI::App& to, RenderCommand& c) {
     command
         ->add_option_function<std::string>(
             "--aov", [&c](const std::string& text) { c.aovs = read_aovs(text); },
-            "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,\nmotion,albedo, as "
+            "Write AOVs, exact for every pixel: a list out of depth,normal,segmentation,motion,albedo, as "
             "DIR/aov_000000.npz and so on, for NumPy's np.load\n(docs/reference/aovs.md)")
         ->type_name("LIST");
     command

@@ -18,8 +18,9 @@ void read_impacts(const std::string& text, SimulateCommand& c) {
     else if (text == "stepped" || text == "exact")
         c.overrides.impacts = text;
     else
-        throw InputError(fmt::format(
-            "--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}')", safe_text(text)));
+        throw InputError(
+            fmt::format("--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}'){}",
+                        safe_text(text), did_you_mean(text, {"stepped", "exact"})));
 }
 
 /// The folders of checkpoints, and the settings of the clip that is drawn from them.
