@@ -54,13 +54,14 @@ void add_fish_command(const CommandText& command, const std::string& program, co
     for (const OptionText& option : command.options) {
         lines += begin;
         for (const std::string& name : option.names)
-            lines += name.starts_with("--") ? " -l " + name.substr(2) : " -s " + name.substr(1);
+            lines +=
+                name.starts_with("--") ? fmt::format(" -l {}", name.substr(2)) : fmt::format(" -s {}", name.substr(1));
         if (option.takes_value()) lines += fmt::format(" {}", offers(option.hint));
-        lines += " -d " + fish_quoted(short_help(option.help)) + "\n";
+        lines += fmt::format(" -d {}\n", fish_quoted(short_help(option.help)));
     }
     // Arguments of one command are of one kind, or the shell offers all kinds.
     for (const OptionText& argument : command.arguments)
-        if (!argument.hint.empty()) lines += fmt::format("{} {}\n", begin, offers(argument.hint));
+        if (!argument.hint.empty()) lines += begin + " " + offers(argument.hint) + "\n";
     for (const CommandText& part : command.commands) {
         lines += fmt::format("{} -a {} -d {}\n", begin, part.name, fish_quoted(short_help(part.description)));
         const std::string part_path = path.empty() ? part.name : path + ' ' + part.name;
