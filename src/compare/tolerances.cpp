@@ -1,40 +1,26 @@
 #include "compare/tolerances.h"
 
 #include "compare/glob.h"
+#include "compare/platform.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "scene/toml/toml_file.h"
 #include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <iterator>
-#include <system_error>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t largest_file = 4 << 20;  // bytes: ten thousand rules
-constexpr std::int64_t most_pixels = 1 << 20;     // of a side or a place: beyond any picture (max_image_pixels)
+constexpr std::int64_t largest_file = 4 << 20;  // bytes: ten thousand rules
+constexpr std::int64_t most_pixels = 1 << 20;   // of a side or a place: beyond any picture (max_image_pixels)
 constexpr Range part{0.0, 1.0, ""};
 constexpr Range levels_range{0.0, 255.0, "levels"};
 constexpr Range similarity{-1.0, 1.0, ""};
-
-std::string text_of(const fs::path& file) {
-    std::error_code error;
-    const fs::file_status status = fs::status(file, error);
-    if (!fs::exists(status)) throw InputError({file.string(), 0, 0}, "the file does not exist");
-    if (!fs::is_regular_file(status)) throw InputError({file.string(), 0, 0}, "is not a regular file");
-    if (fs::file_size(file, error) > largest_file || error)
-        throw InputError({file.string(), 0, 0}, "is larger than 4 MiB, the limit of a file of tolerances");
-    std::ifstream stream(file, std::ios::binary);
-    std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (!stream) throw InputError({file.string(), 0, 0}, "cannot be read");
-    return text;
-}
 
 Rectangle rectangle_of(const TomlValue& value) {
     const auto number = value.items(4, "whole numbers: x, y, width, height");
@@ -138,8 +124,8 @@ Tolerances Tolerances::of_table(const TomlTable& table, const fs::path& folder, 
     if (const auto names = table.find("platforms"))
         for (const TomlValue& name : names->items()) {
             tolerances.platforms_.push_back(name.text());
-            if (tolerances.platforms_.back().empty() || tolerances.platforms_.back().find('/') != std::string::npos)
-                name.fail("must be the name of a folder, without '/'");
+            if (!is_platform_name(tolerances.platforms_.back()))
+                name.fail("must be the name of a folder, without '/' and no dot at its start");
         }
     if (const auto rules = table.find("rule"))
         for (TomlTable rule : rules->tables()) {
@@ -161,7 +147,24 @@ Tolerances Tolerances::parse(const std::string& text, const fs::path& file, cons
 }
 
 Tolerances Tolerances::read(const fs::path& file, const PairTolerances& base) {
-    return parse(text_of(file), file, base);
+    Tolerances tolerances = parse(read_toml_file(file, "file of tolerances", largest_file), file, base);
+    tolerances.file_ = file;
+    return tolerances;
+}
+
+void Tolerances::add_masks(const std::vector<Mask>& masks, std::vector<fs::path>& files) {
+    for (const Mask& mask : masks)
+        if (const auto* picture = std::get_if<std::shared_ptr<const MaskPicture>>(&mask.area))
+            files.push_back((*picture)->file);
+}
+
+std::vector<fs::path> Tolerances::files() const {
+    std::vector<fs::path> files;
+    if (!file_.empty()) files.push_back(file_);
+    add_masks(all_.masks, files);
+    for (const Rule& rule : rules_)
+        if (rule.values.masks) add_masks(*rule.values.masks, files);
+    return files;
 }
 
 PairTolerances Tolerances::of(std::string_view name) const {

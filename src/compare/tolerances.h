@@ -65,12 +65,18 @@ public:
     /// Further platforms whose folders hold references (see platform.h).
     const std::vector<std::string>& platforms() const { return platforms_; }
 
+    /// The files that were read: its own, and masks.
+    std::vector<std::filesystem::path> files() const;
+
     /// The rules that stand for none of these names, as "FILE:LINE: PATTERN".
     std::vector<std::string> unused(const std::vector<std::string>& names) const;
 
 private:
     struct Rule;  // values that it has, and its patterns
 
+    static void add_masks(const std::vector<Mask>& masks, std::vector<std::filesystem::path>& files);
+
+    std::filesystem::path file_;  // empty: none
     PairTolerances all_;
     std::vector<Rule> rules_;
     std::vector<std::string> platforms_;

@@ -8,12 +8,10 @@
 #include <png.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <csetjmp>
 #include <cstdlib>
 #include <cstring>
 #include <new>
-#include <system_error>
 #include <utility>
 
 namespace tumble {
@@ -43,15 +41,6 @@ void* allocate(png_structp png, png_alloc_size_t size) {
 }
 
 void release(png_structp, void* memory) { std::free(memory); }
-
-OpenFile opened(const fs::path& path) {
-    const SourceLocation at{path.string(), 0, 0};
-    std::error_code ignored;
-    if (fs::is_directory(path, ignored)) throw InputError(at, "is a folder, not a PNG file");
-    OpenFile file(std::fopen(path.c_str(), "rbe"));
-    if (!file) throw InputError(at, "cannot be read: " + std::generic_category().message(errno));
-    return file;
-}
 
 }  // namespace
 
@@ -115,7 +104,7 @@ struct PngRows::File {
     }
 };
 
-PngRows::PngRows(const fs::path& path) : PngRows(opened(path), path.string()) {}
+PngRows::PngRows(const fs::path& path) : PngRows(open_input_file(path), path.string()) {}
 
 PngRows::PngRows(OpenFile file, const std::string& name) : file_(std::make_unique<File>(std::move(file), name)) {
     if (!file_->read_head()) file_->fail();

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "core/image.h"
+#include "core/input_file.h"
 
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <span>
@@ -15,11 +15,6 @@ namespace tumble {
 
 /// Largest number of pixels of a image: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
 inline constexpr std::int64_t max_image_pixels = std::int64_t(1) << 28;
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
-using OpenFile = std::unique_ptr<std::FILE, CloseFile>;
 
 /// A image from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 if the file
 /// has none). Memory: two rows, or the whole image for an interlaced file.

@@ -37,7 +37,7 @@ TEST_F(HostileMesh, OtherFilesAreRefused) {
     EXPECT_EQ(error_of(folder()),
               "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
     std::filesystem::create_directory(folder() / "folder.obj");
-    EXPECT_EQ(error_of(folder() / "folder.obj"), "is not a regular file");
+    EXPECT_EQ(error_of(folder() / "folder.obj"), "is a folder, not a file");
     expect_error("a.obj", "", "is empty");
     expect_error("a.ply", "", "is empty");
     expect_error("a.blend", "x", "cannot be read");

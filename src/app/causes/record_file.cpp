@@ -3,6 +3,7 @@
 #include "app/causes/record_bytes.h"
 #include "core/error.h"
 #include "core/html_text.h"
+#include "core/input_file.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
 #include "scene/mesh/base64.h"
@@ -12,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <optional>
 #include <stdexcept>
 
@@ -22,8 +22,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int record_format = 1;
-constexpr double rotation_unit = 32767.0;      // of a component of a rotation
-constexpr std::size_t record_bytes = 1 << 30;  // of a file: a clip of hundreds of bodies and thousands of frames
+constexpr double rotation_unit = 32767.0;       // of a component of a rotation
+constexpr std::int64_t record_bytes = 1 << 30;  // of a file: a clip of hundreds of bodies and thousands of frames
 
 // -- Writing
 
@@ -236,15 +236,7 @@ MotionRecord parse_record(const std::string& text, const std::filesystem::path& 
 }
 
 MotionRecord read_motion_record(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::error_code error;
-    const auto size = std::filesystem::file_size(file, error);
-    if (!stream || error || size > record_bytes)
-        throw InputError({file.string(), 0, 0}, "the motion record cannot be read");
-    std::string text(size, '\0');
-    stream.read(text.data(), std::streamsize(size));
-    if (!stream) throw InputError({file.string(), 0, 0}, "the motion record cannot be read");
-    return parse_record(text, file);
+    return parse_record(read_input_file(file, "the motion record", record_bytes), file);
 }
 
 }  // namespace tumble

@@ -1,16 +1,14 @@
 #include "app/checkpoints/checkpoint_file.h"
 
 #include "core/error.h"
+#include "core/input_file.h"
 #include "core/safe_text.h"
 #include "output/checksum.h"
 #include "sim/checkpoint/archive.h"
 
 #include <fmt/format.h>
 
-#include <cerrno>
 #include <cstring>
-#include <fstream>
-#include <system_error>
 
 namespace tumble {
 namespace {
@@ -20,17 +18,6 @@ constexpr std::size_t sum_size = sizeof(std::uint64_t);
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& why) {
     throw InputError({safe_path(file), 0, 0}, why);
-}
-
-std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
-    std::error_code error;
-    const std::uintmax_t size = std::filesystem::file_size(file, error);
-    std::vector<std::byte> bytes(error ? 0 : size);
-    std::ifstream stream(file, std::ios::binary);
-    if (error || !stream || !stream.read(reinterpret_cast<char*>(bytes.data()), std::streamsize(bytes.size())))
-        refuse(file, fmt::format("cannot read the checkpoint: {}",
-                                 error ? error.message() : std::generic_category().message(errno)));
-    return bytes;
 }
 
 }  // namespace
@@ -81,7 +68,8 @@ std::vector<std::byte> checkpoint_content(const std::filesystem::path& file, std
 }
 
 std::vector<std::byte> read_checkpoint(const std::filesystem::path& file, const CheckpointHeader& expected) {
-    return checkpoint_content(file, bytes_of(file), expected);
+    const std::string bytes = read_input_file(file, "the checkpoint");
+    return checkpoint_content(file, std::as_bytes(std::span(bytes)), expected);
 }
 
 }  // namespace tumble

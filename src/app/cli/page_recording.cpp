@@ -5,27 +5,17 @@
 #include "app/plots/quantities.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
-#include "core/safe_text.h"
+#include "core/input_file.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
-#include <sstream>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string text_of(const fs::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream) throw RunError(fmt::format("cannot read {}", safe_path(file)));
-    return text.str();
-}
 
 /// The options of the command line that change the scenes, one a line; empty: none.
 std::string options_text(const SceneOverrides& overrides, std::span<const std::string> vary) {
@@ -74,7 +64,8 @@ PageScenes load_page_scenes(std::span<const fs::path> files, const SceneOverride
         page.scenes.push_back(load_scene(variant.scene, variant.overrides, &page.inputs));
         check_plot(page.scenes.back(), overrides);
     }
-    for (const fs::path& file : files) page.sources.push_back({file.filename().string(), text_of(file)});
+    for (const fs::path& file : files)
+        page.sources.push_back({file.filename().string(), read_input_file(file, "the scene")});
     const std::string options = options_text(overrides, vary);
     if (!options.empty()) page.sources.push_back({"Options of the command line", options});
     return page;

@@ -2,14 +2,13 @@
 
 #include "app/plots/quantities.h"
 #include "app/plots/variants.h"
+#include "core/input_file.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <span>
-#include <sstream>
 
 namespace tumble {
 namespace {
@@ -74,15 +73,7 @@ std::vector<LoadedScene> load_stage(const LessonStage& stage, FileList& read) {
 }
 
 std::string scene_source(const LessonScene& scene) {
-    std::string text;
-    if (scene.text) {
-        text = *scene.text;
-    } else {
-        std::ifstream file(scene.file, std::ios::binary);
-        std::ostringstream all;
-        all << file.rdbuf();
-        text = all.str();
-    }
+    std::string text = scene.text ? *scene.text : read_input_file(scene.file, "the scene");
     text.erase(0, std::min(text.find_first_not_of('\n'), text.size()));
     // The lines of the page's own keys left gaps.
     for (std::size_t gap; scene.text && (gap = text.find("\n\n\n")) != std::string::npos;) text.erase(gap, 1);

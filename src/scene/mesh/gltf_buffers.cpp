@@ -141,7 +141,7 @@ struct GltfBuffers::Elements {
 std::string GltfBuffers::load_file(std::string_view uri) {
     try {
         const std::filesystem::path file = within(folder_, without_percents(uri));
-        std::string bytes = read_regular_file(file, limits::mesh_bytes);
+        std::string bytes = read_mesh_bytes(file);
         files_read_ += static_cast<std::int64_t>(bytes.size());
         if (files_read_ > limits::mesh_bytes)
             throw MeshError(fmt::format("makes more than {} MiB with those before it", limits::mesh_bytes >> 20));

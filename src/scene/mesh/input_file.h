@@ -1,14 +1,12 @@
-// The bytes of a file that a scene names.
+// The bytes of a mesh file, or of a file that it names.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <string>
 
 namespace tumble {
 
-/// The whole of a regular file; links are followed. Throws MeshError if it is missing, of another kind (a folder, a
-/// FIFO or a device, without waiting for it), unreadable, or larger than the limit in bytes.
-std::string read_regular_file(const std::filesystem::path& file, std::int64_t limit);
+/// Throws MeshError if it cannot be read as a regular file (core/input_file.h), or is larger than the limit.
+std::string read_mesh_bytes(const std::filesystem::path& file);
 
 }  // namespace tumble

@@ -51,7 +51,7 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
     if (!own && !assimp_reads(extension))
         throw MeshError(
             "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
-    const std::string bytes = read_regular_file(file, limits::mesh_bytes);
+    const std::string bytes = read_mesh_bytes(file);
     if (bytes.empty()) throw MeshError("is empty");
     if (!own) return import(bytes, extension, imports);
     if (gltf) return read_any_gltf(bytes, file.parent_path(), extension, imports);
