@@ -5,6 +5,7 @@
 #include "output/temporary_file.h"
 
 #include "../support/folder.h"
+#include "killed_rename.h"
 
 #include <gtest/gtest.h>
 
@@ -40,7 +41,11 @@ extern "C" int fsync(int file) {
     return int(syscall(SYS_fsync, file));
 }
 
+int tumble::renames_until_kill = -1;
+
 extern "C" int rename(const char* from, const char* to) noexcept {
+    if (tumble::renames_until_kill == 0) raise(SIGKILL);
+    if (tumble::renames_until_kill > 0) --tumble::renames_until_kill;
     calls.push_back("rename " + last_part(from));
     return int(syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }

@@ -18,6 +18,7 @@ struct DrawnCase {
     const GoldenCase* golden = nullptr;
     std::filesystem::path folder;  // of the images and the record
     bool drawn = false;            // in this run; else its images were in the cache
+    double seconds = 0.0;          // of the drawing
     std::string error;             // of a case that cannot be drawn
 };
 

@@ -1,6 +1,5 @@
 #include "app/golden/image_cache.h"
 
-#include "app/files/frame_folder.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "core/sha256.h"
@@ -57,22 +56,8 @@ bool ImageCache::holds(const GoldenCase& golden, const fs::path& entry) {
 
 TemporaryFolder ImageCache::make_work_folder() const {
     make_folders(folder_);
+    remove_left_folders(folder_, work_prefix);
     return {folder_, work_prefix};
-}
-
-void ImageCache::remove_left_work() const {
-    std::error_code error;
-    std::vector<fs::path> folders;
-    for (fs::directory_iterator it(folder_, error), end; !error && it != end; it.increment(error))
-        if (it->path().filename().string().starts_with(work_prefix)) folders.push_back(it->path());
-    for (const fs::path& folder : folders) {
-        try {
-            const FolderLock lock(folder, LockKind::alone);
-            fs::remove_all(folder, error);
-        } catch (const RunError&) {
-            // A run draws in it.
-        }
-    }
 }
 
 void ImageCache::store(const GoldenCase& golden, const fs::path& drawn, const fs::path& entry) const {

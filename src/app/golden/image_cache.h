@@ -24,10 +24,8 @@ public:
     /// True if all images of the case are in its entry.
     static bool holds(const GoldenCase& golden, const std::filesystem::path& entry);
 
-    /// A new folder in the cache for the drawings of a run, which locks it (FolderLock). Throws RunError.
+    /// A new folder in the cache for the drawings of a run; those of killed runs are removed. Throws RunError.
     TemporaryFolder make_work_folder() const;
-    /// Removes those of runs that were killed.
-    void remove_left_work() const;
 
     /// Moves the drawn files of a folder into the entry, and removes entries of other keys of the case. Throws RunError.
     void store(const GoldenCase& golden, const std::filesystem::path& drawn, const std::filesystem::path& entry) const;
