@@ -45,9 +45,9 @@ struct Comparison {
 /// Throws Error (input) where the sizes differ or an option is out of its range.
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// The same for PNG files of any size: a few rows of each are in memory. Writes an image of the differences (red beyond
-/// the tolerance, blue within it) where that file is named. Throws Error (input) also where an image is missing or
-/// broken.
+/// The same for PNG and JPEG files of any size: a few rows of each are in memory. Writes an image of the differences (red
+/// beyond the tolerance, blue within it; of two sizes yellow and green where only one has pixels) where that file is named.
+/// Throws Error (input) also where an image is missing or broken.
 Comparison compare_png_files(const std::string& a, const std::string& b, const CompareOptions& options = {},
                              const std::string& difference = {});
 

@@ -1,5 +1,7 @@
 #include "compare/comparison.h"
 
+#include <algorithm>
+
 namespace tumble {
 
 std::string_view name_of(Verdict verdict) {
@@ -20,9 +22,16 @@ bool SetResult::fails(Verdict verdict) const {
 
 int SetResult::exit_code() const {
     for (const Verdict verdict : worst_first)
-        if (fails(verdict) && count(verdict) > 0)
+        if (std::ranges::any_of(images, [&](const auto& result) { return result.verdict == verdict && fails(result); }))
             return verdict == Verdict::broken ? 2 : verdict == Verdict::missing ? 3 : 1;
     return 0;
+}
+
+void forget_files_in(const std::filesystem::path& folder, SetResult& result) {
+    for (ImageResult& image : result.images)
+        for (std::filesystem::path* file : {&image.reference, &image.image})
+            if (std::mismatch(folder.begin(), folder.end(), file->begin(), file->end()).first == folder.end())
+                file->clear();
 }
 
 }  // namespace tumble

@@ -18,7 +18,7 @@ enum class Verdict {
     different,  // beyond them
     missing,    // a reference without an image
     added,      // an image without a reference
-    broken,     // cannot be compared: not a PNG file, another size
+    broken,     // cannot be compared: no picture, another size
 };
 inline constexpr std::size_t verdict_count = 6;
 /// The order of reports.
@@ -41,14 +41,19 @@ struct ImageResult {
     std::string name;                        // path in the folder, with '/', or frame_000041.png of a clip
     std::filesystem::path reference, image;  // files; empty where there is none
     Verdict verdict = Verdict::same;
-    std::string rule;                   // pattern of the last rule of the tolerances that applied; empty: none
-    std::vector<RuleFigure> figures;    // of a compared pair
-    std::string reason;                 // a sentence for each failed rule, one per line; empty for same and alike
-    int width = 0, height = 0;          // pixels, of the reference, or of an added image; 0: unknown
-    std::int64_t differing_pixels = 0;  // with any difference
-    int max_difference = 0;             // levels, largest over pixels and channels
-    Rectangle changed;                  // bounds of the pixels beyond the tolerance, or of all that differ if none is
-    std::vector<std::string> causes;    // changes of the scene, a sentence each
+    std::string rule;                       // pattern of the last rule of the tolerances that applied; empty: none
+    std::vector<RuleFigure> figures;        // of a compared pair
+    std::string reason;                     // a sentence for each failed rule, one per line; empty for same and alike
+    int width = 0, height = 0;              // pixels, of the reference, or of an added image; 0: unknown
+    int image_width = 0, image_height = 0;  // of an image of another size than the reference; else 0
+    bool accepted = false;                  // the image becomes the reference
+    double seconds = 0.0;                   // of the comparison, and of the drawing where there is one
+    std::int64_t differing_pixels = 0;      // with any difference
+    int max_difference = 0;                 // levels, largest over pixels and channels
+    Rectangle changed;                // bounds of the pixels beyond the tolerance, or of all that differ if none is
+    std::vector<std::string> causes;  // changes of the scene, a sentence each
+
+    bool sizes_differ() const { return image_width > 0; }
 };
 
 struct SetResult {
@@ -61,11 +66,16 @@ struct SetResult {
     std::array<std::int64_t, verdict_count> counts() const;
     std::int64_t count(Verdict verdict) const { return counts()[std::size_t(verdict)]; }
 
-    /// True for a verdict that makes the comparison fail.
+    /// True for a verdict that makes the comparison fail, and for an image with such a verdict that is not accepted.
     bool fails(Verdict verdict) const;
+    bool fails(const ImageResult& result) const { return !result.accepted && fails(result.verdict); }
 
     /// 2 if an image is broken, else 3 if one is missing, else 1 if one differs or an added one is not allowed, else 0.
+    /// Accepted images do not count.
     int exit_code() const;
 };
+
+/// Leaves out the names of files in a folder that is about to go.
+void forget_files_in(const std::filesystem::path& folder, SetResult& result);
 
 }  // namespace tumble

@@ -33,6 +33,10 @@ Json json_of(const ImageResult& image) {
     json["image"] = image.image.empty() ? Json() : Json(image.image.string());
     json["width"] = image.width;
     json["height"] = image.height;
+    if (image.sizes_differ()) {
+        json["image_width"] = image.image_width;
+        json["image_height"] = image.image_height;
+    }
     json["rule"] = image.rule.empty() ? Json() : Json(image.rule);
     json["reason"] = image.reason;
     json["figures"] = Json::array();
@@ -41,6 +45,7 @@ Json json_of(const ImageResult& image) {
     json["max_difference"] = image.max_difference;
     json["changed"] = image.changed.width > 0 ? json_of(image.changed) : Json();
     json["causes"] = image.causes;
+    json["accepted"] = image.accepted;
     return json;
 }
 
@@ -61,9 +66,9 @@ std::string escaped(std::string_view text) {
 bool is_error(Verdict verdict) { return verdict == Verdict::missing || verdict == Verdict::broken; }
 
 std::string testcase(const ImageResult& image, const SetResult& result) {
-    const std::string head =
-        fmt::format("  <testcase classname=\"{}\" name=\"{}\"", escaped(result.reference), escaped(image.name));
-    if (!result.fails(image.verdict)) return head + "/>\n";
+    const std::string head = fmt::format("  <testcase classname=\"{}\" name=\"{}\" time=\"{:.3f}\"",
+                                         escaped(result.reference), escaped(image.name), image.seconds);
+    if (!result.fails(image)) return head + "/>\n";
     std::string text = image.reason;
     for (const std::string& cause : image.causes) text += "\n" + cause;
     const std::string_view element = is_error(image.verdict) ? "error" : "failure";
@@ -92,16 +97,18 @@ std::string to_json(const SetResult& result) {
 
 std::string to_junit(const SetResult& result) {
     std::size_t failures = 0, errors = 0;
+    double seconds = 0.0;
     std::string cases;
     for (const ImageResult& image : result.images) {
-        if (result.fails(image.verdict)) ++(is_error(image.verdict) ? errors : failures);
+        if (result.fails(image)) ++(is_error(image.verdict) ? errors : failures);
+        seconds += image.seconds;
         cases += testcase(image, result);
     }
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" "
-        "errors=\"{}\" skipped=\"0\">\n{}</testsuite>\n",
+        "errors=\"{}\" skipped=\"0\" time=\"{:.3f}\">\n{}</testsuite>\n",
         escaped(fmt::format("tumble compare {} {}", result.reference, result.image)), result.images.size(), failures,
-        errors, cases);
+        errors, seconds, cases);
 }
 
 }  // namespace tumble

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 
 #include <fmt/format.h>
 
@@ -28,7 +28,7 @@ Rectangle touched(const FractionRectangle& part, int width, int height) {
 }  // namespace
 
 std::shared_ptr<const MaskPicture> MaskPicture::read(const std::filesystem::path& file) {
-    const Image image = read_png(file);
+    const Image image = read_picture(file);
     auto mask = std::make_shared<MaskPicture>();
     mask->file = file;
     mask->width = image.width;

@@ -1,9 +1,10 @@
 #include "compare/image_compare.h"
 
+#include "compare/difference_image.h"
 #include "compare/metrics/pixel_windows.h"
 #include "core/check.h"
 #include "core/error.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 #include "output/png_writer.h"
 
 #include <fmt/format.h>
@@ -217,33 +218,12 @@ Comparison compare_images(const Image& a, const Image& b, const CompareOptions& 
     return comparer.result();
 }
 
-void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance,
-                    std::span<std::uint8_t> to) {
-    for (std::size_t i = 0; i < to.size(); i += 4) {
-        const int d = pixel_difference(&a[i], &b[i]);
-        const int sum = 2 * seen_on_black(&a[i], 0) + 5 * seen_on_black(&a[i], 1) + seen_on_black(&a[i], 2);
-        const int gray = sum / 24;                                     // a third of the brightness
-        const int marked = d == 0 ? gray : std::min(255, 96 + 8 * d);  // the smallest difference is visible
-        to[i] = static_cast<std::uint8_t>(d > tolerance ? marked : gray);
-        to[i + 1] = static_cast<std::uint8_t>(gray);
-        to[i + 2] = static_cast<std::uint8_t>(d > 0 && d <= tolerance ? marked : gray);
-        to[i + 3] = 255;
-    }
-}
-
-Image difference_image(const Image& a, const Image& b, const CompareOptions& options) {
-    check_sizes(a.width, a.height, b.width, b.height);
-    Image image(a.width, a.height);
-    const std::size_t bytes = 4 * std::size_t(a.width);
-    for (int y = 0; y < a.height; ++y)
-        difference_row({a.at(0, y), bytes}, {b.at(0, y), bytes}, options.tolerance, {image.at(0, y), bytes});
-    return image;
-}
-
 Comparison compare_png_files(const std::filesystem::path& a, const std::filesystem::path& b,
                              const CompareOptions& options, const std::filesystem::path& difference_file) {
-    PngRows rows_a(a), rows_b(b);
+    PictureRows rows_a(a), rows_b(b);
     const ImageSize size = rows_a.size();
+    // A picture of the difference shows two sizes as well.
+    if (!difference_file.empty() && size != rows_b.size()) write_difference_image(a, b, options, difference_file);
     check_sizes(size.width, size.height, rows_b.size().width, rows_b.size().height);
     ImageComparer comparer(size.width, size.height, options);
     std::optional<PngRowWriter> difference;

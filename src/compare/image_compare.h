@@ -115,19 +115,11 @@ private:
 /// The same for images in memory. Throws InputError if the sizes differ.
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// The same for PNG files of any size: a few rows are in memory. Writes an image of the differences (see
-/// difference_row) where that file is named. Throws InputError where an image is missing or broken or the sizes differ,
-/// RunError where the difference cannot be written.
+/// The same for picture files of any size: a few rows are in memory. Writes an image of the differences
+/// (difference_image.h) where that file is named, also if the sizes differ. Throws InputError where an image is missing or
+/// broken or the sizes differ, RunError where the difference cannot be written.
 Comparison compare_png_files(const std::filesystem::path& a, const std::filesystem::path& b,
                              const CompareOptions& options, const std::filesystem::path& difference_file);
-
-/// A row of the first image dimmed to gray, with differences in red (beyond the tolerance) and blue (within it,
-/// magnified).
-void difference_row(std::span<const std::uint8_t> a, std::span<const std::uint8_t> b, int tolerance,
-                    std::span<std::uint8_t> to);
-
-/// The same for images in memory.
-Image difference_image(const Image& a, const Image& b, const CompareOptions& options = {});
 
 /// Throws InputError if the sizes differ.
 void check_sizes(int width_a, int height_a, int width_b, int height_b);

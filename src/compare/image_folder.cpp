@@ -2,7 +2,11 @@
 
 #include "core/error.h"
 
+#include <algorithm>
+#include <array>
 #include <set>
+#include <span>
+#include <string_view>
 #include <system_error>
 
 namespace tumble {
@@ -10,9 +14,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_png_name(const fs::path& path) {
-    const std::string end = path.extension().string();
-    return end == ".png" || end == ".PNG";
+constexpr std::array<std::string_view, 3> read_endings{".png", ".jpg", ".jpeg"};
+constexpr std::array<std::string_view, 10> other_endings{".gif", ".bmp",  ".tga",  ".tif", ".tiff",
+                                                         ".ppm", ".webp", ".avif", ".jxl", ".exr"};
+
+bool has_ending(const fs::path& path, std::span<const std::string_view> endings) {
+    std::string ending = path.extension().string();
+    std::ranges::transform(ending, ending.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? char(c + 32) : c; });
+    return std::ranges::find(endings, ending) != endings.end();
 }
 
 /// "amd" of "amd/a.png"; empty without a folder.
@@ -23,9 +32,15 @@ std::string first_folder(const std::string& name) {
 
 }  // namespace
 
-NamedFiles png_files_in(const fs::path& folder) {
+bool is_picture_name(const fs::path& path) { return has_ending(path, read_endings); }
+
+bool is_hidden(const fs::path& name) {
+    return std::ranges::any_of(name, [](const fs::path& part) { return part.native().starts_with('.'); });
+}
+
+std::vector<fs::path> files_in_folder(const fs::path& folder) {
     std::error_code error;
-    NamedFiles files;
+    std::vector<fs::path> files;
     const auto check = [&](const fs::path& where) {
         if (error) throw InputError({where.string(), 0, 0}, "cannot read the folder: " + error.message());
     };
@@ -35,13 +50,24 @@ NamedFiles png_files_in(const fs::path& folder) {
         const fs::path path = entry->path();
         if (path.filename().string().front() == '.') {
             entry.disable_recursion_pending();
-        } else if (is_png_name(path) && !entry->is_directory(error)) {
-            files[path.lexically_relative(folder).generic_string()] = path;
+        } else if (!entry->is_directory(error)) {
+            files.push_back(path);
         }
         entry.increment(error);
         check(path);
     }
     return files;
+}
+
+PictureFolder pictures_in(const fs::path& folder) {
+    PictureFolder pictures;
+    for (const fs::path& file : files_in_folder(folder)) {
+        const std::string name = file.lexically_relative(folder).generic_string();
+        if (is_picture_name(file)) pictures.files[name] = file;
+        if (has_ending(file, other_endings)) pictures.other.push_back(name);
+    }
+    std::ranges::sort(pictures.other);
+    return pictures;
 }
 
 References references_of(const NamedFiles& files, const NamedFiles& images, const std::string& platform,

@@ -1,4 +1,4 @@
-// Folders of PNG files, and pairs of them by their relative names.
+// Folders of pictures, and pairs of them by their relative names.
 #pragma once
 
 #include "compare/pair_compare.h"
@@ -13,9 +13,22 @@ namespace tumble {
 /// Files by their name, a path in the folder with '/'.
 using NamedFiles = std::map<std::string, std::filesystem::path>;
 
-/// The PNG files (.png, .PNG) of a folder and the folders in it. Links to files are followed, links to folders are not;
-/// names that begin with '.' are left out. Throws InputError if it is no folder or cannot be read.
-NamedFiles png_files_in(const std::filesystem::path& folder);
+/// True for the endings of pictures that are compared: .png, .jpg and .jpeg, in any case.
+bool is_picture_name(const std::filesystem::path& path);
+/// True if a part of a relative name begins with '.': it is left out.
+bool is_hidden(const std::filesystem::path& name);
+
+/// All files of a folder and the folders in it. Links to files are followed, links to folders are not; names that begin
+/// with '.' are left out. Throws InputError if it is no folder or cannot be read.
+std::vector<std::filesystem::path> files_in_folder(const std::filesystem::path& folder);
+
+struct PictureFolder {
+    NamedFiles files;
+    std::vector<std::string> other;  // names of pictures of kinds that are not compared
+};
+
+/// Of the same files.
+PictureFolder pictures_in(const std::filesystem::path& folder);
 
 struct References {
     NamedFiles files;

@@ -4,7 +4,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 
 #include <fmt/format.h>
 
@@ -17,19 +17,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void check_regular(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error))  // opening a pipe would wait
-        throw InputError({file.string(), 0, 0}, "is not a regular file");
-}
-
 /// A picture from top to bottom.
-class PictureRows {
+class ComparedRows {
 public:
-    explicit PictureRows(const ComparedPicture& picture) : pixels_(picture.pixels) {
-        if (pixels_ != nullptr) return;
-        check_regular(picture.file);
-        file_.emplace(picture.file);
+    explicit ComparedRows(const ComparedPicture& picture) : pixels_(picture.pixels) {
+        if (pixels_ == nullptr) file_.emplace(picture.file);
     }
 
     ImageSize size() const { return file_ ? file_->size() : ImageSize{pixels_->width, pixels_->height}; }
@@ -41,20 +33,18 @@ public:
 
 private:
     std::shared_ptr<const Image> pixels_;
-    std::optional<PngRows> file_;
+    std::optional<PictureRows> file_;
     int row_ = 0;
 };
 
 Image whole(const ComparedPicture& picture) {
-    if (picture.pixels != nullptr) return *picture.pixels;
-    check_regular(picture.file);
-    return read_png(picture.file);
+    return picture.pixels != nullptr ? *picture.pixels : read_picture(picture.file);
 }
 
 /// True if both are files with the same bytes.
 bool same_bytes(const ComparedPicture& a, const ComparedPicture& b) {
     if (a.pixels != nullptr || b.pixels != nullptr) return false;
-    std::error_code error;
+    std::error_code error;  // a pipe has no size
     const std::uintmax_t size = fs::file_size(a.file, error);
     if (error || size != fs::file_size(b.file, error) || error) return false;
     std::ifstream stream_a(a.file, std::ios::binary), stream_b(b.file, std::ios::binary);
@@ -70,21 +60,23 @@ bool same_bytes(const ComparedPicture& a, const ComparedPicture& b) {
     return size > 0;
 }
 
-void check_same_size(ImageSize a, ImageSize b) {
+void check_same_size(ImageSize a, ImageSize b, ImageResult& result) {
     if (a == b) return;
+    result.image_width = b.width;
+    result.image_height = b.height;
     throw InputError(
         fmt::format("the picture has {} x {} pixels, and the reference {} x {}", b.width, b.height, a.width, a.height));
 }
 
 /// The pair row by row. With the same bytes, one of them is read: a broken file is not the same as itself.
 Comparison compare_rows(const ImagePair& pair, const PairTolerances& tolerances, ImageResult& result) {
-    PictureRows reference(*pair.reference);
-    std::optional<PictureRows> image;
+    ComparedRows reference(*pair.reference);
+    std::optional<ComparedRows> image;
     if (!same_bytes(*pair.reference, *pair.image)) image.emplace(*pair.image);
     const auto [width, height] = reference.size();
     result.width = width;
     result.height = height;
-    if (image) check_same_size(reference.size(), image->size());
+    if (image) check_same_size(reference.size(), image->size(), result);
     const IgnoredPixels ignored(tolerances.masks, width, height);
     ImageComparer comparer(width, height, tolerances.pixels);
     std::vector<std::uint8_t> masked;
@@ -107,7 +99,7 @@ Comparison compare_whole(const ImagePair& pair, const PairTolerances& tolerances
     Image image = whole(*pair.image);
     result.width = reference.width;
     result.height = reference.height;
-    check_same_size({reference.width, reference.height}, {image.width, image.height});
+    check_same_size({reference.width, reference.height}, {image.width, image.height}, result);
     const IgnoredPixels ignored(tolerances.masks, reference.width, reference.height);
     ImageComparer comparer(reference.width, reference.height, tolerances.pixels);
     const std::size_t row_bytes = 4 * std::size_t(reference.width);
@@ -140,7 +132,7 @@ void fill(ImageResult& result, const Comparison& comparison) {
 
 /// Reads a picture without a partner, for its size: a broken one is not merely missing or added.
 void read_alone(const ComparedPicture& picture, ImageResult& result) {
-    PictureRows rows(picture);
+    ComparedRows rows(picture);
     result.width = rows.size().width;
     result.height = rows.size().height;
 }

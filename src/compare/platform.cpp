@@ -18,6 +18,10 @@ std::string this_platform() {
     return platform_of(text);
 }
 
+bool is_platform_name(std::string_view name) {
+    return !name.empty() && name.front() != '.' && name.find('/') == std::string_view::npos;
+}
+
 std::string platform_of_option(const std::optional<std::string>& name) {
     if (name == "none") return "";
     return name ? *name : this_platform();

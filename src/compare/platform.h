@@ -11,6 +11,9 @@ namespace tumble {
 /// The name of this machine's processor: "amd", "intel", "arm" or "other".
 std::string this_platform();
 
+/// True for the name of a folder that a comparison reads: no path, and not hidden.
+bool is_platform_name(std::string_view name);
+
 /// Option --platform: that of its name, of this machine without the option, and empty (no platform) for "none".
 std::string platform_of_option(const std::optional<std::string>& name);
 

@@ -2,9 +2,11 @@
 
 #include "core/start_thread.h"
 
+#include <chrono>
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -17,8 +19,12 @@ public:
     /// Takes and compares pairs until there are none, or a thread has failed.
     void work() {
         try {
-            while (const auto task = take())
-                put(task->index, task->pair, compare_pair(task->pair, tolerances_.of(task->pair.name)));
+            while (const auto task = take()) {
+                const auto start = std::chrono::steady_clock::now();
+                ImageResult result = compare_pair(task->pair, tolerances_.of(task->pair.name));
+                result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                put(task->index, task->pair, std::move(result));
+            }
         } catch (...) {
             const std::lock_guard lock(mutex_);
             if (!error_) error_ = std::current_exception();

@@ -62,7 +62,7 @@ class Folders(Sets):
         (self.folder / "a").mkdir()
         (self.folder / "b").mkdir()
         run = self.check(2, "compare", "a", "b")
-        self.assertEqual(run.stderr, "error: there are no PNG files in 'a' and 'b'\n")
+        self.assertEqual(run.stderr, "error: there are no pictures (PNG, JPEG) in 'a' and 'b'\n")
         self.box("a/x.png")
         self.check(3, "compare", "a", "b")
         self.check(1, "compare", "b", "a")
@@ -196,7 +196,7 @@ class Results(Sets):
         self.assertEqual(result["counts"], {"same": 0, "alike": 0, "different": 1, "missing": 0, "added": 0, "broken": 0})
         self.assertEqual(set(result["images"][0]), {"name", "verdict", "reference", "image", "width", "height", "rule",
                                                     "reason", "figures", "differing_pixels", "max_difference", "changed",
-                                                    "causes"})
+                                                    "causes", "accepted"})
 
 
 class Clips(Sets):

@@ -172,6 +172,32 @@ TEST_F(Report, ThePicturesOfTheLeastDifferencesAreLeftOutFirst) {
     EXPECT_LT(part.size(), whole.size());
 }
 
+TEST_F(Report, PicturesOfTheListCountForTheLimit) {
+    SetResult set;
+    for (int i = 2; i < 30; ++i) set.images.push_back(pair(fmt::format("image_{:02}.png", i), i));
+    for (const std::int64_t limit : {0, 500, 5000, 20000}) {
+        const std::string page = html(set, limit), data = ";base64,";
+        std::size_t characters = 0;
+        for (std::size_t at = page.find(data); at != std::string::npos; at = page.find(data, at + 1))
+            characters += page.find('"', at) - at - data.size();
+        EXPECT_LE(characters * 3 / 4, std::size_t(limit) + 2 * count(page, data)) << limit;  // padding
+        EXPECT_EQ(count(page, "<article"), 28u);
+    }
+}
+
+TEST_F(Report, PicturesOfTwoSizesHaveThatOfTheirDifference) {
+    SetResult set;
+    set.images = {pair("size.png", 5, Verdict::broken)};
+    write_png(set.images[0].image, landscape(80, 70));
+    set.images[0].image_width = 80;
+    set.images[0].image_height = 70;
+    const std::string page = html(set);
+    EXPECT_EQ(count(page, "<figure data-role=\"difference\"><img src=\"data:image/png;base64,"), 1u);
+    EXPECT_EQ(count(page, "width=\"96\" height=\"70\""), 1u);
+    EXPECT_EQ(count(page, "<figure data-role=\"flip\""), 0u);
+    EXPECT_EQ(count(page, "80 × 70 pixels, the reference 96 × 64"), 1u);
+}
+
 TEST_F(Report, TheBytesDoNotDependOnTheWorkers) {
     SetResult set;
     for (int i = 2; i < 24; ++i) set.images.push_back(pair(fmt::format("image_{:02}.png", i), i));

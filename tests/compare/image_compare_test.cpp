@@ -1,5 +1,5 @@
 // Comparison of pictures: noise between processors passes, and a visible change fails.
-#include "compare/image_compare.h"
+#include "compare/difference_image.h"
 #include "core/error.h"
 
 #include "support/pictures.h"
@@ -231,7 +231,21 @@ TEST(Compare, ColorsCountAsFarAsAlphaShowsThem) {
 
 TEST(Compare, OtherSizesCannotBeCompared) {
     EXPECT_THROW(compare_images(plain(10, 10, {}), plain(10, 11, {})), InputError);
-    EXPECT_THROW(difference_image(plain(10, 10, {}), plain(11, 10, {})), InputError);
+}
+
+TEST(Compare, TheDifferenceOfTwoSizesShowsBothAndMarksWhatOneHas) {
+    const Image wide = plain(12, 6, {90, 90, 90}), tall = plain(8, 10, {90, 90, 90});
+    const Image d = difference_image(wide, tall);
+    EXPECT_EQ(d.width, 12);
+    EXPECT_EQ(d.height, 10);
+    const auto color = [&](int x, int y) { return std::vector<int>(d.at(x, y), d.at(x, y) + 4); };
+    EXPECT_EQ(color(3, 3), (std::vector<int>{30, 30, 30, 255}));    // both have it, alike
+    EXPECT_EQ(color(9, 3), (std::vector<int>{126, 126, 30, 255}));  // only the first: yellow
+    EXPECT_EQ(color(3, 8), (std::vector<int>{30, 126, 30, 255}));   // only the second: green
+    EXPECT_EQ(color(9, 8), (std::vector<int>{0, 0, 0, 255}));       // neither
+    const Image turned = difference_image(tall, wide);
+    EXPECT_EQ(turned.at(9, 3)[0], 30);
+    EXPECT_EQ(turned.at(9, 3)[1], 126);
 }
 
 TEST(Compare, TheDifferenceIsVisible) {

@@ -29,7 +29,8 @@ protected:
     }
 
     std::vector<ImageResult> compare(const Tolerances& tolerances = Tolerances(), int workers = 2) {
-        const std::vector<ImagePair> pairs = pairs_of(png_files_in(folder_ / "a"), png_files_in(folder_ / "b"));
+        const std::vector<ImagePair> pairs =
+            pairs_of(pictures_in(folder_ / "a").files, pictures_in(folder_ / "b").files);
         std::size_t i = 0;
         return compare_pairs([&] { return i < pairs.size() ? std::optional(pairs[i++]) : std::nullopt; }, tolerances,
                              workers);
@@ -135,12 +136,12 @@ TEST_F(Sets, LinksAndHiddenFiles) {
     fs::create_symlink("x.png", folder_ / "a/link.png");
     fs::create_symlink("none.png", folder_ / "a/dangling.png");
     fs::create_symlink(".", folder_ / "a/loop");
-    const NamedFiles files = png_files_in(folder_ / "a");
+    const NamedFiles files = pictures_in(folder_ / "a").files;
     EXPECT_EQ(files.size(), 3u);
     EXPECT_TRUE(files.contains("x.png") && files.contains("link.png") && files.contains("dangling.png"));
     fs::create_directories(folder_ / "b");
     EXPECT_EQ(compare().front().verdict, Verdict::broken);  // the dangling one
-    EXPECT_THROW(png_files_in(folder_ / "none"), InputError);
+    EXPECT_THROW(pictures_in(folder_ / "none"), InputError);
 }
 
 TEST(Platforms, TheirFilesReplaceGeneralOnes) {

@@ -3,7 +3,7 @@
 // next two are the first file's length, low byte first.
 #include "png_bytes.h"
 
-#include "compare/image_compare.h"
+#include "compare/difference_image.h"
 #include "core/check.h"
 #include "core/error.h"
 

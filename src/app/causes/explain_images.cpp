@@ -6,7 +6,7 @@
 #include "app/files/frame_folder.h"
 #include "core/color.h"
 #include "core/error.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 
 #include <fmt/format.h>
 
@@ -91,7 +91,7 @@ std::string body_at(const MotionRecord& record, std::int64_t frame, const Rectan
 
 std::string drawing_text(const MotionRecord& record, std::int64_t frame, const ImageResult& result) {
     constexpr const char* same = "the scene, its motion, camera and light are the same";
-    if (shading_only(read_png(result.reference), read_png(result.image)))
+    if (shading_only(read_picture(result.reference), read_picture(result.image)))
         return fmt::format("shadow only (brightness alone differs; {})", same);
     const std::string body = body_at(record, frame, result.changed);
     return fmt::format("drawing{} ({})", body.empty() ? "" : " at " + body, same);
@@ -110,11 +110,11 @@ fs::path earlier_frame(const fs::path& file, std::int64_t by) {
 
 /// "one frame late (...)" if the image is another frame of the reference.
 std::string late_image(const ImageResult& result) {
-    const Image image = read_png(result.image);
+    const Image image = read_picture(result.image);
     for (std::int64_t late = 1; late <= farthest_neighbor; ++late)
         for (const std::int64_t by : {late, -late}) {
             const fs::path other = earlier_frame(result.reference, by);
-            if (other.empty() || !(read_png(other) == image)) continue;
+            if (other.empty() || !(read_picture(other) == image)) continue;
             return fmt::format("{} {} (it is {} of the reference)",
                                late == 1 ? "one frame" : fmt::format("{} frames", late), by > 0 ? "late" : "early",
                                other.filename().string());

@@ -1,5 +1,6 @@
 #include "app/cli/command_line.h"
 
+#include "compare/platform.h"
 #include "core/error.h"
 #include "scene/description/overlay.h"
 #include "scene/toml/frame_rate_text.h"
@@ -21,6 +22,14 @@ CLI::Validator number_within(double least, double most) {
 
 CLI::Validator some_name() {
     return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
+}
+
+CLI::Validator platform_name() {
+    return CLI::Validator(
+        [](const std::string& text) {
+            return is_platform_name(text) ? "" : "must be the name of a folder, without '/' and no dot at its start";
+        },
+        "");
 }
 
 CLI::Validator csv_name() {

@@ -69,6 +69,8 @@ CLI::App* add_man_pages(CLI::App& app, CommandLine& line);
 CLI::Validator number_within(double least, double most);
 /// Not empty: an empty name comes from an unset variable of a script.
 CLI::Validator some_name();
+/// The name of a folder in a folder of references.
+CLI::Validator platform_name();
 /// A file that is written as CSV only.
 CLI::Validator csv_name();
 /// Takes "-" as the file of standard output.

@@ -132,6 +132,7 @@ struct CompareCommand {
     std::optional<std::filesystem::path> report, json, junit;  // to write
     std::optional<std::string> platform;                       // of the references; "none": the general ones alone
     bool allow_added = false;                                  // a picture without a reference is no difference
+    bool accept = false;                                       // pictures that are not alike become references
     SceneOverrides overrides;                                  // of a scene that is drawn; fps of clips too
     int workers = 1;                                           // pairs at a time, and render processes
     bool quiet = false;

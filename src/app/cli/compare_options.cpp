@@ -23,8 +23,12 @@ void add_sets(CLI::App& command, CompareCommand& c) {
         .add_option("--platform", c.platform,
                     "References of A/NAME/ replace those of A/; none: no folder does. By default the\nprocessor: amd, "
                     "intel, arm or other")
-        ->check(some_name())
+        ->check(platform_name())
         ->type_name("NAME");
+    command.add_flag(
+        "--accept", c.accept,
+        "Copy pictures that are not alike, and new ones, over the references in the folder A: all\nof them "
+        "or none, through no link. With --platform, into the folder NAME");
     command.add_flag("--allow-added", c.allow_added, "A picture without a reference is no difference");
     add_fps(command, c.overrides.fps,
             "Frames per second: of a scene, in place of its own; of a clip, to take the frame\nshown at each "
@@ -45,7 +49,9 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
         app.add_subcommand("compare",
                            "Compare pictures, folders of them, clips, or a scene with its frames: exit code 0 alike,\n"
                            "1 different, 2 cannot compare, 3 missing");
-    command->add_option("a", c.a, "The references: a picture (PNG), a folder or a clip")->required()->type_name("A");
+    command->add_option("a", c.a, "The references: a picture (PNG, JPEG), a folder or a clip")
+        ->required()
+        ->type_name("A");
     command
         ->add_option("b", c.b,
                      "The pictures to test: the same, or a scene (TOML) that is drawn for a folder of\nframes")
@@ -53,8 +59,9 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
         ->type_name("B");
     command
         ->add_option("--diff", c.difference,
-                     "Write a picture of the differences: red beyond the tolerance, blue within; of\nfolders and clips "
-                     "a folder of them")
+                     "Write a picture of the differences: red beyond the tolerance, blue within; of two sizes\nyellow "
+                     "where only "
+                     "A has pixels, green where only B has some. Of folders and clips a\nfolder of them")
         ->check(some_name())
         ->type_name("D.png|DIR");
     command
@@ -96,6 +103,7 @@ CLI::App* add_compare(CLI::App& app, CommandLine& line) {
         "  tumble compare golden.png frame_000100.png --diff difference.png\n"
         "  tumble compare golden/ frames/ --tolerances tolerances.toml --junit result.xml\n"
         "  tumble compare golden/ scene.toml --report report.html\n"
+        "  tumble compare golden/ frames/ --accept           once the new pictures are right\n"
         "  tumble compare old.mp4 new.mp4");
     return command;
 }

@@ -5,7 +5,7 @@
 #include "app/files/frame_folder.h"
 #include "app/files/frame_set.h"
 #include "core/error.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 #include "scene/load.h"
 
 #include <set>
@@ -30,7 +30,7 @@ FrameSet frames_of(const NamedFiles& references, const SceneDescription& scene) 
 /// all are broken.
 ImageSize size_of(const NamedFiles& references) {
     for (const auto& [name, file] : references) try {
-            return read_png_size(file);
+            return read_picture_size(file);
         } catch (const InputError&) {
             if (file == references.rbegin()->second) throw;
         }

@@ -4,9 +4,12 @@
 #include "app/cli/compare_scene.h"
 #include "app/cli/compare_summary.h"
 #include "app/cli/say.h"
+#include "app/compare/accepted_pictures.h"
 #include "app/compare/clip_pairs.h"
 #include "app/compare/compare_input.h"
+#include "app/compare/compared_folder.h"
 #include "app/compare/compared_frames.h"
+#include "app/files/frame_folder.h"
 #include "app/files/output_plan.h"
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"
@@ -16,8 +19,10 @@
 #include "compare/set_compare.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/make_folder.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
+#include "scene/load.h"
 
 #include <fmt/format.h>
 
@@ -47,7 +52,13 @@ public:
         check_kinds();
         const PairTolerances base = tolerances_of_options(command.options);
         tolerances_ = command.tolerances ? Tolerances::read(*command.tolerances, base) : Tolerances(base);
+        if (of_reference_ == CompareInput::folder) {
+            finish_left_transactions(reference_);
+            references_ = pictures_in(reference_);
+        }
+        if (of_image_ == CompareInput::folder) images_ = pictures_in(image_);
         plan_outputs();
+        if (command.accept) accept();
     }
 
     SetResult compare() {
@@ -76,6 +87,12 @@ public:
         write_comparison_report(result, options, *command_.report);
     }
 
+    /// Gives accepted pictures their names. Postcondition: no result names a file that is gone after the run.
+    void finish(SetResult& result) {
+        if (accepted_) accepted_->commit();
+        if (temporary_) forget_files_in(temporary_->path(), result);
+    }
+
     const Tolerances& tolerances() const { return tolerances_; }
 
 private:
@@ -92,16 +109,58 @@ private:
 
     void plan_outputs() const {
         OutputPlan plan;
-        for (const fs::path& input : {reference_, image_})
-            if (!fs::is_directory(input)) plan.add_input(input);
-        if (command_.tolerances) plan.add_input(*command_.tolerances);
+        add_inputs(reference_, of_reference_, plan);
+        add_inputs(image_, of_image_, plan);
+        plan.add_inputs(tolerances_.files());
         if (command_.json) plan.add("--json", *command_.json);
         if (command_.junit) plan.add("--junit", *command_.junit);
         if (command_.report) plan.add("--report", *command_.report);
-        if (command_.difference && fs::exists(*command_.difference) && !fs::is_directory(*command_.difference))
+        if (command_.difference) plan_differences(*command_.difference, plan);
+    }
+
+    void add_inputs(const fs::path& path, CompareInput kind, OutputPlan& plan) const {
+        FileList read{path};
+        if (kind == CompareInput::folder) return add_compared_folder(path, plan);
+        if (kind == CompareInput::scene) load_scene(path, command_.overrides, &read);
+        plan.add_inputs(read);
+    }
+
+    void plan_differences(const fs::path& difference, OutputPlan& plan) const {
+        if (of_reference_ == CompareInput::picture) return plan.add("--diff", difference);
+        if (fs::exists(difference) && !fs::is_directory(difference))
             throw InputError(
                 fmt::format("--diff: must be a folder where more than two pictures are compared ('{}' is no folder)",
-                            safe_path(*command_.difference)));
+                            safe_path(difference)));
+        for (const ImagePair& pair : pairs_of(references_.files, images_.files))
+            plan.add_below("--diff", difference, difference_name(pair.name));
+        if (of_reference_ != CompareInput::clip && of_image_ != CompareInput::clip) return;
+        // The frames of a clip are not counted yet.
+        const std::vector<std::int64_t> numbers =
+            fs::exists(difference) ? frames_in(difference) : std::vector<std::int64_t>{0};
+        for (const std::int64_t number : numbers) plan.add_below("--diff", difference, frame_path({}, number));
+    }
+
+    void accept() {
+        if (of_reference_ == CompareInput::clip)
+            throw InputError(fmt::format("--accept: the references are a clip, '{}': give a folder or a picture",
+                                         safe_path(reference_)));
+        const bool folder = of_reference_ == CompareInput::folder;
+        const fs::path parent = reference_.has_parent_path() ? reference_.parent_path() : fs::path(".");
+        std::optional<std::string> platform;
+        if (folder && command_.platform && *command_.platform != "none") platform = command_.platform;
+        accepted_.emplace(folder ? reference_ : parent, platform);
+        // Before anything is written: also where the picture will turn out to be alike.
+        if (!folder) confined_path(parent, reference_.filename(), InnerLinks::refused);
+        for (const ImagePair& pair : pairs_of(references_.files, images_.files))
+            confined_path(reference_, pair.name, InnerLinks::refused);
+    }
+
+    void write_difference_of(const ImagePair& pair) const {
+        const CompareOptions options = tolerances_.of(pair.name).pixels;
+        if (of_reference_ == CompareInput::picture) return write_difference(pair, options, *command_.difference);
+        const fs::path file = confined_path(*command_.difference, difference_name(pair.name));
+        make_folder(file.parent_path());
+        write_difference(pair, options, file);
     }
 
     std::vector<ImageResult> compare(const PairSource& next) {
@@ -114,8 +173,9 @@ private:
             tolerances_, command_.workers,
             [&](const ImagePair& pair, ImageResult& result) {
                 if (kept_) kept_->keep(pair, result);
-                if (command_.difference && result.verdict == Verdict::different)
-                    write_difference(pair, tolerances_.of(pair.name).pixels, *command_.difference);
+                if (command_.difference && (result.verdict == Verdict::different || result.sizes_differ()))
+                    write_difference_of(pair);
+                if (accepted_) accepted_->take(pair, result);
             });
     }
 
@@ -132,31 +192,38 @@ private:
         });
     }
 
-    References references_for(const NamedFiles& files, const NamedFiles& images, SetResult& result) const {
-        References references = references_of(files, images, platform_of_option(command_.platform),
+    References references_for(const NamedFiles& images, SetResult& result) const {
+        References references = references_of(references_.files, images, platform_of_option(command_.platform),
                                               platform_folders(tolerances_.platforms()));
         result.platform = references.platform;
         return references;
     }
 
+    void say_other_pictures() const {
+        std::vector<std::string> names = references_.other;
+        names.insert(names.end(), images_.other.begin(), images_.other.end());
+        if (!names.empty())
+            say("note: {} pictures are not compared, because they are no PNG and no JPEG files: {}{}\n", names.size(),
+                safe_text(names.front()), names.size() > 1 ? ", ..." : "");
+    }
+
     std::vector<ImageResult> compare_folders(SetResult& result) {
-        const NamedFiles images = png_files_in(image_);
-        const References references = references_for(png_files_in(reference_), images, result);
-        if (references.files.empty() && images.empty())
-            throw InputError(
-                fmt::format("there are no PNG files in '{}' and '{}'", safe_path(reference_), safe_path(image_)));
-        return compare_files(references.files, images);
+        say_other_pictures();
+        const References references = references_for(images_.files, result);
+        if (references.files.empty() && images_.files.empty())
+            throw InputError(fmt::format("there are no pictures (PNG, JPEG) in '{}' and '{}'", safe_path(reference_),
+                                         safe_path(image_)));
+        return compare_files(references.files, images_.files);
     }
 
     std::vector<ImageResult> compare_scene(SetResult& result) {
-        const References references = references_for(png_files_in(reference_), {}, result);
+        const References references = references_for({}, result);
         const NamedFiles frames = frames_among(references.files, reference_);
-        if (frames.size() < references.files.size())
-            say("note: {} files of the folder are no frames of a scene, and are not compared\n",
-                references.files.size() - frames.size());
+        const std::size_t others = references.files.size() - frames.size() + references_.other.size();
+        if (others > 0) say("note: {} files of the folder are no frames of a scene, and are not compared\n", others);
         temporary_.emplace("compare");
         draw_frames_of(command_, image_, frames, temporary_->path());
-        NamedFiles images = png_files_in(temporary_->path());
+        NamedFiles images = pictures_in(temporary_->path()).files;
         std::erase_if(images, [&](const auto& image) { return frames.count(image.first) == 0; });
         return compare_files(frames, images);
     }
@@ -173,7 +240,9 @@ private:
     const CompareCommand& command_;
     fs::path reference_, image_;
     CompareInput of_reference_, of_image_;
+    PictureFolder references_, images_;  // of folders
     Tolerances tolerances_;
+    std::optional<AcceptedPictures> accepted_;
     std::optional<TemporaryFolder> temporary_;  // frames that a scene or a clip gave
     std::optional<KeptFrames> kept_;
 };
@@ -181,7 +250,7 @@ private:
 }  // namespace
 
 bool compares_sets(const CompareCommand& command) {
-    if (command.tolerances || command.json || command.junit || command.report) return true;
+    if (command.tolerances || command.json || command.junit || command.report || command.accept) return true;
     return compare_input(command.a) != CompareInput::picture || compare_input(command.b) != CompareInput::picture;
 }
 
@@ -189,9 +258,10 @@ int compare_sets(const CompareCommand& command) {
     SetComparisonRun run(command);
     SetResult result = run.compare();
     explain_frames(result);
+    if (command.report) run.write_report(result);
+    run.finish(result);
     if (command.json) write_file(*command.json, to_json(result));
     if (command.junit) write_file(*command.junit, to_junit(result));
-    if (command.report) run.write_report(result);
     std::vector<std::string> names;
     for (const ImageResult& image : result.images) names.push_back(image.name);
     for (const std::string& rule : run.tolerances().unused(names))

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 
 namespace tumble {
@@ -39,6 +40,8 @@ void print_summary(const SetResult& result, bool brief) {
             if (image.verdict == verdict && shown++ < listed) put_text(entry(image));
         if (shown > listed) put("{} more {} pictures (--json lists all)\n", shown - listed, name_of(verdict));
     }
+    if (const auto accepted = std::ranges::count_if(result.images, &ImageResult::accepted); accepted > 0 && !brief)
+        put("accepted: {} {} now the reference\n", accepted, accepted == 1 ? "picture is" : "pictures are");
     if (!brief) {
         std::string counts;
         const auto numbers = result.counts();

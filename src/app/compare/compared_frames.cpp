@@ -1,8 +1,8 @@
 #include "app/compare/compared_frames.h"
 
+#include "compare/difference_image.h"
 #include "compare/metrics/background.h"
 #include "output/make_folder.h"
-#include "output/png_reader.h"
 #include "output/png_writer.h"
 
 namespace tumble {
@@ -11,7 +11,7 @@ namespace {
 namespace fs = std::filesystem;
 
 Image pixels_of(const ComparedPicture& picture) {
-    return picture.pixels != nullptr ? *picture.pixels : read_png(picture.file);
+    return picture.pixels != nullptr ? *picture.pixels : read_picture(picture.file);
 }
 
 }  // namespace
@@ -35,11 +35,14 @@ void KeptFrames::keep(const ImagePair& pair, ImageResult& result) {
     if (pair.image) write(*pair.image, folder_ / "image" / pair.name, result.image);
 }
 
-void write_difference(const ImagePair& pair, const CompareOptions& options, const fs::path& folder) {
-    const fs::path file = folder / pair.name;
-    make_folder(file.parent_path());
+std::string difference_name(const std::string& name) {
+    const std::string ending = fs::path(name).extension().string();
+    return ending == ".png" || ending == ".PNG" ? name : name + ".png";
+}
+
+void write_difference(const ImagePair& pair, const CompareOptions& options, const fs::path& file) {
     if (pair.reference->pixels == nullptr && pair.image->pixels == nullptr)
-        compare_png_files(pair.reference->file, pair.image->file, options, file);
+        write_difference_image(pair.reference->file, pair.image->file, options, file);
     else
         write_png(file, difference_image(pixels_of(*pair.reference), pixels_of(*pair.image), options));
 }

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
+#include <string>
 
 namespace tumble {
 
@@ -29,8 +30,10 @@ private:
     std::atomic<std::int64_t> bytes_{0};
 };
 
-/// Writes the picture of the differences (image_compare.h, difference_row) of a different pair as FOLDER/NAME. Throws
-/// RunError.
-void write_difference(const ImagePair& pair, const CompareOptions& options, const std::filesystem::path& folder);
+/// The name of a picture of the differences, which is a PNG file.
+std::string difference_name(const std::string& name);
+
+/// Writes the picture of the differences (difference_image.h) of a pair that can be read. Throws InputError, RunError.
+void write_difference(const ImagePair& pair, const CompareOptions& options, const std::filesystem::path& file);
 
 }  // namespace tumble

@@ -42,11 +42,16 @@ std::string counted(std::int64_t count, std::string_view one, std::string_view m
 /// "3 of 42 pictures fail".
 std::string headline(const SetResult& set) {
     const auto all = static_cast<std::int64_t>(set.images.size());
-    const auto bad = std::count_if(set.images.begin(), set.images.end(),
-                                   [&](const ImageResult& image) { return set.fails(image.verdict); });
+    const auto bad =
+        std::count_if(set.images.begin(), set.images.end(), [&](const ImageResult& image) { return set.fails(image); });
+    const auto accepted =
+        std::count_if(set.images.begin(), set.images.end(), [](const ImageResult& image) { return image.accepted; });
     if (all == 0) return "No pictures were compared";
     if (bad > 0)
         return fmt::format("{} of {} {}", bad, counted(all, "picture", "pictures"), bad == 1 ? "fails" : "fail");
+    if (accepted > 0)
+        return fmt::format("{} of {} {} accepted", accepted, counted(all, "picture", "pictures"),
+                           accepted == 1 ? "is" : "are");
     if (set.count(Verdict::same) == all)
         return all == 1 ? "The picture is the same" : fmt::format("All {} pictures are the same", all);
     return all == 1 ? "The picture is alike" : fmt::format("All {} pictures are alike", all);

@@ -62,7 +62,7 @@
 
     modes() {
       if (this.comparable) return modes;
-      return modes.filter((mode) => mode.key === "side");
+      return modes.filter((mode) => mode.key === "side" || (mode.key === "difference" && this.sources.difference));
     }
 
     mode() {
@@ -223,6 +223,11 @@
     }
 
     show_difference() {
+      if (!this.comparable) {
+        this.add_stage("Difference of pictures of two sizes", "Difference", this.copy("difference"));
+        this.options.append(element("span", { textContent: "Yellow: the reference alone. Green: the image alone." }));
+        return;
+      }
       const canvas = element("canvas", { width: this.width, height: this.height });
       this.add_stage("Difference of both pictures in each channel", "Difference", canvas);
       const select = element("select", { id: "gain" });

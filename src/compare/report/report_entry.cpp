@@ -66,7 +66,7 @@ std::string image_summary(const ImageResult& result) {
         case Verdict::added:
             return "there is a picture, but no reference";
         case Verdict::broken:
-            return "cannot be compared";
+            return result.sizes_differ() ? "has another size" : "cannot be compared";
         default:
             break;
     }
@@ -82,12 +82,13 @@ struct PictureText {
     std::string alternative;
 };
 
-std::string picture_html(const PictureText& text, const PngBytes& png, const ImageSize& size) {
-    if (png.empty()) return "";
+std::string picture_html(const PictureText& text, const PictureBytes& picture, const ImageSize& size) {
+    if (picture.empty()) return "";
     return fmt::format(
         "<figure data-role=\"{}\"><img src=\"{}\" width=\"{}\" height=\"{}\" alt=\"{}\" loading=\"lazy\" "
         "decoding=\"async\"><figcaption>{}</figcaption></figure>\n",
-        text.role, data_address("image/png", png), size.width, size.height, html_text(text.alternative), text.label);
+        text.role, data_address(picture_media_type(picture), picture), size.width, size.height,
+        html_text(text.alternative), text.label);
 }
 
 /// A frame around the changed pixels, over a picture.
@@ -106,7 +107,11 @@ std::string facts_html(const ReportEntry& entry) {
     const auto add = [&](std::string_view html) {
         facts += fmt::format("{}<span>{}</span>", facts.empty() ? "" : " ", html);
     };
-    if (result.width > 0) add(fmt::format("{} × {} pixels", result.width, result.height));
+    if (result.sizes_differ())
+        add(fmt::format("{} × {} pixels, the reference {} × {}", result.image_width, result.image_height, result.width,
+                        result.height));
+    else if (result.width > 0)
+        add(fmt::format("{} × {} pixels", result.width, result.height));
     if (result.differing_pixels > 0)
         add(fmt::format(
             "{} ({:.2g} %), by up to {} levels", differing_text(result),
@@ -206,6 +211,11 @@ std::string pictures_html(const ReportEntry& entry) {
         pictures.flip, pictures.image_size);
     html +=
         picture_html({"windows", windows, "Mean differences of " + result.name}, pictures.windows, pictures.image_size);
+    html += picture_html({"difference",
+                          "Difference of two sizes: yellow where only the reference has pixels, green where only the "
+                          "image has some",
+                          "Difference of " + result.name},
+                         pictures.difference, pictures.difference_size);
     return html + "</div>\n";
 }
 

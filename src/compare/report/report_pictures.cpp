@@ -1,5 +1,6 @@
 #include "compare/report/report_pictures.h"
 
+#include "compare/difference_image.h"
 #include "compare/metrics/flip.h"
 #include "compare/metrics/heat_map.h"
 #include "compare/metrics/ssim.h"
@@ -8,7 +9,7 @@
 #include "core/error.h"
 #include "core/start_thread.h"
 #include "output/file_bytes.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 #include "output/png_writer.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@
 #include <string>
 #include <system_error>
 #include <thread>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -28,13 +30,13 @@ namespace fs = std::filesystem;
 constexpr int thumbnail_width = 192, thumbnail_height = 144;  // pixels: twice their size on the page, for sharp screens
 constexpr float least_hot_window = 8.0f;                      // levels of the lightest color: noise stays dark
 
-PngBytes png_of(const Image& image, PngAlpha alpha) {
+PictureBytes png_of(const Image& image, PngAlpha alpha) {
     PngEncoder encoder(alpha);
     const auto bytes = encoder.encode(image);
     return {bytes.begin(), bytes.end()};
 }
 
-PngBytes bytes_of(const fs::path& file) {
+PictureBytes bytes_of(const fs::path& file) {
     const std::string content = bytes_of_file(file).value_or("");
     const auto bytes = std::as_bytes(std::span(content));
     return {bytes.begin(), bytes.end()};
@@ -42,10 +44,9 @@ PngBytes bytes_of(const fs::path& file) {
 
 /// Empty where there is no image, or none that can be read.
 std::optional<Image> image_of(const fs::path& file) {
-    std::error_code error;
-    if (!fs::is_regular_file(file, error)) return std::nullopt;  // opening a pipe would wait
+    if (file.empty()) return std::nullopt;
     try {
-        return read_png(file);
+        return read_picture(file);
     } catch (const InputError&) {
         return std::nullopt;
     }
@@ -87,8 +88,14 @@ PairPictures pictures_of(const ImageResult& result) {
         const Image small = thumbnail(image ? *image : *reference, thumbnail_width, thumbnail_height);
         pictures.thumbnail = png_of(small, PngAlpha::kept);
     }
-    if (reference && image && reference->width == image->width && reference->height == image->height)
+    if (!reference || !image) return pictures;
+    if (pictures.reference_size == pictures.image_size) {
         add_differences(*reference, *image, pictures);
+    } else {
+        const Image difference = difference_image(*reference, *image);
+        pictures.difference = png_of(difference, PngAlpha::dropped);
+        pictures.difference_size = {difference.width, difference.height};
+    }
     return pictures;
 }
 
@@ -135,12 +142,13 @@ std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>&
         for (std::size_t i = first; i < last; ++i) {
             const auto bytes = static_cast<std::int64_t>(all[i].bytes());
             if (bytes > room(i)) {
-                all[i].left_out = true;
-                for (PngBytes* picture : {&all[i].reference, &all[i].image, &all[i].flip, &all[i].windows})
-                    *picture = {};
-            } else {
-                used += bytes;
+                PairPictures left_out;
+                left_out.left_out = true;
+                if (static_cast<std::int64_t>(all[i].thumbnail.size()) <= room(i))
+                    left_out.thumbnail = std::move(all[i].thumbnail);
+                all[i] = std::move(left_out);
             }
+            used += static_cast<std::int64_t>(all[i].bytes());
         }
     }
     return all;

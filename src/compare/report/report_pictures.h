@@ -1,9 +1,9 @@
-// The pictures of a report: of each pair both images, heat maps of their difference, and a thumbnail, as PNG files in
+// The pictures of a report: of each pair both images, heat maps of their difference, and a thumbnail, as files in
 // memory, within a number of bytes.
 #pragma once
 
 #include "compare/comparison.h"
-#include "output/png_reader.h"
+#include "output/picture_reader.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace tumble {
 
-using PngBytes = std::vector<std::byte>;
+using PictureBytes = std::vector<std::byte>;  // of a PNG or a JPEG file
 
 /// The whole error of a pair, of FLIP.
 struct FlipFigures {
@@ -20,20 +20,23 @@ struct FlipFigures {
 };
 
 struct PairPictures {
-    PngBytes reference, image;  // the files; empty: missing or unreadable
-    ImageSize reference_size, image_size;
-    PngBytes flip, windows;      // heat maps of a comparable pair
-    PngBytes thumbnail;          // of the image, else of the reference
+    PictureBytes reference, image;  // the files; empty: missing or unreadable
+    ImageSize reference_size, image_size, difference_size;
+    PictureBytes flip, windows;  // heat maps of a comparable pair
+    PictureBytes difference;     // of a pair of two sizes (difference_image.h)
+    PictureBytes thumbnail;      // of the image, else of the reference
     float hottest_window = 0.0;  // levels that have the lightest color of `windows`
     std::optional<FlipFigures> figures;
     std::optional<double> ssim;
     bool left_out = false;  // for their size
 
-    std::size_t bytes() const { return reference.size() + image.size() + flip.size() + windows.size(); }
+    std::size_t bytes() const {
+        return reference.size() + image.size() + flip.size() + windows.size() + difference.size() + thumbnail.size();
+    }
 };
 
 /// The pictures of each result, in their order: those of the first ones up to the number of bytes; later ones keep
-/// their thumbnails.
+/// their thumbnails, where these are within it.
 std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>& results, std::int64_t most_bytes,
                                           int workers);
 
