@@ -45,6 +45,8 @@ public:
     /// The whole page. Throws RunError if the template has an unknown place.
     std::string fill(const PageShell& shell) const;
 
+    const std::filesystem::path& file() const { return file_; }
+
 private:
     std::filesystem::path file_;
     std::string text_;

@@ -30,17 +30,6 @@ fs::path motion_path(const fs::path& folder, std::int64_t frame, std::size_t pan
 
 std::string motion_kind(std::size_t panel) { return fmt::format("motion of panel {}", panel + 1); }
 
-/// The files of an earlier run.
-std::vector<fs::path> files_in(const fs::path& folder) {
-    std::vector<fs::path> files;
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        const bool ours = name.starts_with("checkpoint_") || name.starts_with("motion_") || name == "clip.tumble";
-        if (ours && name.ends_with(".tumble")) files.push_back(entry.path());
-    }
-    return files;
-}
-
 CheckpointHeader header_of(const std::string& kind, std::int64_t frame, const CheckpointIdentity& identity) {
     CheckpointHeader header;
     header.program = v0::version();
@@ -51,6 +40,20 @@ CheckpointHeader header_of(const std::string& kind, std::int64_t frame, const Ch
 }
 
 }  // namespace
+
+bool is_checkpoint_name(const fs::path& name) {
+    const std::string text = name.string();
+    const bool ours = text.starts_with("checkpoint_") || text.starts_with("motion_") || text == "clip.tumble";
+    return ours && text.ends_with(".tumble") && !name.has_parent_path();
+}
+
+std::vector<fs::path> checkpoint_files_in(const fs::path& folder) {
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+        if (is_checkpoint_name(entry->path().filename())) files.push_back(entry->path());
+    return files;
+}
 
 fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
     return folder / fmt::format("checkpoint_{:06}.tumble", frame);
@@ -68,7 +71,7 @@ CheckpointWriting::CheckpointWriting(const fs::path& folder, CheckpointIdentity 
     : folder_(folder), identity_(std::move(identity)) {
     std::error_code missing;
     fs::remove(clip_path(folder), missing);  // first: the others are of no use without
-    for (const fs::path& file : files_in(folder)) fs::remove(file, missing);
+    for (const fs::path& file : checkpoint_files_in(folder)) fs::remove(file, missing);
 }
 
 void CheckpointWriting::write(const fs::path& path, const std::string& kind, std::int64_t frame,

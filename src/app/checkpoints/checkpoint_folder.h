@@ -19,6 +19,11 @@ namespace tumble {
 
 class OutputPlan;
 
+/// True for the name of such a file.
+bool is_checkpoint_name(const std::filesystem::path& name);
+/// The files of a folder with such names.
+std::vector<std::filesystem::path> checkpoint_files_in(const std::filesystem::path& folder);
+
 std::filesystem::path checkpoint_path(const std::filesystem::path& folder, std::int64_t frame);
 
 /// The files of such a folder as values of --checkpoints. Throws InputError where another output is one of them.

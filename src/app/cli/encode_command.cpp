@@ -148,6 +148,7 @@ void run_encode(const EncodeCommand& command) {
     const ImageSize size = frames.size;
     OutputPlan plan;
     for (const std::int64_t n : frames.numbers) plan.add_input(frame_path(command.frames, n));
+    plan.add_input(manifest_path(command.frames, FrameFiles::pictures));
     plan.add("--output", command.clip);
     find_ffmpeg();
     const std::string what = fmt::format("encoding {} x {} pixels", size.width, size.height);

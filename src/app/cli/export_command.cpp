@@ -17,7 +17,7 @@ void run_export(const ExportCommand& command) {
     FileList inputs;
     const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
     OutputPlan plan;
-    for (const auto& file : inputs) plan.add_input(file);
+    plan.add_inputs(inputs);
     plan.add("-o", command.output);
 
     TemporaryFile file(command.output);

@@ -75,16 +75,18 @@ void divide(FarmJob& job, std::int64_t length) {
 }
 
 void add_inputs(OutputPlan& plan, const FarmJob& job) {
-    for (const fs::path& scene : job.scenes) plan.add_input(scene);
-    for (const fs::path& mesh : job.meshes) plan.add_input(mesh);
+    plan.add_inputs(job.scenes);
+    plan.add_inputs(job.meshes);
 }
 
-void check_clip(const FarmJob& job, const RenderCommand& render) {
+/// `files`: names in the folder of the job.
+void check_clip(const FarmJob& job, const RenderCommand& render, const std::vector<std::string>& files = {}) {
     video_format(job.clip, job.fps, render.drawing.transparent);
     OutputPlan plan;
     add_inputs(plan, job);
     plan.add("--output", job.clip);
     if (!job.folder.empty()) plan.add("--folder", job.folder);
+    for (const std::string& name : files) plan.add_below("--folder", job.folder, name);
 }
 
 /// Throws InputError for a folder that holds other files than a job's, which scripts would replace, and for a clip whose
@@ -119,7 +121,7 @@ int run_slurm(const FarmCommand& command) {
     divide(job, part_length(job, command.parts));
     job.clip = whole_path(*command.render.clip);
     job.folder = command.folder ? whole_path(*command.folder) : fs::path(job.clip.string() + ".farm");
-    check_clip(job, command.render);
+    check_clip(job, command.render, slurm_file_names());
     check_slurm(job, command.slurm);
     check_folders(job);
     check_old_frames(job, scenes, command.render);

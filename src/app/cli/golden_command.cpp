@@ -8,14 +8,16 @@
 #include "app/golden/accept.h"
 #include "app/golden/check.h"
 #include "app/golden/program_identity.h"
+#include "app/golden/references.h"
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"
-#include "compare/image_compare.h"
+#include "compare/difference_image.h"
 #include "compare/platform.h"
 #include "compare/report/comparison_report.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/file_bytes.h"
+#include "output/file_transaction.h"
 #include "output/make_folder.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
@@ -24,7 +26,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 
 namespace tumble {
@@ -46,6 +47,12 @@ std::vector<const GoldenCase*> chosen_cases(const GoldenSuite& suite, const std:
     return chosen;
 }
 
+constexpr const char *new_prefix = "new_", *difference_prefix = "difference_";  // of the files of --failures
+
+std::optional<std::string> accepted_platform(const GoldenCommand& command) {
+    return command.platform == "none" ? std::nullopt : command.platform;
+}
+
 void save_report(const GoldenCommand& command, const GoldenSuite& suite, const SetResult& result) {
     ReportOptions options;
     options.title = suite.file.string();
@@ -55,37 +62,41 @@ void save_report(const GoldenCommand& command, const GoldenSuite& suite, const S
     write_comparison_report(result, options, *command.report);
 }
 
-/// The new image and the difference.
-std::array<fs::path, 2> failure_files(const fs::path& folder, const std::string& image) {
-    return {folder / ("new_" + image), folder / ("difference_" + image)};
-}
-
-void plan_outputs(const GoldenCommand& command, const GoldenSuite& suite) {
+void plan_check(const GoldenCommand& command, const GoldenSuite& suite, const std::vector<const GoldenCase*>& cases,
+                const std::optional<fs::path>& cache) {
+    if (!command.report && !command.json && !command.junit && !command.failures) return;
     OutputPlan plan;
-    plan.add_input(suite.file);
-    for (const GoldenCase& golden : suite.cases)
-        for (const fs::path& scene : golden.scenes) plan.add_input(scene);
+    add_suite_inputs(suite, plan);
+    add_reference_inputs(suite, plan);
+    if (cache) plan.add_input_folder(*cache, [](const fs::path&) { return true; });
     if (command.report) plan.add("--report", *command.report);
     if (command.json) plan.add("--json", *command.json);
     if (command.junit) plan.add("--junit", *command.junit);
     if (!command.failures) return;
-    for (const GoldenCase& golden : suite.cases)
-        for (const std::int64_t frame : golden.frames)
-            for (const fs::path& file : failure_files(*command.failures, golden.image_name(frame)))
-                plan.add("--failures", file);
+    for (const GoldenCase* golden : cases)
+        for (const std::int64_t frame : golden->frames)
+            for (const char* kind : {new_prefix, difference_prefix})
+                plan.add_below("--failures", *command.failures, kind + golden->image_name(frame));
 }
 
-/// new_NAME, and difference_NAME where there is a reference of the same size.
+/// Before anything is drawn.
+void plan_accept(const GoldenCommand& command, const GoldenSuite& suite, const std::vector<const GoldenCase*>& cases) {
+    OutputPlan plan;
+    add_suite_inputs(suite, plan);
+    add_references(suite, cases, accepted_platform(command), plan);
+}
+
+/// new_NAME, and difference_NAME where there is a reference.
 void keep_failures(const fs::path& folder, const GoldenSuite& suite, const SetResult& result) {
     for (const ImageResult& image : result.images) {
         if (image.verdict == Verdict::same || image.verdict == Verdict::alike || image.image.empty()) continue;
         const std::optional<std::string> bytes = bytes_of_file(image.image);
         if (!bytes) throw RunError(fmt::format("--failures: cannot read '{}' again", safe_path(image.image)));
         make_folder(folder);
-        const auto [new_image, difference] = failure_files(folder, image.name);
-        write_file(new_image, *bytes);
-        if (image.verdict == Verdict::different)
-            compare_png_files(image.reference, image.image, suite.tolerances_of(image.name).pixels, difference);
+        write_file(folder / (new_prefix + image.name), *bytes);
+        if (image.verdict == Verdict::different || image.sizes_differ())
+            write_difference_image(image.reference, image.image, suite.tolerances_of(image.name).pixels,
+                                   folder / (difference_prefix + image.name));
     }
 }
 
@@ -120,7 +131,7 @@ std::vector<AcceptedImage> accept(const GoldenCommand& command, const GoldenSuit
     const SceneDrawer drawer;
     Interrupt interrupt;
     AcceptOptions options;
-    if (command.platform && *command.platform != "none") options.platform = command.platform;
+    options.platform = accepted_platform(command);
     options.even_alike = command.even_alike;
     options.jobs = command.jobs;
     return accept_cases(suite, cases, drawer, options, interrupt);
@@ -169,12 +180,15 @@ int print_accepted(const std::vector<AcceptedImage>& images, bool quiet) {
 int run_golden_check(const GoldenCommand& command) {
     const GoldenSuite suite = load_suite(command.suite);
     const std::vector<const GoldenCase*> cases = chosen_cases(suite, command.cases);
-    plan_outputs(command, suite);
+    std::optional<fs::path> kept;
+    if (command.cache != "none") kept = cache_folder(suite, command.cache);
+    plan_check(command, suite, cases, kept);
+    finish_left_transactions(suite.references);
     const SceneDrawer drawer;
     Interrupt interrupt;
     std::optional<TemporaryFolder> no_cache;
-    if (command.cache == "none") no_cache.emplace("golden");
-    const ImageCache cache(no_cache ? no_cache->path() : cache_folder(suite, command.cache));
+    if (!kept) no_cache.emplace("golden");
+    const ImageCache cache(kept ? *kept : no_cache->path());
     DrawCasesOptions drawing;
     drawing.force = command.force;
     drawing.jobs = command.jobs;
@@ -186,11 +200,12 @@ int run_golden_check(const GoldenCommand& command) {
         drawing.report = [&](const DrawnCase&) { progress.update(++done); };
         drawn = draw_cases(cases, drawer, cache, drawing, interrupt);
     }
-    const SetResult result = check_cases(suite, drawn, {command.platform, command.jobs}, interrupt);
+    SetResult result = check_cases(suite, drawn, {command.platform, command.jobs}, interrupt);
     if (command.failures) keep_failures(*command.failures, suite, result);
+    if (command.report) save_report(command, suite, result);
+    if (no_cache) forget_files_in(no_cache->path(), result);
     if (command.json) write_file(*command.json, to_json(result));
     if (command.junit) write_file(*command.junit, to_junit(result));
-    if (command.report) save_report(command, suite, result);
     print_summary(result, command.quiet);
     if (!command.quiet) print_drawn(drawn);
     print_hints(command, suite, result, drawn);
@@ -203,6 +218,7 @@ int run_golden_accept(const GoldenCommand& command) {
         throw InputError(command.all ? "--all: stands for all cases; leave out the names, or --all"
                                      : "give the names of the cases to accept, or --all");
     const std::vector<const GoldenCase*> cases = chosen_cases(suite, command.cases);
+    plan_accept(command, suite, cases);
     return print_accepted(accept(command, suite, cases), command.quiet);
 }
 
@@ -210,6 +226,7 @@ int run_golden_add(const GoldenCommand& command) {
     const std::string text = suite_text_with(command.suite, command.added);
     const GoldenSuite suite = parse_suite(text, command.suite);
     const GoldenCase* const added = &suite.cases.back();
+    plan_accept(command, suite, {added});
     if (const int code = print_accepted(accept(command, suite, {added}), command.quiet); code != 0) return code;
     write_file(command.suite, text);
     if (!command.quiet) say("added the case {} to {}\n", added->name, safe_path(command.suite));

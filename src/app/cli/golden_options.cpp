@@ -22,7 +22,7 @@ constexpr const char* accepted_platform =
     "Write references for processors of that name, in the folder NAME, in place of general\nones";
 
 void add_common(CLI::App& command, GoldenCommand& c, const char* platform) {
-    command.add_option("--platform", c.platform, platform)->check(some_name())->type_name("NAME");
+    command.add_option("--platform", c.platform, platform)->check(platform_name())->type_name("NAME");
     command.add_option("--jobs", c.jobs, "Cases drawn at a time")
         ->check(CLI::Range(1, most_threads))
         ->option_text(fmt::format("N [{}]", c.jobs));

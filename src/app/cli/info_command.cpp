@@ -212,7 +212,7 @@ void run_info(const InfoCommand& command) {
     FileList inputs;
     const SceneDescription scene = load_scene(command.scene, command.overrides, &inputs);
     OutputPlan plan;
-    for (const auto& file : inputs) plan.add_input(file);
+    plan.add_inputs(inputs);
     if (command.bodies) plan.add("--bodies", *command.bodies);
     World world(scene);
     if (command.bodies) write_bodies(*command.bodies, scene, world);

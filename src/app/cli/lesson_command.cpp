@@ -7,15 +7,12 @@
 #include "app/lesson/lesson_runs.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/make_folder.h"
-#include "output/temporary_file.h"
+#include "output/file_transaction.h"
 #include "page/page_shell.h"
 #include "page/web_folder.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-
-#include <memory>
 
 namespace tumble {
 namespace {
@@ -26,9 +23,13 @@ constexpr const char* generator = "Tumble " TUMBLE_VERSION;
 constexpr int picture_side = 960;  // pixels, the longer one
 
 struct SitePage {
-    fs::path file;
+    std::string name;  // in the folder
     std::string html;
 };
+
+constexpr const char* index_name = "index.html";
+
+std::string page_name(const Lesson& lesson) { return lesson.name + ".html"; }
 
 void print_errors(const std::vector<InputError>& errors) {
     for (const InputError& error : errors) say("{}\n", error.what());
@@ -76,26 +77,29 @@ std::vector<SitePage> make_pages(const LessonCommand& command, const Course& cou
             pictures.push_back(draw_stage(command, lesson.stages[s], runs.scenes()[i].stages[s]));
         if (command.check) continue;
         const PageShell shell = lesson_page(course, i, runs.results()[i], pictures, generator);
-        pages.push_back({command.site / (lesson.name + ".html"), page_template.fill(shell)});
+        pages.push_back({page_name(lesson), page_template.fill(shell)});
     }
-    if (!command.check)
-        pages.push_back(
-            {command.site / "index.html", page_template.fill(index_page(course, command.title, generator))});
+    if (!command.check) pages.push_back({index_name, page_template.fill(index_page(course, command.title, generator))});
     return pages;
 }
 
-/// All pages are on the disk before the first of them gets its name.
 void write_pages(const LessonCommand& command, const std::vector<SitePage>& pages) {
-    make_folder(command.site);
-    std::vector<std::unique_ptr<TemporaryFile>> files;
-    for (const SitePage& page : pages) {
-        files.push_back(std::make_unique<TemporaryFile>(page.file));
-        files.back()->write(page.html);
-    }
-    for (const auto& file : files) file->commit();
+    FileTransaction files(command.site);
+    for (const SitePage& page : pages) files.add(page.name, page.html);
+    files.commit();
     if (command.quiet) return;
     for (const SitePage& page : pages)
-        say("wrote {} ({:.4g} kB)\n", safe_path(page.file), 1e-3 * double(page.html.size()));
+        say("wrote {} ({:.4g} kB)\n", safe_path(command.site / page.name), 1e-3 * double(page.html.size()));
+}
+
+void plan_outputs(const LessonCommand& command, const Course& course, const LessonRuns& runs, const fs::path& shell) {
+    if (command.check) return;
+    OutputPlan plan;
+    plan.add_input(shell);
+    plan.add_inputs(command.lessons);
+    plan.add_inputs(runs.inputs());
+    for (const Lesson& lesson : course.lessons) plan.add_below("-o", command.site, page_name(lesson));
+    plan.add_below("-o", command.site, index_name);
 }
 
 }  // namespace
@@ -112,16 +116,13 @@ int run_lesson(const LessonCommand& command) {
     if (!course.errors.empty()) return 2;
 
     LessonRuns runs(course, generator);
+    plan_outputs(command, course, runs, page_template.file());
     if (runs.errors().empty()) {
         Progress progress(std::int64_t(runs.blocks()), command.quiet);
         runs.run(command.threads, [&](std::size_t done) { progress.update(std::int64_t(done)); });
     }
     print_errors(runs.errors());
     if (!runs.errors().empty()) return 2;
-    OutputPlan plan;
-    for (const fs::path& file : command.lessons) plan.add_input(file);
-    for (const fs::path& file : runs.inputs()) plan.add_input(file);
-    for (const Lesson& lesson : course.lessons) plan.add("-o", command.site / (lesson.name + ".html"));
     const std::vector<SitePage> pages = make_pages(command, course, runs, page_template);
     if (!command.check) write_pages(command, pages);
     return 0;

@@ -2,6 +2,7 @@
 #include "app/cli/say.h"
 #include "app/manual/completion.h"
 #include "app/manual/man_page.h"
+#include "output/confined_path.h"
 #include "output/make_folder.h"
 #include "output/temporary_file.h"
 
@@ -17,7 +18,7 @@ void run_completion(const CompletionCommand& command, const manual::CommandText&
 void run_man_pages(const ManPagesCommand& command, const manual::CommandText& program) {
     make_folder(command.folder);
     for (const manual::ManPage& page : manual::man_pages(program, TUMBLE_VERSION))
-        write_file(command.folder / page.file, page.text);
+        write_file(confined_path(command.folder, page.file), page.text);
 }
 
 }  // namespace tumble

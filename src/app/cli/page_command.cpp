@@ -99,9 +99,10 @@ void run_page(const PageCommand& command) {
     check_command(command, scenes);
     const fs::path output = command.output.value_or(command.scenes.front().stem().string() + ".html");
     OutputPlan plan;
-    for (const fs::path& file : scenes.inputs) plan.add_input(file);
-    plan.add("-o", output);
+    plan.add_inputs(scenes.inputs);
     const PageTemplate page_template(find_web_folder());
+    plan.add_input(page_template.file());
+    plan.add("-o", output);
 
     TemporaryFile file(output);
     const PageFilm film = film_of(command, scenes);

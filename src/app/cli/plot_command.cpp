@@ -50,7 +50,7 @@ void run_plot(const PlotCommand& command) {
     for (const Variant& variant : variants) {
         FileList inputs;
         scenes.push_back(load_scene(variant.scene, variant.overrides, &inputs));
-        for (const auto& file : inputs) plan.add_input(file);
+        plan.add_inputs(inputs);
         runs.emplace_back(variant.label, parse_quantities(command.quantities, scenes.back()));
     }
     plan.add("-o", command.output);

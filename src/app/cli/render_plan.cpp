@@ -1,5 +1,6 @@
 #include "app/cli/render_plan.h"
 
+#include "app/checkpoints/checkpoint_folder.h"
 #include "app/clip/drawing_settings.h"
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
@@ -29,7 +30,11 @@ std::optional<fs::path> folder_of_aovs(const RenderCommand& command) {
 /// Throws InputError if an output would replace another one or an input.
 void check_outputs(const RenderCommand& command, const RenderPlan& plan, const RenderScenes& scenes) {
     OutputPlan files;
-    for (const fs::path& file : scenes.inputs) files.add_input(file);
+    files.add_inputs(scenes.inputs);
+    if (command.from_checkpoints) {
+        files.add_inputs(checkpoint_files_in(*command.from_checkpoints));
+        files.add_input_folder(*command.from_checkpoints, is_checkpoint_name);
+    }
     if (command.motion_record && (command.resume || command.from_checkpoints))
         throw InputError("--motion-record: is of a whole run, without --resume and --from-checkpoints");
     if (command.motion_record) files.add("--motion-record", *command.motion_record);

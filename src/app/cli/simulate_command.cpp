@@ -53,10 +53,18 @@ void say_run(const SimulateCommand& command, const SceneDescription& scene, std:
         double(frames - 1) / timing.fps / seconds);
 }
 
-/// Throws InputError if a table would replace another one or an input.
+/// Throws InputError if a table would replace another one, an input or a checkpoint.
 void check_tables(const SimulateCommand& command, const FileList& inputs) {
     OutputPlan plan;
-    for (const std::filesystem::path& file : inputs) plan.add_input(file);
+    plan.add_inputs(inputs);
+    if (const auto& folder = command.from_checkpoints ? command.from_checkpoints : command.checkpoints) {
+        const std::vector<std::filesystem::path> files = checkpoint_files_in(*folder);
+        if (command.from_checkpoints) plan.add_inputs(files);
+        // Those of an earlier run are replaced.
+        if (command.checkpoints)
+            for (const std::filesystem::path& file : files) plan.add("--checkpoints", file);
+        plan.add_input_folder(*folder, is_checkpoint_name);
+    }
     command.tables.add_to(plan);
     if (command.checkpoints) add_checkpoints(plan, *command.checkpoints);
 }

@@ -1,18 +1,25 @@
 #include "app/cli/commands.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/files/output_plan.h"
 #include "app/sweep/manifest.h"
 #include "app/sweep/read_plan.h"
+#include "app/sweep/sample_folder.h"
+#include "app/sweep/sample_maker.h"
 #include "app/sweep/sweep_run.h"
 #include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "scene/load.h"
 
 #include <fmt/format.h>
 
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <string>
 
 namespace tumble {
 namespace {
@@ -65,6 +72,34 @@ void print_result(const SweepCounts& counts, const std::filesystem::path& folder
     say("{}\n", text);
 }
 
+/// Folders above those of the samples, below that of the sweep.
+std::set<std::filesystem::path> inner_folders(const SweepPlan& plan) {
+    std::set<std::filesystem::path> folders;
+    if (plan.name.find('/') == std::string::npos) return folders;
+    for (std::int64_t i = 0; i < plan.samples; ++i)
+        folders.insert(std::filesystem::path(sample_of(plan, i).name).parent_path());
+    return folders;
+}
+
+/// Throws InputError if a sample or the manifest would replace a file that is read, or would not be below the folder.
+void plan_outputs(const SweepPlan& plan, const std::filesystem::path& folder) {
+    FileList read{plan.file, plan.scene};
+    try {
+        load_scene(plan.scene, {}, &read);
+    } catch (const InputError&) {
+        // The scene may need the values of the samples.
+    }
+    OutputPlan outputs;
+    outputs.add_inputs(read);
+    outputs.add_below("-o", folder, ManifestFile::path_in({}));
+    for (const std::filesystem::path& inner : inner_folders(plan)) confined_path(folder, inner / record_name);
+    const std::filesystem::path hidden = SampleMaker::hidden_folder({});
+    outputs.add_replaced_folders("-o", folder, [&](const std::filesystem::path& inner) {
+        std::error_code error;
+        return inner.filename() == hidden || std::filesystem::exists(inner / record_name, error);
+    });
+}
+
 }  // namespace
 
 int run_sweep(const SweepCommand& command) {
@@ -84,6 +119,7 @@ int run_sweep(const SweepCommand& command) {
         print_plan(plan);
         return 0;
     }
+    plan_outputs(plan, *command.folder);
     options.folder = *command.folder;
     options.stop_at_first = command.stop;
     options.only = command.only;

@@ -192,6 +192,10 @@ void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings) {
     write("submit.sh", submit_script_text, "");
 }
 
+std::vector<std::string> slurm_file_names() {
+    return {farm_file({}).string(), "settings.sh", "simulate.sh", "frames.sh", "stitch.sh", "submit.sh"};
+}
+
 fs::path submit_script(const fs::path& job_folder) { return job_folder / "submit.sh"; }
 
 }  // namespace tumble

@@ -22,6 +22,9 @@ void check_slurm(const FarmJob& job, const SlurmSettings& settings);
 /// Makes the folder where it is missing, and writes the scripts. Precondition: check_slurm() has passed. Throws RunError.
 void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings);
 
+/// The files that it writes, in the folder of the job.
+std::vector<std::string> slurm_file_names();
+
 std::filesystem::path submit_script(const std::filesystem::path& job_folder);
 
 }  // namespace tumble

@@ -1,17 +1,16 @@
 #include "app/golden/accept.h"
 
+#include "app/golden/references.h"
 #include "compare/pair_compare.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/file_bytes.h"
-#include "output/make_folder.h"
+#include "output/file_transaction.h"
 #include "output/png_reader.h"
-#include "output/temporary_file.h"
 #include "output/temporary_folder.h"
 
 #include <fmt/format.h>
 
-#include <memory>
 #include <system_error>
 #include <utility>
 
@@ -27,21 +26,6 @@ std::string content(const fs::path& file) {
     if (!bytes) throw RunError(fmt::format("cannot read '{}'", safe_path(file)));
     return std::move(*bytes);
 }
-
-/// Files that get their names together.
-class NewReferences {
-public:
-    void add(const fs::path& from, const fs::path& to) {
-        files_.push_back(std::make_unique<TemporaryFile>(to));
-        files_.back()->write(content(from));
-    }
-    void commit() {
-        for (const auto& file : files_) file->commit();
-    }
-
-private:
-    std::vector<std::unique_ptr<TemporaryFile>> files_;
-};
 
 /// Why the image is no reference; empty if both drawings are the same.
 std::string difference_between(const DrawnCase& first, const DrawnCase& second, const std::string& name) {
@@ -67,12 +51,11 @@ AcceptedImage::What place_of(const fs::path& image, const fs::path& reference, c
     return result.verdict == Verdict::alike ? What::kept_alike : What::replaced;
 }
 
-/// Accepts the images of one case.
-class CaseAcceptance {
+/// Accepts the images of all cases; their references get their names together.
+class Acceptance {
 public:
-    CaseAcceptance(const GoldenSuite& suite, const AcceptOptions& options) : suite_(suite), options_(options) {
-        folder_ = options.platform ? suite.references / *options.platform : suite.references;
-    }
+    Acceptance(const GoldenSuite& suite, const AcceptOptions& options)
+        : suite_(suite), options_(options), files_(suite.references) {}
 
     void accept(const DrawnCase& first, const DrawnCase& second, std::vector<AcceptedImage>& accepted) {
         const GoldenCase& golden = *first.golden;
@@ -97,37 +80,39 @@ public:
             }
             accepted.push_back(image);
         }
-        if (!refused) publish(first, std::span(accepted).last(images.size()));
+        if (!refused) add(first, std::span(accepted).last(images.size()));
     }
+
+    void commit() { files_.commit(); }
 
 private:
     using What = AcceptedImage::What;
 
-    void publish(const DrawnCase& drawn, std::span<AcceptedImage> images) {
+    void add(const DrawnCase& drawn, std::span<AcceptedImage> images) {
         const GoldenCase& golden = *drawn.golden;
-        make_folder(folder_);
-        NewReferences files;
+        const auto add = [&](const fs::path& from, const fs::path& name) { files_.add(name, content(from)); };
         bool all_new = true;  // the record tells of the references: it is kept with an older one
         for (AcceptedImage& image : images) {
-            const fs::path from = drawn.folder / image.name, to = folder_ / image.name;
-            image.what = place_of(from, to, suite_.tolerances_of(golden));
+            const fs::path from = drawn.folder / image.name, name = reference_name(image.name, options_.platform);
+            image.what = place_of(from, suite_.references / name, suite_.tolerances_of(golden));
             if (image.what == What::kept_alike && options_.even_alike) image.what = What::replaced;
-            if (image.what == What::made || image.what == What::replaced) files.add(from, to);
+            if (image.what == What::made || image.what == What::replaced) add(from, name);
             all_new = all_new && image.what != What::kept_alike;
         }
-        const fs::path record = drawn.folder / golden.record_name(), old_record = folder_ / golden.record_name();
+        const fs::path record = drawn.folder / golden.record_name();
+        const fs::path record_name = reference_name(golden.record_name(), options_.platform);
+        const fs::path old_record = suite_.references / record_name;
         std::error_code error;
         const bool none = !fs::exists(old_record, error);
         const bool changed = none || content(old_record) != content(record);
         const bool any_new = std::ranges::any_of(
             images, [](const AcceptedImage& i) { return i.what == What::made || i.what == What::replaced; });
-        if (changed && (none || all_new || any_new)) files.add(record, old_record);
-        files.commit();
+        if (changed && (none || all_new || any_new)) add(record, record_name);
     }
 
     const GoldenSuite& suite_;
     const AcceptOptions& options_;
-    fs::path folder_;
+    FileTransaction files_;
 };
 
 }  // namespace
@@ -143,8 +128,10 @@ std::vector<AcceptedImage> accept_cases(const GoldenSuite& suite, std::span<cons
     };
     const std::vector<DrawnCase> first = draw("first", first_work), second = draw("second", second_work);
     std::vector<AcceptedImage> accepted;
-    CaseAcceptance acceptance(suite, options);
+    finish_left_transactions(suite.references);
+    Acceptance acceptance(suite, options);
     for (std::size_t i = 0; i < cases.size(); ++i) acceptance.accept(first[i], second[i], accepted);
+    acceptance.commit();
     return accepted;
 }
 

@@ -26,7 +26,8 @@ struct ImagePlace {
 References references_in(const GoldenSuite& suite, const std::string& platform) {
     std::error_code error;
     if (!fs::exists(suite.references, error)) return {};
-    return references_of(png_files_in(suite.references), {}, platform, platform_folders(suite.tolerances.platforms()));
+    return references_of(pictures_in(suite.references).files, {}, platform,
+                         platform_folders(suite.tolerances.platforms()));
 }
 
 ImagePair pair_of(const ImagePlace& place, const NamedFiles& references) {
@@ -105,7 +106,11 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
         std::vector<ImageResult> compared = compare_pairs(source, *tolerances, options.workers);
         for (std::size_t k = 0; k < indices.size(); ++k) result.images[indices[k]] = std::move(compared[k]);
     }
-    for (std::size_t i = 0; i < places.size(); ++i) explain(places[i], result.images[i]);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        explain(places[i], result.images[i]);
+        // Each image of a case has its share.
+        result.images[i].seconds += places[i].drawn->seconds / double(places[i].drawn->golden->frames.size());
+    }
     return result;
 }
 

@@ -1,5 +1,7 @@
 #include "app/sweep/manifest.h"
 
+#include "output/confined_path.h"
+
 #include <nlohmann/json.hpp>
 
 #include <fstream>
@@ -12,7 +14,7 @@ constexpr std::size_t flush_at = 1 << 16;  // bytes
 
 }  // namespace
 
-ManifestFile::ManifestFile(const std::filesystem::path& folder) : file_(path_in(folder)) {}
+ManifestFile::ManifestFile(const std::filesystem::path& folder) : file_(confined_path(folder, path_in({}))) {}
 
 void ManifestFile::write(std::string& line) {
     buffer_ += line;

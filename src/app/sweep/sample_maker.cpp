@@ -3,6 +3,7 @@
 #include "app/sweep/resolved_scene.h"
 #include "app/sweep/sample_clip.h"
 #include "app/sweep/sample_tables.h"
+#include "output/confined_path.h"
 #include "scene/hash/scene_hash.h"
 
 #include <fmt/format.h>
@@ -47,6 +48,8 @@ bool SampleMaker::make(std::int64_t index, Known known) {
     record.scene_hash = scene_hash(scenes.first());
     record.identity = identity_of(plan_, sample, record.scene_hash);
     const fs::path place = folder_ / sample.name;
+    if (const fs::path above = fs::path(sample.name).parent_path(); !above.empty())
+        confined_path(folder_, above / record_name);
     if (known == Known::kept) {
         const auto there = read_sample_record(place);
         if (there && there->identity == record.identity && files_are_whole(place, there->files)) return false;
