@@ -1,9 +1,10 @@
 // All lessons of a site, in their order, with the parts of pages that the program does not make.
+import type { LessonFiles } from "./files.ts";
 import { escape_html } from "./html.ts";
 import { Lesson } from "./lesson.ts";
 import { Problems, type Problem } from "./problems.ts";
-import { References } from "./references.ts";
-import { Source } from "./source.ts";
+import { page_address, References, Targets } from "./references.ts";
+import { decode_lesson, Source } from "./source.ts";
 
 /** What the program needs of a lesson. In `body` these comments stand for what it makes: stage:ID, convergence:N,
  * measured:N:ROW, deviation:N:ROW. */
@@ -56,7 +57,7 @@ ${answers}`;
 function index_of(lessons: Lesson[]): string {
   const items = lessons.map((lesson) => {
     const duration = minutes(lesson) ? `<p class="lesson-duration">${minutes(lesson)}</p>` : "";
-    return `<li><h2><a href="${encodeURI(lesson.name)}.html">${escape_html(lesson.front.title)}</a></h2>
+    return `<li><h2><a href="${escape_html(page_address(lesson.name))}">${escape_html(lesson.front.title)}</a></h2>
 <p>${escape_html(lesson.front.summary)}</p>${duration}</li>`;
   });
   return `<ol class="lesson-list">
@@ -65,40 +66,52 @@ ${items.join("\n")}
 `;
 }
 
-/** `read`: throws if a file cannot be read. */
-export function compile_course(files: string[], read: (file: string) => string): CourseOutput {
-  const problems = new Problems();
-  const references = new References();
-  const lessons: Lesson[] = [];
-  for (const file of files) {
-    let text = "";
+function read_sources(names: string[], files: LessonFiles, problems: Problems): Source[] {
+  const sources: Source[] = [];
+  for (const name of names) {
     try {
-      text = read(file);
+      const text = decode_lesson(name, files.read_lesson(name), problems);
+      if (text !== null) sources.push(new Source(name, text, problems));
     } catch (error) {
-      problems.add(file, { line: 1, column: 1 }, `cannot read the file: ${(error as Error).message}`);
-      continue;
+      problems.add(name, { line: 1, column: 1 }, `cannot read the file: ${(error as Error).message}`);
     }
-    const lesson = new Lesson(new Source(file, text.replace(/\r\n/g, "\n").replace(/^\uFEFF/, ""), problems), references);
+  }
+  return sources;
+}
+
+/** Reads all lessons with the targets of references, or without them to collect these. */
+function read_lessons(sources: Source[], files: LessonFiles, known: Targets | null): { lessons: Lesson[]; targets: Targets } {
+  const targets = new Targets();
+  const references = new References(known, files.lies_beside);
+  const lessons: Lesson[] = [];
+  for (const source of sources) {
+    const lesson = new Lesson(source, { targets, references, files });
     const twin = lessons.find((other) => other.name === lesson.name);
     if (twin || lesson.name === "index")
-      problems.add(file, { line: 1, column: 1 }, twin ? `two lessons have the name '${lesson.name}': ${twin.source.file}` : "the name 'index' is taken by the list of lessons");
+      source.problem({ line: 1, column: 1 }, twin ? `two lessons have the name '${lesson.name}': ${twin.source.file}` : "the name 'index' is taken by the list of lessons");
     lessons.push(lesson);
   }
   lessons.sort((a, b) => a.front.order - b.front.order || (a.name < b.name ? -1 : 1));
   for (const lesson of lessons) lesson.read();
-  const names = new Map(lessons.map((lesson) => [lesson.source, lesson.name]));
-  const fill_in = references.resolve_all((source) => names.get(source)!);
+  return { lessons, targets };
+}
+
+export function compile_course(names: string[], files: LessonFiles): CourseOutput {
+  const problems = new Problems();
+  const sources = read_sources(names, files, problems);
+  const survey = sources.map((source) => new Source(source.file, source.text, new Problems()));
+  const { lessons } = read_lessons(sources, files, read_lessons(survey, files, null).targets);
   return {
     lessons: lessons.map((lesson, i) => ({
       file: lesson.source.file,
       name: lesson.name,
       title: lesson.front.title,
       summary: lesson.front.summary,
-      body: fill_in(body_of(lessons, i)),
-      stages: lesson.stages.map((stage) => ({ ...stage, caption: fill_in(stage.caption) })),
+      body: body_of(lessons, i),
+      stages: lesson.stages,
       quizzes: lesson.quizzes,
       measures: lesson.measures,
-      convergences: lesson.convergences.map((block) => ({ ...block, caption: fill_in(block.caption) })),
+      convergences: lesson.convergences,
     })),
     index: index_of(lessons),
     errors: problems.sorted(),

@@ -25,6 +25,8 @@ const functions: Record<string, [ValueType[], ValueType]> = {
   transpose: [["matrix"], "matrix"],
 };
 
+const most_depth = 200;  // the page reads the tree by recursion
+
 interface Typed {
   tree: Tree;
   type: ValueType;
@@ -32,22 +34,31 @@ interface Typed {
 
 class Reader {
   private from = 0;
+  private depth = 0;
 
   constructor(private readonly text: string, private readonly moment: Moment) {}
 
   /** jsep gives no places: names are found in the text in the order of reading. */
   private place_of(name: string): number {
-    const found = new RegExp(`(?<![A-Za-z0-9_])${name}(?![A-Za-z0-9_])`).exec(this.text.slice(this.from));
+    const found = new RegExp(`(?<![A-Za-z0-9_])${name.replaceAll("$", "\\$")}(?![A-Za-z0-9_])`).exec(this.text.slice(this.from));
     const offset = found ? this.from + found.index : this.from;
     if (found) this.from = offset + name.length;
     return offset;
   }
 
   read(node: jsep.Expression): Typed {
+    if (++this.depth > most_depth) throw new ExpressionError(`more than ${most_depth} levels of parentheses or terms`, this.from);
+    const read = this.read_node(node);
+    --this.depth;
+    return read;
+  }
+
+  private read_node(node: jsep.Expression): Typed {
     switch (node.type) {
       case "Literal":
-        if (typeof node.value === "number") return { tree: node.value, type: "number" };
-        break;
+        if (typeof node.value !== "number") break;
+        if (!Number.isFinite(node.value)) throw new ExpressionError(`the number ${String(node.raw)} is too large`, this.from);
+        return { tree: node.value, type: "number" };
       case "Identifier":
         return this.symbol(node.name as string);
       case "UnaryExpression": {
@@ -96,7 +107,7 @@ class Reader {
   private call(node: jsep.CallExpression): Typed {
     const name = (node.callee as jsep.Identifier).name ?? "";
     const offset = this.place_of(name);
-    const types = functions[name];
+    const types = Object.hasOwn(functions, name) ? functions[name] : undefined;
     if (!types) throw new ExpressionError(`unknown function '${name}'${suggestion(name, Object.keys(functions))}`, offset);
     const values = node.arguments.map((argument) => this.read(argument));
     const [wanted, type] = types;
@@ -121,7 +132,7 @@ export function parse_expression(text: string, moment: Moment): Typed {
     node = jsep(text);
   } catch (error) {
     const { message, index, description } = error as Error & { index?: number; description?: string };
-    throw new ExpressionError(description ?? message, index ?? 0);
+    throw new ExpressionError(error instanceof RangeError ? "parentheses are nested too deeply" : description ?? message, index ?? 0);
   }
   if (node.type === "Compound") throw new ExpressionError("an operator is missing, or the text is empty", 0);
   return new Reader(text, moment).read(node);

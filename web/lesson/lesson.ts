@@ -13,12 +13,21 @@ import { code_html, MarkdownPass } from "./markdown.ts";
 import type { MathMeta } from "./markdown_math.ts";
 import { math_to_html, MathError } from "./math.ts";
 import { suggestion, type Place } from "./problems.ts";
-import type { References } from "./references.ts";
+import type { LessonFiles } from "./files.ts";
+import type { References, Targets } from "./references.ts";
 import type { Source } from "./source.ts";
 import type { Table } from "./table.ts";
 
 const block_names = ["tumble", "numbers", "quiz", "measure", "convergence"] as const;
 const shown_languages = ["", "text", "toml", "sh", "console", "c", "cpp", "c++", "python", "javascript", "typescript", "json", "csv", "markdown", "pseudocode"];
+
+/** What the lessons of a course share. */
+export interface CourseContext {
+  /** Filled while the lessons are read. */
+  targets: Targets;
+  references: References;
+  files: LessonFiles;
+}
 
 export class Lesson {
   readonly name: string;
@@ -33,15 +42,35 @@ export class Lesson {
   private equations = 0;
   private readonly used_stages: { id: string; table: Table }[] = [];
   private readonly pass: MarkdownPass;
+  private readonly value_pass: MarkdownPass;
 
-  constructor(readonly source: Source, private readonly references: References) {
+  constructor(readonly source: Source, private readonly course: CourseContext) {
     this.name = basename(source.file).replace(/\.md$/, "");
     this.front = read_front_matter(source);
-    references.add_lesson(this.name, this.front.title);
-    this.pass = new MarkdownPass(source, references, {
+    course.targets.add_lesson(this.name, this.front.title);
+    const reads = {
+      link: (place: Place, address: string, has_text: boolean) => course.references.resolve(source, place, address, this.name, has_text),
+      picture: (address: string) => course.files.read_picture(source.file, address),
+    };
+    this.pass = new MarkdownPass(source, {
+      ...reads,
       heading: (token, inline, place) => this.heading(token, inline, place),
       fence: (token, place) => this.fence(token, place),
       equation: (meta, html, place) => this.equation(meta, html, place),
+    });
+    // A value may stand in the page twice, as answers do, so nothing in it has a name.
+    const refuse = (place: Place, what: string) => source.problem(place, `${what} cannot stand in the value of a key: write it in the text of the lesson`);
+    this.value_pass = new MarkdownPass(source, {
+      ...reads,
+      heading: (_token, _inline, place) => refuse(place, "a heading"),
+      fence: (token, place) => {
+        if ((block_names as readonly string[]).includes(token.info.trim())) refuse(place, "a block");
+        return this.fence_of_code(token, place);
+      },
+      equation: (meta, html, place) => {
+        if (meta.name) refuse(place, "an equation with a name");
+        return this.equation({ ...meta, name: undefined }, html, place);
+      },
     });
   }
 
@@ -54,9 +83,9 @@ export class Lesson {
     }
   }
 
-  private anchor(name: string, text: string, place: Place): void {
-    if (!this.references.add_anchor(this.name, name, { text }))
-      this.source.problem(place, `the name '${name}' is used twice in this lesson`);
+  private anchor(name: string, html: string, place: Place): void {
+    const mistake = this.course.targets.add_anchor(this.name, name, html);
+    if (mistake) this.source.problem(place, mistake);
   }
 
   private heading(token: Token, inline: Token, place: Place): void {
@@ -70,7 +99,9 @@ export class Lesson {
     }
     const id = given?.[1] ?? slug(inline.content);
     token.attrSet("id", id);
-    const html = this.pass.render_inline(inline.content, place.line);
+    const empty = inline.children?.some((child, i, all) => child.type === "link_open" && all[i + 1].type === "link_close");
+    if (empty) this.source.problem(place, "a reference in a heading needs a text: [text](#name)");
+    const html = this.pass.heading_html(inline, place.line);
     this.anchor(id, html, place);
     this.sections.push({ level: Number(token.tag.slice(1)), id, html });
   }
@@ -88,13 +119,9 @@ export class Lesson {
     return `<div class="equation"${id}><div class="equation-body" tabindex="0">${html}</div><div class="equation-number">${number}${notes}</div></div>\n`;
   }
 
-  private fence(token: Token, place: Place): string | null {
+  private fence(token: Token, place: Place): string {
     const name = token.info.trim();
-    if (!(block_names as readonly string[]).includes(name)) {
-      if (shown_languages.includes(name)) return code_html(token.content, name);
-      this.source.problem(place, `unknown block '${name}'${suggestion(name, [...block_names, ...shown_languages])}`);
-      return null;
-    }
+    if (!(block_names as readonly string[]).includes(name)) return this.fence_of_code(token, place);
     const block: BlockText = { source: this.source, text: token.content, place, first: place.line + 1 };
     switch (name as (typeof block_names)[number]) {
       case "tumble": {
@@ -128,11 +155,19 @@ export class Lesson {
     }
   }
 
+  private fence_of_code(token: Token, place: Place): string {
+    const name = token.info.trim();
+    if (shown_languages.includes(name)) return code_html(token.content, name);
+    if (!(block_names as readonly string[]).includes(name))
+      this.source.problem(place, `unknown block '${name}'${suggestion(name, [...block_names, ...shown_languages])}`);
+    return code_html(token.content, "");
+  }
+
   private readonly context: BlockContext = {
     markdown: (table, key, inline) => {
       const text = value_text(table, key);
       const line = this.value_line(table.place(key).line, text);
-      return inline ? this.pass.render_inline(text, line) : this.pass.render(text, line);
+      return inline ? this.value_pass.render_inline(text, line) : this.value_pass.render(text, line);
     },
     math: (table, key) => {
       const text = value_text(table, key);

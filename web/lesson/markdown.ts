@@ -1,21 +1,25 @@
 // Markdown to HTML: markdown-it with our rules, and a pass over its tokens that knows where they stand in the file.
 import MarkdownIt from "markdown-it";
 import type { Token } from "markdown-it";
-import { readFileSync } from "node:fs";
-import { dirname, extname, join } from "node:path";
+import { extname } from "node:path";
+import { decode_address, link_mistake } from "./addresses.ts";
 import { aside_html, add_asides, type AsideMeta } from "./markdown_aside.ts";
 import { add_math, type MathMeta } from "./markdown_math.ts";
 import { escape_html } from "./html.ts";
 import { math_to_html, MathError } from "./math.ts";
 import type { Place } from "./problems.ts";
-import type { References } from "./references.ts";
+import type { Link } from "./references.ts";
 import type { Source } from "./source.ts";
 
 /** What the pass does with parts that belong to a lesson as a whole. */
 export interface Handlers {
   heading(token: Token, inline: Token, place: Place): void;
-  /** HTML of a fenced block, or null for code that is only shown. */
-  fence(token: Token, place: Place): string | null;
+  /** Where a reference of the lessons leads; null: the address is none. */
+  link(place: Place, address: string, has_text: boolean): Link | null;
+  /** Throws an Error whose message says why the file cannot be read. */
+  picture(address: string): Uint8Array;
+  /** HTML of a fenced block. */
+  fence(token: Token, place: Place): string;
   equation(meta: MathMeta, html: string, place: Place): string;
 }
 
@@ -25,6 +29,8 @@ function meta_of<Meta extends MathMeta | AsideMeta>(token: Token): Meta {
 }
 
 const markdown = new MarkdownIt({ html: false, typographer: true });
+// Addresses are checked with their places, where the parser would show the source of the link.
+markdown.validateLink = () => true;
 add_math(markdown);
 add_asides(markdown);
 markdown.renderer.rules.math_inline = (tokens, i) => meta_of<MathMeta>(tokens[i]).html ?? "";
@@ -42,7 +48,6 @@ const image_types: Record<string, string> = {
 export class MarkdownPass {
   constructor(
     private readonly source: Source,
-    private readonly references: References,
     private readonly handlers: Handlers,
   ) {}
 
@@ -59,22 +64,28 @@ export class MarkdownPass {
     return markdown.renderer.render(tokens, markdown.options, {});
   }
 
+  /** HTML of a heading for other places, which may stand in a link of their own. */
+  heading_html(inline: Token, line: number): string {
+    this.inline(inline, line);
+    inline.meta = { ...inline.meta, done: true };
+    const children = (inline.children ?? []).filter((child) => child.type !== "link_open" && child.type !== "link_close");
+    return markdown.renderer.renderInline(children, markdown.options, {});
+  }
+
   private walk(tokens: Token[], first: number): void {
     let line = first;
     tokens.forEach((token, i) => {
       if (token.map) line = first + token.map[0];
       const place = { line, column: 1 };
-      if (token.type === "inline") this.inline(token, line);
-      else if (token.type === "heading_open") this.handlers.heading(token, tokens[i + 1], place);
+      if (token.type === "inline") {
+        if (!token.meta?.done) this.inline(token, line);
+      } else if (token.type === "heading_open") this.handlers.heading(token, tokens[i + 1], place);
       else if (token.type === "th_open" && tokens[i + 1].content === "") token.tag = tokens[i + 2].tag = "td";
       else if (token.type === "math_block") this.block_math(token, first);
       else if (token.type === "aside_open") this.aside(token, place);
       else if (token.type === "fence") {
-        const html = this.handlers.fence(token, { line, column: this.column_of(line, token.markup) });
-        if (html !== null) {
-          token.type = "lesson_html";
-          token.content = html;
-        }
+        token.content = this.handlers.fence(token, { line, column: this.column_of(line, token.markup) });
+        token.type = "lesson_html";
       }
     });
   }
@@ -89,9 +100,9 @@ export class MarkdownPass {
     for (let i = 0; i < children.length; ++i) {
       const child = children[i];
       const place_of = (text: string) => {
-        const offset = Math.max(0, token.content.indexOf(text, search));
-        search = offset;
-        return this.source.place_in(token.content, offset, first);
+        const offset = token.content.indexOf(text, search);
+        if (offset >= 0) search = offset;
+        return this.source.place_in(token.content, Math.max(0, offset), first);
       };
       if (child.type === "math_inline") {
         const meta = meta_of<MathMeta>(child);
@@ -99,14 +110,7 @@ export class MarkdownPass {
         if (meta.mistake) this.source.problem(place(-1), meta.mistake);
         else meta.html = this.math(meta.tex, false, place);
       } else if (child.type === "link_open") {
-        const address = String(child.attrGet("href") ?? "");
-        const empty = children[i + 1]?.type === "link_close";
-        const { line, column } = place_of(`](${decodeURI(address)}`);
-        const marks = this.references.refer(this.source, { line, column: column + "](".length }, address, !empty);
-        if (marks) {
-          child.attrSet("href", marks.href);
-          if (empty) children[i + 1].meta = { text: marks.text };
-        }
+        this.link(token.content, children, i, place_of);
       } else if (child.type === "image") {
         this.image(child, place_of("!["));
       }
@@ -152,20 +156,48 @@ export class MarkdownPass {
     meta.html = aside_html(meta, true, (title) => this.render_inline(title, place.line));
   }
 
+  /** `children[i]` opens it. */
+  private link(content: string, children: Token[], i: number, place_of: (text: string) => Place): void {
+    const open = children[i];
+    const address = String(open.attrGet("href") ?? "");
+    // <address> has no brackets.
+    const written = [`](${decode_address(address) ?? ""}`, "](", "<"].find((text) => content.includes(text)) ?? "";
+    const { line, column } = place_of(written);
+    const place = { line, column: column + (written.startsWith("](") ? 2 : written.length) };
+    open.attrSet("href", "#");
+    const mistake = link_mistake(address);
+    if (mistake) {
+      this.source.problem(place, mistake);
+      return;
+    }
+    const empty = children[i + 1]?.type === "link_close";
+    const link = this.handlers.link(place, address, !empty);
+    open.attrSet("href", link?.href ?? address);
+    if (empty && link) children[i + 1].meta = { text: link.text };
+  }
+
   /** Pages are one file: pictures go into it. */
   private image(token: Token, place: Place): void {
-    const address = decodeURI(String(token.attrGet("src") ?? ""));
+    const written = String(token.attrGet("src") ?? "");
+    token.attrSet("src", "");
+    // The parser's own text for readers who do not see it leaves equations out.
+    for (const child of token.children ?? [])
+      if (child.type === "math_inline") Object.assign(child, { type: "text", content: meta_of<MathMeta>(child).tex });
     if (!token.content) this.source.problem(place, "the picture needs a text for readers who do not see it: ![text](file)");
+    const address = decode_address(written);
+    if (address === null) {
+      this.source.problem(place, link_mistake(written));
+      return;
+    }
     const type = image_types[extname(address).toLowerCase()];
-    if (/^[a-z]+:/.test(address) || !type) {
+    if (/^[a-z][a-z0-9+.-]*:/i.test(address) || !type) {
       this.source.problem(place, `a picture must be a file of ${Object.keys(image_types).join(", ")} (given '${address}')`);
       return;
     }
     try {
-      const bytes = readFileSync(join(dirname(this.source.file), address));
-      token.attrSet("src", `data:${type};base64,${bytes.toString("base64")}`);
-    } catch {
-      this.source.problem(place, `cannot read the picture '${address}'`);
+      token.attrSet("src", `data:${type};base64,${Buffer.from(this.handlers.picture(address)).toString("base64")}`);
+    } catch (error) {
+      this.source.problem(place, `cannot read the picture '${address}': ${(error as Error).message}`);
     }
   }
 }

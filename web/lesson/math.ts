@@ -1,6 +1,7 @@
 // TeX to MathML, when the lesson is built: the page carries no TeX and no font of many weights.
 import temml from "temml";
 import { math_characters } from "../build/math_characters.mjs";
+import { forbidden_in } from "./math_tree.ts";
 import { suggestion } from "./problems.ts";
 import { symbol_macros, symbols } from "./symbols.ts";
 
@@ -13,6 +14,9 @@ export class MathError extends Error {
     super(message);
   }
 }
+
+const largest_size = 100;  // em: a length of TeX beyond any page
+const symbol_names = new Set(symbols.map((s) => s.name));
 
 const in_font = new Set(math_characters);
 
@@ -32,26 +36,44 @@ export function math_to_html(tex: string, display: boolean): string {
   return markup;
 }
 
+/** Of temml's commands for HTML only the mark of our symbols. */
+function is_symbol({ command, attributes }: { command: string; attributes?: Record<string, string> }): boolean {
+  return command === "\\data" && Object.entries(attributes ?? {}).every(([name, value]) => name === "data-symbol" && symbol_names.has(value));
+}
+
 function markup_of(tex: string, display: boolean): string {
   try {
-    return temml.renderToString(tex, {
+    const tree = temml.__renderToMathMLTree(tex, {
       displayMode: display,
       throwOnError: true,
       strict: false,
-      trust: true,  // of \data, by which symbols are known
+      trust: is_symbol,
+      maxSize: [largest_size, largest_size],
       macros: symbol_macros(),  // a fresh list: temml writes \def and \newcommand into it
     });
+    const forbidden = forbidden_in(tree);
+    if (!forbidden) return tree.toMarkup();
+    throw new MathError(`TeX: ${forbidden} cannot stand in a page`, 0);
   } catch (error) {
-    const { message, position } = error as Error & { position?: number };
-    const unknown = /Unsupported function name: \\([A-Za-z]+)/.exec(message);
-    if (unknown) {
-      // temml tells positions after the expansion of macros
-      const at = tex.search(new RegExp(`\\\\${unknown[1]}(?![A-Za-z])`));
-      throw new MathError(`TeX: unknown command '\\${unknown[1]}'${nearest_macro(unknown[1])}`, Math.max(0, at));
-    }
-    const first = message.trim().split("\n")[0].replace(/ at (position \d+|end of input):.*$/, "");
-    throw new MathError(`TeX: ${first}`, Math.min(position ?? 0, tex.length));
+    throw error instanceof MathError ? error : mistake_of(error as Error & { position?: number }, tex);
   }
+}
+
+function mistake_of(error: Error & { position?: number }, tex: string): MathError {
+  if (error instanceof RangeError) return new MathError("TeX: braces or macros are nested too deeply", 0);
+  // Faults of temml itself have no position, and messages for its authors.
+  if (!(error instanceof temml.ParseError)) return new MathError("TeX: this cannot be typeset", 0);
+  const { message, position } = error;
+  const unknown = /Unsupported function name: \\([A-Za-z]+)/.exec(message);
+  if (unknown) {
+    // temml tells positions after the expansion of macros
+    const at = tex.search(new RegExp(`\\\\${unknown[1]}(?![A-Za-z])`));
+    return new MathError(`TeX: unknown command '\\${unknown[1]}'${nearest_macro(unknown[1])}`, Math.max(0, at));
+  }
+  const untrusted = /Function "\\+([A-Za-z]+)" is not trusted/.exec(message);
+  if (untrusted) return new MathError(`TeX: \\${untrusted[1]} cannot stand in a page`, Math.max(0, tex.indexOf(`\\${untrusted[1]}`)));
+  const first = message.trim().split("\n")[0].replace(/ at (position \d+|end of input):.*$/, "");
+  return new MathError(`TeX: ${first}`, Math.min(position ?? 0, tex.length));
 }
 
 function nearest_macro(name: string): string {

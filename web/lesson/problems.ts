@@ -11,11 +11,15 @@ export interface Problem extends Place {
   message: string;
 }
 
+const longest_message = 600;  // characters; it may quote a text of any length
+
 export class Problems {
   readonly list: Problem[] = [];
 
   add(file: string, place: Place, message: string): void {
-    this.list.push({ file, line: place.line, column: place.column, message });
+    const text = message.replace(/[\u0000-\u001f\u007f]+/g, " ");
+    const start = text.slice(0, longest_message).replace(/[\ud800-\udbff]$/, "");
+    this.list.push({ file, line: place.line, column: place.column, message: start.length < text.length ? `${start}\u2026` : text });
   }
 
   /** In order of file and place. */
@@ -30,6 +34,8 @@ export function problem_text(problem: Problem): string {
   return `${problem.file}:${problem.line}:${problem.column}: error: ${problem.message}`;
 }
 
+const longest_name = 200;  // characters; a longer one is no misspelt name, and the distance takes the square of its length
+
 function edit_distance(a: string, b: string): number {
   let row = Array.from({ length: b.length + 1 }, (_, j) => j);
   for (let i = 1; i <= a.length; ++i) {
@@ -43,6 +49,7 @@ function edit_distance(a: string, b: string): number {
 
 /** " (nearest: 'name')", or the known names if they are few, or nothing. */
 export function suggestion(given: string, known: readonly string[]): string {
+  if (given.length > longest_name) return "";
   let nearest = "";
   let least = Math.max(2, Math.floor(given.length / 3)) + 1;
   for (const name of known) {

@@ -1,8 +1,10 @@
 // Checked reading of TOML tables: types, ranges, unknown keys, each mistake with its place.
 import { parse, TomlError } from "smol-toml";
 import { suggestion, type Place } from "./problems.ts";
-import type { Source } from "./source.ts";
+import { forbidden_character, type Source } from "./source.ts";
 import { key_places, type KeyPlaces } from "./toml_places.ts";
+
+const most_whole = 1e6;  // more runs, impacts or steps than a page can hold
 
 type Values = Record<string, unknown>;
 
@@ -56,7 +58,8 @@ export class Table {
   text(key: string): string | undefined {
     const value = this.take(key);
     if (value === undefined) return undefined;
-    return typeof value === "string" ? value : this.wrong(key, "text");
+    if (typeof value !== "string") return this.wrong(key, "text");
+    return forbidden_character(value) < 0 ? value : this.wrong(key, "text without control characters");
   }
 
   choice(key: string, known: readonly string[]): string | undefined {
@@ -76,7 +79,7 @@ export class Table {
   }
 
   whole(key: string, least: number): number | undefined {
-    const value = this.number(key, least);
+    const value = this.number(key, least, most_whole);
     return value === undefined || Number.isInteger(value) ? value : this.wrong(key, "a whole number");
   }
 
@@ -89,7 +92,8 @@ export class Table {
   texts(key: string, known?: readonly string[]): string[] | undefined {
     const value = this.take(key);
     if (value === undefined) return undefined;
-    if (!Array.isArray(value) || !value.every((x) => typeof x === "string")) return this.wrong(key, "a list of texts");
+    if (!Array.isArray(value) || !value.every((x) => typeof x === "string" && forbidden_character(x) < 0))
+      return this.wrong(key, "a list of texts without control characters");
     for (const name of value)
       if (known && !known.includes(name)) this.problem(key, `${key}: unknown name '${name}'${suggestion(name, known)}`);
     return value;
@@ -136,6 +140,8 @@ export function parse_table(source: Source, text: string, first: number, start: 
   try {
     return new Table(source, parse(text) as Values, key_places(text, first), "", start);
   } catch (error) {
+    if (error instanceof RangeError) source.problem(start, "TOML: lists or tables are nested too deeply");
+    if (error instanceof RangeError) return null;
     if (!(error instanceof TomlError)) throw error;
     const message = error.message.split("\n")[0].replace(/^Invalid TOML document: /, "");
     source.problem({ line: first + error.line - 1, column: error.column }, `TOML: ${message}`);

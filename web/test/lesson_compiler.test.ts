@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { compile_course, type CourseOutput } from "../lesson/course.ts";
+import type { CourseOutput } from "../lesson/course.ts";
 import { ExpressionError, parse_expression } from "../lesson/expression.ts";
 import { math_to_html } from "../lesson/math.ts";
 import { suggestion } from "../lesson/problems.ts";
@@ -11,6 +11,7 @@ import { symbol_types, symbols } from "../lesson/symbols.ts";
 import { evaluate, residual } from "../src/lesson/evaluate.ts";
 import { is_right, read_answer } from "../src/lesson/quiz.ts";
 import { impact_values, moment_values } from "../src/lesson/symbol_values.ts";
+import { compile_texts } from "./lesson_texts.ts";
 import { repository } from "./paths.mjs";
 import { ball_mass, gravity, make_synthetic_run } from "./synthetic_clip.ts";
 
@@ -34,8 +35,7 @@ shape = { type = "sphere", radius = 0.1 }
 `;
 
 function compile(...texts: string[]): CourseOutput {
-  const files = texts.map((_, i) => `lesson${i + 1}.md`);
-  return compile_course(files, (file) => texts[files.indexOf(file)]);
+  return compile_texts(Object.fromEntries(texts.map((text, i) => [`lesson${i + 1}.md`, text])));
 }
 
 /** "LINE:COLUMN: message", of a lesson that has this text after its head. */

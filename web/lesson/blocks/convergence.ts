@@ -19,6 +19,7 @@ export interface ConvergenceBlock extends Pick<StageBlock, "scene" | "text" | "s
 }
 
 const keys = ["of", "at", "integrators", "steps_per_frame", "exact", "reference", "slopes"] as const;
+const most_steps = 1e6;
 /** "rk4" of scenes has its long name too, for readers of the plot. */
 const integrators = ["explicit-euler", "symplectic-euler", "splitting", "runge-kutta-4", "rk4", "exact"];
 
@@ -55,8 +56,8 @@ export function read_convergence(block: BlockText, context: BlockContext): Conve
   if (result.text !== undefined) result.text = read_scene_text(block, ["slopes"], keys);
   if ((result.exact === undefined) === (result.reference === undefined))
     block.source.problem(block.place, "give one of exact = NUMBER and reference = \"INTEGRATOR\"");
-  if (result.steps_per_frame.some((steps) => !Number.isInteger(steps) || steps < 1) || result.steps_per_frame.length < 2)
-    table.problem("steps_per_frame", "steps_per_frame: must be two whole numbers or more, each at least 1");
+  if (result.steps_per_frame.some((steps) => !Number.isInteger(steps) || steps < 1 || steps > most_steps) || result.steps_per_frame.length < 2)
+    table.problem("steps_per_frame", `steps_per_frame: must be two whole numbers or more, each in 1 to ${most_steps}`);
   const slopes = table.table("slopes");
   for (const name of Object.keys(slopes?.values ?? {})) {
     const slope = slopes!.number(name);
