@@ -1,13 +1,22 @@
 // The compiler of lessons as a program.
-//   node lesson.cjs --check LESSON.md...    prints mistakes; exit code 2 if there are any
-//   node lesson.cjs < FILES.json            a JSON list of files in, CourseOutput as JSON out
+//   node lesson.cjs --check LESSON.md...        prints mistakes; exit code 2 if there are any
+//   node lesson.cjs [--for PID] < FILES.json    a JSON list of files in, CourseOutput as JSON out; ends with the process PID,
+//                                               which must be its parent
 import { readFileSync } from "node:fs";
+import { Worker } from "node:worker_threads";
 import { compile_course } from "./course.ts";
 import { files_on_disk } from "./files.ts";
 import { problem_text } from "./problems.ts";
 
-if (process.argv[2] === "--check") {
-  const files = process.argv.slice(3);
+/** Lessons are compiled in one go, so the parent is watched by another thread. */
+function end_with_parent(id: number): void {
+  const watch = `
+    const { workerData } = require("node:worker_threads");
+    setInterval(() => { if (process.ppid !== workerData) process.kill(process.pid, "SIGKILL"); }, 100);`;
+  new Worker(watch, { eval: true, workerData: id }).unref();
+}
+
+function check(files: string[]): void {
   const { errors, lessons } = compile_course(files, files_on_disk);
   for (const error of errors) console.error(problem_text(error));
   if (errors.length === 0) {
@@ -17,6 +26,12 @@ if (process.argv[2] === "--check") {
         `${count("table", lesson.measures.length)} of measures, ${count("convergence plot", lesson.convergences.length)}`);
   }
   process.exitCode = errors.length > 0 ? 2 : 0;
+}
+
+const [command, ...rest] = process.argv.slice(2);
+if (command === "--check") {
+  check(rest);
 } else {
+  if (command === "--for") end_with_parent(Number(rest[0]));
   process.stdout.write(JSON.stringify(compile_course(JSON.parse(readFileSync(0, "utf8")) as string[], files_on_disk)));
 }

@@ -95,24 +95,26 @@ export class MarkdownPass {
   }
 
   private inline(token: Token, first: number): void {
-    let search = 0;
     const children = token.children ?? [];
+    // The parser gives no places: the marks are found in the text in the order of reading.
+    let after_link = 0, after_image = 0;
+    const place = (offset: number) => this.source.place_in(token.content, Math.max(0, offset), first);
     for (let i = 0; i < children.length; ++i) {
       const child = children[i];
-      const place_of = (text: string) => {
-        const offset = token.content.indexOf(text, search);
-        if (offset >= 0) search = offset;
-        return this.source.place_in(token.content, Math.max(0, offset), first);
-      };
       if (child.type === "math_inline") {
         const meta = meta_of<MathMeta>(child);
-        const place = (offset: number) => this.source.place_in(token.content, meta.offset + offset, first);
-        if (meta.mistake) this.source.problem(place(-1), meta.mistake);
-        else meta.html = this.math(meta.tex, false, place);
+        if (meta.mistake) this.source.problem(place(meta.offset - 1), meta.mistake);
+        else meta.html = this.math(meta.tex, false, (offset) => place(meta.offset + offset));
       } else if (child.type === "link_open") {
-        this.link(token.content, children, i, place_of);
+        const address = decode_address(String(child.attrGet("href") ?? "")) ?? "";
+        // <address> has no brackets.
+        const mark = [`](${address}`, "](", "<"].find((text) => token.content.includes(text, after_link)) ?? "";
+        after_link = token.content.indexOf(mark, after_link) + (mark.startsWith("](") ? 2 : mark.length);
+        this.link(children, i, place(after_link));
       } else if (child.type === "image") {
-        this.image(child, place_of("!["));
+        const offset = token.content.indexOf("![", after_image);
+        after_image = offset + 1;
+        this.image(child, place(offset));
       }
     }
     for (let i = children.length - 1; i > 0; --i) {
@@ -157,13 +159,9 @@ export class MarkdownPass {
   }
 
   /** `children[i]` opens it. */
-  private link(content: string, children: Token[], i: number, place_of: (text: string) => Place): void {
+  private link(children: Token[], i: number, place: Place): void {
     const open = children[i];
     const address = String(open.attrGet("href") ?? "");
-    // <address> has no brackets.
-    const written = [`](${decode_address(address) ?? ""}`, "](", "<"].find((text) => content.includes(text)) ?? "";
-    const { line, column } = place_of(written);
-    const place = { line, column: column + (written.startsWith("](") ? 2 : written.length) };
     open.attrSet("href", "#");
     const mistake = link_mistake(address);
     if (mistake) {

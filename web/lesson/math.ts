@@ -49,7 +49,7 @@ function markup_of(tex: string, display: boolean): string {
       strict: false,
       trust: is_symbol,
       maxSize: [largest_size, largest_size],
-      macros: symbol_macros(),  // a fresh list: temml writes \def and \newcommand into it
+      macros: symbol_macros(),
     });
     const forbidden = forbidden_in(tree);
     if (!forbidden) return tree.toMarkup();

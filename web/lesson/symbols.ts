@@ -77,9 +77,11 @@ export function unit_of(name: string): string {
   return units[name] ?? "";
 }
 
-/** For temml. */
+const macros = Object.fromEntries(symbols.map((s) => [`\\${s.macro}`, `\\data{symbol=${s.name}}{${s.tex}}`]));
+
+/** For temml, which writes into the list that it is given. */
 export function symbol_macros(): Record<string, string> {
-  return Object.fromEntries(symbols.map((s) => [`\\${s.macro}`, `\\data{symbol=${s.name}}{${s.tex}}`]));
+  return { ...macros };
 }
 
 export type ValueType = "number" | "vector" | "matrix";

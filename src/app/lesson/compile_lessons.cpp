@@ -66,7 +66,7 @@ Course compile_lessons(const std::vector<std::filesystem::path>& files, const st
     for (const auto& file : files) list.push_back(file.string());
     const std::string input = list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const OutputInMemory output;
-    Process process(*node, {compiler.string()}, output.descriptor());
+    Process process(*node, {compiler.string(), "--for", std::to_string(::getpid())}, output.descriptor());
     process.write(std::as_bytes(std::span(input)));
     const ProcessEnd end = process.finish();
     if (!end.ok())

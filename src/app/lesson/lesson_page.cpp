@@ -49,7 +49,15 @@ std::string stage_html(const LessonStage& stage, const StagePictures& pictures) 
     return figure_html(figure);
 }
 
-std::string address_of(const Lesson& lesson) { return lesson.name + ".html"; }
+/// Address of its page, with percent escapes.
+std::string address_of(const Lesson& lesson) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.!~*'()";
+    std::string address;
+    for (const char byte : lesson.name)
+        address += plain.find(byte) != std::string_view::npos ? std::string(1, byte)
+                                                              : fmt::format("%{:02X}", static_cast<unsigned char>(byte));
+    return address + ".html";
+}
 
 }  // namespace
 
