@@ -73,7 +73,8 @@ function mistake_of(error: Error & { position?: number }, tex: string): MathErro
   const untrusted = /Function "\\+([A-Za-z]+)" is not trusted/.exec(message);
   if (untrusted) return new MathError(`TeX: \\${untrusted[1]} cannot stand in a page`, Math.max(0, tex.indexOf(`\\${untrusted[1]}`)));
   const first = message.trim().split("\n")[0].replace(/ at (position \d+|end of input):.*$/, "");
-  return new MathError(`TeX: ${first}`, Math.min(position ?? 0, tex.length));
+  const words = /undefined|\[object/.test(first) ? "a command lacks what must follow it" : first;  // temml shows what it found instead
+  return new MathError(`TeX: ${words}`, Math.min(position ?? 0, tex.length));
 }
 
 function nearest_macro(name: string): string {
