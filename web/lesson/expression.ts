@@ -1,7 +1,7 @@
 // Expressions of "Put in the numbers": parsed and checked for their types when the lesson is built, so that the page needs
 // no parser.
 import jsep from "jsep";
-import { suggestion, type Place } from "./problems.ts";
+import { index_of_word, suggestion, type Place } from "./problems.ts";
 import { symbol_types, type Moment, type ValueType } from "./symbols.ts";
 
 /** What the page evaluates. */
@@ -40,10 +40,10 @@ class Reader {
 
   /** jsep gives no places: names are found in the text in the order of reading. */
   private place_of(name: string): number {
-    const found = new RegExp(`(?<![A-Za-z0-9_])${name.replaceAll("$", "\\$")}(?![A-Za-z0-9_])`).exec(this.text.slice(this.from));
-    const offset = found ? this.from + found.index : this.from;
-    if (found) this.from = offset + name.length;
-    return offset;
+    const found = index_of_word(this.text, name, this.from);
+    if (found < 0) return this.from;
+    this.from = found + name.length;
+    return found;
   }
 
   read(node: jsep.Expression): Typed {

@@ -2,7 +2,7 @@
 import temml from "temml";
 import { math_characters } from "../build/math_characters.mjs";
 import { forbidden_in } from "./math_tree.ts";
-import { suggestion } from "./problems.ts";
+import { index_of_word, suggestion } from "./problems.ts";
 import { symbol_macros, symbols } from "./symbols.ts";
 
 export class MathError extends Error {
@@ -67,8 +67,7 @@ function mistake_of(error: Error & { position?: number }, tex: string): MathErro
   const unknown = /Unsupported function name: \\([A-Za-z]+)/.exec(message);
   if (unknown) {
     // temml tells positions after the expansion of macros
-    const at = tex.search(new RegExp(`\\\\${unknown[1]}(?![A-Za-z])`));
-    return new MathError(`TeX: unknown command '\\${unknown[1]}'${nearest_macro(unknown[1])}`, Math.max(0, at));
+    return new MathError(`TeX: unknown command '\\${unknown[1]}'${nearest_macro(unknown[1])}`, Math.max(0, index_of_word(tex, `\\${unknown[1]}`, 0, /[A-Za-z]/)));
   }
   const untrusted = /Function "\\+([A-Za-z]+)" is not trusted/.exec(message);
   if (untrusted) return new MathError(`TeX: \\${untrusted[1]} cannot stand in a page`, Math.max(0, tex.indexOf(`\\${untrusted[1]}`)));

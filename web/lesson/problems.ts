@@ -34,6 +34,15 @@ export function problem_text(problem: Problem): string {
   return `${problem.file}:${problem.line}:${problem.column}: error: ${problem.message}`;
 }
 
+/** Where the word stands alone in the text, without a character of words before it or after it; -1: nowhere. A regular
+ * expression cannot be made of a word of any length. */
+export function index_of_word(text: string, word: string, from = 0, of_words = /[A-Za-z0-9_]/): number {
+  const continues = (character: string | undefined) => character !== undefined && of_words.test(character);
+  for (let at = text.indexOf(word, from); at >= 0; at = text.indexOf(word, at + 1))
+    if (!(continues(word[0]) && continues(text[at - 1])) && !continues(text[at + word.length])) return at;
+  return -1;
+}
+
 const longest_name = 200;  // characters; a longer one is no misspelt name, and the distance takes the square of its length
 
 function edit_distance(a: string, b: string): number {

@@ -47,7 +47,7 @@ function run(bytes: Buffer): boolean {
     }
     return true;
   } catch (error) {
-    tell({ kind: "finding", what: (error as Error).stack ?? String(error), input: bytes });
+    tell({ kind: "finding", what: ((error as Error).stack ?? String(error)).replace(/(.{300}).*/g, "$1"), input: bytes });
     return false;
   }
 }

@@ -135,6 +135,9 @@ const wrong: [string, string, RegExp][] = [
   ["a deep expression", `${stage()}\`\`\`numbers\nstage = "drop"\nequation = 'a'\nvalue = "j"\nexpression = "${"1+".repeat(5000)}1"\n\`\`\``, /12:\d+: expression: more than 200 levels/],
   ["deep parentheses", `${stage()}\`\`\`numbers\nstage = "drop"\nequation = 'a'\nvalue = "j"\nexpression = "${"(".repeat(50000)}1"\n\`\`\``, /12:\d+: expression: parentheses are nested/],
   ["deep braces of TeX", `$${"{".repeat(50000)}$`, /^1:\d+: TeX: braces or macros are nested too deeply/],
+  ["a command of any length", `a $\\foo${"bar".repeat(20000)}$`, /^1:4: TeX: unknown command '\\foobarbar/],
+  ["a command before a digit", "a $b \\foo2$", /^1:6: TeX: unknown command '\\foo'/],
+  ["a name of any length", `${stage()}\`\`\`numbers\nstage = "drop"\nequation = 'a'\nvalue = "j"\nexpression = "j+${"b".repeat(60000)}"\n\`\`\``, /12:17: expression: unknown symbol 'bbb/],
   ["a reference without text in a heading", "## See [](#see)", /^1:1: a reference in a heading needs a text/],
 ];
 for (const [name, text, expected] of wrong)

@@ -1,6 +1,7 @@
 // Numbers of the symbols: of an impact, or of a body at a moment.
 import type { Run, Vec3 } from "../data/clip.ts";
 import { impulse_terms } from "../panels/impulse_equation.ts";
+import { impulses_together } from "../panels/joint_impulses.ts";
 import { add, cross, dot, inverse, rotation_matrix, scaled, subtract, transform, turned } from "../panels/linear.ts";
 import { moment_at } from "../ui/moments.ts";
 import type { Values } from "./evaluate.ts";
@@ -10,13 +11,15 @@ interface Velocities {
   w: Vec3;
 }
 
-/** Of a body before the impulse of that index. Impulses at one time act one after the other, in their order. */
+/** Of a body before the impulse of that index, which acts together with those of its pass, and after the earlier ones of its
+ * moment. */
 function velocities_before(run: Run, index: number, body: number): Velocities {
   const impact = run.impacts[index];
   const state = run.motion.state_before(body, impact.time);
   let { velocity: v, angular_velocity: w } = state;
+  const together = new Set(impulses_together(run, index));
   for (let i = moment_at(run, impact.time)?.first ?? index; i < index; ++i)
-    ({ v, w } = after_impulse(run, i, body, { v, w }));
+    if (!together.has(i)) ({ v, w } = after_impulse(run, i, body, { v, w }));
   return { v, w };
 }
 
@@ -31,7 +34,7 @@ function after_impulse(run: Run, index: number, body: number, { v, w }: Velociti
   return { v: add(v, scaled(impulse, im)), w: add(w, transform(iI, cross(r, impulse))) };
 }
 
-/** Of the impulse alone in its moment the recorded velocities after it, else those that follow from the impulse. */
+/** Of the impulse alone in its moment the recorded velocities after it, else those that follow from the impulses together. */
 function velocities_after(run: Run, index: number, body: number): Velocities {
   const impact = run.impacts[index];
   const moment = moment_at(run, impact.time);
@@ -39,7 +42,7 @@ function velocities_after(run: Run, index: number, body: number): Velocities {
     const { velocity, angular_velocity } = run.motion.state_after(body, impact.time);
     return { v: velocity, w: angular_velocity };
   }
-  return after_impulse(run, index, body, velocities_before(run, index, body));
+  return impulses_together(run, index).reduce((state, i) => after_impulse(run, i, body, state), velocities_before(run, index, body));
 }
 
 const point_velocity = ({ v, w }: Velocities, r: Vec3): Vec3 => add(v, cross(w, r));

@@ -1,12 +1,15 @@
-// The chosen impact: eq. 20, the same with its numbers, and how well they fit.
+// The chosen impact: eq. 20, or its row among impulses that act together, with numbers, and how well they fit.
 import type { Run } from "../data/clip.ts";
 import equations from "../equations.json";
 import { h, mathml } from "../ui/dom.ts";
 import { number_text, trimmed_text } from "../ui/format.ts";
-import { moment_at, moments_of, pair_text } from "../ui/moments.ts";
+import { moment_at, pair_text } from "../ui/moments.ts";
 import type { PlayerState } from "../ui/player_state.ts";
-import { norm } from "./linear.ts";
 import { impulse_terms, solve_impulse } from "./impulse_equation.ts";
+import { impulses_together, joint_row } from "./joint_impulses.ts";
+import { norm } from "./linear.ts";
+
+const most_terms = 6;  // of a sum on one line
 
 const mi = (text: string): MathMLElement => mathml("mi", {}, text);
 const mo = (text: string, props = {}): MathMLElement => mathml("mo", props, text);
@@ -16,28 +19,61 @@ const mn = (value: number, plain = false): MathMLElement => {
   return mathml("mn", {}, value < 0 && !plain ? `(${text})` : text);
 };
 
-function with_numbers(state: PlayerState, index: number): { math: MathMLElement; recorded: number; residual: number; friction: number } {
-  const terms = impulse_terms(state.run, state.run.impacts[index]);
+const equation_element = (markup: string, ...numbers: MathMLElement[]): HTMLElement => {
+  const element = h("div", { class: "tp-equation", tabindex: 0, role: "group", "aria-label": "Equation of the impulse" });
+  element.innerHTML = markup;
+  element.append(...numbers);
+  return element;
+};
+const with_unit = (unit: string): MathMLElement[] => [mathml("mspace", { width: "0.25em" }), mathml("mtext", {}, unit)];
+const line_of = (...parts: MathMLElement[]): MathMLElement => mathml("math", { display: "block", class: "tp-with-numbers" }, ...parts);
+
+/** Larger residuals than rounding: something else takes part. */
+const largest_rounding = 1e-6;
+const others_act = "Contacts at rest, joints or impulses that the page does not keep act on these bodies in the same step, too: " +
+  "the equation without them gives another number.";
+
+/** Eq. 20 with the numbers of the impact. */
+function impulse_alone(run: Run, index: number): HTMLElement[] {
+  const terms = impulse_terms(run, run.impacts[index]);
   const solved = solve_impulse(terms);
   const { mass_a, mass_b, turn_a, turn_b } = solved.denominator;
   const sum = [mass_a, mass_b, turn_a, turn_b].flatMap((value, i) => (i > 0 ? [mo("+"), mn(value)] : [mn(value)]));
   // Friction acts together with the impulse and changes the velocity along the normal too.
-  const friction = Math.abs(solved.friction) > 1e-12 ? [mo("\u2212"), mn(solved.friction)] : [];
-  const math = mathml("math", { display: "block", class: "tp-with-numbers" },
+  const has_friction = Math.abs(solved.friction) > 1e-12;
+  const friction = has_friction ? [mo("\u2212"), mn(solved.friction)] : [];
+  const numbers = line_of(
     mathml("mrow", {}, mi("j"), mo("="), mathml("mfrac", {},
       mathml("mrow", {}, mo("\u2212", { form: "prefix" }), mo("(", { stretchy: "false" }), mathml("mn", {}, "1"), mo("+"), mathml("mn", {}, trimmed_text(terms.e)), mo(")", { stretchy: "false" }), mo("\u00b7"), mn(terms.vrel), ...friction),
       mathml("mrow", {}, ...sum)),
-    mo("="), mn(solved.j, true), mathml("mspace", { width: "0.25em" }), mathml("mtext", {}, "N\u2009s")));
-  return { math, recorded: terms.j, residual: solved.residual, friction: solved.friction };
+    mo("="), mn(solved.j, true), ...with_unit("N\u2009s")));
+  const remarks: string[] = [];
+  if (has_friction) remarks.push("The last term of the numerator is the share of the friction impulse.");
+  if (solved.residual > largest_rounding) remarks.push(others_act);
+  return [
+    equation_element(equations.impulse, numbers),
+    h("p", { class: "tp-facts" }, "Recorded: ", h("b", {}, `${number_text(terms.j, 6)} N s`), "; residual ", h("b", {}, number_text(solved.residual, 3, 0)), "."),
+    ...remarks.map((text) => h("p", { class: "tp-hint" }, text))];
 }
 
-/** Other impulses of the same moment and pass of the law that act on one of its dynamic bodies. */
-function coupled_impulses(run: Run, index: number): number {
-  const impact = run.impacts[index];
-  const moment = moments_of(run).find((each) => each.first <= index && index <= each.last)!;
-  const dynamic = [impact.body_a, impact.body_b].filter((body) => run.scene.bodies[body]?.type === "dynamic");
-  return run.impacts.slice(moment.first, moment.last + 1).filter((other) => other !== impact && other.pass === impact.pass &&
-    dynamic.some((body) => other.body_a === body || other.body_b === body)).length;
+/** The row of the impact among those that act together. */
+function impulse_among_others(run: Run, index: number): HTMLElement[] {
+  const { before, after, shares, residual } = joint_row(run, index);
+  const terms = shares.slice(0, most_terms).flatMap(({ share }) => [mo("+"), mn(share)]);
+  const rest = shares.length > most_terms ? [mo("+"), mo("\u2026")] : [];
+  const numbers = line_of(mathml("mrow", {}, mn(before), ...terms, ...rest, mo("="), mn(shares.reduce((sum, { share }) => sum + share, before), true), ...with_unit("m/s")));
+  const rows = shares.map(({ index: i, share }) => h("tr", i === index ? { class: "tp-own" } : {},
+    h("th", { scope: "row" }, String(i + 1)), h("td", {}, pair_text(run, run.impacts[i])),
+    h("td", { class: "tp-number" }, number_text(run.impacts[i].impulse, 6)), h("td", { class: "tp-number" }, number_text(share, 6))));
+  return [
+    h("p", { class: "tp-hint" }, `${shares.length} impulses act on these bodies together. Eq. 20 holds for one alone; they are the solution of joint equations, of which this is the row of impact ${index + 1}:`),
+    equation_element(equations.joint, numbers),
+    h("div", { class: "tp-shares", tabindex: 0, role: "group", "aria-label": "Impulses that act together" }, h("table", {},
+      h("thead", {}, h("tr", {}, ...["Impact", "Bodies", "j (N s)", "adds (m/s)"].map((text) => h("th", { scope: "col" }, text)))),
+      h("tbody", {}, ...rows))),
+    h("p", { class: "tp-facts" }, "Recorded: ", h("b", {}, `${number_text(run.impacts[index].impulse, 6)} N s`), ", after it ",
+      h("b", {}, `${number_text(after, 6)} m/s`), "; residual ", h("b", {}, number_text(residual, 3, 0)), "."),
+    ...(residual > largest_rounding ? [h("p", { class: "tp-hint" }, others_act)] : [])];
 }
 
 export class ImpactCard {
@@ -58,16 +94,6 @@ export class ImpactCard {
       return;
     }
     const impact = run.impacts[index];
-    const { math, recorded, residual, friction } = with_numbers(this.state, index);
-    const equation = h("div", { class: "tp-equation", tabindex: 0, role: "group", "aria-label": "Equation of the impulse" });
-    equation.innerHTML = equations.impulse;
-    equation.append(math);
-    const together = coupled_impulses(run, index);
-    const remarks: string[] = [];
-    if (friction !== 0 && Math.abs(friction) > 1e-12) remarks.push("The last term of the numerator is the share of the friction impulse.");
-    if (together > 0) {
-      remarks.push(`${together + 1} impulses act on these bodies together; eq. 20 holds for one alone and gives another number.`);
-    }
     const side = (label: string, before: boolean): HTMLButtonElement => h("button", {
       type: "button", class: "tp-segment", "data-before": String(before),
       onclick: () => this.state.set({ time: impact.time, playing: false, before }),
@@ -80,10 +106,7 @@ export class ImpactCard {
       h("p", { class: "tp-facts" }, `t = ${number_text(impact.time, 6)} s, ${impact.feature}, ` +
         `${impact.exact ? "at its own time" : "at the time of the step"}` +
         (norm([impact.fx, impact.fy, impact.fz]) > 0 ? `, friction impulse ${number_text(norm([impact.fx, impact.fy, impact.fz]), 4)} N s` : "")),
-      equation,
-      h("p", { class: "tp-facts" }, "Recorded: ", h("b", {}, `${number_text(recorded, 6)} N s`),
-        ...(together > 0 ? ["."] : ["; residual ", h("b", {}, number_text(residual, 3, 0)), "."])),
-      ...remarks.map((text) => h("p", { class: "tp-hint" }, text)));
+      ...(impulses_together(run, index).length > 1 ? impulse_among_others(run, index) : impulse_alone(run, index)));
     this.show_side();
   }
 
