@@ -7,7 +7,7 @@ import { page_address, References, Targets } from "./references.ts";
 import { decode_lesson, Source } from "./source.ts";
 
 /** What the program needs of a lesson. In `body` these comments stand for what it makes: stage:ID, convergence:N,
- * measured:N:ROW, deviation:N:ROW. */
+ * measured:N:ROW, deviation:N:ROW; in the index, picture:N of the lesson N. */
 export interface LessonOutput {
   file: string;
   name: string;
@@ -18,6 +18,7 @@ export interface LessonOutput {
   stages: Lesson["stages"];
   quizzes: Lesson["quizzes"];
   measures: Lesson["measures"];
+  numbers: Lesson["numbers"];
   convergences: Lesson["convergences"];
 }
 
@@ -55,9 +56,9 @@ ${answers}`;
 }
 
 function index_of(lessons: Lesson[]): string {
-  const items = lessons.map((lesson) => {
+  const items = lessons.map((lesson, i) => {
     const duration = minutes(lesson) ? `<p class="lesson-duration">${minutes(lesson)}</p>` : "";
-    return `<li><h2><a href="${escape_html(page_address(lesson.name))}">${escape_html(lesson.front.title)}</a></h2>
+    return `<li><!--picture:${i}--><h2><a href="${escape_html(page_address(lesson.name))}">${escape_html(lesson.front.title)}</a></h2>
 <p>${escape_html(lesson.front.summary)}</p>${duration}</li>`;
   });
   return `<ol class="lesson-list">
@@ -111,6 +112,7 @@ export function compile_course(names: string[], files: LessonFiles): CourseOutpu
       stages: lesson.stages,
       quizzes: lesson.quizzes,
       measures: lesson.measures,
+      numbers: lesson.numbers,
       convergences: lesson.convergences,
     })),
     index: index_of(lessons),

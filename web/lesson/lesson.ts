@@ -4,7 +4,7 @@ import { basename } from "node:path";
 import type { BlockContext, BlockText } from "./blocks/block.ts";
 import { read_convergence, type ConvergenceBlock } from "./blocks/convergence.ts";
 import { read_measure, type MeasureBlock } from "./blocks/measure.ts";
-import { read_numbers } from "./blocks/numbers.ts";
+import { read_numbers, type NumbersBlock } from "./blocks/numbers.ts";
 import { read_quiz, type QuizBlock } from "./blocks/quiz.ts";
 import { read_stage, type StageBlock } from "./blocks/stage.ts";
 import { read_front_matter, type FrontMatter } from "./front_matter.ts";
@@ -35,6 +35,7 @@ export class Lesson {
   readonly stages: StageBlock[] = [];
   readonly quizzes: QuizBlock[] = [];
   readonly measures: MeasureBlock[] = [];
+  readonly numbers: NumbersBlock[] = [];
   readonly convergences: ConvergenceBlock[] = [];
   readonly sections: { level: number; id: string; html: string }[] = [];
   readonly answers: string[] = [];
@@ -131,8 +132,12 @@ export class Lesson {
         this.stages.push(stage);
         return `<!--stage:${stage.id}-->\n`;
       }
-      case "numbers":
-        return read_numbers(block, this.context);
+      case "numbers": {
+        const numbers = read_numbers(block, this.context);
+        if (!numbers) return "";
+        this.numbers.push(numbers.numbers);
+        return numbers.html;
+      }
       case "quiz": {
         const quiz = read_quiz(block, this.context, this.quizzes.length + 1);
         if (!quiz) return "";

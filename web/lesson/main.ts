@@ -1,9 +1,11 @@
 // The compiler of lessons as a program.
 //   node lesson.cjs --check LESSON.md...        prints mistakes; exit code 2 if there are any
-//   node lesson.cjs [--for PID] < FILES.json    a JSON list of files in, CourseOutput as JSON out; ends with the process PID,
-//                                               which must be its parent
+//   node lesson.cjs [--for PID] < FILES.json    a JSON list of files in, CourseOutput as JSON out
+//   node lesson.cjs --numbers [--for PID] < TASK.json    a NumbersTask in, a list of NumbersResult out
+// --for: ends with the process PID, which must be its parent.
 import { readFileSync } from "node:fs";
 import { Worker } from "node:worker_threads";
+import { check_numbers, type NumbersTask } from "./check_numbers.ts";
 import { compile_course } from "./course.ts";
 import { files_on_disk } from "./files.ts";
 import { problem_text } from "./problems.ts";
@@ -28,10 +30,14 @@ function check(files: string[]): void {
   process.exitCode = errors.length > 0 ? 2 : 0;
 }
 
+const input = (): unknown => JSON.parse(readFileSync(0, "utf8"));
+
 const [command, ...rest] = process.argv.slice(2);
 if (command === "--check") {
   check(rest);
 } else {
-  if (command === "--for") end_with_parent(Number(rest[0]));
-  process.stdout.write(JSON.stringify(compile_course(JSON.parse(readFileSync(0, "utf8")) as string[], files_on_disk)));
+  const parent = process.argv.indexOf("--for");
+  if (parent >= 0) end_with_parent(Number(process.argv[parent + 1]));
+  const output = command === "--numbers" ? check_numbers(input() as NumbersTask) : compile_course(input() as string[], files_on_disk);
+  process.stdout.write(JSON.stringify(output));
 }

@@ -46,7 +46,7 @@ for (const plain of ("article aside blockquote br caption code em figure figcapt
   "table tbody thead tr ul").split(" ")) elements[plain] = nothing;
 
 /** Places that the program fills in. */
-const place = /^(stage:[a-z][a-z0-9-]*|convergence:\d+|measured:\d+:\d+|deviation:\d+:\d+)$/;
+const place = /^(stage:[a-z][a-z0-9-]*|convergence:\d+|measured:\d+:\d+|deviation:\d+:\d+|picture:\d+)$/;
 const style = /^([a-z-]+: ?[-\w .,#%'+]+;?|[a-z-]+:scaleX\(-1\);)*$/;
 const voids = new Set(["br", "hr", "img", "input"]);
 

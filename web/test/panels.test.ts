@@ -3,7 +3,8 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import type { Impact, Mat3, Run, Vec3 } from "../src/data/clip.ts";
 import { impulse_terms, solve_impulse } from "../src/panels/impulse_equation.ts";
-import { add, cross, dot, inverse, multiply, scaled, transform } from "../src/panels/linear.ts";
+import { impulses_together, joint_row } from "../src/panels/joint_impulses.ts";
+import { add, cross, dot, inverse, multiply, scaled, subtract, transform } from "../src/panels/linear.ts";
 import { joint_column, read_subjects } from "../src/panels/quantities.ts";
 import { energy_stack, plot_series } from "../src/panels/series.ts";
 import { number_text, tick_text, trimmed_text } from "../src/ui/format.ts";
@@ -77,6 +78,52 @@ test("eq. 20 holds with two turned bodies and friction", () => {
   const solved = solve_impulse(impulse_terms({ ...run, scene: { ...run.scene, bodies } }, impact));
   assert.ok(solved.residual < 1e-12, `residual ${solved.residual}`);
   assert.ok(Math.abs(solved.friction) > 1e-3, "friction takes part");
+});
+
+test("impulses that act together satisfy the row of each, and eq. 20 does not", () => {
+  const corners = [0, 1, 2, 3];
+  for (const index of corners) {
+    assert.deepEqual(impulses_together(run, index), corners);
+    const { before, after, shares, residual } = joint_row(run, index);
+    assert.ok(residual < 1e-12, `residual ${residual}`);
+    assert.ok(Math.abs(shares.reduce((sum, { share }) => sum + share, before) - after) < 1e-12);
+    assert.ok(solve_impulse(impulse_terms(run, run.impacts[index])).residual > 0.1);
+  }
+  // The ball bounces alone.
+  assert.deepEqual(impulses_together(run, 4), [4]);
+  assert.ok(joint_row(run, 4).residual < 1e-12);
+  // Passes of a law come one after the other, and so do the contacts of the method of the notes.
+  const passes: Run = { ...run, impacts: run.impacts.map((impact, i) => ({ ...impact, pass: i % 2 })) };
+  assert.deepEqual(impulses_together(passes, 0), [0, 2]);
+  assert.deepEqual(impulses_together({ ...run, settings: { ...run.settings, method: "notes" } }, 0), [0]);
+});
+
+test("friction beside its point and turned bodies take part in the row", () => {
+  // Two impulses on one body, made from the change of velocities that they cause, apart from the code that is tested.
+  const mass = 2, inertia: Mat3 = [0.2, 0, 0, 0, 0.3, 0, 0, 0, 0.25];
+  const bodies = [run.scene.bodies[0], { ...run.scene.bodies[ball], mass, inertia }];
+  const center: Vec3 = [0.3, 0.7, 0.4], identity: [number, number, number, number] = [1, 0, 0, 0];
+  const parts = [
+    { p: [0.2, 0, 0.1] as Vec3, n: [0, 1, 0] as Vec3, j: 1.3, f: [0.2, 0, 0.1] as Vec3, beside: [0, 0.05, 0] as Vec3 },
+    { p: [0.5, 0.1, 0.6] as Vec3, n: [0.6, 0.8, 0] as Vec3, j: 0.7, f: [0.08, -0.06, 0.2] as Vec3, beside: [0, 0, 0] as Vec3 },
+  ];
+  let v: Vec3 = [0, 0, 0], w: Vec3 = [0, 0, 0];
+  for (const { p, n, j, f, beside } of parts) {
+    const impulse = add(scaled(n, j), f);
+    v = add(v, scaled(impulse, 1 / mass));
+    w = add(w, transform(inverse(inertia), add(cross(subtract(p, center), impulse), beside)));
+  }
+  const impacts = parts.map(({ p, n, j, f, beside }) => {
+    const moment = add(cross(p, add(scaled(n, j), f)), beside);
+    const change = dot(n, add(v, cross(w, subtract(p, center))));
+    return {
+      ...run.impacts[0], body_a: 0, body_b: 1, px: p[0], py: p[1], pz: p[2], nx: n[0], ny: n[1], nz: n[2], impulse: j, fx: f[0], fy: f[1], fz: f[2],
+      mx: moment[0], my: moment[1], mz: moment[2], v_before: -change, v_after: 0, restitution: 0, pass: 0,
+      pose_a: { position: [0, 0, 0], rotation: identity }, pose_b: { position: center, rotation: identity },
+    } as Impact;
+  });
+  const pair: Run = { ...run, impacts, scene: { ...run.scene, bodies } };
+  for (const index of [0, 1]) assert.ok(joint_row(pair, index).residual < 1e-12);
 });
 
 test("an inverse times its matrix is one", () => {

@@ -4,6 +4,8 @@ import type {
   Body, BodyState, Clip, ContactTable, EnergyTable, Impact, Mat3, Motion, OverlaySettings, Pose, Quat, Run, Vec3,
 } from "../src/data/clip.ts";
 
+import { cross } from "../src/panels/linear.ts";
+
 export const gravity = 9.81;
 export const fps = 60;
 export const frames = 181;
@@ -143,10 +145,11 @@ export function box_corners(time: number): Vec3[] {
 function make_impacts(motion: Motion, restitution: number, duration: number): Impact[] {
   const row = (time: number, body: number, point: Vec3, impulse: number, v: [number, number], e: number, feature: string) => {
     const pose = motion.state(body, time);
+    const moment = cross(point, [0, impulse, 0]);
     return {
       time, exact: 1 as const, frame: Math.floor(time * fps), a: "ground", b: body === 1 ? "ball" : "box", body_a: 0,
       body_b: body, px: point[0], py: point[1], pz: point[2], nx: 0, ny: 1, nz: 0, feature, v_before: v[0], v_after: v[1],
-      restitution: e, impulse, fx: 0, fy: 0, fz: 0, pass: 0, mx: 0, my: 0, mz: 0,
+      restitution: e, impulse, fx: 0, fy: 0, fz: 0, pass: 0, mx: moment[0], my: moment[1], mz: moment[2],
       pose_a: { position: [0, 0, 0] as Vec3, rotation: identity },
       pose_b: { position: pose.position, rotation: pose.rotation },
     };

@@ -83,6 +83,7 @@ void run_export(const ExportCommand& command);
 struct PageCommand {
     std::vector<std::filesystem::path> scenes;    // a run for each
     std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a run for each
+    std::vector<std::string> labels;              // of the runs; empty: made from the names and values
     std::optional<std::filesystem::path> output;  // without this, the first scene's name with .html
     SceneOverrides overrides;
     std::optional<std::string> title;  // without this, the first scene's

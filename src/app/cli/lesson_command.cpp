@@ -70,16 +70,19 @@ StagePictures draw_stage(const LessonCommand& command, const LessonStage& stage,
 std::vector<SitePage> make_pages(const LessonCommand& command, const Course& course, const LessonRuns& runs,
                                  const PageTemplate& page_template) {
     std::vector<SitePage> pages;
+    std::vector<std::string> posters;
     for (std::size_t i = 0; i < course.lessons.size(); ++i) {
         const Lesson& lesson = course.lessons[i];
         std::vector<StagePictures> pictures;
         for (std::size_t s = 0; s < lesson.stages.size(); ++s)
             pictures.push_back(draw_stage(command, lesson.stages[s], runs.scenes()[i].stages[s]));
         if (command.check) continue;
+        posters.push_back(pictures.empty() ? std::string() : pictures.front().poster);
         const PageShell shell = lesson_page(course, i, runs.results()[i], pictures, generator);
         pages.push_back({page_name(lesson), page_template.fill(shell)});
     }
-    if (!command.check) pages.push_back({index_name, page_template.fill(index_page(course, command.title, generator))});
+    if (!command.check)
+        pages.push_back({index_name, page_template.fill(index_page(course, command.title, generator, posters))});
     return pages;
 }
 
@@ -120,6 +123,7 @@ int run_lesson(const LessonCommand& command) {
     if (runs.errors().empty()) {
         Progress progress(std::int64_t(runs.blocks()), command.quiet);
         runs.run(command.threads, [&](std::size_t done) { progress.update(std::int64_t(done)); });
+        runs.check_numbers(web);
     }
     print_errors(runs.errors());
     if (!runs.errors().empty()) return 2;

@@ -44,6 +44,7 @@ PageFilm film_of(const PageCommand& command, const PageScenes& scenes) {
     RenderCommand render;
     render.scenes = command.scenes;
     render.vary = command.vary;
+    render.labels = command.labels;
     render.overrides = command.overrides;
     render.overrides.plot = "none";  // the player shows plots without WebGL, too
     render.threads = command.threads;
@@ -95,7 +96,7 @@ std::string body_html(const PageCommand& command, const PageScenes& scenes, cons
 }  // namespace
 
 void run_page(const PageCommand& command) {
-    const PageScenes scenes = load_page_scenes(command.scenes, command.overrides, command.vary);
+    const PageScenes scenes = load_page_scenes(command.scenes, command.overrides, command.vary, command.labels);
     check_command(command, scenes);
     const fs::path output = command.output.value_or(command.scenes.front().stem().string() + ".html");
     OutputPlan plan;

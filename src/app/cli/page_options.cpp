@@ -20,6 +20,12 @@ CLI::App* add_page(CLI::App& app, CommandLine& line) {
         ->check(some_name())
         ->type_name("PAGE.html");
     add_vary(*command, c.vary, "A run");
+    command
+        ->add_option("--label", c.labels,
+                     "Name of a run, in place of its varied values; once for each run, in their order")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
     add_choice<std::string>(*command, "--compare", c.compare,
                             {{"single", "single"}, {"ghost", "ghost"}, {"side-by-side", "side-by-side"}},
                             "How the page shows several runs at first: one, the others as ghosts, or all")

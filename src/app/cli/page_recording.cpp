@@ -57,9 +57,14 @@ std::string PageScenes::title() const {
 }
 
 PageScenes load_page_scenes(std::span<const fs::path> files, const SceneOverrides& overrides,
-                            std::span<const std::string> vary) {
+                            std::span<const std::string> vary, std::span<const std::string> labels) {
     PageScenes page;
     page.variants = make_variants(files, overrides, vary);
+    try {
+        label_variants(page.variants, labels);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("--label: {}", error.message()));
+    }
     for (const Variant& variant : page.variants) {
         page.scenes.push_back(load_scene(variant.scene, variant.overrides, &page.inputs));
         check_plot(page.scenes.back(), overrides);

@@ -23,9 +23,9 @@ struct PageScenes {
     std::string title() const;  // of the first scene, else its name
 };
 
-/// Throws InputError for a scene or plot that cannot be shown.
+/// `labels`: of the runs; empty: made from the names and values. Throws InputError for a scene or plot that cannot be shown.
 PageScenes load_page_scenes(std::span<const std::filesystem::path> files, const SceneOverrides& overrides,
-                            std::span<const std::string> vary);
+                            std::span<const std::string> vary, std::span<const std::string> labels = {});
 
 /// Simulates all scenes.
 PageClip record_page(const PageScenes& scenes, int threads, bool quiet, Interrupt& interrupt);

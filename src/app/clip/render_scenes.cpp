@@ -74,7 +74,9 @@ RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
 }
 
 void RenderScenes::load(const ClipRequest& command) {
-    for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary)) {
+    std::vector<Variant> variants = make_variants(command.scenes, command.overrides, command.vary);
+    label_variants(variants, command.labels);
+    for (const Variant& variant : variants) {
         SceneDescription loaded = command.text ? parse_scene(*command.text, variant.scene, variant.overrides, &inputs)
                                                : load_scene(variant.scene, variant.overrides, &inputs);
         loaded.output.fps /= command.frame_step;

@@ -1,5 +1,6 @@
 #include "app/lesson/course.h"
 #include "app/lesson/course_json.h"
+#include "app/lesson/lesson_compiler.h"
 #include "core/safe_text.h"
 #include "output/process.h"
 
@@ -53,25 +54,34 @@ private:
 
 }  // namespace
 
-Course compile_lessons(const std::vector<std::filesystem::path>& files, const std::filesystem::path& web_folder) {
+std::string run_lesson_compiler(const std::filesystem::path& web_folder, const std::vector<std::string>& arguments,
+                                const std::string& input) {
     const std::filesystem::path compiler = web_folder / "lesson.cjs";
     if (!std::filesystem::exists(compiler))
         throw RunError(fmt::format("{} is missing: run scripts/build-web again", safe_path(compiler)));
     const auto node = find_program("node");
     if (!node)
         throw RunError(
-            "lessons need Node.js 18 or later, and there is no program 'node' on the PATH (Debian: apt-get "
+            "lessons need Node.js 18.13 or later, and there is no program 'node' on the PATH (Debian: apt-get "
             "install nodejs)");
-    nlohmann::json list = nlohmann::json::array();
-    for (const auto& file : files) list.push_back(file.string());
-    const std::string input = list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+    std::vector<std::string> command{compiler.string()};
+    command.insert(command.end(), arguments.begin(), arguments.end());
+    // It ends with this process, which may be killed.
+    command.insert(command.end(), {"--for", std::to_string(::getpid())});
     const OutputInMemory output;
-    Process process(*node, {compiler.string(), "--for", std::to_string(::getpid())}, output.descriptor());
+    Process process(*node, command, output.descriptor());
     process.write(std::as_bytes(std::span(input)));
     const ProcessEnd end = process.finish();
     if (!end.ok())
         throw RunError(fmt::format("node {}: {}\n{}", safe_path(compiler), end.describe(), safe_lines(end.error_text)));
-    return read_course(output.text());
+    return output.text();
+}
+
+Course compile_lessons(const std::vector<std::filesystem::path>& files, const std::filesystem::path& web_folder) {
+    nlohmann::json list = nlohmann::json::array();
+    for (const auto& file : files) list.push_back(file.string());
+    return read_course(
+        run_lesson_compiler(web_folder, {}, list.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)));
 }
 
 }  // namespace tumble

@@ -33,7 +33,8 @@ struct LessonScene {
 struct LessonStage {
     std::string id;
     LessonScene scene;
-    std::vector<std::string> vary;  // as --vary
+    std::vector<std::string> vary;    // as --vary
+    std::vector<std::string> labels;  // of the runs; empty: made from `vary`
     PlayerOptions options;
     std::string caption_html;
     BlockPlaces places;
@@ -69,6 +70,15 @@ struct LessonQuiz {
     StatedNumber answer;
 };
 
+/// An equation whose sides must agree in a run.
+struct LessonNumbers {
+    std::string stage;
+    std::string data;  // JSON, for the compiler of lessons: the sides, and the moment
+    std::size_t run = 0;
+    double tolerance = 0.0;  // largest residual
+    BlockPlaces places;
+};
+
 struct LessonConvergence {
     LessonScene scene;
     std::string of;   // a quantity, or body.NAME.position
@@ -90,6 +100,7 @@ struct Lesson {
     std::vector<LessonStage> stages;
     std::vector<LessonQuiz> quizzes;
     std::vector<LessonMeasure> measures;
+    std::vector<LessonNumbers> numbers;
     std::vector<LessonConvergence> convergences;
 };
 

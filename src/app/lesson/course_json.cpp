@@ -63,6 +63,7 @@ LessonStage read_stage(const CourseJson& json, const std::string& file) {
     read(json, "id", stage.id);
     stage.scene = read_scene(json, file);
     read(json, "vary", stage.vary);
+    read(json, "labels", stage.labels);
     stage.options = read_options(json.at("options"));
     read(json, "caption", stage.caption_html);
     read(json, "alt", stage.options.alt);
@@ -92,6 +93,16 @@ StatedNumber read_number(const CourseJson& json, const char* value, const std::s
     if (const auto check = json.find("check"); check != json.end()) number.check = read_check(*check);
     number.places = read_places(json, file);
     return number;
+}
+
+LessonNumbers read_numbers(const CourseJson& json, const std::string& file) {
+    LessonNumbers numbers;
+    read(json, "stage", numbers.stage);
+    read(json, "run", numbers.run);
+    read(json, "tolerance", numbers.tolerance);
+    numbers.data = json.at("data").dump();
+    numbers.places = read_places(json, file);
+    return numbers;
 }
 
 LessonConvergence read_convergence(const CourseJson& json, const std::string& file) {
@@ -126,6 +137,7 @@ Lesson read_lesson(const CourseJson& json) {
         for (const CourseJson& row : measure.at("rows"))
             read_measure.rows.push_back(read_number(row, "expected", lesson.file));
     }
+    for (const CourseJson& numbers : json.at("numbers")) lesson.numbers.push_back(read_numbers(numbers, lesson.file));
     for (const CourseJson& convergence : json.at("convergences"))
         lesson.convergences.push_back(read_convergence(convergence, lesson.file));
     return lesson;

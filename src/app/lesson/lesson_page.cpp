@@ -54,8 +54,9 @@ std::string address_of(const Lesson& lesson) {
     constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_.!~*'()";
     std::string address;
     for (const char byte : lesson.name)
-        address += plain.find(byte) != std::string_view::npos ? std::string(1, byte)
-                                                              : fmt::format("%{:02X}", static_cast<unsigned char>(byte));
+        address += plain.find(byte) != std::string_view::npos
+                       ? std::string(1, byte)
+                       : fmt::format("%{:02X}", static_cast<unsigned char>(byte));
     return address + ".html";
 }
 
@@ -91,14 +92,20 @@ PageShell lesson_page(const Course& course, std::size_t index, const LessonResul
     return shell;
 }
 
-PageShell index_page(const Course& course, const std::string& title, const std::string& generator) {
+PageShell index_page(const Course& course, const std::string& title, const std::string& generator,
+                     const std::vector<std::string>& posters) {
+    // The title of the lesson says what the picture shows.
+    std::map<std::string, std::string, std::less<>> pictures;
+    for (std::size_t i = 0; i < posters.size(); ++i)
+        if (!posters[i].empty())
+            pictures[fmt::format("picture:{}", i)] = fmt::format("<img src=\"{}\" alt=\"\">", posters[i]);
     PageShell shell;
     shell.title = title;
     shell.description = course.lessons.size() == 1 ? course.lessons.front().summary : "Contents of the lessons";
     shell.kind = "index";
     shell.generator = generator;
-    shell.body_html =
-        fmt::format("<header class=\"lesson-header\"><h1>{}</h1></header>\n", html_text(title)) + course.index_html;
+    shell.body_html = fmt::format("<header class=\"lesson-header\"><h1>{}</h1></header>\n", html_text(title)) +
+                      fill_places(course.index_html, pictures);
     shell.with_player = false;
     return shell;
 }

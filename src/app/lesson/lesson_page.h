@@ -19,7 +19,8 @@ struct StagePictures {
 PageShell lesson_page(const Course& course, std::size_t index, const LessonResult& result,
                       const std::vector<StagePictures>& pictures, const std::string& generator);
 
-/// The page of contents.
-PageShell index_page(const Course& course, const std::string& title, const std::string& generator);
+/// The page of contents. `posters`: data addresses of the lessons' pictures; empty: there is none.
+PageShell index_page(const Course& course, const std::string& title, const std::string& generator,
+                     const std::vector<std::string>& posters);
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
 #include "app/lesson/lesson_runs.h"
 
 #include "app/lesson/convergence_figure.h"
+#include "app/lesson/numbers_check.h"
 #include "app/lesson/run_numbers.h"
 #include "app/page/record_run.h"
 #include "app/threads/task_group.h"
@@ -170,6 +171,11 @@ void LessonRuns::run(int threads, const std::function<void(std::size_t)>& progre
     }
     group.finish();
     progress(done);
+}
+
+void LessonRuns::check_numbers(const std::filesystem::path& web_folder) {
+    for (auto& [lesson, error] : wrong_numbers(course_, results_, web_folder))
+        errors_[lesson].push_back(std::move(error));
 }
 
 std::vector<InputError> LessonRuns::errors() const {

@@ -6,6 +6,7 @@
 #include "app/lesson/lesson_scene.h"
 #include "page/clip_data.h"
 
+#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <string>
@@ -39,6 +40,9 @@ public:
     /// Runs all, `threads` at a time; the results are the same for any number. Calls `progress` with the number of
     /// finished blocks. Mistakes are in errors(): stated numbers that no run gives. Throws RunError after an interrupt.
     void run(int threads, const std::function<void(std::size_t)>& progress);
+
+    /// Checks the equations of blocks `numbers` in the runs; mistakes are in errors().
+    void check_numbers(const std::filesystem::path& web_folder);
 
     std::size_t blocks() const;
     const std::vector<LessonScenes>& scenes() const { return scenes_; }

@@ -64,6 +64,7 @@ std::vector<LoadedScene> load_stage(const LessonStage& stage, FileList& read) {
     std::vector<Variant> variants;
     with_place(stage.places.of("vary"), "vary",
                [&] { variants = make_variants(std::span(&stage.scene.file, 1), overrides, stage.vary); });
+    with_place(stage.places.of("labels"), "labels", [&] { label_variants(variants, stage.labels); });
     std::vector<LoadedScene> scenes;
     for (const Variant& variant : variants)
         scenes.push_back({load_lesson_scene(stage.scene, variant.overrides, stage.places, read), variant.overrides,

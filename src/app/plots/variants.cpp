@@ -86,4 +86,16 @@ std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes
     return variants;
 }
 
+void label_variants(std::vector<Variant>& variants, std::span<const std::string> labels) {
+    if (labels.empty()) return;
+    if (labels.size() != variants.size())
+        throw InputError(fmt::format("needs one label for each run (given {} for {})", labels.size(), variants.size()));
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i].empty() || std::ranges::find(labels.subspan(i + 1), labels[i]) != labels.end())
+            throw InputError(fmt::format("labels tell runs apart (given '{}' {})", safe_text(labels[i]),
+                                         labels[i].empty() ? "without a letter" : "twice"));
+        variants[i].label = labels[i];
+    }
+}
+
 }  // namespace tumble

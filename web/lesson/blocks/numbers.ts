@@ -1,9 +1,10 @@
 // The block `numbers`: an equation into which the page puts the numbers of an impact or of a moment.
 import { ExpressionError, parse_expression, place_in_value, type Tree } from "../expression.ts";
 import { json_attribute } from "../html.ts";
+import type { Place } from "../problems.ts";
 import { moments, type Moment } from "../symbols.ts";
 import type { Table } from "../table.ts";
-import { block_table, type BlockContext, type BlockText } from "./block.ts";
+import { block_table, places_of, type BlockContext, type BlockText } from "./block.ts";
 
 /** `data-numbers` in the page. */
 export interface NumbersData {
@@ -14,6 +15,20 @@ export interface NumbersData {
   value: Tree;
   expression: Tree;
 }
+
+/** What the program checks: both sides agree in the run. */
+export interface NumbersBlock {
+  stage: string;
+  data: NumbersData;
+  /** Index of the run, from 0. */
+  run: number;
+  /** Largest residual. */
+  tolerance: number;
+  place: Place;
+  places: Record<string, Place>;
+}
+
+const usual_tolerance = 1e-6;
 
 function read_expression(table: Table, key: string, moment: Moment): { tree: Tree; type: string } | null {
   table.require(key, key === "value" ? "the left side of the equation" : "the right side of the equation");
@@ -30,9 +45,10 @@ function read_expression(table: Table, key: string, moment: Moment): { tree: Tre
   }
 }
 
-export function read_numbers(block: BlockText, context: BlockContext): string {
+/** Null without an equation to check. */
+export function read_numbers(block: BlockText, context: BlockContext): { numbers: NumbersBlock; html: string } | null {
   const table = block_table(block);
-  if (!table) return "";
+  if (!table) return null;
   const stage = context.use_stage(table);
   const moment = (table.choice("moment", moments) ?? "impact") as Moment;
   const impact = table.whole("impact", 1) ?? 1;
@@ -45,11 +61,14 @@ export function read_numbers(block: BlockText, context: BlockContext): string {
   const caption = table.has("caption") ? `<p class="numbers-caption">${context.markdown(table, "caption", true)}</p>` : "";
   table.text("caption");
   table.text("equation");
+  const run = table.whole("run", 0) ?? 0;
+  const tolerance = table.number("tolerance", 0) ?? usual_tolerance;
   table.finish();
-  if (!value || !expression) return "";
+  if (!value || !expression) return null;
   const data: NumbersData = { stage, moment, impact, value: value.tree, expression: expression.tree };
-  return `<div class="numbers" role="group" data-numbers="${json_attribute(data)}" aria-label="An equation with numbers">
+  const html = `<div class="numbers" role="group" data-numbers="${json_attribute(data)}" aria-label="An equation with numbers">
 <div class="numbers-equation">${equation}</div>${caption}
 </div>
 `;
+  return { numbers: { stage, data, run, tolerance, place: block.place, places: places_of(table, ["value", "expression", "impact", "run"]) }, html };
 }

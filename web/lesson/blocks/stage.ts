@@ -14,6 +14,8 @@ export interface StageBlock {
   text?: string;
   set: string[];
   vary: string[];
+  /** Of the runs; empty: made from `vary`. */
+  labels: string[];
   /** `data-options` of the player. */
   options: Record<string, unknown>;
   caption: string;
@@ -31,7 +33,7 @@ const compare = ["single", "ghost", "side-by-side"];
 export function read_scene(block: BlockText, table: Table, stage: Table): Pick<StageBlock, "scene" | "text" | "set" | "places"> {
   const scene = stage.text("scene");
   const set = stage.texts("set") ?? [];
-  const places = places_of(stage, ["scene", "set", "vary", "plot", "follow", "body"]);
+  const places = places_of(stage, ["scene", "set", "vary", "labels", "plot", "follow", "body"]);
   const rest = Object.keys(table.values).filter((key) => key !== "stage");
   if (scene !== undefined) {
     const key = rest.find((name) => !known_beside_scene.has(name));
@@ -80,7 +82,7 @@ export function read_stage(block: BlockText, context: BlockContext): StageBlock 
   keep("compare", stage.choice("compare", compare));
   keep("panels", stage.texts("panels", panels) ?? (options.plot === undefined ? [] : ["plots"]));
   const result: StageBlock = {
-    id, place: block.place, vary: stage.texts("vary") ?? [], options,
+    id, place: block.place, vary: stage.texts("vary") ?? [], labels: stage.texts("labels") ?? [], options,
     caption: stage.has("caption") ? context.markdown(stage, "caption", true) : "",
     alt: stage.text("alt") ?? "",
     ...read_scene(block, table, stage),

@@ -33,7 +33,12 @@ function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[])
 
 /** Throws an Error whose message a reader understands, if the data is damaged. */
 export async function decode_clip(base64: string): Promise<Clip> {
-  const reader = new Container<ClipHeader>(await inflate(base64));
+  return read_clip(await inflate(base64));
+}
+
+/** The same, of the container itself. */
+export function read_clip(bytes: Uint8Array): Clip {
+  const reader = new Container<ClipHeader>(bytes);
   const { format, title, generator, sources, runs } = reader.header;
   if (format !== known_format)
     throw new Error(`The clip's data has the format ${format}, and this player reads ${known_format} only.`);

@@ -53,8 +53,13 @@ export function magnitude(value: Value): number {
   return typeof value === "number" ? Math.abs(value) : Math.hypot(...value);
 }
 
+/** |left - right|. */
+export function difference(left: Value, right: Value): number {
+  return magnitude(pairwise(left, right, (x, y) => x - y));
+}
+
 /** |left - right| over the larger of them; 0 if both are 0. */
 export function residual(left: Value, right: Value): number {
   const largest = Math.max(magnitude(left), magnitude(right));
-  return largest === 0 ? 0 : magnitude(pairwise(left, right, (x, y) => x - y)) / largest;
+  return largest === 0 ? 0 : difference(left, right) / largest;
 }

@@ -173,7 +173,10 @@ export class Plot {
       },
       axes: [
         { ...axis, size: 26, gap: 4, values: (_chart, ticks) => ticks.map((tick, i) => (i === ticks.length - 1 ? `${tick_text(tick)} s` : tick_text(tick))) },
-        { ...axis, size: 46, gap: 4, space: 34, values: (_chart, ticks) => ticks.map(tick_text) },
+        {
+          ...axis, size: 46, gap: 4, space: 34, values: (_chart, ticks) => ticks.map(tick_text),
+          label: curves.unit || undefined, labelFont: font, labelSize: 14, labelGap: 0,
+        },
       ],
       series: [{}, ...curves.drawn.map((curve): uPlot.Series => ({
         stroke: curve.color, width: curve.filled ? 0 : 1.75, dash: curve.dash, fill: curve.filled ? curve.color : undefined,
