@@ -4,6 +4,9 @@ import os
 import pathlib
 import re
 import shutil
+import signal
+import subprocess
+import time
 import unittest
 
 import pages
@@ -139,7 +142,7 @@ class LessonTest(pages.PageTestCase):
         message = re.search(r"^drop\.md:.*", guide, re.MULTILINE)[0]
         self.write("drop.md", example)
         self.assertIn(message, self.check(2, "lesson", "drop.md", "--check", "--no-pictures").stderr.splitlines())
-        self.write("drop.md", example.replace("answer = 4.429", "answer = -4.429"))
+        self.write("drop.md", example.replace("answer = 4.429", "answer = 3.544"))
         self.check(0, "lesson", "drop.md", "-o", "site", "--no-pictures", "--quiet")
 
     def test_threads_change_nothing(self):
@@ -205,6 +208,119 @@ class LessonTest(pages.PageTestCase):
         self.check(0, "lesson", "a.md", "-o", "site", "--quiet")
         shutil.rmtree(self.folder / "site")
         self.mistake(block.replace("drop.toml", "missing.toml"), r"^a\.md:12:1: error: scene: there is no file missing\.toml")
+
+    def test_numbers_are_checked_in_the_run(self):
+        block = ('```numbers\nstage = "drop"\nequation = \'\'\'\\vrelp\'\'\'\nvalue = "vrelp"\nexpression = "{}"\n```\n')
+        # Begins with the second impact, at rest before the first.
+        text = STAGE + block.format("-e*vrel")
+        self.lesson("a.md", text)
+        self.check(0, "lesson", "a.md", "-o", "site", "--quiet", "--no-pictures")
+        shutil.rmtree(self.folder / "site")
+        text = STAGE + block.format("-0.6*vrel")
+        self.mistake(text, rf"^a\.md:{self.line_of(text, 'value = ')}:1: error: value: the left side is 2\.2147\d+ and the right "
+                           r"side 2\.657\d+ at 0\.45\d+ s in the run \(residual 0\.17, allowed 1e-06\)$")
+        self.lesson("a.md", text.replace('value = "vrelp"', 'value = "vrelp"\ntolerance = 0.2'))
+        self.check(0, "lesson", "a.md", "--check", "--quiet", "--no-pictures")
+        self.mistake(text.replace('stage = "drop"\neq', 'stage = "drop"\nimpact = 900\neq'),
+                     r":\d+:1: error: impact: the run has \d+ impacts \(asked for impact 900\)")
+        self.mistake(text.replace('stage = "drop"\neq', 'stage = "drop"\nrun = 1\neq'), r"run: the stage has 1 runs")
+        now = text.replace('stage = "drop"\neq', 'stage = "drop"\nmoment = "now"\neq').replace("vrelp", "P")
+        self.mistake(now.replace("-0.6*vrel", "1.01*m*v"), r"error: value: the left side is \(0, .*residual 0\.0099")
+        self.lesson("a.md", now.replace("-0.6*vrel", "m*v"))
+        self.check(0, "lesson", "a.md", "--check", "--quiet", "--no-pictures")
+
+    def test_runs_have_the_labels_of_the_lesson(self):
+        varied = 'vary = ["body.ball.position=[0,1.1,0],[0.2,1.1,0]"]\nlabels = ["in the middle", "beside \'it\' <b>"]\nalt ='
+        self.lesson("a.md", STAGE.replace("alt =", varied))
+        self.check(0, "lesson", "a.md", "-o", "site", "--quiet", "--no-pictures")
+        header, _ = pages.Page(self.folder / "site/a.html").clip("clip-drop")
+        self.assertEqual([run["label"] for run in header["runs"]], ["in the middle", "beside 'it' <b>"])
+        shutil.rmtree(self.folder / "site")
+        self.mistake(STAGE.replace("alt =", varied.replace(', "beside \'it\' <b>"', "")),
+                     r"^a\.md:15:1: error: labels: needs one label for each run \(given 1 for 2\)")
+        self.mistake(STAGE.replace("alt =", varied.replace("in the middle", "beside 'it' <b>")), r"labels: labels tell runs apart .* twice")
+        self.mistake(STAGE.replace("alt =", varied.replace("in the middle", "")), r"labels: labels tell runs apart")
+
+    def test_malformed_texts_are_mistakes_with_places(self):
+        self.mistake("Text [a](%E0%A4%A).", r"^a\.md:9:10: error: the address .* malformed percent escape")
+        self.lesson("a.md", "## One\n\n[](#one) %%text:99%%\n")
+        self.check(0, "lesson", "a.md", "--check", "--quiet")
+        for ending, expected in ((b"\xff", "is not UTF-8"), (b"\x00", r"control character U\+0000"), (b"$\\includegraphics{a.b'>}$", "cannot stand")):
+            (self.folder / "a.md").write_bytes(HEAD.format(order=1).encode() + b"Text " + ending)
+            self.assertRegex(self.check(2, "lesson", "a.md", "-o", "site").stderr, rf"^a\.md:9:\d+: error: .*{expected}")
+        self.assertFalse((self.folder / "site").exists())
+
+    def test_pictures_are_regular_files_of_the_lessons_folder(self):
+        outside = self.folder.parent / (self.folder.name + "-outside.png")
+        outside.write_bytes(b"secret")
+        self.addCleanup(outside.unlink)
+        (self.folder / "pictures").mkdir()
+        (self.folder / "pictures/right.png").write_bytes(b"\x89PNG")
+        (self.folder / "link_in.png").symlink_to("pictures/right.png")
+        self.lesson("a.md", "![A](pictures/right.png) ![B](link_in.png)\n")
+        self.check(0, "lesson", "a.md", "-o", "site", "--quiet")
+        self.assertEqual((self.folder / "site/a.html").read_text(encoding="utf-8").count("data:image/png;base64,iVBORw=="), 2)
+        shutil.rmtree(self.folder / "site")
+        (self.folder / "link_out.png").symlink_to(outside)
+        (self.folder / "folder_out").symlink_to(self.folder.parent)
+        (self.folder / "folder.png").mkdir()
+        os.mkfifo(self.folder / "pipe.png")
+        for address, expected in (
+                ("link_out.png", "outside of the lesson's folder"), (f"folder_out/{outside.name}", "outside of the lesson's folder"),
+                (f"../{outside.name}", "outside of the lesson's folder"), ("folder.png", "not a regular file"),
+                ("pipe.png", "not a regular file"), ("missing.png", "there is no such file")):
+            self.mistake(f"Text ![A]({address})\n", rf"^a\.md:9:6: error: cannot read the picture '.*': .*{expected}")
+
+    def test_the_compiler_ends_with_the_program(self):
+        self.lesson("a.md", STAGE)
+        # A compiler that never ends.
+        self.write("hang.cjs", "JSON.stringify = () => { for (;;); };")
+        started = subprocess.Popen([program.TUMBLE, "lesson", "a.md", "--check"], cwd=self.folder,
+                                   env={**os.environ, "NODE_OPTIONS": f"--require {self.folder}/hang.cjs"})
+        compiler = self.wait_for(lambda: self.child_of(started.pid))
+        started.kill()
+        started.wait()
+        try:
+            self.wait_for(lambda: not pathlib.Path(f"/proc/{compiler}").exists() or self.is_zombie(compiler))
+        finally:
+            if pathlib.Path(f"/proc/{compiler}").exists():
+                os.kill(compiler, signal.SIGKILL)
+
+    def wait_for(self, condition):
+        for _ in range(600):
+            if found := condition():
+                return found
+            time.sleep(0.05)
+        self.fail("nothing happened in 30 s")
+
+    @staticmethod
+    def child_of(parent):
+        """The Node.js process of that parent, once it runs its own program."""
+        for status in pathlib.Path("/proc").glob("[0-9]*/stat"):
+            try:
+                name, rest = status.read_text().rsplit(")", 1)
+                if int(rest.split()[1]) == parent and "node" in name:
+                    return int(status.parent.name)
+            except OSError:
+                pass
+        return None
+
+    @staticmethod
+    def is_zombie(process):
+        try:
+            return pathlib.Path(f"/proc/{process}/stat").read_text().rsplit(")", 1)[1].split()[0] == "Z"
+        except OSError:
+            return True
+
+    def test_the_contents_have_pictures(self):
+        self.lesson("a.md", STAGE)
+        self.lesson("b.md", "No stage.\n", order=2)
+        self.check(0, "lesson", "a.md", "b.md", "-o", "site", "--quiet")
+        index = pages.Page(self.folder / "site/index.html")
+        picture = pages.Page(self.folder / "site/a.html").one("img")
+        self.assertEqual([image[1]["src"] for image in index.all("img")], [picture[1]["src"]])
+        self.check(0, "lesson", "a.md", "b.md", "-o", "bare", "--quiet", "--no-pictures")
+        self.assertEqual(pages.Page(self.folder / "bare/index.html").all("img"), [])
 
     def test_check_writes_nothing(self):
         self.lesson("a.md", STAGE + NUMBERS.format(speed=SPEED, answer=-SPEED / 2))

@@ -118,6 +118,8 @@ class PageTest(pages.PageTestCase):
         header, _ = page.clip()
         self.assertEqual([run["label"] for run in header["runs"]], ["restitution 0.2", "restitution 0.8"])
         self.assertEqual(page.options()["compare"], "ghost")
+        page = self.page("scene.toml", "--vary", "body.ball.position=[0,1,0],[0.2,1,0]", "--label", "in the middle", "--label", "<b>beside</b>")
+        self.assertEqual([run["label"] for run in page.clip()[0]["runs"]], ["in the middle", "<b>beside</b>"])
         self.write("b.toml", BALL)
         page = self.page("scene.toml", "b.toml", "--no-film")
         self.assertEqual([run["label"] for run in page.clip()[0]["runs"]], ["scene", "b"])
@@ -151,6 +153,8 @@ class PageTest(pages.PageTestCase):
                 ("--plot: ", "scene.toml", "--plot", "body.box.y"),
                 ("--compare: needs two runs", "scene.toml", "--compare", "ghost"),
                 ("--embed-glb: needs a single run", "scene.toml", "--vary", "body.ball.mass=1,2", "--embed-glb"),
+                ("--label: needs one label for each run (given 1 for 2)", "scene.toml", "--vary", "body.ball.mass=1,2", "--label", "light"),
+                ("--label: labels tell runs apart (given 'a' twice)", "scene.toml", "--vary", "body.ball.mass=1,2", "--label", "a", "--label", "a"),
                 ("--film-size: must be the width", "scene.toml", "--film-size", "big"),
                 ("--vary", "scene.toml", "--vary", "body.ball.mass"),
                 ("-o", "scene.toml", "-o", "scene.toml")):

@@ -69,7 +69,7 @@ function impulse_among_others(run: Run, index: number): HTMLElement[] {
     h("p", { class: "tp-hint" }, `${shares.length} impulses act on these bodies together. Eq. 20 holds for one alone; they are the solution of joint equations, of which this is the row of impact ${index + 1}:`),
     equation_element(equations.joint, numbers),
     h("div", { class: "tp-shares", tabindex: 0, role: "group", "aria-label": "Impulses that act together" }, h("table", {},
-      h("thead", {}, h("tr", {}, ...["Impact", "Bodies", "j (N s)", "adds (m/s)"].map((text) => h("th", { scope: "col" }, text)))),
+      h("thead", {}, h("tr", {}, ...["Impact", "Bodies", "j (N s)", "share (m/s)"].map((text) => h("th", { scope: "col" }, text)))),
       h("tbody", {}, ...rows))),
     h("p", { class: "tp-facts" }, "Recorded: ", h("b", {}, `${number_text(run.impacts[index].impulse, 6)} N s`), ", after it ",
       h("b", {}, `${number_text(after, 6)} m/s`), "; residual ", h("b", {}, number_text(residual, 3, 0)), "."),

@@ -86,6 +86,7 @@ export class Plot {
     this.chart = new uPlot(this.options(width, this.curves),
       [this.curves.times, ...this.curves.drawn.map((curve) => curve.values)] as unknown as uPlot.AlignedData, this.canvas_box);
     this.chart.over.append(this.line);
+    if (this.curves.unit) this.chart.root.append(h("span", { class: "tp-axis-unit", "aria-hidden": "true" }, this.curves.unit));
     this.listen(this.chart.over);
     this.note.hidden = this.curves.note === "";
     set_text(this.note, this.curves.note);
@@ -165,7 +166,7 @@ export class Plot {
       width, height: plot_height,
       legend: { show: false },
       cursor: { show: false },
-      padding: [8, 8, 0, 0],
+      padding: [curves.unit ? 18 : 8, 8, 0, 0],
       scales: {
         x: { time: false, range: () => [0, this.state.duration || 1] },
         // Areas stand on zero.
@@ -173,10 +174,7 @@ export class Plot {
       },
       axes: [
         { ...axis, size: 26, gap: 4, values: (_chart, ticks) => ticks.map((tick, i) => (i === ticks.length - 1 ? `${tick_text(tick)} s` : tick_text(tick))) },
-        {
-          ...axis, size: 46, gap: 4, space: 34, values: (_chart, ticks) => ticks.map(tick_text),
-          label: curves.unit || undefined, labelFont: font, labelSize: 14, labelGap: 0,
-        },
+        { ...axis, size: 46, gap: 4, space: 34, values: (_chart, ticks) => ticks.map(tick_text) },
       ],
       series: [{}, ...curves.drawn.map((curve): uPlot.Series => ({
         stroke: curve.color, width: curve.filled ? 0 : 1.75, dash: curve.dash, fill: curve.filled ? curve.color : undefined,
