@@ -146,6 +146,39 @@ test("an impact of the list is sought and its impulse computed", () => with_play
   assert.match(card, /residual (0|[\d.]+\u00b710\u207b\u00b9[\u2074-\u2079])\./);
 }));
 
+test("an impact among others shows its row of the joint equations", () => with_player({}, async (page) => {
+  await page.focus(".tp-impacts-table tr[tabindex='0']");
+  await press(page, "ArrowDown", "Enter");
+  const card = (await page.textContent(".tp-card"))!;
+  assert.match(card, /Impact 2: box on ground/);
+  assert.match(card, /4 impulses act on these bodies together\. Eq\. 20 holds for one alone/);
+  assert.equal(await page.locator(".tp-shares tbody tr").count(), 4);
+  assert.equal(await page.locator(".tp-shares .tp-own th").textContent(), "2");
+  assert.match(card, /residual (0|[\d.]+\u00b710\u207b\u00b9[\u2074-\u2079])\./);
+  assert.doesNotMatch(card, /act on these bodies in the same step/);
+  await save_picture(page, "card_of_an_impact_among_others");
+}));
+
+test("the vertical axis of a plot has its unit", () => with_player({}, async (page) => {
+  assert.deepEqual(await page.locator(".tp-axis-unit").allTextContents(), ["J", "m"]);
+}));
+
+test("on paper everything stays within the margins, and plots are there", () => with_player({ width: 1400 }, async (page) => {
+  await page.focus(".tp-impacts-table tr[tabindex='0']");
+  await press(page, "ArrowDown", "Enter");
+  await page.evaluate(() => dispatchEvent(new Event("beforeprint")));
+  await page.emulateMedia({ media: "print" });
+  await page.setViewportSize({ width: 700, height: 990 });   // A4 between the margins of browsers
+  const outside = await page.evaluate(() => [...document.querySelectorAll("main *")]
+    .filter((element) => element.checkVisibility() && element.getBoundingClientRect().right > innerWidth + 1)
+    .map((element) => `${element.localName}.${element.className}`));
+  assert.deepEqual(outside, []);
+  assert.ok(await page.locator(".tp-plot canvas").first().isVisible());
+  await save_picture(page, "paper");
+  await page.emulateMedia({ media: "screen" });
+  await page.evaluate(() => dispatchEvent(new Event("afterprint")));
+}));
+
 test("space plays to the end and the time stands there; impacts are not spoken meanwhile", () => with_player({}, async (page) => {
   await page.evaluate(() => tumble.player.state.set({ time: 2.5, speed: 4 }));
   await page.focus(".tp-stage");
