@@ -28,7 +28,8 @@ export interface NumbersBlock {
   places: Record<string, Place>;
 }
 
-const usual_tolerance = 1e-6;
+/** Impacts keep all their digits; pages keep the motion between them in quanta. */
+const usual_tolerance: Record<Moment, number> = { impact: 1e-6, now: 1e-3 };
 
 function read_expression(table: Table, key: string, moment: Moment): { tree: Tree; type: string } | null {
   table.require(key, key === "value" ? "the left side of the equation" : "the right side of the equation");
@@ -62,7 +63,7 @@ export function read_numbers(block: BlockText, context: BlockContext): { numbers
   table.text("caption");
   table.text("equation");
   const run = table.whole("run", 0) ?? 0;
-  const tolerance = table.number("tolerance", 0) ?? usual_tolerance;
+  const tolerance = table.number("tolerance", 0) ?? usual_tolerance[moment];
   table.finish();
   if (!value || !expression) return null;
   const data: NumbersData = { stage, moment, impact, value: value.tree, expression: expression.tree };
