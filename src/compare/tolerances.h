@@ -45,7 +45,7 @@ struct ToleranceValues {
 class Tolerances {
 public:
     /// The same for all images.
-    explicit Tolerances(const PairTolerances& all = {}) : all_(all) {}
+    explicit Tolerances(const PairTolerances& all = {});
 
     /// Throws InputError with file, line and column for any mistake; masks are read. `base` has the values of keys that
     /// the file does not have.
@@ -87,5 +87,7 @@ struct Tolerances::Rule {
     std::string place;               // FILE:LINE
     ToleranceValues values;
 };
+
+inline Tolerances::Tolerances(const PairTolerances& all) : all_(all) {}
 
 }  // namespace tumble

@@ -29,7 +29,9 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [scene, scales, shown, radii, trails, ghosts, frames, impacts, frame] = self;
         archive.rebuilt(scene, scales, shown, radii);
-        archive.keep(ghosts, frames, impacts);
+        archive.expect_bodies(radii.size());
+        archive.keep(ghosts, impacts);
+        archive.count(frames);
         archive.keep_each(trails);
         archive.scratch(frame);
     }
@@ -54,7 +56,8 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [body, state] = self;
-            archive.keep(body, state);
+            archive.body(body);
+            archive.keep(state);
         }
     };
     void remember(const Snapshot& snapshot, const ContactRecords* records);

@@ -23,7 +23,8 @@ struct OverlayMarks {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [states, features, friction] = self;
-        archive.keep(states, features, friction);
+        archive.any(states, features);
+        archive.keep(friction);
     }
 };
 

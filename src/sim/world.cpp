@@ -45,6 +45,7 @@ struct World::State {
     SimulationSettings settings;
     StepClock clock;
     std::int64_t steps = 0;  // number of steps done; time is computed from it, never accumulated
+    static constexpr std::int64_t most_steps = std::int64_t(1) << 53;  // that a double counts
     BodySet set;
     JointSet joints;
     std::vector<std::uint32_t> woken;  // by joints, in this step
@@ -105,7 +106,10 @@ struct World::State {
         auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep,
                check, log, totals, records, notes, asleep, pool] = self;
         archive.rebuilt(settings, clock);
-        archive.keep(steps, set, joints, forces, detection, impacts, contact_solver, sleep, check);
+        archive.expect_bodies(set.bodies.size());
+        archive.between(0, steps, most_steps);
+        archive.keep(set, joints, forces, detection, impacts, contact_solver, sleep, check);
+        archive.require([&] { return self.sleep.sound(self.set.bodies); });
         if (notes) archive.keep(*notes);
         archive.scratch(woken, motion, log, totals, records, asleep, pool);
     }

@@ -14,6 +14,8 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
+constexpr std::size_t bodies = 4;  // of scene()
+
 template <class... T>
 Bytes bytes_of(const T&... values) {
     CheckpointWriter writer;
@@ -23,7 +25,8 @@ Bytes bytes_of(const T&... values) {
 
 Bytes poses(const Snapshot& snapshot) {
     CheckpointWriter writer;
-    writer.keep(snapshot.frame, snapshot.time);
+    writer.any(snapshot.frame);
+    writer.keep(snapshot.time);
     for (const BodyState& body : snapshot.bodies) writer.keep(body.origin, body.center_of_mass, body.orientation);
     return {writer.bytes().begin(), writer.bytes().end()};
 }
@@ -67,7 +70,7 @@ TEST(FrameRecord, PosesComeBackToTheBit) {
         if (n == 12 || n + 1 == frames.size()) pieces.push_back(recorder.take());
     }
     std::size_t n = 13;  // the second piece needs nothing of the first
-    for (FrameReader reader(pieces[1]); !reader.at_end(); ++n) {
+    for (FrameReader reader(pieces[1], bodies); !reader.at_end(); ++n) {
         const RecordedFrame frame = reader.next();
         ASSERT_EQ(frame.samples.size(), 2u);
         for (std::size_t k = 0; k < 2; ++k) ASSERT_TRUE(poses(frame.samples[k]) == poses(frames[n][k])) << n;
@@ -81,7 +84,7 @@ TEST(FrameRecord, StatesComeBackWithTheirRecords) {
     const auto frames = frames_of(world, 40);
     FrameRecorder recorder(MotionDetail::states);
     for (const auto& samples : frames) recorder.add(samples, &world.contact_records());
-    FrameReader reader(recorder.take());
+    FrameReader reader(recorder.take(), bodies);
     for (const auto& samples : frames) {
         const RecordedFrame frame = reader.next();
         ASSERT_TRUE(bytes_of(frame.samples) == bytes_of(samples));
@@ -108,7 +111,7 @@ TEST(FrameRecord, OtherBytesAreRefused) {
     const Bytes bytes = recorder.take();
     for (std::size_t size = 0; size < bytes.size(); ++size) {
         const auto read = [&] {
-            FrameReader reader(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)));
+            FrameReader reader(Bytes(bytes.begin(), bytes.begin() + std::ptrdiff_t(size)), bodies);
             reader.next();
         };
         EXPECT_THROW(read(), InputError) << size;

@@ -24,7 +24,8 @@ constexpr std::size_t sum_size = sizeof(std::uint64_t);
 
 std::vector<std::byte> checkpoint_bytes(const CheckpointHeader& header, std::span<const std::byte> content) {
     CheckpointWriter writer;
-    writer.keep(magic, header, std::uint64_t(content.size()));
+    writer.keep(magic, header);
+    writer.any(std::uint64_t(content.size()));
     std::vector<std::byte> bytes;
     bytes.reserve(writer.bytes().size() + content.size() + sum_size);
     bytes.assign(writer.bytes().begin(), writer.bytes().end());
@@ -46,14 +47,15 @@ std::vector<std::byte> checkpoint_content(const std::filesystem::path& file, std
 
     CheckpointReader reader(summed.subspan(sizeof magic));
     std::uint32_t format = 0;
-    reader.keep(format);
+    reader.any(format);
     if (format != expected.format)
         refuse(file, fmt::format("the checkpoint has format {}, and this program reads format {}; simulate again",
                                  format, expected.format));
     reader = CheckpointReader(summed.subspan(sizeof magic));
     CheckpointHeader header;
     std::uint64_t size = 0;
-    reader.keep(header, size);
+    reader.keep(header);
+    reader.any(size);
     if (header.program != expected.program)
         refuse(file, fmt::format("the checkpoint is of tumble {}, and this is tumble {}; simulate again",
                                  safe_text(header.program), expected.program));

@@ -14,7 +14,7 @@
 namespace tumble {
 
 /// Of the layout of all files and of the states in them: a new one reads no old file.
-inline constexpr std::uint32_t checkpoint_format = 1;
+inline constexpr std::uint32_t checkpoint_format = 2;
 
 struct CheckpointHeader {
     std::uint32_t format = checkpoint_format;
@@ -26,7 +26,8 @@ struct CheckpointHeader {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [format, program, kind, frame, identity] = self;
-        archive.keep(format, program, kind, frame, identity);
+        archive.any(format, frame);
+        archive.keep(program, kind, identity);
     }
 };
 

@@ -95,7 +95,8 @@ void CheckpointWriting::add_motion(std::int64_t frame, std::size_t panel, std::s
 
 void CheckpointWriting::finish(std::span<const std::byte> survey) {
     CheckpointWriter writer;
-    writer.keep(frames_, intervals_, std::vector<std::byte>(survey.begin(), survey.end()));
+    writer.any(frames_, intervals_);
+    writer.keep(std::vector<std::byte>(survey.begin(), survey.end()));
     write(clip_path(folder_.path()), "clip", 0, writer.bytes());
 }
 
@@ -110,7 +111,11 @@ CheckpointReading::CheckpointReading(const fs::path& folder, CheckpointIdentity 
                         safe_path(folder)));
     const std::vector<std::byte> content = read_checkpoint(path, header_of("clip", 0, identity_));
     CheckpointReader reader(content);
-    reader.keep(frames_, intervals_, survey_);
+    reader.any(frames_, intervals_);
+    reader.keep(survey_);
+    reader.require([&] {
+        return std::is_sorted(frames_.begin(), frames_.end()) && std::is_sorted(intervals_.begin(), intervals_.end());
+    });
 }
 
 std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
@@ -122,6 +127,7 @@ std::optional<ClipState> CheckpointReading::before(std::int64_t frame) const {
     CheckpointReader reader(content);
     ClipState state;
     reader.keep(state);
+    reader.require([&] { return state.frame == at; });
     return state;
 }
 

@@ -27,7 +27,8 @@ struct ClipState {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [frame, panels] = self;
-        archive.keep(frame, panels);
+        archive.any(frame);
+        archive.keep(panels);
     }
 };
 

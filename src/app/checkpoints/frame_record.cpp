@@ -1,5 +1,7 @@
 #include "app/checkpoints/frame_record.h"
 
+#include "sim/frames/clip_timing.h"
+
 #include <cstring>
 #include <type_traits>
 #include <utility>
@@ -48,9 +50,12 @@ bool FrameRecorder::differs(const BodyState& a, const BodyState& b) const {
 }
 
 void FrameRecorder::add(const std::vector<Snapshot>& samples, const ContactRecords* records) {
-    if (!begun_) writer_.keep(detail_, std::uint64_t(samples.front().bodies.size()));
+    if (!begun_) {
+        writer_.enumeration(detail_, MotionDetail::states);
+        writer_.any(std::uint64_t(samples.front().bodies.size()));
+    }
     begun_ = true;
-    writer_.keep(std::uint64_t(samples.size()));
+    writer_.any(std::uint64_t(samples.size()));
     for (const Snapshot& sample : samples) add(sample);
     if (detail_ == MotionDetail::poses) return;
     writer_.keep(records != nullptr);
@@ -61,7 +66,9 @@ void FrameRecorder::add(const Snapshot& snapshot) {
     std::vector<std::uint32_t> changed;
     for (std::uint32_t i = 0; i < snapshot.bodies.size(); ++i)
         if (i >= last_.size() || differs(last_[i], snapshot.bodies[i])) changed.push_back(i);
-    writer_.keep(snapshot.frame, snapshot.time, changed);
+    writer_.any(snapshot.frame);
+    writer_.keep(snapshot.time);
+    writer_.bodies(changed);
     for (const std::uint32_t i : changed) visit_body(writer_, snapshot.bodies[i], detail_);
     last_ = snapshot.bodies;
 }
@@ -74,19 +81,19 @@ std::vector<std::byte> FrameRecorder::take() {
     return bytes;
 }
 
-FrameReader::FrameReader(std::vector<std::byte> bytes) : bytes_(std::move(bytes)), reader_(bytes_) {
-    std::uint64_t bodies = 0;
-    reader_.keep(detail_, bodies);
-    if (bodies > bytes_.size()) CheckpointReader::fail("ends early");
+FrameReader::FrameReader(std::vector<std::byte> bytes, std::size_t bodies) : bytes_(std::move(bytes)), reader_(bytes_) {
+    std::uint64_t count = 0;
+    reader_.expect_bodies(bodies);
+    reader_.enumeration(detail_, MotionDetail::states);
+    reader_.between(bodies, count, bodies);
     last_.resize(bodies);
 }
 
 RecordedFrame FrameReader::next() {
     RecordedFrame frame;
     std::uint64_t samples = 0;
-    reader_.keep(samples);
+    reader_.between(1, samples, most_blur_samples);
     for (; samples > 0; --samples) frame.samples.push_back(next_snapshot());
-    if (frame.samples.empty()) CheckpointReader::fail("has a frame without poses");
     if (detail_ == MotionDetail::poses) return frame;
     bool recorded = false;
     reader_.keep(recorded);
@@ -97,11 +104,11 @@ RecordedFrame FrameReader::next() {
 Snapshot FrameReader::next_snapshot() {
     Snapshot snapshot;
     std::vector<std::uint32_t> changed;
-    reader_.keep(snapshot.frame, snapshot.time, changed);
-    for (const std::uint32_t i : changed) {
-        if (i >= last_.size()) CheckpointReader::fail("has another number of bodies");
-        visit_body(reader_, last_[i], detail_);
-    }
+    reader_.any(snapshot.frame);
+    reader_.keep(snapshot.time);
+    reader_.bodies(changed);
+    reader_.require([&] { return std::exchange(begun_, true) || changed.size() == last_.size(); });
+    for (const std::uint32_t i : changed) visit_body(reader_, last_[i], detail_);
     snapshot.bodies = last_;
     return snapshot;
 }

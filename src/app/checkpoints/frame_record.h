@@ -42,10 +42,10 @@ private:
     std::vector<BodyState> last_;
 };
 
-/// Throws InputError where the bytes are not of a recorder.
+/// Throws InputError where the bytes are not of a recorder of so many bodies.
 class FrameReader {
 public:
-    explicit FrameReader(std::vector<std::byte> bytes);
+    FrameReader(std::vector<std::byte> bytes, std::size_t bodies);
 
     bool at_end() const { return reader_.at_end(); }
     RecordedFrame next();
@@ -56,6 +56,7 @@ private:
     std::vector<std::byte> bytes_;
     CheckpointReader reader_;
     MotionDetail detail_ = MotionDetail::poses;
+    bool begun_ = false;  // the first snapshot holds all bodies
     std::vector<BodyState> last_;
 };
 

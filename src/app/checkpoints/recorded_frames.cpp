@@ -9,8 +9,13 @@
 
 namespace tumble {
 
-RecordedFrames::RecordedFrames(const CheckpointReading& folder, std::size_t panel, std::int64_t frame)
-    : folder_(folder), panel_(panel), interval_(folder.interval_of(frame)), reader_(folder.motion(interval_, panel)) {
+RecordedFrames::RecordedFrames(const CheckpointReading& folder, std::size_t panel, std::size_t bodies,
+                               std::int64_t frame)
+    : folder_(folder),
+      panel_(panel),
+      bodies_(bodies),
+      interval_(folder.interval_of(frame)),
+      reader_(folder.motion(interval_, panel), bodies) {
     for (std::int64_t n = interval_; n < frame; ++n) take();
 }
 
@@ -20,7 +25,7 @@ RecordedFrame RecordedFrames::take() {
         if (!next) CheckpointReader::fail("ends before the clip does");
         interval_ = *next;
         try {
-            reader_ = FrameReader(folder_.motion(interval_, panel_));
+            reader_ = FrameReader(folder_.motion(interval_, panel_), bodies_);
         } catch (const InputError& error) {
             throw RunError(fmt::format("{}: {}", error.where().file, error.message()));  // frames are written by now
         }

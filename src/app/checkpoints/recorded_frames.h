@@ -15,7 +15,7 @@ class RecordedFrames {
 public:
     /// From this frame on. The folder must outlive it. Throws InputError for a file that is damaged; the other members
     /// throw RunError.
-    RecordedFrames(const CheckpointReading& folder, std::size_t panel, std::int64_t frame);
+    RecordedFrames(const CheckpointReading& folder, std::size_t panel, std::size_t bodies, std::int64_t frame);
 
     /// As of FrameSequence.
     std::vector<Snapshot> next();
@@ -26,7 +26,7 @@ private:
     RecordedFrame take();
 
     const CheckpointReading& folder_;
-    std::size_t panel_;
+    std::size_t panel_, bodies_;
     std::int64_t interval_;  // its first frame
     FrameReader reader_;
     std::optional<ContactRecords> records_;

@@ -56,11 +56,11 @@ struct ClipMotion {
         const bool known = checkpoints && checkpoints->has_motion();
         for (std::size_t i = 0; i < scenes.scenes.size(); ++i) {
             const std::int64_t first = PanelRun::first_recorded(state ? state->frame : 0, scenes.ends[i]);
+            const std::size_t bodies = scenes.scenes[i].scene->bodies.size();
             worlds.push_back(known ? nullptr : std::make_unique<World>(scenes.world(i, threads)));
-            recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, first) : nullptr);
+            recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, bodies, first) : nullptr);
             overlays.push_back(image ? scenes.overlay(i) : nullptr);
-            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(),
-                              scenes.scenes[i].scene->bodies.size()});
+            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(), bodies});
         }
     }
     void say_broken_joints(const RenderScenes& scenes) const {

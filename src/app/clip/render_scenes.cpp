@@ -157,7 +157,14 @@ template <class Archive, class Self>
 void RenderScenes::visit_survey(Archive& archive, Self& self) {
     for (auto& panel : self.composition.panels)
         if (panel.overlay) archive.keep(panel.overlay->scales, panel.overlay->marks);
-    for (auto& run : self.runs_) archive.keep(run.times, run.values);
+    for (auto& run : self.runs_) {
+        archive.keep(run.times, run.values);
+        archive.require([&run = run] {
+            return run.values.size() == run.quantities.size() &&
+                   std::all_of(run.values.begin(), run.values.end(),
+                               [&](const auto& series) { return series.size() == run.times.size(); });
+        });
+    }
 }
 
 std::vector<std::byte> RenderScenes::survey_bytes() const {

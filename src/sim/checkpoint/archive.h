@@ -13,6 +13,20 @@
 //
 // A new field does not compile until the function names it. tests/sim/checkpoint_test.cpp compares the motion of
 // restored worlds with that of unbroken ones: a field in the wrong group shows there.
+//
+// Files come from anywhere: the function also declares the bound of each field, and reading refuses a value beyond it.
+// keep() takes flags, finite numbers, and classes whose fields declare theirs; whole numbers and enumerations do not
+// compile in it:
+//
+//   archive.body(a, b);                    // indices of bodies
+//   archive.enumeration(kind, Kind::last);
+//   archive.between(0, count, capacity);
+//   archive.count(steps);                  // counted up from 0
+//   archive.any(feature);                  // every value is valid
+//   archive.unbounded(limit);              // may be infinite
+//   archive.require([&] { return first + count <= size; });  // what several fields have to hold together
+//
+// Structures that follow from other values (trees, lists, islands) are not written, but built anew.
 #pragma once
 
 #include "core/check.h"
@@ -22,10 +36,12 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <deque>
+#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -47,6 +63,11 @@ using SharedIndices = std::shared_ptr<const std::vector<std::uint32_t>>;
 template <class T>
 concept PlainNumber = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+/// Numbers with a bound that only their owner knows.
+template <class T>
+concept BoundedNumber = (std::is_integral_v<T> && !std::is_same_v<T, bool> && !std::is_same_v<T, char>) ||
+                        (std::is_enum_v<T> && !std::is_same_v<T, std::byte>);
+
 /// Lists of numbers that are copied in one piece.
 template <class List>
 concept contiguous_numbers =
@@ -54,12 +75,57 @@ concept contiguous_numbers =
     list.data();
 };
 
+/// Finite: numbers that are neither infinite nor NaN. Otherwise only NaN is refused.
+enum class Range : std::uint8_t { finite, unbounded };
+
 class CheckpointWriter {
 public:
     template <class... T>
     void keep(const T&... values) {
         (put(values), ...);
     }
+    template <class... T>
+    void unbounded(const T&... values) {
+        (put(values), ...);
+    }
+    template <class... T>
+    void any(const T&... values) {
+        (put(values), ...);
+    }
+    template <class Low, class T, class High>
+    void between(const Low&, const T& value, const High&) {
+        put(value);
+    }
+    template <class... T>
+    void count(const T&... values) {
+        (put(values), ...);
+    }
+    template <class T>
+    void enumeration(const T& value, T) {
+        put(value);
+    }
+    template <class... T>
+    void body(const T&... indices) {
+        (put(indices), ...);
+    }
+    template <class T>
+    void body_or(T, const T& index) {
+        put(index);
+    }
+    void bodies(const std::vector<std::uint32_t>& list) { put(list); }
+    void bodies(const SharedIndices& list) { put(list); }
+    template <class T>
+    void by_body(const std::vector<T>& values) {
+        put(values);
+    }
+    template <class T>
+    void within_bodies(const std::vector<T>& values) {
+        put(values);
+    }
+    void bodies_by_body(const std::vector<std::vector<std::uint32_t>>& lists) { put(lists); }
+    void expect_bodies(std::size_t) {}
+    template <class Holds>
+    void require(Holds&&) {}
     template <class... T>
     void rebuilt(const T&...) {}
     template <class... T>
@@ -170,7 +236,80 @@ public:
 
     template <class... T>
     void keep(T&... values) {
+        static_assert((!BoundedNumber<T> && ...), "declare the bound: see above");
         (get(values), ...);
+    }
+    /// Numbers that may be infinite.
+    template <class... T>
+    void unbounded(T&... values) {
+        const Range outer = std::exchange(range_, Range::unbounded);
+        keep(values...);
+        range_ = outer;
+    }
+    /// Whole numbers all of whose values are valid, and lists of them.
+    template <class... T>
+    void any(T&... values) {
+        (get_any(values), ...);
+    }
+    template <class Low, class T, class High>
+    void between(const Low& low, T& value, const High& high) {
+        raw(&value, sizeof value);
+        if (std::cmp_less(value, low) || std::cmp_greater(value, high)) fail("has a number out of its range");
+    }
+    /// Numbers that are counted up from zero.
+    template <class... T>
+    void count(T&... values) {
+        (between(0, values, std::numeric_limits<T>::max() / 2), ...);
+    }
+    /// Precondition: the enumerators are 0, 1, 2 and so on, up to `last`.
+    template <class T>
+    void enumeration(T& value, T last) {
+        std::underlying_type_t<T> number = 0;
+        between(0, number, std::underlying_type_t<T>(last));
+        value = T(number);
+    }
+    /// Indices of bodies.
+    template <class... T>
+    void body(T&... indices) {
+        (get_body(indices), ...);
+    }
+    /// The same, or `none`.
+    template <class T>
+    void body_or(T none, T& index) {
+        raw(&index, sizeof index);
+        if (index != none) check_body(index);
+    }
+    void bodies(std::vector<std::uint32_t>& list) {
+        get_any(list);
+        for (const std::uint32_t i : list) check_body(i);
+    }
+    void bodies(SharedIndices& list) { get(list); }
+    /// An element for each body, or none at all.
+    template <class T>
+    void by_body(std::vector<T>& values) {
+        get(values);
+        if (!values.empty() && values.size() != bodies_) fail("has another number of bodies");
+    }
+    /// A list of bodies for each body, ascending.
+    void bodies_by_body(std::vector<std::vector<std::uint32_t>>& lists) {
+        if (length(1) != bodies_) fail("has another number of bodies");
+        lists.resize(bodies_);
+        for (std::vector<std::uint32_t>& list : lists) {
+            bodies(list);
+            require([&] { return std::is_sorted(list.begin(), list.end()); });
+        }
+    }
+    /// An element for each of the first bodies.
+    template <class T>
+    void within_bodies(std::vector<T>& values) {
+        get(values);
+        if (values.size() > bodies_) fail("has another number of bodies");
+    }
+    /// The number of bodies in what follows.
+    void expect_bodies(std::size_t count) { bodies_ = count; }
+    template <class Holds>
+    void require(Holds&& holds) {
+        if (!holds()) fail("has values that do not belong together");
     }
     template <class... T>
     void rebuilt(const T&...) {
@@ -180,7 +319,7 @@ public:
     void scratch(const T&...) {}
     template <class T>
     void keep_each(std::vector<T>& values) {
-        if (length() != values.size()) fail("has another number of bodies");
+        if (length(1) != values.size()) fail("has another number of bodies");
         for (T& value : values) get(value);
     }
     template <class Array>
@@ -190,7 +329,9 @@ public:
     }
 
     bool at_end() const { return bytes_.empty(); }
-    [[noreturn]] static void fail(const std::string& what) { throw InputError("the checkpoint " + what); }
+    [[noreturn]] static void fail(const std::string& what) {
+        throw InputError("the checkpoint " + what + ": it is damaged, or not of this program; simulate again");
+    }
 
 private:
     void raw(void* to, std::size_t count) {
@@ -199,15 +340,44 @@ private:
         std::memcpy(to, bytes_.data(), count);
         bytes_ = bytes_.subspan(count);
     }
-    template <PlainNumber T>
-    void get(T& value) {
+    template <class T>
+    void check_body(T index) {
+        if (std::cmp_greater_equal(index, bodies_)) fail("names a body that the scene does not have");
+    }
+    template <class T>
+    void get_body(T& index) {
+        raw(&index, sizeof index);
+        check_body(index);
+    }
+    template <BoundedNumber T>
+    void get_any(T& value) {
         raw(&value, sizeof value);
+    }
+    template <BoundedNumber T>
+    void get_any(std::vector<T>& values) {
+        get_numbers(values);
+    }
+    template <class T, std::size_t count>
+    void get_any(std::array<T, count>& values) {
+        for (T& value : values) get_any(value);
     }
     void get(bool& value) {
         std::uint8_t byte = 0;
-        get(byte);
+        raw(&byte, 1);
         if (byte > 1) fail("has a flag that is neither 0 nor 1");
         value = byte != 0;
+    }
+    void get(char& value) { raw(&value, 1); }
+    void get(double& value) { get_number(value); }
+    void get(float& value) { get_number(value); }
+    template <class T>
+    void get_number(T& value) {
+        raw(&value, sizeof value);
+        check(value);
+    }
+    template <class T>
+    void check(T value) {
+        if (!(range_ == Range::unbounded ? value == value : std::isfinite(value))) fail("has a number that is not finite");
     }
     template <class T>
     requires requires(CheckpointReader& archive, T& value) { T::visit(archive, value); }
@@ -215,13 +385,18 @@ private:
     template <class T, int rows, int columns>
     void get(Eigen::Matrix<T, rows, columns>& value) {
         raw(value.data(), sizeof(T) * std::size_t(rows * columns));
+        for (int i = 0; i < rows * columns; ++i) check(value.data()[i]);
     }
     void get(Quat& value) { get(value.coeffs()); }
-    void get(Bounds& value) { keep(value.min, value.max); }
-    void get(std::string& value) { get_list(value); }
+    void get(Bounds& value) { unbounded(value.min, value.max); }
+    void get(std::string& value) { get_numbers(value); }
     template <class T>
     void get(std::vector<T>& values) {
-        get_list(values);
+        static_assert(!BoundedNumber<T>, "declare the bound: see above");
+        if constexpr (std::is_same_v<T, std::byte>)
+            get_numbers(values);
+        else
+            get_list(values);
     }
     template <class T>
     void get(std::deque<T>& values) {
@@ -230,7 +405,7 @@ private:
     template <class Key, class T>
     void get(std::map<Key, T>& values) {
         values.clear();
-        for (std::size_t left = length(); left > 0; --left) {
+        for (std::size_t left = length(1); left > 0; --left) {
             Key key{};
             make(key);
             make(values[key]);
@@ -263,35 +438,35 @@ private:
     template <class... T>
     void get(std::variant<T...>& value) {
         std::uint8_t index = 0;
-        get(index);
+        between(0, index, sizeof...(T) - 1);
         std::uint8_t next = 0;
         const auto take = [&]<class One>(std::type_identity<One>) {
             if (next++ == index) make(value.template emplace<One>());
         };
         (take(std::type_identity<T>()), ...);
-        if (index >= sizeof...(T)) fail("has an unknown kind of motion");
     }
     void get(SharedIndices& value) {
         std::uint64_t number = 0;
-        get(number);
-        if (number > shared_.size() + 1) fail("has an unknown group of sleeping bodies");
+        between(0, number, shared_.size() + 1);
         value.reset();
         if (number == 0) return;
         if (number > shared_.size()) {
             std::vector<std::uint32_t> members;
-            get(members);
+            bodies(members);
             shared_.push_back(std::make_shared<const std::vector<std::uint32_t>>(std::move(members)));
         }
         value = shared_[number - 1];
     }
     template <class List>
+    void get_numbers(List& values) {
+        values.resize(length(sizeof(typename List::value_type)));
+        raw(values.data(), values.size() * sizeof(typename List::value_type));
+    }
+    /// Grows as its elements are read: a damaged length cannot ask for memory.
+    template <class List>
     void get_list(List& values) {
         values.clear();
-        values.resize(length());
-        if constexpr (contiguous_numbers<List>)
-            raw(values.data(), values.size() * sizeof(typename List::value_type));
-        else
-            for (auto& value : values) make(value);
+        for (std::size_t left = length(1); left > 0; --left) make(values.emplace_back());
     }
     /// Of a value without a past.
     template <class T>
@@ -305,16 +480,18 @@ private:
         get(there);
         return there;
     }
-    /// Each element takes a byte at least: damaged bytes cannot ask for more memory than a multiple of their own.
-    std::size_t length() {
+    /// A number of elements, each of so many bytes at least.
+    std::size_t length(std::size_t size) {
         std::uint64_t count = 0;
-        get(count);
-        if (count > bytes_.size()) fail("ends early");
+        raw(&count, sizeof count);
+        if (count > bytes_.size() / size) fail("ends early");
         return std::size_t(count);
     }
 
     std::span<const std::byte> bytes_;  // those not read yet
-    bool made_ = false;                 // whether the value that is read was made for it
+    std::size_t bodies_ = 0;
+    Range range_ = Range::finite;
+    bool made_ = false;  // whether the value that is read was made for it
     std::vector<SharedIndices> shared_;
 };
 

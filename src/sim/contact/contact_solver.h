@@ -13,6 +13,7 @@
 #include "sim/contact/direct/direct_solver.h"
 #include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/load_estimate.h"
+#include "sim/contact/settings.h"
 #include "sim/contact/soft/soft_solver.h"
 #include "sim/joints/net_way.h"
 
@@ -41,7 +42,8 @@ public:
         auto& [choice, effort, memory, gains, turns_fast, loads, soft, nets, candidates, few, direct, softly, failed,
                substep_multipliers, batched, batches, batches_used] = self;
         archive.rebuilt(choice, effort, soft, nets, batched, batches, batches_used);
-        archive.keep(memory, few);
+        archive.by_body(memory);
+        archive.keep(few);
         archive.scratch(gains, turns_fast, loads, candidates, direct, softly, failed, substep_multipliers);
     }
 
@@ -58,7 +60,10 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [solver, wait, failures, factorizations, work, direct, load, looked, lost] = self;
-            archive.keep(wait, failures, factorizations, work, direct, load, looked, lost);
+            archive.count(wait, factorizations, looked);
+            archive.between(0, failures, tuning::direct_most_failures);
+            archive.any(work);
+            archive.keep(direct, load, lost);
             archive.scratch(solver);
         }
     };

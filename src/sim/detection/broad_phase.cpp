@@ -77,6 +77,12 @@ void BroadPhase::keep_apart(std::vector<Pair> pairs) {
     }
 }
 
+bool BroadPhase::sound() const {
+    for (std::uint32_t i = 0; i < states_.size(); ++i)
+        if (states_[i].active != active_tree_.holds(i)) return false;
+    return std::is_sorted(pairs_.begin(), pairs_.end()) && std::is_sorted(apart_.begin(), apart_.end());
+}
+
 void BroadPhase::build(const std::vector<Body>& bodies) {
     std::vector<Bounds> fixed_bounds;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {

@@ -46,12 +46,16 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [kind, built, look_for_awake, fixed, half_spaces, awake, fixed_tree, active_tree, resting_tree, states,
                moved, searches, fell_asleep, pairs, added, spare, apart] = self;
-        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree);
-        archive.keep(look_for_awake, awake, active_tree, resting_tree, states, moved, fell_asleep, pairs, apart);
+        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree, look_for_awake, awake, moved, fell_asleep);
+        archive.keep(active_tree, resting_tree, pairs, apart);
+        archive.by_body(states);
         archive.scratch(searches, added, spare);
+        archive.require([&] { return self.sound(); });
     }
 
 private:
+    /// Whether each body is in the tree that its state names, and the pairs are in order.
+    bool sound() const;
     bool kept_apart(const Pair& pair) const { return std::binary_search(apart_.begin(), apart_.end(), pair); }
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
@@ -84,7 +88,8 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [active, moved, displacement, position, orientation, room] = self;
-            archive.keep(active, moved, displacement, position, orientation, room);
+            archive.keep(active, displacement, position, orientation, room);
+            archive.scratch(moved);
         }
     };
     std::vector<State> states_;  // by body

@@ -53,6 +53,30 @@ std::span<const ContactPoint> reduced(const Manifold& m, const CollisionScratch&
 
 }  // namespace
 
+bool NarrowPhase::sound() const {
+    const std::size_t count = manifolds_.size();
+    if (persistent_.size() != count || touching_.size() != count) return false;
+    std::size_t first = 0;
+    for (const Entry& entry : entries_) {
+        const std::size_t end = first + entry.count;
+        if (entry.first != first || end > count || entry.search >= searches_.size()) return false;
+        if (entry.mover != entry.pair.a && entry.mover != entry.pair.b) return false;
+        for (; first < end; ++first)
+            if (touching_[first] != entry.pair || BodyPair{manifolds_[first].a, manifolds_[first].b} != entry.pair)
+                return false;
+    }
+    const auto earlier_pair = [](const Entry& l, const Entry& r) { return l.pair < r.pair; };
+    return first == count && std::is_sorted(entries_.begin(), entries_.end(), earlier_pair) &&
+           std::all_of(free_searches_.begin(), free_searches_.end(),
+                       [&](std::uint32_t search) { return search < searches_.size(); }) &&
+           std::all_of(parked_.begin(), parked_.end(), [](const auto& pair_and_parked) {
+               const auto& [pair, parked] = pair_and_parked;
+               return parked.persistent.size() == parked.manifolds.size() &&
+                      std::all_of(parked.manifolds.begin(), parked.manifolds.end(),
+                                  [&](const Manifold& m) { return BodyPair{m.a, m.b} == pair; });
+           });
+}
+
 double NarrowPhase::margin(const View& a, const View& b, double h) const {
     if (mode_ == Mode::measure) return touch_distance(a.radius, b.radius);
     return a.speculative + b.speculative + h * ((b.velocity - a.velocity).norm() + a.spin + b.spin);

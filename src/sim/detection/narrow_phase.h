@@ -43,9 +43,12 @@ public:
         auto& [mode, remembers, found, entries, spare_entries, searches, free_searches, parked, new_first, new_count,
                views, seen, share, seen_owners, moved, touching, changes, manifolds, spare_manifolds, persistent,
                spare_persistent] = self;
-        archive.rebuilt(mode, remembers, seen, share, seen_owners);
-        archive.keep(entries, searches, free_searches, parked, views, moved, touching, changes, manifolds, persistent);
+        archive.rebuilt(mode, remembers, seen, share, seen_owners, moved, changes);
+        archive.keep(entries, searches, parked, touching, manifolds, persistent);
+        archive.any(free_searches);
+        archive.by_body(views);
         archive.scratch(found, spare_entries, new_first, new_count, spare_manifolds, spare_persistent);
+        archive.require([&] { return self.sound(); });
     }
 
 private:
@@ -96,7 +99,9 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [outcome, sank, axis, gap, spent, travel, placement] = self;
-            archive.keep(outcome, sank, axis, gap, spent, travel, placement);
+            archive.enumeration(outcome, Outcome::near);
+            archive.any(axis);
+            archive.keep(sank, gap, spent, travel, placement);
         }
     };
     static_assert(sizeof(Search) == 64);
@@ -108,7 +113,9 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [pair, search, first, count, mover] = self;
-            archive.keep(pair, search, first, count, mover);
+            archive.keep(pair);
+            archive.body(mover);
+            archive.any(search, first, count);
         }
     };
     // An entry of this call with new or moved manifolds, and where the new ones lie.
@@ -133,6 +140,8 @@ private:
         }
     };
 
+    /// Whether the manifolds are those of the entries, in their order, and the searches exist.
+    bool sound() const;
     bool match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
     void park(const Entry& entry);
     void unpark(Entry& entry);

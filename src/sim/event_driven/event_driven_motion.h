@@ -80,8 +80,13 @@ public:
                velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
         archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands);
         archive.keep_each(balls);
-        archive.keep(events, neighbor_boxes, queue, search, cluster, ccd_clamp, contact_solver, velocities_before,
-                     impacts_in_frame, frame, until, taken_off, changed);
+        archive.by_body(events);
+        archive.by_body(velocities_before);
+        archive.keep(neighbor_boxes, queue, search, cluster, ccd_clamp, contact_solver);
+        archive.count(impacts_in_frame, frame);
+        archive.between(0, until, EventTime::last_step);
+        archive.bodies(taken_off);
+        archive.bodies(changed);
         archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, held);
     }
 
@@ -115,9 +120,14 @@ private:
             auto& [path, start, until, version, driven, pushed, turn_from, turn_to, swept, boxed_until,
                    box_displacement, event, partner, partner_version, last_impact, since_impact, impacts_in_row, met,
                    meetings, spin] = self;
-            archive.keep(path, start, until, version, driven, pushed, turn_from, turn_to, swept, boxed_until,
-                         box_displacement, event, partner, partner_version, last_impact, since_impact, impacts_in_row,
-                         met, meetings, spin);
+            archive.keep(path, start, until, driven, pushed, turn_from, turn_to, swept, boxed_until, box_displacement,
+                         last_impact, since_impact);
+            archive.unbounded(spin);
+            archive.enumeration(event, Event::drives_on);
+            archive.body(partner);
+            archive.body_or(CcdFraction::none, met);
+            archive.any(version, partner_version);
+            archive.count(impacts_in_row, meetings);
         }
     };
 

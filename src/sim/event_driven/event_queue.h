@@ -4,7 +4,9 @@
 
 #include "sim/event_driven/event_time.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -43,7 +45,9 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [heap, place] = self;
-        archive.keep(heap, place);
+        archive.within_bodies(heap);
+        archive.scratch(place);  // follows from the heap
+        if constexpr (!std::is_const_v<Self>) self.refill();
     }
 
 private:
@@ -55,10 +59,17 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [moment, body] = self;
-            archive.keep(moment, body);
+            archive.keep(moment);
+            archive.body(body);
         }
     };
 
+    /// Puts the entries in anew: a heap stays as it is.
+    void refill() {
+        const std::vector<Entry> entries = std::exchange(heap_, {});
+        std::fill(place_.begin(), place_.end(), none);
+        for (const Entry& entry : entries) set(entry.body, entry.moment);
+    }
     void put(std::uint32_t at, const Entry& entry) {
         heap_[at] = entry;
         place_[entry.body] = at;

@@ -16,12 +16,14 @@ struct EventTime {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [step, offset] = self;
-        archive.keep(step, offset);
+        archive.between(0, step, last_step);
+        archive.keep(offset);
     }
+    static constexpr std::int64_t last_step = std::numeric_limits<std::int64_t>::max() / 4;  // sums do not overflow
 };
 
 /// Later than the end of any clip.
-inline constexpr EventTime never{std::numeric_limits<std::int64_t>::max() / 4, 0.0};
+inline constexpr EventTime never{EventTime::last_step, 0.0};
 
 /// The length of a step, as the two given whole numbers.
 struct StepClock {

@@ -24,7 +24,7 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [gravity, clock, flights] = self;
         archive.rebuilt(gravity, clock);
-        archive.keep(flights);
+        archive.by_body(flights);
     }
 
 private:
@@ -36,7 +36,9 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [path, start, reached, position, momentum, angular_momentum] = self;
-            archive.keep(path, start, reached, position, momentum, angular_momentum);
+            archive.between(-1, start, EventTime::last_step);
+            archive.between(-1, reached, EventTime::last_step);
+            archive.keep(path, position, momentum, angular_momentum);
         }
     };
     Vec3 gravity_;

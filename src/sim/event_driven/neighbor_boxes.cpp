@@ -54,7 +54,8 @@ void NeighborBoxes::enclose(std::uint32_t body, const Bounds& box) {
     for (const std::uint32_t other : mine) {
         if (std::binary_search(found_.begin(), found_.end(), other)) continue;
         auto& theirs = moving_[other];
-        theirs.erase(std::lower_bound(theirs.begin(), theirs.end(), body));
+        const auto place = std::lower_bound(theirs.begin(), theirs.end(), body);
+        if (place != theirs.end() && *place == body) theirs.erase(place);
     }
     for (const std::uint32_t other : found_) {
         auto& theirs = moving_[other];

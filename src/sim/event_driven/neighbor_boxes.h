@@ -34,7 +34,9 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [half_spaces, fixed, fixed_tree, tree, stack, movers, moving, standing, found, apart] = self;
         archive.rebuilt(half_spaces, fixed, fixed_tree, movers);
-        archive.keep(tree, moving, standing, apart);
+        archive.keep(tree, apart);
+        archive.bodies_by_body(moving);
+        archive.bodies_by_body(standing);
         archive.scratch(stack, found);
     }
 

@@ -33,7 +33,9 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [world, shutter, intervals_to_start, records, impacts, struck] = self;
         archive.rebuilt(world, shutter);
-        archive.keep(intervals_to_start, records, impacts, struck);
+        archive.between(0, intervals_to_start, shutter.intervals);
+        archive.keep(records, impacts, struck);
+        archive.require([&] { return names_struck(self.impacts_, self.struck_.size()); });
     }
 
 private:

@@ -16,7 +16,7 @@ struct BodyPair {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b] = self;
-        archive.keep(a, b);
+        archive.body(a, b);
     }
 };
 

@@ -62,7 +62,8 @@ struct CollisionScratch {
                reference, incident, labels, vertices, edges_a, edges_b, hits, sides, at_edges, at_vertices,
                used_vertices, used_edges, near_parts] = self;
         archive.rebuilt(choice);
-        archive.keep(axis, gap, displacement, turning, on_ball, part);
+        archive.any(axis, part);  // an axis that no box has is not tried
+        archive.keep(gap, displacement, turning, on_ball);
         archive.scratch(before, points, reduced, polygon, spare, reference, incident, labels, vertices, edges_a,
                         edges_b, hits, sides, at_edges, at_vertices, used_vertices, used_edges, near_parts);
     }

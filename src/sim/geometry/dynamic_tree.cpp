@@ -59,6 +59,15 @@ void DynamicTree::set(std::uint32_t item, const Bounds& box) {
         insert(item, Box(box));
 }
 
+// From the items' boxes.
+void DynamicTree::build() {
+    nodes_.clear();
+    free_.clear();
+    root_ = none;
+    for (std::uint32_t item = 0; item < items_.size(); ++item)
+        if (items_[item].held) insert(item, Box(items_[item].box));
+}
+
 void DynamicTree::remove(std::uint32_t item) {
     if (!holds(item)) return;
     take_out(item);

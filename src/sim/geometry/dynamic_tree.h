@@ -8,6 +8,7 @@
 #include "core/vector.h"
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace tumble {
@@ -50,7 +51,9 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [nodes, free, items, root] = self;
-        archive.keep(nodes, free, items, root);
+        archive.within_bodies(items);
+        archive.scratch(nodes, free, root);  // built from the boxes; only the order of a query's results depends on them
+        if constexpr (!std::is_const_v<Self>) self.build();
     }
 
 private:
@@ -66,22 +69,12 @@ private:
                    (min[2] <= b.max[2]) & (b.min[2] <= max[2]);
         }
         float surface() const;
-        template <class Archive, class Self>
-        static void visit(Archive& archive, Self& self) {
-            auto& [min, max] = self;
-            archive.keep(min, max);
-        }
     };
     // A child is a node index, or an item index with the highest bit set.
     struct alignas(64) Node {
         Box box[2];
         std::uint32_t child[2] = {none, none};
         std::uint32_t parent = none;
-        template <class Archive, class Self>
-        static void visit(Archive& archive, Self& self) {
-            auto& [box, child, parent] = self;
-            archive.keep(box, child, parent);
-        }
     };
     struct Item {
         Bounds box;
@@ -90,13 +83,16 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [box, parent, held] = self;
-            archive.keep(box, parent, held);
+            archive.keep(held);
+            if (held) archive.keep(box);
+            archive.scratch(parent);
         }
     };
     static constexpr std::uint32_t leaf_bit = std::uint32_t(1) << 31;
     static bool leaf(std::uint32_t child) { return (child & leaf_bit) != 0; }
     static std::uint32_t item_of(std::uint32_t child) { return child & ~leaf_bit; }
 
+    void build();
     static Box joined(const Box& a, const Box& b);
     std::uint32_t& parent(std::uint32_t child) {
         return leaf(child) ? items_[item_of(child)].parent : nodes_[child].parent;

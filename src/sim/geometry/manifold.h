@@ -20,7 +20,8 @@ struct ContactPoint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [position, separation, feature, impulse] = self;
-        archive.keep(position, separation, feature, impulse);
+        archive.keep(position, separation, impulse);
+        archive.any(feature);
     }
 };
 
@@ -107,8 +108,13 @@ struct Manifold {
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, part, count, more, solved_directly, corners, kind, reduced, first_reduced, normal, points, share,
                spread, tangent, friction, torsion] = self;
-        archive.keep(a, b, part, count, more, solved_directly, corners, kind, reduced, first_reduced, normal, points,
-                     share, spread, tangent, friction, torsion);
+        archive.body(a, b);
+        archive.between(0, count, capacity);
+        archive.enumeration(corners, Corners::of_b);
+        archive.enumeration(kind, GeometryKind::crossing_edges);
+        archive.any(part);
+        archive.keep(more, solved_directly, normal, points, share, spread, tangent, friction, torsion);
+        archive.scratch(reduced, first_reduced);
     }
 };
 

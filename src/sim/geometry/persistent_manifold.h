@@ -53,7 +53,8 @@ struct PersistentManifold {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [feet, corners, normal, normal_of_b, reduced_count, reduced] = self;
-        archive.keep(feet, corners, normal, normal_of_b, reduced_count);
+        archive.keep(feet, corners, normal, normal_of_b);
+        archive.between(0, reduced_count, reduced_capacity);
         archive.keep_first(std::size_t(reduced_count), reduced);
     }
 };

@@ -7,6 +7,7 @@
 #include "scene/description/joint.h"
 #include "sim/dynamics/body.h"
 #include "sim/joints/joint_account.h"
+#include "sim/joints/settings.h"
 
 #include <array>
 #include <cstdint>
@@ -96,8 +97,9 @@ struct Joint {
                active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque,
                point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
-        archive.keep(substeps, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates,
-                     force, torque, point, account);
+        archive.between(1, substeps, 2 * tuning::joint_swing_substeps);
+        archive.keep(active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque,
+                     point, account);
     }
 };
 

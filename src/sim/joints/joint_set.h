@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 namespace tumble {
@@ -64,7 +65,10 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [joints, active, pairs, changes, from, to] = self;
         archive.keep_each(joints);
-        archive.keep(active, pairs, changes, from, to);
+        archive.keep(from, to);
+        archive.rebuilt(changes);
+        archive.scratch(active, pairs);  // follow from the joints
+        if constexpr (!std::is_const_v<Self>) self.list();
     }
 
 private:

@@ -81,7 +81,9 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [a, b, part, feature] = self;
-            archive.keep(a, b, part, feature);
+            archive.body_or(nobody, a);
+            archive.body_or(nobody, b);
+            archive.any(part, feature);
         }
     };
     struct Sum {

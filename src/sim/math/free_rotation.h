@@ -40,9 +40,12 @@ public:
         auto& [kind, start, to_principal, axis, rate, order, sign, pole_circulates, amplitude_cn, amplitude_sn,
                amplitude_dn, phase_rate, phase_start, half_period, azimuth_factor, nu, modulus_squared,
                complement_squared, integral_start, integral_half_period, levels, level, landen_scale] = self;
-        archive.keep(kind, start, to_principal, axis, rate, order, sign, pole_circulates, amplitude_cn, amplitude_sn,
-                     amplitude_dn, phase_rate, phase_start, half_period, azimuth_factor, nu, modulus_squared,
-                     complement_squared, integral_start, integral_half_period, levels, level, landen_scale);
+        archive.enumeration(kind, Kind::separatrix);
+        archive.keep(start, to_principal, axis, rate, sign, pole_circulates, amplitude_cn, amplitude_sn, amplitude_dn,
+                     phase_rate, phase_start, half_period, azimuth_factor, nu, modulus_squared, complement_squared,
+                     integral_start, integral_half_period, level, landen_scale);
+        archive.between(0, levels, most_levels);
+        for (auto& principal : order) archive.between(0, principal, 2);
     }
 
 private:

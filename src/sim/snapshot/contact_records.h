@@ -23,7 +23,8 @@ struct ImpactTime {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [time, frame, exact] = self;
-        archive.keep(time, frame, exact);
+        archive.keep(time, exact);
+        archive.any(frame);
     }
 };
 
@@ -60,8 +61,10 @@ struct ImpactRecord {
     static void visit(Archive& archive, Self& self) {
         auto& [when, a, b, point, normal, features, speed_before, speed_after, restitution, impulse, friction, pass,
                moment, struck_a, struck_b] = self;
-        archive.keep(when, a, b, point, normal, features, speed_before, speed_after, restitution, impulse, friction,
-                     pass, moment, struck_a, struck_b);
+        archive.body(a, b);
+        archive.enumeration(features, ContactFeatures::mesh);
+        archive.keep(when, point, normal, speed_before, speed_after, restitution, impulse, friction, moment);
+        archive.any(pass, struck_a, struck_b);
     }
 };
 
@@ -85,7 +88,11 @@ struct ContactRecord {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, point, normal, features, gap, normal_force, tangential_force, torsion, slip, state, moment] = self;
-        archive.keep(a, b, point, normal, features, gap, normal_force, tangential_force, torsion, slip, state, moment);
+        archive.body_or(nobody, a);
+        archive.body(b);
+        archive.enumeration(features, ContactFeatures::mesh);
+        archive.enumeration(state, State::open);
+        archive.keep(point, normal, gap, normal_force, tangential_force, torsion, slip, moment);
     }
 };
 
@@ -97,7 +104,8 @@ struct ExternalLoad {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [body, force, moment] = self;
-        archive.keep(body, force, moment);
+        archive.body(body);
+        archive.keep(force, moment);
     }
 };
 
@@ -115,6 +123,13 @@ struct EnergyLedger {
     }
 };
 
+/// Whether the bodies that the impacts struck are among so many.
+inline bool names_struck(const std::vector<ImpactRecord>& impacts, std::size_t struck) {
+    for (const ImpactRecord& impact : impacts)
+        if (impact.struck_a >= struck || impact.struck_b >= struck) return false;
+    return true;
+}
+
 struct ContactRecords {
     std::vector<ImpactRecord> impacts;    // in order of time
     std::vector<StruckBody> struck;       // one for each impact and body of it
@@ -125,6 +140,7 @@ struct ContactRecords {
     static void visit(Archive& archive, Self& self) {
         auto& [impacts, struck, contacts, loads, energy] = self;
         archive.keep(impacts, struck, contacts, loads, energy);
+        archive.require([&] { return names_struck(self.impacts, self.struck.size()); });
     }
 };
 

@@ -35,7 +35,9 @@ struct Snapshot {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [frame, time, bodies] = self;
-        archive.keep(frame, time, bodies);
+        archive.any(frame);
+        archive.keep(time);
+        archive.by_body(bodies);
     }
 };
 

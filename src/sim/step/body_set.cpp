@@ -32,6 +32,11 @@ BodySet::BodySet(const SceneDescription& scene) {
 bool BodySet::list(const SleepMonitor& sleep) {
     if (sleep.changes() == seen_sleep_changes_) return false;
     seen_sleep_changes_ = sleep.changes();
+    list();
+    return true;
+}
+
+void BodySet::list() {
     awake.clear();
     moving.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
@@ -42,7 +47,6 @@ bool BodySet::list(const SleepMonitor& sleep) {
         else
             motions[i] = {};
     }
-    return true;
 }
 
 void BodySet::place_kinematic(const StepClock& clock, std::int64_t step) {

@@ -7,6 +7,7 @@
 #include "sim/event_driven/event_time.h"
 
 #include <cstdint>
+#include <type_traits>
 #include <vector>
 
 namespace tumble {
@@ -34,12 +35,17 @@ struct BodySet {
     static void visit(Archive& archive, Self& self) {
         auto& [origin, bodies, scene_index, awake, moving, kinematic, old_velocities, motions, seen_sleep_changes] =
             self;
-        archive.rebuilt(origin, scene_index, kinematic);
-        archive.keep(awake, moving, old_velocities, motions, seen_sleep_changes);
+        archive.rebuilt(origin, scene_index, kinematic, seen_sleep_changes);
+        archive.by_body(old_velocities);
+        archive.by_body(motions);
         archive.keep_each(bodies);
+        archive.scratch(awake, moving);  // follow from the bodies
+        if constexpr (!std::is_const_v<Self>) self.list();
     }
 
 private:
+    void list();
+
     std::uint64_t seen_sleep_changes_ = UINT64_MAX;
 };
 

@@ -38,7 +38,8 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [broad_phase, narrow_phase, manifolds, islands, seen_by_islands] = self;
-        archive.keep(broad_phase, narrow_phase, islands, seen_by_islands);
+        archive.keep(broad_phase, narrow_phase);
+        archive.rebuilt(islands, seen_by_islands);  // found in the first step, of the same pairs
         archive.scratch(manifolds);
     }
 

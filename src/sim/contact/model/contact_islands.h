@@ -53,16 +53,6 @@ public:
     /// Whether the island touches only its own bodies.
     bool is_free(std::size_t island) const { return free_[island] != 0; }
 
-    /// For checkpoints: see sim/checkpoint/archive.h.
-    template <class Archive, class Self>
-    static void visit(Archive& archive, Self& self) {
-        auto& [members, held, held_joints, round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs,
-               free, joints, first_joint] = self;
-        archive.keep(round, bodies, manifolds, first_body, first_manifold, pairs, touching_pairs, free, joints,
-                     first_joint);
-        archive.scratch(members, held, held_joints);
-    }
-
 private:
     // still: not moved by contacts. aside: asleep or ballistic, not affected by the contacts of this step.
     enum class Role : std::uint8_t { still, takes_part, aside };

@@ -20,7 +20,8 @@ struct LoadEstimate {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [ratio, levels] = self;
-        archive.keep(ratio, levels);
+        archive.keep(ratio);
+        archive.any(levels);
     }
 };
 

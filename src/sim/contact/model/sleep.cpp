@@ -10,6 +10,23 @@
 
 namespace tumble {
 
+void SleepMonitor::count_sleepers() {
+    sleepers_ = std::size_t(
+        std::count_if(groups_.begin(), groups_.end(), [](const SharedIndices& group) { return group != nullptr; }));
+}
+
+bool SleepMonitor::sound(const std::vector<Body>& bodies) const {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+        const SharedIndices& group = groups_[i];
+        if (bodies[i].asleep != (group != nullptr)) return false;
+        if (!group) continue;
+        if (!bodies[i].dynamic() || !std::binary_search(group->begin(), group->end(), i)) return false;
+        for (const std::uint32_t member : *group)
+            if (groups_[member] != group) return false;
+    }
+    return true;
+}
+
 void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
     const auto group = groups_[body];
     if (!group) return;

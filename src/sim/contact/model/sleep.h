@@ -13,6 +13,7 @@
 
 #include <array>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 namespace tumble {
@@ -36,6 +37,9 @@ public:
     void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
                  double h, double speed_change = 0.0, const JointSet* joints = nullptr);
 
+    /// Whether the sleeping bodies are just the members of the groups that they fell asleep with.
+    bool sound(const std::vector<Body>& bodies) const;
+
     /// Increases whenever a body falls asleep or wakes.
     std::uint64_t changes() const { return changes_; }
 
@@ -43,7 +47,12 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [watches, trends, groups, changes, sleepers] = self;
-        archive.keep(watches, trends, groups, changes, sleepers);
+        archive.by_body(watches);
+        archive.by_body(trends);
+        archive.by_body(groups);
+        archive.rebuilt(changes);
+        archive.scratch(sleepers);  // follows from the groups
+        if constexpr (!std::is_const_v<Self>) self.count_sleepers();
     }
 
 private:
@@ -66,7 +75,8 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [velocity, change, damped, left] = self;
-            archive.keep(velocity, change, damped, left);
+            archive.keep(velocity, change, damped);
+            archive.unbounded(left);
         }
     };
     /// Read and written for each awake body in each step; the rest of a body's state is at its samples only.
@@ -78,9 +88,11 @@ private:
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [spans, since, steady, ends] = self;
-            archive.keep(spans, since, steady, ends);
+            archive.keep(spans, since, ends);
+            archive.count(steady);
         }
     };
+    void count_sleepers();
     static bool follow(Spans& spans, const Body& body, double h);
     static void sample(Watch& watch, Trend& trend, const Body& body, double speed_change);
     static double way_left(const Trend& before, const Trend& now, double since);
@@ -88,7 +100,7 @@ private:
     std::vector<Watch> watches_;  // by body
     std::vector<Trend> trends_;
     // Bodies that fell asleep together; set while asleep.
-    std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> groups_;
+    std::vector<SharedIndices> groups_;
     std::uint64_t changes_ = 0;
     std::size_t sleepers_ = 0;
 };
