@@ -83,7 +83,8 @@ Base make_base(const testing::CheckpointScene& from) {
 const Base& base_of(std::size_t scene) {
     static std::map<std::size_t, Base> bases;
     const auto found = bases.find(scene);
-    return found != bases.end() ? found->second : bases.emplace(scene, make_base(testing::checkpoint_scenes[scene])).first->second;
+    return found != bases.end() ? found->second
+                                : bases.emplace(scene, make_base(testing::checkpoint_scenes[scene])).first->second;
 }
 
 /// The bytes of an input, zeros behind its end.
@@ -109,10 +110,38 @@ void put(Bytes& file, std::size_t at, T value) {
     std::memcpy(file.data() + at, &value, std::min(sizeof value, file.size() - at));
 }
 
-constexpr double numbers[] = {0.0, -1.0, 1e-300, 1e300, -1e300, 1e18, 1e9, -1e9, 1e-9, 0.5, 1e38, 3.0, 1e160,
-                              std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN(), -0.0};
-constexpr std::uint64_t integers[] = {0, 1, 2, 3, 4, 5, 7, 8, 255, 0x7fffffff, 0x80000000, 0xffffffff, 1u << 16,
-                                      0x7fffffffffffffff, 0x8000000000000000, 0xffffffffffffffff};
+constexpr double numbers[] = {0.0,
+                              -1.0,
+                              1e-300,
+                              1e300,
+                              -1e300,
+                              1e18,
+                              1e9,
+                              -1e9,
+                              1e-9,
+                              0.5,
+                              1e38,
+                              3.0,
+                              1e160,
+                              std::numeric_limits<double>::infinity(),
+                              std::numeric_limits<double>::quiet_NaN(),
+                              -0.0};
+constexpr std::uint64_t integers[] = {0,
+                                      1,
+                                      2,
+                                      3,
+                                      4,
+                                      5,
+                                      7,
+                                      8,
+                                      255,
+                                      0x7fffffff,
+                                      0x80000000,
+                                      0xffffffff,
+                                      1u << 16,
+                                      0x7fffffffffffffff,
+                                      0x8000000000000000,
+                                      0xffffffffffffffff};
 
 /// One edit of 1 + 3 + 8 bytes; the sum at the end is left alone.
 void edit(Bytes& file, Recipe& recipe) {
@@ -123,12 +152,18 @@ void edit(Bytes& file, Recipe& recipe) {
     const std::size_t size = file.size() - sum_size, at = (high << 16 | low) % size;
     const auto place = file.begin() + std::ptrdiff_t(at);
     switch (way % 9) {
-        case 0: return put(file, at, std::uint8_t(value));
-        case 1: return put(file, at, std::uint32_t(value));
-        case 2: return put(file, at, value);
-        case 3: return put(file, at, numbers[value % std::size(numbers)]);
-        case 4: return put(file, at, std::uint32_t(integers[value % std::size(integers)]));
-        case 5: return put(file, at, integers[value % std::size(integers)]);
+        case 0:
+            return put(file, at, std::uint8_t(value));
+        case 1:
+            return put(file, at, std::uint32_t(value));
+        case 2:
+            return put(file, at, value);
+        case 3:
+            return put(file, at, numbers[value % std::size(numbers)]);
+        case 4:
+            return put(file, at, std::uint32_t(integers[value % std::size(integers)]));
+        case 5:
+            return put(file, at, integers[value % std::size(integers)]);
         case 6: {
             file.erase(place, place + std::ptrdiff_t(std::min<std::size_t>(value % 64, size - at)));
             return;
@@ -150,7 +185,8 @@ void edit(Bytes& file, Recipe& recipe) {
 Bytes content_of(std::span<const std::byte> content, Recipe& recipe) {
     Bytes file = checkpoint_bytes(header(), content);
     while (!recipe.at_end()) edit(file, recipe);
-    if (file.size() >= sum_size) put(file, file.size() - sum_size, crc64(std::span(file).first(file.size() - sum_size)));
+    if (file.size() >= sum_size)
+        put(file, file.size() - sum_size, crc64(std::span(file).first(file.size() - sum_size)));
     return checkpoint_content("/nowhere/checkpoint.tumble", file, header());
 }
 

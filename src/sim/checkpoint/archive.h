@@ -305,7 +305,7 @@ public:
         get(values);
         if (values.size() > bodies_) fail("has another number of bodies");
     }
-    /// The number of bodies in what follows.
+    /// Sets the number of bodies that indices may name.
     void expect_bodies(std::size_t count) { bodies_ = count; }
     template <class Holds>
     void require(Holds&& holds) {
@@ -377,7 +377,8 @@ private:
     }
     template <class T>
     void check(T value) {
-        if (!(range_ == Range::unbounded ? value == value : std::isfinite(value))) fail("has a number that is not finite");
+        if (!(range_ == Range::unbounded ? value == value : std::isfinite(value)))
+            fail("has a number that is not finite");
     }
     template <class T>
     requires requires(CheckpointReader& archive, T& value) { T::visit(archive, value); }

@@ -69,11 +69,12 @@ bool NarrowPhase::sound() const {
     return first == count && std::is_sorted(entries_.begin(), entries_.end(), earlier_pair) &&
            std::all_of(free_searches_.begin(), free_searches_.end(),
                        [&](std::uint32_t search) { return search < searches_.size(); }) &&
-           std::all_of(parked_.begin(), parked_.end(), [](const auto& pair_and_parked) {
-               const auto& [pair, parked] = pair_and_parked;
+           std::all_of(parked_.begin(), parked_.end(), [](const auto& entry) {
+               const Parked& parked = entry.second;
                return parked.persistent.size() == parked.manifolds.size() &&
-                      std::all_of(parked.manifolds.begin(), parked.manifolds.end(),
-                                  [&](const Manifold& m) { return BodyPair{m.a, m.b} == pair; });
+                      std::all_of(parked.manifolds.begin(), parked.manifolds.end(), [&](const Manifold& m) {
+                          return BodyPair{m.a, m.b} == entry.first;
+                      });
            });
 }
 

@@ -9,6 +9,8 @@ template <class... F>
 struct Overloaded : F... {
     using F::operator()...;
 };
+template <class... F>
+Overloaded(F...) -> Overloaded<F...>;  // clang 14 needs it
 
 // The bounding box of a rotated box: |R| times the half extents (Ericson 2005, "Real-Time Collision Detection", 4.2.6).
 Bounds around(const Vec3& center, const Vec3& half_extent, const Pose& pose) {

@@ -52,7 +52,8 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [nodes, free, items, root] = self;
         archive.within_bodies(items);
-        archive.scratch(nodes, free, root);  // built from the boxes; only the order of a query's results depends on them
+        archive.scratch(nodes, free,
+                        root);  // built from the boxes; only the order of a query's results depends on them
         if constexpr (!std::is_const_v<Self>) self.build();
     }
 

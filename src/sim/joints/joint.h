@@ -98,8 +98,8 @@ struct Joint {
                point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
         archive.between(1, substeps, 2 * tuning::joint_swing_substeps);
-        archive.keep(active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque,
-                     point, account);
+        archive.keep(active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force,
+                     torque, point, account);
     }
 };
 

@@ -320,7 +320,9 @@ void DirectSolver::start() {
 
 // Takes the impulses as the next estimates. Returns the largest change and the largest impulse, N s.
 std::pair<double, double> DirectSolver::next_round() {
-    auto [change, largest] = joints_.next_round(!limits_held_);
+    std::pair<double, double> most = joints_.next_round(!limits_held_);
+    auto& change = most.first;
+    auto& largest = most.second;
     for (ConstraintRows& constraint : constraints_) {
         each_row(constraint, [&](Row& row) {
             change = std::max(change, std::abs(row.impulse - row.estimate));
@@ -329,7 +331,7 @@ std::pair<double, double> DirectSolver::next_round() {
         });
         if (!limits_held_) set_limits(constraint);
     }
-    return {change, largest};
+    return most;
 }
 
 // From free_ and the rows' targets to velocity_ and their impulses.

@@ -12,12 +12,12 @@ namespace tumble {
 
 void SleepMonitor::count_sleepers() {
     sleepers_ = std::size_t(
-        std::count_if(groups_.begin(), groups_.end(), [](const SharedIndices& group) { return group != nullptr; }));
+        std::count_if(groups_.begin(), groups_.end(), [](const auto& group) { return group != nullptr; }));
 }
 
 bool SleepMonitor::sound(const std::vector<Body>& bodies) const {
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
-        const SharedIndices& group = groups_[i];
+        const auto& group = groups_[i];
         if (bodies[i].asleep != (group != nullptr)) return false;
         if (!group) continue;
         if (!bodies[i].dynamic() || !std::binary_search(group->begin(), group->end(), i)) return false;

@@ -100,7 +100,7 @@ private:
     std::vector<Watch> watches_;  // by body
     std::vector<Trend> trends_;
     // Bodies that fell asleep together; set while asleep.
-    std::vector<SharedIndices> groups_;
+    std::vector<std::shared_ptr<const std::vector<std::uint32_t>>> groups_;
     std::uint64_t changes_ = 0;
     std::size_t sleepers_ = 0;
 };
