@@ -377,6 +377,14 @@ Measurement World::measure() const {
     return m;
 }
 
+std::vector<Overlap> World::overlaps() const {
+    const State& s = *state_;
+    std::vector<Overlap> overlaps;
+    s.with_present_contacts(
+        [&](const std::vector<Manifold>& found) { overlaps = overlaps_of(found, s.set.bodies, s.set.scene_index); });
+    return overlaps;
+}
+
 BodyReport World::report(std::size_t index) const {
     const BodySet& set = state_->set;
     const auto place = std::find(set.scene_index.begin(), set.scene_index.end(), index) - set.scene_index.begin();

@@ -46,6 +46,8 @@ public:
     /// Of the joints that hold now.
     JointReport joint_report() const;
     Measurement measure() const;
+    /// Of the present poses, ascending; without bodies that a joint keeps from colliding.
+    std::vector<Overlap> overlaps() const;
     BodyReport report(std::size_t body) const;
 
     /// Writes the whole state (sim/checkpoint/archive.h). Precondition: no step but those of advance_frame() since the

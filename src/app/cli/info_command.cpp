@@ -1,4 +1,5 @@
 #include "app/cli/commands.h"
+#include "app/cli/overlaps.h"
 #include "app/cli/say.h"
 #include "app/cli/simulation_cost.h"
 #include "app/files/output_plan.h"
@@ -217,6 +218,7 @@ void run_info(const InfoCommand& command) {
     World world(scene);
     if (command.bodies) write_bodies(*command.bodies, scene, world);
     if (command.bodies == "/dev/stdout") return;
+    say_text(overlap_warning(scene, world));
     print_head(scene);
     print_groups(scene, world);
     print_bodies(scene, world);

@@ -2,6 +2,7 @@
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/broken_joints.h"
 #include "app/cli/commands.h"
+#include "app/cli/overlaps.h"
 #include "app/cli/progress.h"
 #include "app/cli/record_clip.h"
 #include "app/cli/say.h"
@@ -80,6 +81,7 @@ void simulate_tables(const SimulateCommand& command) {
     {
         RunMonitor monitor(frames, command.quiet);
         World world(description, command.threads);
+        if (!command.quiet) say_text(overlap_warning(description, world));
         RunTables tables(command.tables, scene);
         if (tables.needs_records()) world.record_contacts();
         for (std::int64_t n = 0; n < frames; ++n) {

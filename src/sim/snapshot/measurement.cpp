@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
+#include <utility>
 
 namespace tumble {
 
@@ -34,6 +36,24 @@ void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<
             m.max_penetration = std::max(m.max_penetration, -separation);
         }
     }
+}
+
+std::vector<Overlap> overlaps_of(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
+                                 std::span<const std::uint32_t> scene_index) {
+    std::map<std::pair<std::size_t, std::size_t>, Overlap> by_pair;  // a pair of several parts has several manifolds
+    for (const Manifold& m : manifolds) {
+        const auto [a, b] = std::minmax<std::size_t>(scene_index[m.a], scene_index[m.b]);
+        for (int i = 0; i < m.count; ++i) {
+            const double deep = -m.points[std::size_t(i)].separation;
+            if (!(deep > 0.0)) continue;
+            Overlap& overlap = by_pair[{a, b}];
+            const double thickness = 2.0 * std::min(depth(bodies[m.a].collider), depth(bodies[m.b].collider));
+            overlap = {a, b, std::max(overlap.depth, deep), std::max(overlap.share, deep / thickness)};
+        }
+    }
+    std::vector<Overlap> overlaps;
+    for (const auto& [pair, overlap] : by_pair) overlaps.push_back(overlap);
+    return overlaps;
 }
 
 BodyReport describe(const Body& body) {

@@ -5,6 +5,8 @@
 #include "sim/geometry/manifold.h"
 #include "sim/snapshot/report.h"
 
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -15,6 +17,10 @@ Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity,
 
 /// Adds the number of touching points and the deepest overlap.
 void measure_contacts(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies, Measurement& m);
+
+/// The overlaps of touching bodies, ascending. `scene_index`: by body, its index in the scene.
+std::vector<Overlap> overlaps_of(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies,
+                                 std::span<const std::uint32_t> scene_index);
 
 BodyReport describe(const Body& body);
 

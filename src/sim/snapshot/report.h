@@ -20,6 +20,13 @@ struct Measurement {
     double max_penetration = 0.0;          // m, deepest overlap; 0 without overlaps
 };
 
+/// Two bodies that overlap, of which one is dynamic, by their indices in the scene.
+struct Overlap {
+    std::size_t a = 0, b = 0;  // a < b
+    double depth = 0.0;        // m
+    double share = 0.0;        // of the smaller one's thickness: the diameter of the ball that fits into it
+};
+
 /// One body as the simulation represents it, for `tumble info`.
 struct BodyReport {
     double mass = 0.0;                      // kg; infinity for fixed and kinematic bodies
