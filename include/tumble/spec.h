@@ -76,6 +76,15 @@ struct Wind {
     double drag = 1.0;     // drag coefficient
 };
 
+enum class PairRule { average, minimum, multiply, maximum, geometric };
+
+/// The rules by which the restitution and the friction of two bodies make those of the pair. A fixed or kinematic body
+/// without a value takes that of the other body.
+struct PairRules {
+    PairRule restitution_rule = PairRule::maximum;
+    PairRule friction_rule = PairRule::geometric;  // the square root of the product
+};
+
 /// A half-space: the points p with normal . p <= offset. Not for dynamic bodies.
 struct Plane {
     Vec3 normal{0.0, 1.0, 0.0};  // body frame; its length is ignored
@@ -139,8 +148,8 @@ struct CompoundPart {
 struct Material {
     std::optional<Color> color;
     std::optional<double> density;      // kg/m^3
-    std::optional<double> restitution;  // 0 to 1; a pair uses the larger of the two
-    std::optional<double> friction;     // Coulomb's coefficient; a pair uses sqrt(a b)
+    std::optional<double> restitution;  // 0 to 1; see PairRules
+    std::optional<double> friction;     // Coulomb's coefficient; see PairRules
     std::optional<double> roughness;    // 0: mirror, 1: matte
     std::optional<double> metallic;     // 0 to 1
     std::optional<Pattern> pattern;
@@ -223,6 +232,7 @@ struct SceneSpec {
     Camera camera;
     Light light;
     std::optional<Wind> wind;  // not given: no air
+    PairRules contact;
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     std::vector<Force> forces;

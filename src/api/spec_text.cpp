@@ -16,6 +16,9 @@ std::string name_of(ContactSolver solver) {
 }
 std::string name_of(RotationForm form) { return choice(form, "RotationForm", std::array{"quaternion", "matrix"}); }
 std::string name_of(Method method) { return choice(method, "Method", std::array{"tumble", "notes"}); }
+std::string name_of(PairRule rule) {
+    return choice(rule, "PairRule", std::array{"average", "minimum", "multiply", "maximum", "geometric"});
+}
 std::string name_of(BodyType type) { return choice(type, "BodyType", std::array{"dynamic", "fixed", "kinematic"}); }
 std::string name_of(Pattern pattern) { return choice(pattern, "Pattern", std::array{"plain", "grid", "checker"}); }
 
@@ -33,6 +36,7 @@ public:
         set("direction", spec.light.direction);
         set("shadows", spec.light.shadows);
         if (spec.wind) write(*spec.wind);
+        write(spec.contact);
         for (std::size_t i = 0; i < spec.bodies.size(); ++i) write(spec.bodies[i], i);
         for (std::size_t i = 0; i < spec.joints.size(); ++i) write_joint(spec.joints[i], i, *this);
         for (std::size_t i = 0; i < spec.forces.size(); ++i) write(spec.forces[i], i);
@@ -91,6 +95,13 @@ private:
             set("target", c.keyframes[i].target);
             set("vertical_fov", c.keyframes[i].vertical_fov);
         }
+    }
+
+    void write(const PairRules& c) {
+        if (c.restitution_rule == PairRule::maximum && c.friction_rule == PairRule::geometric) return;  // the defaults
+        header("[contact]", "contact");
+        name("restitution_rule", name_of(c.restitution_rule));
+        name("friction_rule", name_of(c.friction_rule));
     }
 
     void write(const Wind& w) {

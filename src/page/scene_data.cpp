@@ -104,6 +104,9 @@ Json MeshTable::write(ArrayStore& arrays) const {
     return all;
 }
 
+/// Null: the value of the other body.
+Json surface_json(double value) { return value < 0.0 ? Json() : Json(value); }
+
 Json make_bodies(const PageRun& run, MeshTable& meshes) {
     Json bodies = Json::array();
     for (std::size_t i = 0; i < run.scene.bodies.size(); ++i) {
@@ -122,8 +125,8 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
                           {"mass", dynamic ? report.mass : 0.0},
                           {"inertia", inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()))},
                           {"center_of_mass", vector_json(report.center_of_mass)},
-                          {"restitution", body.restitution},
-                          {"friction", body.friction}});
+                          {"restitution", surface_json(body.restitution_in_pair())},
+                          {"friction", surface_json(body.friction_in_pair())}});
     }
     return bodies;
 }

@@ -48,8 +48,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "materials", "body",
-                      "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption"});
+    root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "contact", "materials",
+                      "body", "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -57,6 +57,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_run_settings(root, overrides, scene.simulation, scene.output);
     scene.light = read_light(root);
     scene.wind = read_wind(root);
+    scene.contact = read_contact(root);
     MeshCache meshes(imports, std::move(supplied));
     const Materials materials = read_materials(root);
     const std::filesystem::path folder = file.parent_path();

@@ -29,6 +29,7 @@ SceneSpec everything() {
     spec.camera.follow = "crate";
     spec.light = {{0.1, -1.0, 0.2}, false};
     spec.wind = Wind{{3.0, 0.0, 1.0}, 1.3, 0.9};
+    spec.contact = {PairRule::average, PairRule::multiply};
     spec.bodies[0].material.friction = 0.4;
     spec.bodies[0].material.pattern = Pattern::checker;
     spec.bodies[1].material = {Color{1, 2, 254}, 600.0, 0.3, 0.2, 0.1, 1.0, Pattern::grid};

@@ -1,4 +1,4 @@
-// Forces over spans of time: for any span, step and mode, the impulse is the force times the span.
+// Forces over spans of time: for any span, step and impact mode, the impulse is the force times the span.
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
@@ -257,6 +257,21 @@ TEST(ForceSpan, ActsOnceOnABodyThatIsReleasedInTheStep) {
             EXPECT_NEAR(world.snapshot().bodies[2].velocity.x() * mass, impulse + 0.25, 1e-9)
                 << text(mode) << " " << start;
         }
+}
+
+// The method of the notes evaluates the force at the start of each step and holds it through the step.
+TEST(ForceSpan, WithTheNotesItActsThroughWholeSteps) {
+    for (const auto& [start, expected] : {std::pair(0.05, 3.0), std::pair(0.055, 0.0)}) {
+        SceneDescription scene = empty_scene(1);
+        scene.output.fps = 100.0;
+        scene.simulation.method = SimulationMethod::notes;
+        add_sphere(scene, 0.3, Vec3::Zero(), mass);
+        const double span = scene.step() / 3.0;
+        push(scene, 0, Vec3(impulse / span, 0.0, 0.0), start, span);
+        World world(scene);
+        run(world, scene, 0.2);
+        EXPECT_NEAR(world.snapshot().bodies[0].velocity.x(), expected * impulse / mass, 1e-12) << start;
+    }
 }
 
 }  // namespace tumble::force_span_test

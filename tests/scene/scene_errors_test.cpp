@@ -117,6 +117,7 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
         {"format = 1\n[camera]\n@fov = 5", "(known: \"eye\", \"target\", \"up\", \"vertical_fov\", \"keyframes\""},
         {"format = 1\n[light]\n@shadow = true", "did you mean \"shadows\""},
         {"format = 1\n[wind]\n@speed = 1", "unknown key \"speed\" in [wind]"},
+        {"format = 1\n[contact]\n@friction = 1", "unknown key \"friction\" in [contact] (did you mean"},
         {"format = 1\n[materials.wood]\n@colour = \"#ffffff\"",
          "unknown key \"colour\" in [materials.wood] (did you mean \"color\"?)"},
         {body("@velocty = [0, 0, 0]"), "unknown key \"velocty\" in [[body]] (did you mean \"velocity\"?)"},
@@ -207,6 +208,8 @@ TEST(SceneErrors, OfThePicture) {
         {"format = 1\n[camera]\neye = [@1e300, 0, 0]", "eye must be from -1000000000 to 1000000000 m (given 1e+300)"},
         {"format = 1\n[light]\ndirection = @[0, 0, 0]", "direction must not be zero"},
         {"format = 1\n[wind]\ndrag = @-1", "drag must be from 0 to 1000 (given -1)"},
+        {"format = 1\n[contact]\nfriction_rule = @\"mean\"", "friction_rule must be"},
+        {"format = 1\n[contact]\nrestitution_rule = @1", "restitution_rule must be"},
     });
 }
 

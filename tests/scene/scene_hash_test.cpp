@@ -56,6 +56,9 @@ shadows = false
 velocity = [3, 0, -1]
 density = 1.1
 drag = 0.8
+[contact]
+restitution_rule = "average"
+friction_rule = "minimum"
 [materials.steel]
 color = "#8090A0"
 density = 7800
@@ -157,6 +160,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"camera", "[camera]", "eye = [1, 2, 3]", "eye = [1, 2, 4]", false},
      {"light", "[light]", "shadows = false", "", false},
      {"wind", "", "[wind]\nvelocity = [3, 0, -1]\ndensity = 1.1\ndrag = 0.8\n", "", true},
+     {"contact", "", "[contact]\nrestitution_rule = \"average\"\nfriction_rule = \"minimum\"\n", "", true},
      {"materials", "[materials", "density = 7800", "", true},
      {"body", "", "[[body]]\nname = \"floor\"",
       "[[body]]\nshape = { type = \"sphere\", radius = 1 }\n[[body]]\nname = \"floor\"", true},
@@ -206,6 +210,8 @@ const std::vector<std::vector<Change>> own_tables = {
     {{"velocity", "[wind]", "velocity = [3, 0, -1]", "velocity = [3, 0, 1]", true},
      {"density", "[wind]", "density = 1.1", "density = 1.2", true},
      {"drag", "[wind]", "drag = 0.8", "drag = 0.9", true}},
+    {{"restitution_rule", "[contact]", "average", "geometric", true},
+     {"friction_rule", "[contact]", "minimum", "multiply", true}},
     {{"color", "[materials", "#8090A0", "#8090A1", false},
      {"density", "[materials", "density = 7800", "density = 7801", true},
      {"restitution", "[materials", "restitution = 0.91", "restitution = 0.92", true},

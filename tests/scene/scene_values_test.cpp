@@ -40,6 +40,9 @@ shadows = false
 velocity = [3, 0, -1]
 density = 1.1
 drag = 0.8
+[contact]
+restitution_rule = "multiply"
+friction_rule = "minimum"
 [materials.steel]
 color = "#8090A0"
 density = 7800
@@ -129,6 +132,8 @@ TEST(SceneValues, Settings) {
     EXPECT_EQ(scene.wind->velocity, Vec3(3, 0, -1));
     EXPECT_EQ(scene.wind->density, 1.1);
     EXPECT_EQ(scene.wind->drag, 0.8);
+    EXPECT_EQ(scene.contact.restitution, PairRule::multiply);
+    EXPECT_EQ(scene.contact.friction, PairRule::minimum);
     EXPECT_DOUBLE_EQ(scene.step(), 1.0 / 240.0);
 }
 
@@ -177,6 +182,8 @@ TEST(SceneValues, APlaneHasAUnitNormalAndItsOwnDefaults) {
     EXPECT_EQ(plane.offset, 0.5);
     EXPECT_EQ(floor.type, BodyType::fixed);
     EXPECT_EQ(floor.friction, 0.7);
+    EXPECT_EQ(floor.restitution, std::nullopt);
+    EXPECT_EQ(floor.restitution_in_pair(), value_of_other);
     EXPECT_EQ(floor.appearance.pattern, Pattern::grid);
     EXPECT_GT(int(floor.appearance.color.r), 0xc0);
 }
@@ -225,6 +232,8 @@ TEST(SceneValues, AnEmptySceneHasTheDefaultsOfTheFormat) {
     EXPECT_EQ(scene.output.fps, 60.0);
     EXPECT_TRUE(scene.light.shadows);
     EXPECT_FALSE(scene.wind.has_value());
+    EXPECT_EQ(scene.contact.restitution, PairRule::maximum);
+    EXPECT_EQ(scene.contact.friction, PairRule::geometric);
     EXPECT_TRUE(scene.bodies.empty());
     EXPECT_EQ(scene.frame_count(), 301);
 }
@@ -232,8 +241,8 @@ TEST(SceneValues, AnEmptySceneHasTheDefaultsOfTheFormat) {
 TEST(SceneValues, ABodyWithoutMaterialHasTheDefaultsOfTheFormat) {
     const BodyDescription body = parse("format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 1 }").bodies[0];
     EXPECT_EQ(body.density, 1000.0);
-    EXPECT_EQ(body.restitution, 0.5);
-    EXPECT_EQ(body.friction, 0.0);
+    EXPECT_EQ(body.restitution_in_pair(), 0.5);
+    EXPECT_EQ(body.friction_in_pair(), 0.0);
     EXPECT_EQ(body.name, "0");
     EXPECT_EQ(body.appearance.pattern, Pattern::plain);
     EXPECT_TRUE(body.appearance.visible);

@@ -72,6 +72,9 @@ const char* type_text(BodyType type) {
     return "";
 }
 
+/// Of a restitution or a friction in pairs.
+std::string surface_text(double value) { return value < 0.0 ? "of the other body" : fmt::format("{}", value); }
+
 std::string keyframes_text(const BodyDescription& body) {
     std::string all = fmt::format("{}:", int(body.interpolation));
     for (const Keyframe& key : body.keyframes)
@@ -143,8 +146,8 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     kind.look["pattern"] = pattern_text(look.pattern);
     kind.look["visible"] = look.visible ? "true" : "false";
     kind.matter["type"] = type_text(body.type);
-    kind.matter["restitution"] = fmt::format("{}", body.restitution);
-    kind.matter["friction"] = fmt::format("{}", body.friction);
+    kind.matter["restitution"] = surface_text(body.restitution_in_pair());
+    kind.matter["friction"] = surface_text(body.friction_in_pair());
     if (body.type == BodyType::dynamic) {
         kind.matter[body.mass ? "mass" : "density"] = fmt::format("{}", body.mass.value_or(body.density));
         kind.matter["velocity"] = text_of(body.velocity);
@@ -161,6 +164,10 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
 ValueMap values_of(const SceneDescription& scene) {
     ValueMap values;
     add_simulation(scene.simulation, values);
+    if (scene.contact != PairRules{}) {
+        values["restitution_rule"] = fmt::format("{}", int(scene.contact.restitution));
+        values["friction_rule"] = fmt::format("{}", int(scene.contact.friction));
+    }
     values["light.direction"] = text_of(scene.light.direction);
     values["light.shadows"] = scene.light.shadows ? "true" : "false";
     if (scene.wind)

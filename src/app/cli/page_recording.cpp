@@ -1,7 +1,9 @@
 #include "app/cli/page_recording.h"
 
 #include "app/cli/progress.h"
+#include "app/cli/say.h"
 #include "app/page/record_run.h"
+#include "app/plots/alike_runs.h"
 #include "app/plots/quantities.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
@@ -59,6 +61,7 @@ std::string PageScenes::title() const {
 PageScenes load_page_scenes(std::span<const fs::path> files, const SceneOverrides& overrides,
                             std::span<const std::string> vary, std::span<const std::string> labels) {
     PageScenes page;
+    page.vary.assign(vary.begin(), vary.end());
     page.variants = make_variants(files, overrides, vary);
     try {
         label_variants(page.variants, labels);
@@ -84,15 +87,18 @@ PageClip record_page(const PageScenes& scenes, int threads, bool quiet, Interrup
     std::int64_t total = 0, before = 0;
     for (const SceneDescription& scene : scenes.scenes) total += scene.frame_count();
     Progress progress(total, quiet);
+    AlikeRuns alike(scenes.vary);
     for (std::size_t i = 0; i < scenes.scenes.size(); ++i) {
         RecordSettings settings;
         settings.threads = threads;
         settings.label = scenes.variants[i].label;
         settings.plot = scenes.scenes[i].overlay.plot;
+        if (!scenes.vary.empty()) settings.observers.push_back(&alike.add(settings.label, scenes.scenes[i]));
         settings.progress = [&](std::int64_t done) { progress.update(before + done); };
         clip.runs.push_back(record_run(scenes.scenes[i], settings, interrupt));
         before += scenes.scenes[i].frame_count();
     }
+    if (!quiet) say_text(alike.warning());
     return clip;
 }
 

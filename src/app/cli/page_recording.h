@@ -14,6 +14,7 @@
 namespace tumble {
 
 struct PageScenes {
+    std::vector<std::string> vary;  // the options
     std::vector<Variant> variants;
     std::vector<SceneDescription> scenes;  // of each variant
     FileList inputs;

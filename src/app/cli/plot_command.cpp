@@ -3,6 +3,7 @@
 #include "app/cli/commands.h"
 #include "app/cli/say.h"
 #include "app/files/output_plan.h"
+#include "app/plots/alike_runs.h"
 #include "app/plots/plotted_run.h"
 #include "app/plots/variants.h"
 #include "app/survey/survey.h"
@@ -54,13 +55,14 @@ void run_plot(const PlotCommand& command) {
         runs.emplace_back(variant.label, parse_quantities(command.quantities, scenes.back()));
     }
     plan.add("-o", command.output);
+    AlikeRuns alike(command.vary);
     std::optional<RunRecorder> recorder;
     if (command.motion_record) recorder.emplace(scenes);
     {
         Interrupt interrupt;
         for (std::size_t i = 0; i < runs.size(); ++i) {
             World world(scenes[i], command.threads);
-            std::vector<SurveyObserver*> observers{&runs[i]};
+            std::vector<SurveyObserver*> observers{&runs[i], &alike.add(variants[i].label, scenes[i])};
             if (command.motion_record) {
                 world.record_contacts();
                 observers.push_back(&recorder->panel(i));
@@ -86,7 +88,9 @@ void run_plot(const PlotCommand& command) {
     const std::string bytes = canvas.finish();
     if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     write_file(command.output, bytes);
-    if (!command.quiet) say("wrote {}\n", safe_path(command.output));
+    if (command.quiet) return;
+    say_text(alike.warning());
+    say("wrote {}\n", safe_path(command.output));
 }
 
 }  // namespace tumble

@@ -4,11 +4,13 @@
 #include "app/causes/run_recorder.h"
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/cli/broken_joints.h"
+#include "app/cli/overlaps.h"
 #include "app/cli/progress.h"
 #include "app/cli/render_plan.h"
 #include "app/cli/say.h"
 #include "app/clip/render_scenes.h"
 #include "app/pipeline/pipeline.h"
+#include "app/plots/alike_runs.h"
 #include "app/resume/kept_frames.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/thread_budget.h"
@@ -19,6 +21,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <set>
 #include <system_error>
 #include <vector>
 
@@ -60,8 +63,14 @@ struct ClipMotion {
             worlds.push_back(known ? nullptr : std::make_unique<World>(scenes.world(i, threads)));
             recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, bodies, first) : nullptr);
             overlays.push_back(image ? scenes.overlay(i) : nullptr);
-            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(), bodies});
+            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(), bodies, {}});
         }
+    }
+    void say_overlaps_at_start(const RenderScenes& scenes) const {
+        std::set<std::string> said;  // panels often show one scene with other values
+        for (std::size_t i = 0; i < worlds.size() && !state; ++i)
+            if (worlds[i]) said.insert(overlap_warning(*scenes.scenes[i].scene, *worlds[i]));
+        for (const std::string& lines : said) say_text(lines);
     }
     void say_broken_joints(const RenderScenes& scenes) const {
         for (std::size_t i = 0; i < worlds.size(); ++i)
@@ -71,7 +80,7 @@ struct ClipMotion {
     void record(RunRecorder& recorder) {
         for (std::size_t i = 0; i < panels.size(); ++i) {
             worlds[i]->record_contacts();
-            panels[i].observer = &recorder.panel(i);
+            panels[i].observers.push_back(&recorder.panel(i));
         }
     }
 };
@@ -194,11 +203,16 @@ RenderFigures render_to_files(const RenderCommand& command) {
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);
+    if (!command.quiet) motion.say_overlaps_at_start(scenes);
     std::optional<RunRecorder> recorder;
     if (command.motion_record) {
         recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());
         motion.record(*recorder);
     }
+    AlikeRuns alike(command.vary);
+    if (!command.vary.empty())
+        for (std::size_t i = 0; i < motion.panels.size(); ++i)
+            motion.panels[i].observers.push_back(&alike.add(scenes.scenes[i].label, *scenes.scenes[i].scene));
     const double outputs_open = wall_seconds();
     Destinations destinations(command, plan, scenes);
     Pipeline pipeline(motion.panels, plan.frames, render_pool, destinations.outputs(), shutter);
@@ -214,6 +228,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         pipeline.run(interrupt, [&](std::int64_t done) { progress.update(done); });
     }
     if (!command.quiet) motion.say_broken_joints(scenes);
+    if (!command.quiet) say_text(alike.warning());
     destinations.complete();
     if (recorder) write_motion_record(*command.motion_record, recorder->finish());
     if (trace) {

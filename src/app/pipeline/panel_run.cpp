@@ -19,7 +19,7 @@ PanelPoses PanelRun::next(std::int64_t frame) {
     if (!runs(frame)) return last_;
     PanelPoses poses = sequence_ ? sequence_->next() : source_.recorded->next();
     if (frame + 1 == source_.end) last_.assign(1, poses.front());
-    if (source_.observer != nullptr) source_.observer->see(poses.front(), {}, records());
+    for (SurveyObserver* observer : source_.observers) observer->see(poses.front(), {}, records());
     if (source_.overlay != nullptr) write_bytes(source_.overlay->next(poses.front(), records()), shapes_);
     return poses;
 }

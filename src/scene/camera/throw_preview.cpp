@@ -28,12 +28,13 @@ struct Block {
 };
 
 struct Obstacles {
+    PairRules rules;
     std::vector<Plane> planes;
     std::vector<Block> blocks;
 };
 
 Obstacles obstacles_of(const SceneDescription& scene) {
-    Obstacles all;
+    Obstacles all{scene.contact, {}, {}};
     for (const BodyDescription& body : scene.bodies) {
         if (const auto* plane = std::get_if<PlaneShape>(&body.shape)) {
             const Vec3 normal = body.rotation * plane->normal;
@@ -94,11 +95,15 @@ private:
         at_ += depth * normal;
         const double approach = -normal.dot(velocity_);
         if (approach <= 0.0) return;
-        const double kick = (1.0 + std::max(body_.restitution, other.restitution)) * approach;
+        const double e =
+            pair_value(obstacles_.rules.restitution, body_.restitution_in_pair(), other.restitution_in_pair());
+        const double kick = (1.0 + e) * approach;
         velocity_ += kick * normal;
         if (std::holds_alternative<SphereShape>(body_.shape)) return;
         const Vec3 along = velocity_ - normal * normal.dot(velocity_);  // Coulomb friction
-        const double speed = along.norm(), loss = std::sqrt(body_.friction * other.friction) * kick;
+        const double speed = along.norm();
+        const double loss =
+            pair_value(obstacles_.rules.friction, body_.friction_in_pair(), other.friction_in_pair()) * kick;
         velocity_ -= along * (loss < speed ? loss / speed : 1.0);
     }
 

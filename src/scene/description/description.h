@@ -9,6 +9,7 @@
 #include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
 #include "scene/description/overlay.h"
+#include "scene/description/pair_rule.h"
 
 #include <cstdint>
 #include <memory>
@@ -164,16 +165,24 @@ struct BodyDescription {
     Shape shape;
     Appearance appearance;
     double density = 1000.0;  // kg/m^3, of the volume; with a given mass, only its ratio to densities of parts counts
-    std::optional<double> mass;    // kg
-    double restitution = 0.5;      // 0..1; a pair uses the larger
-    double friction = 0.0;         // >= 0; a pair uses sqrt(a b)
-    Vec3 position = Vec3::Zero();  // of the body's origin
+    std::optional<double> mass;         // kg
+    std::optional<double> restitution;  // 0..1
+    std::optional<double> friction;     // >= 0
+    Vec3 position = Vec3::Zero();       // of the body's origin
     Quat rotation = Quat::Identity();
     Vec3 velocity = Vec3::Zero();              // m/s, of the center of mass
     Vec3 angular_velocity = Vec3::Zero();      // rad/s
     std::optional<IntegratorKind> integrator;  // overrides the simulation's, to compare two in one scene
     std::vector<Keyframe> keyframes;           // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
+
+    /// Of the body in a pair (pair_rule.h): a dynamic body without values has these.
+    static constexpr double default_restitution = 0.5, default_friction = 0.0;
+    double restitution_in_pair() const {
+        return restitution.value_or(dynamic() ? default_restitution : value_of_other);
+    }
+    double friction_in_pair() const { return friction.value_or(dynamic() ? default_friction : value_of_other); }
+    bool dynamic() const { return type == BodyType::dynamic; }
 };
 
 /// A thin cord without effect on the simulation: from a fixed point to a point of a body, or between the anchors of a
@@ -206,6 +215,7 @@ struct SceneDescription {
     CameraDescription camera;  // the file's, or the default camera
     LightDescription light;
     std::optional<WindDescription> wind;
+    PairRules contact;
     std::vector<ForceDescription> forces;
     std::vector<BodyDescription> bodies;  // with grids and scatters expanded
     std::vector<JointDescription> joints;

@@ -17,11 +17,12 @@ public:
     explicit DescriptionHash(Content content) : all_(content == Content::all) {}
 
     void add_scene(const SceneDescription& scene) {
-        const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, joints, cords, overlay] =
-            scene;
+        const auto& [file, title, simulation, output, camera, light, wind, contact, forces, bodies, joints, cords,
+                     overlay] = scene;
         add_value(simulation);
         add_value(output);
         add_value(wind);
+        if (contact != PairRules{}) add_value(contact);  // other scenes keep their hash
         add_value(forces);
         add_value(bodies);
         if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
@@ -96,6 +97,10 @@ private:
         const auto& [velocity, density, drag] = wind;
         add_all(velocity, density, drag);
     }
+    void add_value(const PairRules& rules) {
+        const auto& [restitution, friction] = rules;
+        add_all(restitution, friction);
+    }
     void add_value(const ForceDescription& one) {
         const auto& [body, point, force, body_frame, start, end] = one;
         add_all(body, point, force, body_frame, start, end);
@@ -167,8 +172,8 @@ private:
     void add_value(const BodyDescription& body) {
         const auto& [name, type, shape, appearance, density, mass, restitution, friction, position, rotation, velocity,
                      angular_velocity, integrator, keyframes, interpolation] = body;
-        add_all(name, type, shape, density, mass, restitution, friction, position, rotation, velocity, angular_velocity,
-                integrator, keyframes, interpolation);
+        add_all(name, type, shape, density, mass, body.restitution_in_pair(), body.friction_in_pair(), position,
+                rotation, velocity, angular_velocity, integrator, keyframes, interpolation);
         if (all_) add_value(appearance);
     }
     void add_value(const JointSpring& spring) {
@@ -239,7 +244,8 @@ std::string scene_hash(const SceneDescription& scene) { return hash_of(scene, Co
 std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, Content::motion); }
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
-    const auto& [file, title, simulation, output, camera, light, wind, forces, bodies, joints, cords, overlay] = scene;
+    const auto& [file, title, simulation, output, camera, light, wind, contact, forces, bodies, joints, cords,
+                 overlay] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
     of_any_duration.duration = 0.0;
@@ -252,7 +258,8 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
                                                            {"wind", part(wind)},
                                                            {"forces", part(forces)},
                                                            {"bodies", part(bodies)}};
-    if (!joints.empty()) parts.emplace_back("joints", part(joints));  // as in the hash
+    if (contact != PairRules{}) parts.emplace_back("contact", part(contact));  // as in the hash
+    if (!joints.empty()) parts.emplace_back("joints", part(joints));           // as in the hash
     parts.emplace_back("cords", part(cords));
     parts.emplace_back("overlay", text.finish_with(overlay));
     return parts;

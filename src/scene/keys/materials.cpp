@@ -66,8 +66,8 @@ void apply_material(const Material& material, BodyDescription& body) {
     body.appearance.roughness = material.roughness.value_or(body.appearance.roughness);
     body.appearance.metallic = material.metallic.value_or(body.appearance.metallic);
     body.density = material.density.value_or(body.density);
-    body.restitution = material.restitution.value_or(body.restitution);
-    body.friction = material.friction.value_or(body.friction);
+    body.restitution = material.restitution;
+    body.friction = material.friction;
 }
 
 }  // namespace tumble

@@ -39,6 +39,11 @@ constexpr Choice<RotationForm> rotation_forms[] = {
     {"matrix", RotationForm::matrix},
 };
 
+constexpr Choice<PairRule> pair_rules[] = {
+    {"average", PairRule::average}, {"minimum", PairRule::minimum},     {"multiply", PairRule::multiply},
+    {"maximum", PairRule::maximum}, {"geometric", PairRule::geometric},
+};
+
 /// A given value and its source.
 template <class Value>
 struct Given {
@@ -234,6 +239,16 @@ LightDescription read_light(const TomlTable& root) {
         table->read("shadows", light.shadows);
     }
     return light;
+}
+
+PairRules read_contact(const TomlTable& root) {
+    PairRules rules;
+    if (const auto table = root.find_table("contact")) {
+        table->expect_keys({"restitution_rule", "friction_rule"});
+        table->read<PairRule>("restitution_rule", rules.restitution, pair_rules);
+        table->read<PairRule>("friction_rule", rules.friction, pair_rules);
+    }
+    return rules;
 }
 
 std::optional<WindDescription> read_wind(const TomlTable& root) {

@@ -17,6 +17,7 @@ void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, S
 
 LightDescription read_light(const TomlTable& root);
 std::optional<WindDescription> read_wind(const TomlTable& root);
+PairRules read_contact(const TomlTable& root);
 
 /// The integrators that a method has, by their names in a file.
 std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method);

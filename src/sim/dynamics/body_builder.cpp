@@ -100,8 +100,9 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     Body body;
     body.name = d.name;
     body.type = d.type;
-    body.restitution = d.restitution;
-    body.friction = d.friction;
+    body.restitution = d.restitution_in_pair();
+    body.friction = d.friction_in_pair();
+    body.pair_rules = rules_;
     body.integrator = d.integrator.value_or(integrator);
     const MassProperties mass = mass_of(d);
     body.center_of_mass = mass.center_of_mass;
@@ -126,7 +127,7 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
 }
 
 std::vector<Body> build_bodies(const SceneDescription& scene) {
-    BodyBuilder builder;
+    BodyBuilder builder(scene.contact);
     std::vector<Body> bodies;
     bodies.reserve(scene.bodies.size());
     for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, scene.simulation.integrator));

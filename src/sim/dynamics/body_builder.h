@@ -14,6 +14,8 @@ namespace tumble {
 /// Builds bodies. Equal boxes share one collider, and so do bodies of the same mesh or compound.
 class BodyBuilder {
 public:
+    /// `rules`: of the scene.
+    explicit BodyBuilder(PairRules rules = {}) : rules_(rules) {}
     /// `integrator` is the simulation's, for bodies without their own.
     Body build(const BodyDescription& description, IntegratorKind integrator);
 
@@ -26,6 +28,7 @@ private:
     CollisionShape collider(const Shape& shape, bool meshes_as_triangles, const Vec3& origin);
     CollisionShape compound_collider(const CompoundShape& shape, double density, const Vec3& origin);
 
+    PairRules rules_;
     std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>>
         boxes_;  // by edge lengths: each shape takes 2 KB
     // Looked up only, never iterated: the order of addresses must not affect results.

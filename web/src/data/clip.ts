@@ -107,8 +107,9 @@ export interface Body {
   inertia: Mat3;
   /** Body frame, from the body's origin, m. */
   center_of_mass: Vec3;
-  restitution: number;
-  friction: number;
+  /** Null: as the other body of the pair. */
+  restitution: number | null;
+  friction: number | null;
 }
 
 /** A straight line to look at, without effect on the motion: from a body to a fixed point, or to another body. */

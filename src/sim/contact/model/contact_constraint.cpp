@@ -39,8 +39,10 @@ void scale_impulses(Manifold& manifold, double share) {
     manifold.torsion *= share;
 }
 
-double pair_restitution(const Body& a, const Body& b) { return std::max(a.restitution, b.restitution); }
-double pair_friction(const Body& a, const Body& b) { return std::sqrt(a.friction * b.friction); }
+double pair_restitution(const Body& a, const Body& b) {
+    return pair_value(a.pair_rules.restitution, a.restitution, b.restitution);
+}
+double pair_friction(const Body& a, const Body& b) { return pair_value(a.pair_rules.friction, a.friction, b.friction); }
 
 double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b) {
     return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));

@@ -98,7 +98,7 @@ double normal_impulse(const Manifold& manifold);
 /// Multiplies the impulses by `share`.
 void scale_impulses(Manifold& manifold, double share);
 
-/// Materials of a pair: the larger restitution, the geometric mean of the frictions.
+/// Of a pair of bodies, by the rules of the scene.
 double pair_restitution(const Body& a, const Body& b);
 double pair_friction(const Body& a, const Body& b);
 

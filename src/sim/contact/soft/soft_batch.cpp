@@ -187,7 +187,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane_moved_[2 * g + 1] |= std::uint16_t(b.dynamic << l);
     const double share = 1.0 / (substeps_ * mass_unit_);
     const double size = std::min(a.radius, b.radius);
-    const bool bouncy = std::max(a.restitution, b.restitution) > 0.0;
+    const bool bouncy = pair_value(a.pair_rules.restitution, a.restitution, b.restitution) > 0.0;
     Source& source = sources_[lanes * g + l];
     const soft::ManifoldLane lane(rows_of(g) + l, lanes);
     std::size_t count = 0;
@@ -221,8 +221,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane.set(&Rows::normal, swapped ? Vec3(-m.normal) : m.normal);
     lane.set(&Rows::tangent, m.tangent);
     lane.set(&Rows::between, a.position - b.position);
-    lane[&Rows::friction_coefficient] =
-        float(a.friction == b.friction ? a.friction : std::sqrt(a.friction * b.friction));
+    lane[&Rows::friction_coefficient] = float(pair_value(a.pair_rules.friction, a.friction, b.friction));
     lane[&Rows::size] = float(size);
     lane[&Rows::spread] = m.spread;
     // Seen from the other body the second tangent is reversed too, and so is an impulse along the first.

@@ -38,6 +38,7 @@ private:
         Vec3 position = Vec3::Zero();
         double radius = 0.0, friction = 0.0, restitution = 0.0;
         std::uint32_t slot = 0;
+        PairRules pair_rules;
         bool dynamic = false;
         bool rotates_fast = false;  // rotates so fast that its corners approach along curves
     };
@@ -50,7 +51,7 @@ private:
 
     static soft::Softness softness(double frequency, double d);
     static PackedBody packed(const Body& body, std::uint32_t slot) {
-        return {body.position, body.radius, body.friction, body.restitution, slot, body.dynamic()};
+        return {body.position, body.radius, body.friction, body.restitution, slot, body.pair_rules, body.dynamic()};
     }
     void pack_bodies(const ContactProblem& problem, std::size_t first, std::size_t last);
     void pack_movers(const ContactProblem& problem);
