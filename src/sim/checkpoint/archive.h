@@ -119,6 +119,10 @@ public:
         put(values);
     }
     template <class T>
+    void by_body_or_none(const std::vector<T>& values) {
+        put(values);
+    }
+    template <class T>
     void within_bodies(const std::vector<T>& values) {
         put(values);
     }
@@ -284,9 +288,15 @@ public:
         for (const std::uint32_t i : list) check_body(i);
     }
     void bodies(SharedIndices& list) { get(list); }
-    /// An element for each body, or none at all.
+    /// An element for each body.
     template <class T>
     void by_body(std::vector<T>& values) {
+        get(values);
+        if (values.size() != bodies_) fail("has another number of bodies");
+    }
+    /// The same, or no element before the first step.
+    template <class T>
+    void by_body_or_none(std::vector<T>& values) {
         get(values);
         if (!values.empty() && values.size() != bodies_) fail("has another number of bodies");
     }

@@ -48,7 +48,7 @@ public:
                moved, searches, fell_asleep, pairs, added, spare, apart] = self;
         archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree, look_for_awake, awake, moved, fell_asleep);
         archive.keep(active_tree, resting_tree, pairs, apart);
-        archive.by_body(states);
+        archive.by_body_or_none(states);
         archive.scratch(searches, added, spare);
         archive.require([&] { return self.sound(); });
     }

@@ -46,7 +46,7 @@ public:
         archive.rebuilt(mode, remembers, seen, share, seen_owners, moved, changes);
         archive.keep(entries, searches, parked, touching, manifolds, persistent);
         archive.any(free_searches);
-        archive.by_body(views);
+        archive.by_body_or_none(views);
         archive.scratch(found, spare_entries, new_first, new_count, spare_manifolds, spare_persistent);
         archive.require([&] { return self.sound(); });
     }
