@@ -404,7 +404,7 @@ void World::restore(CheckpointReader& reader) {
     TUMBLE_CHECK_EQ(s.steps, 0);
     const bool records = s.log != nullptr;
     State::visit(reader, s);
-    s.motion->restore(reader);
+    s.motion->restore(reader, s.steps);
     bool recorded = false;
     reader.keep(recorded);
     if (records && !recorded)

@@ -69,6 +69,10 @@ public:
     std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);
     /// Where impacts and the contacts of landings are recorded; null: nowhere. It must outlive the last run().
     void record_in(ContactLog* log) { log_ = log; }
+    /// Whether all events before the step have been processed, and none after it.
+    bool stands_at(std::int64_t step) const {
+        return until_ == step && (queue_.empty() || !(queue_.first_moment() < EventTime{step, 0.0}));
+    }
     /// Moves all moving bodies to their poses at the start of a step.
     void place(std::vector<Body>& bodies, std::int64_t step) const;
 

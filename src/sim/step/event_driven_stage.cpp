@@ -66,6 +66,9 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
 }
 
 void EventDrivenStage::save(CheckpointWriter& writer) const { visit(writer, *this); }
-void EventDrivenStage::restore(CheckpointReader& reader) { visit(reader, *this); }
+void EventDrivenStage::restore(CheckpointReader& reader, std::int64_t step) {
+    visit(reader, *this);
+    reader.require([&] { return events_.stands_at(step); });
+}
 
 }  // namespace tumble

@@ -25,7 +25,7 @@ public:
     std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext& step) override { events_.lay_down(step.set.bodies, step.index); }
     void save(CheckpointWriter& writer) const override;
-    void restore(CheckpointReader& reader) override;
+    void restore(CheckpointReader& reader, std::int64_t step) override;
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>

@@ -43,7 +43,8 @@ public:
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     virtual void save(CheckpointWriter& writer) const = 0;
-    virtual void restore(CheckpointReader& reader) = 0;
+    /// `step`: at which the state was saved.
+    virtual void restore(CheckpointReader& reader, std::int64_t step) = 0;
 };
 
 }  // namespace tumble

@@ -106,6 +106,6 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
 }
 
 void SteppedMotion::save(CheckpointWriter& writer) const { visit(writer, *this); }
-void SteppedMotion::restore(CheckpointReader& reader) { visit(reader, *this); }
+void SteppedMotion::restore(CheckpointReader& reader, std::int64_t) { visit(reader, *this); }
 
 }  // namespace tumble

@@ -22,7 +22,7 @@ public:
     std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext&) override {}
     void save(CheckpointWriter& writer) const override;
-    void restore(CheckpointReader& reader) override;
+    void restore(CheckpointReader& reader, std::int64_t step) override;
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
