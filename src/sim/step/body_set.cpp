@@ -33,6 +33,8 @@ bool BodySet::list(const SleepMonitor& sleep) {
     if (sleep.changes() == seen_sleep_changes_) return false;
     seen_sleep_changes_ = sleep.changes();
     list();
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (!bodies[i].moves() || bodies[i].asleep) motions[i] = {};
     return true;
 }
 
@@ -41,11 +43,9 @@ void BodySet::list() {
     moving.clear();
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
-        if (body.dynamic() && !body.asleep) awake.push_back(i);
-        if (body.moves() && !body.asleep)
-            moving.push_back(i);
-        else
-            motions[i] = {};
+        if (body.asleep) continue;
+        if (body.dynamic()) awake.push_back(i);
+        if (body.moves()) moving.push_back(i);
     }
 }
 
