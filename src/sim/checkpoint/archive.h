@@ -258,7 +258,7 @@ public:
     template <class Low, class T, class High>
     void between(const Low& low, T& value, const High& high) {
         raw(&value, sizeof value);
-        if (std::cmp_less(value, low) || std::cmp_greater(value, high)) fail("has a number out of its range");
+        if (std::cmp_less(value, low) || std::cmp_greater(value, high)) damaged("has a number out of its range");
     }
     /// Numbers that are counted up from zero.
     template <class... T>
@@ -292,17 +292,17 @@ public:
     template <class T>
     void by_body(std::vector<T>& values) {
         get(values);
-        if (values.size() != bodies_) fail("has another number of bodies");
+        if (values.size() != bodies_) damaged("has another number of bodies");
     }
     /// The same, or no element before the first step.
     template <class T>
     void by_body_or_none(std::vector<T>& values) {
         get(values);
-        if (!values.empty() && values.size() != bodies_) fail("has another number of bodies");
+        if (!values.empty() && values.size() != bodies_) damaged("has another number of bodies");
     }
     /// A list of bodies for each body, ascending.
     void bodies_by_body(std::vector<std::vector<std::uint32_t>>& lists) {
-        if (length(1) != bodies_) fail("has another number of bodies");
+        if (length(1) != bodies_) damaged("has another number of bodies");
         lists.resize(bodies_);
         for (std::vector<std::uint32_t>& list : lists) {
             bodies(list);
@@ -313,13 +313,13 @@ public:
     template <class T>
     void within_bodies(std::vector<T>& values) {
         get(values);
-        if (values.size() > bodies_) fail("has another number of bodies");
+        if (values.size() > bodies_) damaged("has another number of bodies");
     }
     /// Sets the number of bodies that indices may name.
     void expect_bodies(std::size_t count) { bodies_ = count; }
     template <class Holds>
     void require(Holds&& holds) {
-        if (!holds()) fail("has values that do not belong together");
+        if (!holds()) damaged("has values that do not belong together");
     }
     template <class... T>
     void rebuilt(const T&...) {
@@ -329,30 +329,31 @@ public:
     void scratch(const T&...) {}
     template <class T>
     void keep_each(std::vector<T>& values) {
-        if (length(1) != values.size()) fail("has another number of bodies");
+        if (length(1) != values.size()) damaged("has another number of bodies");
         for (T& value : values) get(value);
     }
     template <class Array>
     void keep_first(std::size_t count, Array& values) {
-        if (count > std::size(values)) fail("has a length beyond its place");
+        if (count > std::size(values)) damaged("has a length beyond its place");
         for (auto& value : std::span(values).first(count)) get(value);
     }
 
     bool at_end() const { return bytes_.empty(); }
-    [[noreturn]] static void fail(const std::string& what) {
-        throw InputError("the checkpoint " + what + ": it is damaged, or not of this program; simulate again");
-    }
+    [[noreturn]] static void fail(const std::string& what) { throw InputError("the checkpoint " + what); }
 
 private:
+    [[noreturn]] static void damaged(const char* what) {
+        fail(std::string(what) + ": it is damaged, or of another program; simulate again");
+    }
     void raw(void* to, std::size_t count) {
-        if (count > bytes_.size()) fail("ends early");
+        if (count > bytes_.size()) damaged("ends early");
         if (count == 0) return;
         std::memcpy(to, bytes_.data(), count);
         bytes_ = bytes_.subspan(count);
     }
     template <class T>
     void check_body(T index) {
-        if (std::cmp_greater_equal(index, bodies_)) fail("names a body that the scene does not have");
+        if (std::cmp_greater_equal(index, bodies_)) damaged("names a body that the scene does not have");
     }
     template <class T>
     void get_body(T& index) {
@@ -374,7 +375,7 @@ private:
     void get(bool& value) {
         std::uint8_t byte = 0;
         raw(&byte, 1);
-        if (byte > 1) fail("has a flag that is neither 0 nor 1");
+        if (byte > 1) damaged("has a flag that is neither 0 nor 1");
         value = byte != 0;
     }
     void get(char& value) { raw(&value, 1); }
@@ -388,7 +389,7 @@ private:
     template <class T>
     void check(T value) {
         if (!(range_ == Range::unbounded ? value == value : std::isfinite(value)))
-            fail("has a number that is not finite");
+            damaged("has a number that is not finite");
     }
     template <class T>
     requires requires(CheckpointReader& archive, T& value) { T::visit(archive, value); }
@@ -495,7 +496,7 @@ private:
     std::size_t length(std::size_t size) {
         std::uint64_t count = 0;
         raw(&count, sizeof count);
-        if (count > bytes_.size() / size) fail("ends early");
+        if (count > bytes_.size() / size) damaged("ends early");
         return std::size_t(count);
     }
 
