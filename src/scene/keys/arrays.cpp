@@ -230,12 +230,12 @@ void place_scattered(const ScatterRequest& scatter, const SourcePosition& origin
     const ScatterPlaces places =
         scatter_places(spheres, scatter.size, scatter.clearance, limits::scatter_attempts, position_random);
     if (places.offsets.size() < copies.size()) {
-        const auto enough = large_enough_box(spheres, scatter, start);
+        const auto room = large_enough_box(spheres, scatter, start);
         origin.fail(
             fmt::format("is too crowded: only {} of {} copies found a place without touching another (given a box "
                         "of {}, clearance {} m); make the box larger{} or the count smaller",
                         places.offsets.size(), copies.size(), box_text(scatter.size), number_text(scatter.clearance),
-                        enough ? fmt::format(" ({} is enough)", box_text(*enough)) : ""));
+                        room ? fmt::format(" ({} is enough)", box_text(*room)) : ""));
     }
     for (std::size_t i = 0; i < copies.size(); ++i) copies[i].position += places.offsets[i];
 }
