@@ -194,7 +194,7 @@ class Checkpoints(program.ProgramTest):
             file.write_bytes(good[:-1])
             self.refused("damaged")
             file.unlink()
-            self.refused("has no checkpoints of a whole clip" if name == "clip.tumble" else "cannot read the checkpoint")
+            self.refused("has no checkpoints of a whole clip" if name == "clip.tumble" else "the checkpoint cannot be read")
             file.write_bytes(good)
         shutil.copy(self.folder / "states/checkpoint_000005.tumble", self.folder / "states/checkpoint_000010.tumble")
         self.refused("holds the state of frame 5, not the state of frame 10: was the file renamed?")
