@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-using Color = std::array<bool, 3>;  // channels that are raised
-constexpr Color only_first{true, true, false}, only_second{false, true, false};
+using Channels = std::array<bool, 3>;  // whether each is raised
+constexpr Channels only_first{true, true, false}, only_second{false, true, false};
 constexpr int raised = 96;  // levels: visible on black
 
 /// A third of the brightness.
@@ -19,7 +19,7 @@ int gray_of(const std::uint8_t* pixel) {
     return (2 * seen_on_black(pixel, 0) + 5 * seen_on_black(pixel, 1) + seen_on_black(pixel, 2)) / 24;
 }
 
-void put_lone_pixel(const std::uint8_t* pixel, const Color& color, std::uint8_t* to) {
+void put_lone_pixel(const std::uint8_t* pixel, const Channels& color, std::uint8_t* to) {
     const int gray = gray_of(pixel);
     for (std::size_t c = 0; c < color.size(); ++c) to[c] = static_cast<std::uint8_t>(gray + (color[c] ? raised : 0));
     to[3] = 255;

@@ -75,9 +75,6 @@ concept contiguous_numbers =
     list.data();
 };
 
-/// Finite: numbers that are neither infinite nor NaN. Otherwise only NaN is refused.
-enum class Range : std::uint8_t { finite, unbounded };
-
 class CheckpointWriter {
 public:
     template <class... T>
@@ -246,9 +243,9 @@ public:
     /// Numbers that may be infinite.
     template <class... T>
     void unbounded(T&... values) {
-        const Range outer = std::exchange(range_, Range::unbounded);
+        const bool outer = std::exchange(unbounded_, true);
         keep(values...);
-        range_ = outer;
+        unbounded_ = outer;
     }
     /// Whole numbers all of whose values are valid, and lists of them.
     template <class... T>
@@ -388,7 +385,7 @@ private:
     }
     template <class T>
     void check(T value) {
-        if (!(range_ == Range::unbounded ? value == value : std::isfinite(value)))
+        if (!(unbounded_ ? value == value : std::isfinite(value)))
             damaged("has a number that is not finite");
     }
     template <class T>
@@ -502,7 +499,7 @@ private:
 
     std::span<const std::byte> bytes_;  // those not read yet
     std::size_t bodies_ = 0;
-    Range range_ = Range::finite;
+    bool unbounded_ = false;  // infinite numbers are right; NaN never is
     bool made_ = false;  // whether the value that is read was made for it
     std::vector<SharedIndices> shared_;
 };
