@@ -209,7 +209,10 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
     return false;
 }
 
-void ContactSolver::solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
+void ContactSolver::solve(const ContactProblem& step, const ContactIslands& islands, ThreadPool& pool) {
+    areas_.find(islands.repeated(), step.manifolds, step.bodies);
+    ContactProblem problem = step;
+    if (!areas_.empty()) problem.areas = &areas_;
     look_at_bodies(problem, islands, pool);
     choose(problem, islands);
     failed_.assign(direct_.size(), 0);

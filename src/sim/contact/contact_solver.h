@@ -11,6 +11,7 @@
 #pragma once
 
 #include "sim/contact/direct/direct_solver.h"
+#include "sim/contact/model/contact_areas.h"
 #include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/load_estimate.h"
 #include "sim/contact/settings.h"
@@ -31,7 +32,7 @@ public:
 
     explicit ContactSolver(std::size_t bodies, Choice choice = Choice::by_island, Effort effort = Effort::balanced);
 
-    void solve(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
+    void solve(const ContactProblem& step, const ContactIslands& islands, ThreadPool& pool);
 
     /// Closes the joints of an island at the present poses: see JointFlight::close_poses().
     void close_joints(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
@@ -40,11 +41,11 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [choice, effort, memory, gains, turns_fast, loads, soft, nets, candidates, few, direct, softly, failed,
-               substep_multipliers, batched, batches, batches_used] = self;
+               substep_multipliers, batched, batches, batches_used, areas] = self;
         archive.rebuilt(choice, effort, soft, nets, batched, batches, batches_used);
         archive.by_body(memory);
         archive.keep(few);
-        archive.scratch(gains, turns_fast, loads, candidates, direct, softly, failed, substep_multipliers);
+        archive.scratch(gains, turns_fast, loads, candidates, direct, softly, failed, substep_multipliers, areas);
     }
 
 private:
@@ -106,6 +107,7 @@ private:
     BatchInput batched_;  // inputs from which the batches were made
     std::vector<SoftSolver::Batch> batches_;
     std::size_t batches_used_ = 0;
+    ContactAreas areas_;  // of this step
 };
 
 }  // namespace tumble

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -97,7 +98,30 @@ ContactArea polygon_area(std::size_t count, const Vec3& normal, At&& at) {
         distance += distance_integral(p, q);
         p = q;
     }
-    return {plane.world(centroid), (distance + distance_integral(p, first)) / (0.5 * twice)};
+    return {plane.world(centroid), (distance + distance_integral(p, first)) / (0.5 * twice), 0.5 * std::abs(twice)};
+}
+
+// Twice the signed area of a triangle or quadrilateral.
+double twice_area(std::span<const Flat> corners) {
+    double twice = 0.0;
+    for (std::size_t i = 2; i < corners.size(); ++i)
+        twice += (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
+    return twice;
+}
+
+// Four points of a convex quadrilateral, in any order, become its corners in order: of the three orders those that cross
+// have less area.
+void order_corners(std::span<Flat> points) {
+    if (points.size() < 4) return;
+    const auto area = [&] { return std::abs(twice_area(points)); };
+    double most = area();
+    for (const auto& [i, k] : {std::pair(1, 2), {2, 3}}) {
+        std::swap(points[std::size_t(i)], points[std::size_t(k)]);
+        if (const double now = area(); now > most)
+            most = now;
+        else
+            std::swap(points[std::size_t(i)], points[std::size_t(k)]);
+    }
 }
 
 }  // namespace
@@ -121,7 +145,40 @@ ContactArea contact_area(const Manifold& m) {
         distance += double(m.share[i]) / shares * std::sqrt(p.dot(p));
     }
     area.mean_distance = double(m.spread) * distance;
+    area.size = double(m.area);
     return area;
+}
+
+double mean_distance(const Manifold& m, const Vec3& from) {
+    const Plane plane(m.normal, from);
+    std::array<Flat, Manifold::capacity> all{};
+    const auto points = std::span(all).first(std::size_t(m.count));
+    double shares = 0.0;
+    Flat centroid{0.0, 0.0};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const double share = double(m.share[i]);
+        points[i] = plane(m.points[i].position);
+        centroid.x += share * points[i].x;
+        centroid.y += share * points[i].y;
+        shares += share;
+    }
+    centroid = {centroid.x / shares, centroid.y / shares};
+    order_corners(points);
+    const double twice = twice_area(points), scale = std::sqrt(2.0 * double(m.area) / std::abs(twice));
+    // The centroid of the points' own polygon.
+    Flat own{0.0, 0.0};
+    for (std::size_t i = 2; i < points.size(); ++i) {
+        const Flat p = points[i - 1] - points[0], q = points[i] - points[0];
+        const double part = p.cross(q) / (3.0 * twice);
+        own.x += part * (p.x + q.x);
+        own.y += part * (p.y + q.y);
+    }
+    own = {own.x + points[0].x, own.y + points[0].y};
+    for (Flat& p : points) p = {centroid.x + scale * (p.x - own.x), centroid.y + scale * (p.y - own.y)};
+    double distance = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        distance += distance_integral(points[i], points[(i + 1) % points.size()]);
+    return distance / (0.5 * scale * scale * twice);
 }
 
 // Shares 1 + (arm . slope), with arms from the mean of the points, such that their centroid is that of the area: of all
@@ -130,6 +187,7 @@ ContactArea contact_area(const Manifold& m) {
 void spread_pressure(const ContactArea& area, Manifold& m) {
     m.share.fill(1.0f);
     m.spread = 1.0f;
+    m.area = float(area.size);
     const auto count = std::size_t(m.count);
     if (count < 2) return;
     const Plane plane(m.normal, area.centroid);

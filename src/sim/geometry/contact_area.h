@@ -15,6 +15,7 @@ namespace tumble {
 struct ContactArea {
     Vec3 centroid = Vec3::Zero();  // world frame
     double mean_distance = 0.0;    // m, of the area from its centroid; 0: no area
+    double size = 0.0;             // m^2; 0: a line or a point
 };
 
 /// `polygon`: convex, its corners in order about `normal`, in either sense, seen along the normal. A polygon without
@@ -22,10 +23,14 @@ struct ContactArea {
 ContactArea contact_area(std::span<const Vec3> polygon, const Vec3& normal);
 ContactArea contact_area(std::span<const ContactPoint> polygon, const Vec3& normal);
 
-/// The area that the shares and the spread of `m` represent.
+/// The area that the shares, the spread and the area of `m` represent.
 ContactArea contact_area(const Manifold& m);
 
-/// Sets the shares of the points of `m` and its spread.
+/// Mean distance (m) of the area of `m` from any point of its plane: over the polygon of its points, moved and scaled to
+/// the area's centroid and size. Precondition: an area.
+double mean_distance(const Manifold& m, const Vec3& from);
+
+/// Sets the shares of the points of `m`, its spread and its area.
 void spread_pressure(const ContactArea& area, Manifold& m);
 
 }  // namespace tumble

@@ -75,6 +75,7 @@ struct Manifold {
     // the number of points, and the mean distance of the area from its centroid over that of the points so loaded.
     std::array<float, capacity> share = {1.0f, 1.0f, 1.0f, 1.0f};
     float spread = 1.0f;
+    float area = 0.0f;  // m^2; 0: a line or a point
 
     // Friction acts at one point of the manifold, along `tangent` and `normal x tangent`, and as a torsional moment
     // about the normal. Kept from step to step.
@@ -107,13 +108,13 @@ struct Manifold {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, part, count, more, solved_directly, corners, kind, reduced, first_reduced, normal, points, share,
-               spread, tangent, friction, torsion] = self;
+               spread, area, tangent, friction, torsion] = self;
         archive.body(a, b);
         archive.between(0, count, capacity);
         archive.enumeration(corners, Corners::of_b);
         archive.enumeration(kind, GeometryKind::crossing_edges);
         archive.any(part);
-        archive.keep(more, solved_directly, normal, points, share, spread, tangent, friction, torsion);
+        archive.keep(more, solved_directly, normal, points, share, spread, area, tangent, friction, torsion);
         archive.scratch(reduced, first_reduced);
     }
 };

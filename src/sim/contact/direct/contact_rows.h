@@ -2,6 +2,7 @@
 // one torsional friction. u holds six numbers per body: velocity, and the length (m) times angular velocity.
 #pragma once
 
+#include "sim/contact/model/contact_areas.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/body.h"
 
@@ -34,6 +35,11 @@ struct ConstraintRows {
     Vec3 tangent_1 = Vec3::Zero();
     std::uint8_t source[4] = {};
     ContactConstraint geometry;
+    // Of a shared area: its first constraint has the friction rows of all; the others do not rub.
+    const SharedArea* area = nullptr;
+    int first = none, next = none;  // indices of constraints: the first, and a chain from it through all others
+    bool rubs = true;
+    double area_load = 0.0;  // N s, of the first: sum of all loads times their coefficients
 };
 
 /// Index of a body among the island's, ascending; none if it is not one of them.
@@ -110,6 +116,7 @@ inline void add(const ConstraintRows& constraint, const Row& row, double amount,
 template <class Visit>
 void each_row(ConstraintRows& constraint, Visit&& visit) {
     for (int i = 0; i < constraint.count; ++i) visit(constraint.normal[i]);
+    if (!constraint.rubs) return;
     visit(constraint.friction[0]);
     visit(constraint.friction[1]);
     if (constraint.count > 1) visit(constraint.torsion);

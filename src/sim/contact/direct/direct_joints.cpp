@@ -92,6 +92,7 @@ void DirectSolver::move_contact(ConstraintRows& constraint, const ContactProblem
         rewrite(constraint.normal[i], geometry.normal, p.arm_a, p.arm_b);
     }
     move(geometry.friction_arm_a, geometry.friction_arm_b);
+    if (!constraint.rubs) return;
     rewrite(constraint.friction[0], geometry.tangent_1, geometry.friction_arm_a, geometry.friction_arm_b);
     rewrite(constraint.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b);
 }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace tumble {
@@ -23,17 +24,23 @@ void add_outer(BlockCholesky::Block& block, const double* left, const BlockChole
 
 // Sets friction limits from the normal impulses of the last round.
 void DirectSolver::set_limits(ConstraintRows& constraint) {
-    double load = 0.0, levers = 0.0;
-    Vec3 aside = Vec3::Zero();
-    for (int i = 0; i < constraint.count; ++i) {
-        const double impulse = constraint.normal[i].estimate;
-        load += impulse;
-        levers += impulse * constraint.lever[i];
-        aside += impulse * (constraint.geometry.points[std::size_t(i)].arm_a - constraint.geometry.friction_arm_a);
+    if (!constraint.rubs) return;
+    double load = 0.0, levers = 0.0, coefficient = constraint.coefficient;
+    if (constraint.area) {
+        std::tie(load, levers) = shared_load(constraint, &Row::estimate);
+        coefficient = 1.0;
+    } else {
+        Vec3 aside = Vec3::Zero();
+        for (int i = 0; i < constraint.count; ++i) {
+            const double impulse = constraint.normal[i].estimate;
+            load += impulse;
+            levers += impulse * constraint.lever[i];
+            aside += impulse * (constraint.geometry.points[std::size_t(i)].arm_a - constraint.geometry.friction_arm_a);
+        }
+        levers += (1.0 - constraint.geometry.spread) * aside.norm();
     }
-    levers += (1.0 - constraint.geometry.spread) * aside.norm();
-    constraint.limit = constraint.coefficient * load;
-    constraint.torsion_limit = constraint.coefficient * levers;
+    constraint.limit = coefficient * load;
+    constraint.torsion_limit = coefficient * levers;
     constraint.spins = constraint.torsion_limit > 0.0 &&
                        constraint.torsion_mass * constraint.free_spin > constraint.torsion_limit &&
                        levers * constraint.free_spin > tuning::spin_share * load * constraint.free_slip;
@@ -59,6 +66,7 @@ void DirectSolver::evaluate(ConstraintRows& constraint, double along, Weights* w
         row.impulse = std::max(0.0, y);
         if (weights) weights->normal[i] = y > tie ? 1.0 / compliance_ : 0.0;  // an untouched stack has only ties
     }
+    if (!constraint.rubs) return;
     // Both friction directions and, where they share the limit, the torsional friction over its lever: a ball
     // (spin_friction.h).
     Row* const rows[3] = {&constraint.friction[0], &constraint.friction[1], &constraint.torsion};
@@ -115,13 +123,19 @@ double DirectSolver::gradient(std::vector<double>& g) {
 DirectSolver::Weights DirectSolver::push_weights(const ConstraintRows& constraint) const {
     Weights w;
     const double stiffness = total_mass_ / tuning::direct_push_compliance;
+    const auto presses = [](const ConstraintRows& c, int i) {
+        return c.normal[i].impulse > 0.0 || c.overlap[i] > tuning::direct_slop * c.size;
+    };
     bool active = false;
     for (int i = 0; i < constraint.count; ++i) {
-        const bool on =
-            constraint.normal[i].impulse > 0.0 || constraint.overlap[i] > tuning::direct_slop * constraint.size;
+        const bool on = presses(constraint, i);
         active = active || on;
         w.normal[i] = on ? stiffness : 0.0;
     }
+    if (!constraint.rubs) return w;
+    for (int k = constraint.next; k != none; k = constraints_[std::size_t(k)].next)
+        for (int i = 0; i < constraints_[std::size_t(k)].count; ++i)
+            active = active || presses(constraints_[std::size_t(k)], i);
     // Pushed apart, not sideways.
     const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
     w.friction[0][0] = w.friction[1][1] = aside;

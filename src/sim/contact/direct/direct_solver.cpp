@@ -57,6 +57,7 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
 void DirectSolver::load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                     std::span<const std::uint32_t> manifolds) {
     constraints_.clear();
+    area_firsts_.clear();
     driven_ = false;
     const double h = problem.settings.h;
     for (const std::uint32_t k : manifolds) {
@@ -91,6 +92,11 @@ void DirectSolver::load_constraints(const ContactProblem& problem, std::span<con
                 if (constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
             }
             speed_scale_ = std::max(speed_scale_, row.target - row.offset - dot(constraint, row, free_));
+        }
+        if (problem.areas && problem.areas->holds(k)) join_area(constraint, problem);
+        if (!constraint.rubs) {
+            constraints_.push_back(constraint);
+            continue;
         }
         const Vec3 &arm_a = geometry.friction_arm_a, &arm_b = geometry.friction_arm_b;
         set_row(constraint.friction[0], geometry.tangent_1, arm_a, arm_b, row_bodies);
@@ -167,22 +173,24 @@ bool DirectSolver::admissible() const {
             // A body squeezed between walls has no solution.
             if (row.offset + dot(constraint, row, velocity_) < row.target - closing) return false;
         }
+        if (!constraint.rubs) continue;
         const double friction = hypotenuse(constraint.friction[0].impulse, constraint.friction[1].impulse);
-        if (friction > tuning::direct_cone * constraint.coefficient * load + 1e-6 * total_mass_ * speed_scale_)
-            return false;
+        const double limit =
+            constraint.area ? shared_load(constraint, &Row::impulse).first : constraint.coefficient * load;
+        if (friction > tuning::direct_cone * limit + 1e-6 * total_mass_ * speed_scale_) return false;
     }
     return true;
 }
 
 // Gives the contacts' impulses to the bodies; `reached` marks those that got one, by index in the island.
 void DirectSolver::apply_contacts(const ContactProblem& problem, std::vector<bool>& reached) {
+    sum_area_loads();
     for (const ConstraintRows& constraint : constraints_) {
         const Manifold& m = problem.manifolds[constraint.manifold];
         Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
         const ContactConstraint& geometry = constraint.geometry;
-        const Vec3 friction =
-            constraint.friction[0].impulse * geometry.tangent_1 + constraint.friction[1].impulse * geometry.tangent_2;
-        const double torsion = constraint.count > 1 ? constraint.torsion.impulse : 0.0;
+        const auto [along_1, along_2, torsion] = rubbing(constraint);
+        const Vec3 friction = along_1 * geometry.tangent_1 + along_2 * geometry.tangent_2;
         Vec3 force = friction,
              moment = geometry.friction_arm_a.cross(friction) + torsion * geometry.normal;  // about A's center
         for (int i = 0; i < constraint.count; ++i) {
@@ -206,13 +214,15 @@ void DirectSolver::apply_contacts(const ContactProblem& problem, std::vector<boo
 }
 
 // Keeps the contacts' impulses with their manifolds.
-void DirectSolver::store_contacts(const ContactProblem& problem) const {
+void DirectSolver::store_contacts(const ContactProblem& problem) {
+    sum_area_loads();
     for (const ConstraintRows& constraint : constraints_) {
         Manifold& m = problem.manifolds[constraint.manifold];
         release(m);
-        m.friction[0] = constraint.friction[0].impulse;
-        m.friction[1] = constraint.friction[1].impulse;
-        m.torsion = constraint.count > 1 ? constraint.torsion.impulse : 0.0;
+        const auto [along_1, along_2, torsion] = rubbing(constraint);
+        m.friction[0] = along_1;
+        m.friction[1] = along_2;
+        m.torsion = torsion;
         m.tangent = constraint.geometry.tangent_1;
         for (int i = 0; i < constraint.count; ++i) {
             const ContactConstraint::Point& p = constraint.geometry.points[std::size_t(i)];

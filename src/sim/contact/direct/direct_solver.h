@@ -26,6 +26,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -59,6 +60,14 @@ private:
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
     void load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                           std::span<const std::uint32_t> manifolds);
+    void join_area(ConstraintRows& constraint, const ContactProblem& problem);
+    std::pair<double, double> shared_load(const ConstraintRows& first, double Row::*impulse) const;
+    void sum_area_loads();
+    struct Rubbing {              // impulses on B
+        double along_1, along_2;  // N s, along both tangents
+        double torsion;           // N m s
+    };
+    Rubbing rubbing(const ConstraintRows& constraint) const;
     void structure(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                    std::span<const std::uint32_t> manifolds);
     void start();
@@ -103,7 +112,7 @@ private:
     bool admissible() const;
     bool push_out(double h);
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
-    void store_contacts(const ContactProblem& problem) const;
+    void store_contacts(const ContactProblem& problem);
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
     bool push_joined(const JointIsland& island, bool moved);
 
@@ -121,6 +130,7 @@ private:
         kept_;                          // u*, u, du, ...; six numbers per body
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
+    std::vector<int> area_firsts_;  // indices of the first constraints of shared areas
     std::vector<Weights> weights_;  // by constraint, of the last factorization
     JointRows joints_;
     JointFlight flight_;

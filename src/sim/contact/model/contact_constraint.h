@@ -51,6 +51,7 @@ struct ManifoldImpulse {
 /// mean of the step; the velocities of the step's start are beside them. A solver changes the momenta, derives the
 /// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
 /// body's displacement in the step. Bodies that no impulse has reached stay unchanged.
+class ContactAreas;
 class ForceField;
 class JointSet;
 
@@ -62,6 +63,7 @@ struct ContactProblem {
     std::vector<ManifoldImpulse>* totals = nullptr;  // by manifold, set by the solvers; null: not asked for
     JointSet* joints = nullptr;                      // null: a scene without joints
     const ForceField* forces = nullptr;              // of the scene, for flights of joined bodies; null: none of those
+    const ContactAreas* areas = nullptr;             // of several manifolds; set by ContactSolver, null: none
 };
 
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the

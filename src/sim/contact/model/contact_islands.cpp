@@ -82,17 +82,39 @@ void ContactIslands::find(std::span<const BodyPair> touching, const std::vector<
     pairs_.resize(manifolds_.size());
     touching_pairs_.assign(size(), 0);
     free_.assign(size(), 1);
+    repeated_.clear();
     for (std::uint32_t k = 0; k < touching.size(); ++k) {
         const std::uint32_t number = island_of(k);
         if (number == no_island) continue;
         const std::uint32_t place = next_manifold[number]++;
         manifolds_[place] = k;
         pairs_[place] = touching[k];
-        if (place == first_manifold_[number] || pairs_[place - 1] != touching[k]) ++touching_pairs_[number];
-        if (members_[touching[k].a].role == Role::still || members_[touching[k].b].role == Role::still)
-            free_[number] = 0;
+        const bool same = place != first_manifold_[number] && pairs_[place - 1] == touching[k];
+        if (!same) ++touching_pairs_[number];
+        const bool still_a = members_[touching[k].a].role == Role::still,
+                   still_b = members_[touching[k].b].role == Role::still;
+        if (still_a || still_b) free_[number] = 0;
+        if (same || still_a || still_b) list_repeated(place, still_a, still_b, same);
     }
+    std::sort(repeated_.begin(), repeated_.end());
+    repeated_.erase(std::unique(repeated_.begin(), repeated_.end()), repeated_.end());
     list_joints(joined);
+}
+
+// Lists a manifold and the one before it with the same two bodies. `place`: in manifolds_.
+void ContactIslands::list_repeated(std::uint32_t place, bool still_a, bool still_b, bool same_pair) {
+    const auto [a, b] = pairs_[place];
+    if (!still_a && !still_b) {
+        if (!same_pair) return;
+        repeated_.push_back({a, b, manifolds_[place - 1]});
+        repeated_.push_back({a, b, manifolds_[place]});
+        return;
+    }
+    const std::uint32_t moved = still_a ? b : a;
+    const std::uint32_t last = std::exchange(members_[moved].on_still, manifolds_[place]);
+    if (last == UINT32_MAX) return;
+    repeated_.push_back({moved, UINT32_MAX, last});
+    repeated_.push_back({moved, UINT32_MAX, manifolds_[place]});
 }
 
 void ContactIslands::list_joints(std::span<const BodyPair> joined) {

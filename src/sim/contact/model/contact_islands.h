@@ -48,6 +48,19 @@ public:
         return std::span(pairs_).subspan(first_manifold_[island],
                                          first_manifold_[island + 1] - first_manifold_[island]);
     }
+    /// A manifold whose bodies meet in further manifolds too. Bodies that contacts do not move count as one: `second` is
+    /// UINT32_MAX for all of them.
+    struct Repeated {
+        std::uint32_t first, second, manifold;
+        auto operator<=>(const Repeated&) const = default;
+        template <class Archive, class Self>
+        static void visit(Archive& archive, Self& self) {
+            auto& [first, second, manifold] = self;
+            archive.keep(first, second, manifold);
+        }
+    };
+    /// Of all islands, ascending.
+    std::span<const Repeated> repeated() const { return repeated_; }
     /// Number of body pairs that touch; a pair of compounds or meshes may have many manifolds.
     std::size_t touching_pairs(std::size_t island) const { return touching_pairs_[island]; }
     /// Whether the island touches only its own bodies.
@@ -59,6 +72,7 @@ private:
     Role look(std::uint32_t i, const std::vector<Body>& bodies);
     std::uint32_t root(std::uint32_t i);
     std::uint32_t connect(std::uint32_t a, std::uint32_t b, const std::vector<Body>& bodies);
+    void list_repeated(std::uint32_t place, bool still_a, bool still_b, bool same_pair);
     void list_joints(std::span<const BodyPair> joined);
 
     // Per body; valid where `round` is the present one.
@@ -67,6 +81,7 @@ private:
         std::uint32_t parent = 0, island = 0;
         Role role = Role::still;
         bool touched = false;
+        std::uint32_t on_still = UINT32_MAX;  // its last manifold with a body that contacts do not move
     };
     std::vector<Member> members_;
     std::vector<std::uint32_t> held_;         // by manifold: index of one of its bodies that takes part
@@ -76,6 +91,7 @@ private:
     std::vector<BodyPair> pairs_;                // in the order of manifolds_
     std::vector<std::uint32_t> touching_pairs_;  // by island
     std::vector<std::uint8_t> free_;
+    std::vector<Repeated> repeated_;
     std::vector<std::uint32_t> joints_, first_joint_;  // empty without joints
 };
 

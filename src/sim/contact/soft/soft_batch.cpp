@@ -72,7 +72,7 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
 }
 
 void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
-                        double mass_unit) {
+                        const std::vector<std::uint32_t>& slot, double mass_unit) {
     layout_ = &layout;
     mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.settings.h) * batch.substep_multiplier;
@@ -97,6 +97,8 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
     lane_points_.resize(groups);
     sources_.resize(groups * lanes);
     joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit, d_});
+    areas_.open(problem, batch, layout, slot,
+                {lanes, rows_.data(), lane_bodies_.data(), lane_moved_.data(), substeps_ * mass_unit, mass_unit});
 }
 
 // For the positions first to last in the blocks' order.
@@ -224,6 +226,12 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane[&Rows::friction_coefficient] = float(pair_value(a.pair_rules.friction, a.friction, b.friction));
     lane[&Rows::size] = float(size);
     lane[&Rows::spread] = m.spread;
+    // A manifold with points that bounce keeps friction of its own.
+    if (problem.areas && problem.areas->holds(manifold) && int(count) == m.count) {
+        areas_.put(problem, manifold, lanes * g + l, count, swapped);
+        lane[&Rows::friction_coefficient] = 0.0f;
+        return;
+    }
     // Seen from the other body the second tangent is reversed too, and so is an impulse along the first.
     lane.set(&Rows::friction,
              Vec3((swapped ? -share : share) * m.friction[0], share * m.friction[1], share * m.torsion));
@@ -303,6 +311,24 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
             kernel_.prepare_joints(holds, first, last, bodies);
         });
     meet();
+    const bool shared = !areas_.empty();
+    const auto each_area_color = [&](auto&& pass) {
+        if (shared) each_color_of(areas_.layout(), pass);
+    };
+    if (shared) {
+        each_own(areas_.layout(), [&](std::size_t first, std::size_t last) {
+            for (std::size_t g = first; g < last; ++g) areas_.pack(problem, g);
+            kernel_.prepare(areas_.groups(), first, last, bodies);
+            for (std::size_t g = first; g < last; ++g) areas_.finish(problem, g);
+        });
+        meet();
+    }
+    const auto rub = [&](bool counts) {
+        each_area_color([&](std::size_t f, std::size_t l) {
+            for (std::size_t g = f; g < l; ++g) areas_.gather(g);
+            kernel_.rub(areas_.groups(), f, l, bodies, counts);
+        });
+    };
     for (int step = 0; step < substeps_; ++step) {
         // The arms of joints turn: their impulses are applied anew in each substep.
         kernel_.accelerate(1 + first_body, 1 + end_body, bodies, step > 0 && !joined);
@@ -311,9 +337,12 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
             if (thread == 0) kernel_.accelerate(1 + layout_->blocks().order().size(), slots_, bodies, false);
             meet();
         }
-        if (step == 0 || joined)
+        if (step == 0 || joined) {
             each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+            each_area_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(areas_.friction(), f, l, bodies); });
+        }
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.warm_start_joints(holds, f, l, bodies); });
+        rub(false);
         each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.push_joints(holds, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
@@ -323,11 +352,16 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
             meet();
         }
         each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, substep_); });
+        rub(true);
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.relax_joints(holds, f, l, bodies, substep_); });
     }
     each_color([&](std::size_t f, std::size_t l) {
         kernel_.sum(groups, f, l);
         for (std::size_t g = f; g < l; ++g) unpack(problem, g);
+    });
+    each_area_color([&](std::size_t f, std::size_t l) {
+        kernel_.sum(areas_.friction(), f, l);
+        for (std::size_t g = f; g < l; ++g) areas_.unpack(problem, g, reached_);
     });
     each_joint_color([&](std::size_t f, std::size_t l) {
         for (std::size_t g = f; g < l; ++g) joints_.unpack(problem, g, reached_, carried);

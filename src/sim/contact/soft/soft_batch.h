@@ -7,6 +7,7 @@
 
 #include "sim/contact/soft/aligned_floats.h"
 #include "sim/contact/soft/energy_budget.h"
+#include "sim/contact/soft/soft_areas.h"
 #include "sim/contact/soft/soft_joints.h"
 #include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/soft/soft_layout.h"
@@ -27,7 +28,8 @@ public:
     /// - slot: as in the layout.
     /// - `batch`: gives the factor of the number of substeps, and the joints.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
-    void prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout, double mass_unit);
+    void prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
+                 const std::vector<std::uint32_t>& slot, double mass_unit);
     /// `batch`: gets the lost energy of a net. `carried`: by joint, gets the moments of soft_joints.h.
     void run(const ContactProblem& problem, IslandBatch& batch, const std::vector<std::uint32_t>& slot,
              std::vector<Vec3>& carried, std::size_t thread, std::size_t team, SpinBarrier& barrier);
@@ -77,6 +79,7 @@ private:
     std::vector<PackedBody> packed_;  // by slot
     IslandEnergies energies_;
     SoftJoints joints_;
+    SoftAreas areas_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;

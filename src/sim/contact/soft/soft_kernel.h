@@ -175,6 +175,9 @@ struct Kernel {
     /// from the velocities and sums the impulses.
     void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
+    /// The friction of shared areas alone (soft_areas.h), whose point has the loads of all manifolds. `counts`: adds it to
+    /// the sums.
+    void (*rub)(const Groups&, std::size_t first, std::size_t last, const Bodies&, bool counts);
     /// Adds the step's impulses into `force` and `moment`.
     void (*sum)(const Groups&, std::size_t first, std::size_t last);
     /// The same for joints; they are pushed and relaxed after the contacts of a sweep, and warm started in each substep.

@@ -405,6 +405,24 @@ void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodi
     sweep<false>(groups, first, last, bodies, substep);
 }
 
+void rub(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, bool counts) {
+    for (std::size_t k = first; k < last; ++k) {
+        const Group g(groups, k);
+        Rows& m = g.rows;
+        Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
+        const Speeds<1> speeds = speeds_of<1>(m, a, b);
+        Changes<1> changes;
+        solve_friction(m, speeds, changes);
+        if (counts) m.friction_sum = m.friction_sum + m.friction;
+        apply(m,
+              total(
+                  m, 0, [&](int i) { return m.point[i].impulse; }, changes.friction),
+              a, b);
+        save(bodies, g.a, g.moved_a, a);
+        save(bodies, g.b, g.moved_b, b);
+    }
+}
+
 void sum(const Groups& groups, std::size_t first, std::size_t last) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);

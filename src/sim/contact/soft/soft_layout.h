@@ -101,6 +101,11 @@ public:
     bool lasts() { return lasts_ && ++steps_ < tuning::soft_layout_steps; }
 
     const BodyBlocks& blocks() const { return blocks_; }
+    /// The block of two slots, of which one may be 0, or the number of blocks for slots of two blocks.
+    std::size_t home(std::uint32_t a, std::uint32_t b) const {
+        if (a != 0 && b != 0 && block_of_[a] != block_of_[b]) return blocks_.size();
+        return block_of_[a != 0 ? a : b];
+    }
     /// The blocks that belong to a thread.
     Share blocks_of(std::size_t thread, std::size_t team) const {
         return {blocks_.size() * thread / team, blocks_.size() * (thread + 1) / team};
