@@ -16,8 +16,9 @@ std::uint64_t faces_of(const Manifold& m) { return m.points[0].feature >> 42; }
 
 // Shapes with many corners may have no room for a point. Then, of the two points nearest each other along the normal,
 // the higher one is removed. Removing the highest of all would gather the points where the body is deepest: it would
-// tip over to the other side and back without end.
-void add(const ContactPoint& p, Manifold& first, Manifold& more) {
+// tip over to the other side and back without end. And so it would if a point that touches made room for one that does
+// not: only points farther off than `touch` (m) give way, as long as there are any.
+void add(const ContactPoint& p, double touch, Manifold& first, Manifold& more) {
     Manifold& to = first.count < Manifold::capacity ? first : more;
     if (to.count < Manifold::capacity) {
         to.points[std::size_t(to.count++)] = p;
@@ -26,14 +27,17 @@ void add(const ContactPoint& p, Manifold& first, Manifold& more) {
     std::array<ContactPoint, 2 * Manifold::capacity + 1> all;
     std::copy(more.points.begin(), more.points.end(), std::copy(first.points.begin(), first.points.end(), all.begin()));
     all.back() = p;
+    const auto off = [&](const ContactPoint& point) { return point.separation > touch; };
+    const bool any_off = std::any_of(all.begin(), all.end(), off);
     double nearest = std::numeric_limits<double>::infinity();
     std::size_t leaves = all.size() - 1;
     for (std::size_t i = 0; i < all.size(); ++i)
         for (std::size_t k = 0; k < i; ++k) {
             const double apart = first.normal.cross(all[i].position - all[k].position).squaredNorm();
-            if (!(apart < nearest)) continue;
+            const std::size_t higher = all[i].separation > all[k].separation ? i : k;
+            if (!(apart < nearest) || (any_off && !off(all[higher]))) continue;
             nearest = apart;
-            leaves = all[i].separation > all[k].separation ? i : k;
+            leaves = higher;
         }
     if (leaves < Manifold::capacity)
         first.points[leaves] = p;
@@ -78,13 +82,14 @@ Manifold grow(std::span<const Manifold> before, double radius, Manifold& found, 
             deepest = std::min(deepest, p.separation);
         }
     const auto kept = [&](const ContactPoint& p) { return first.has(p.feature) || more.has(p.feature); };
+    const double touch = tuning::touch * radius;
     for (const ContactPoint& p : candidates)
-        if (!kept(p) && sank(p.separation, deepest, radius)) add(p, first, more);
+        if (!kept(p) && sank(p.separation, deepest, radius)) add(p, touch, first, more);
     // Points of `found` come first. Shapes with many corners change them all the time as they roll: these points are
     // always kept.
     const std::size_t always = candidates.size() > 2 * Manifold::capacity ? std::size_t(found.count) : 0;
     for (std::size_t i = 0; i < candidates.size(); ++i)
-        if (!kept(candidates[i]) && (first.count < found.count || i < always)) add(candidates[i], first, more);
+        if (!kept(candidates[i]) && (first.count < found.count || i < always)) add(candidates[i], touch, first, more);
     if (first.count == 0) {  // all points of the first have gone
         std::swap(first.points, more.points);
         std::swap(first.count, more.count);
