@@ -1,4 +1,5 @@
 // Exact impacts for a displaced scene, and for bodies listed in another order: the same motion.
+#include "core/deterministic_math.h"
 #include "exact_scenes.h"
 #include "sim/random_shapes.h"
 
@@ -87,6 +88,52 @@ SceneDescription moved(SceneDescription scene, const Vec3& way) {
     return scene;
 }
 
+// The scene turned together with its gravity.
+SceneDescription turned(SceneDescription scene, const Quat& by) {
+    scene.simulation.gravity = by * scene.simulation.gravity;
+    for (BodyDescription& body : scene.bodies) {
+        body.position = by * body.position;
+        body.rotation = (by * body.rotation).normalized();
+        body.velocity = by * body.velocity;
+        body.angular_velocity = by * body.angular_velocity;
+    }
+    return scene;
+}
+
+// Its mirror image in the plane x = 0, which the ground shares.
+SceneDescription mirrored(SceneDescription scene) {
+    for (BodyDescription& body : scene.bodies) {
+        body.position.x() = -body.position.x();
+        body.velocity.x() = -body.velocity.x();
+        body.angular_velocity.tail<2>() = -body.angular_velocity.tail<2>();
+        body.rotation.vec().tail<2>() = -body.rotation.vec().tail<2>();
+    }
+    return scene;
+}
+
+// Largest difference (m) of any body's place after `back` to the other film's frame.
+template <class Back>
+double places_apart(const std::vector<Snapshot>& one, const std::vector<Snapshot>& other, Back&& back) {
+    double most = 0.0;
+    for (std::size_t frame = 0; frame < one.size(); ++frame)
+        for (std::size_t i = 1; i < one[frame].bodies.size(); ++i)
+            most = std::max(most,
+                            (back(other[frame].bodies[i].center_of_mass) - one[frame].bodies[i].center_of_mass).norm());
+    return most;
+}
+
+// To what a disturbance of all places by `size` (m) grows within the second.
+double growth(const SceneDescription& scene, const std::vector<Snapshot>& film_of_it, double size) {
+    Random random(12);
+    double most = 0.0;
+    for (int trial = 0; trial < 3; ++trial) {
+        SceneDescription nearly = scene;
+        for (std::size_t i = 1; i < nearly.bodies.size(); ++i) nearly.bodies[i].position += random.vector(size);
+        most = std::max(most, apart(film_of_it, film(nearly), Vec3::Zero(), same));
+    }
+    return most;
+}
+
 // Whether a picometer at the start becomes more than a micrometer within the second: the scene's own chaos, without
 // displacement or reordering.
 bool chaotic(const SceneDescription& scene, const std::vector<Snapshot>& film_of_it) {
@@ -114,6 +161,23 @@ TEST(ExactFrame, AKilometerAwayTheMotionIsTheSame) {
     EXPECT_GT(steady, 0u);
     if (all.size() >= 20) {  // debug builds run only a few scenes
         EXPECT_GE(10 * steady, 8 * all.size());
+    }
+}
+
+// A turned scene and a mirror image differ by rounding, and by what rounding grows to.
+TEST(ExactFrame, ATurnedOrMirroredSceneMovesAlike) {
+    const Quat quarter = turn(Vec3::UnitZ(), 0.5 * pi), slant = turn({1.0, 2.0, -0.7}, 1.234);
+    for (const SceneDescription& scene : scenes()) {
+        const auto here = film(scene);
+        const double most = 100.0 * growth(scene, here, 1e-13) + 1e-9;
+        for (const Quat& by : {quarter, slant})
+            EXPECT_LE(
+                places_apart(here, film(turned(scene, by)), [&](const Vec3& p) { return Vec3(by.conjugate() * p); }),
+                most)
+                << scene.title;
+        EXPECT_LE(places_apart(here, film(mirrored(scene)), [](const Vec3& p) { return Vec3(-p.x(), p.y(), p.z()); }),
+                  most)
+            << scene.title;
     }
 }
 

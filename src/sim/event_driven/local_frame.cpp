@@ -11,10 +11,13 @@
 namespace tumble {
 namespace {
 
+// Differences below this share of the scene's size are rounding of its place and direction. Not fitted.
+constexpr double same_place = 1e-9;
+
 // Coordinate along a direction in which no two places of a grid coincide.
 double along(const Vec3& v) { return v.x() + std::sqrt(2.0) * v.y() + std::sqrt(3.0) * v.z(); }
 
-// Sort key: the place first; then, for bodies at the same place, as planes often are, all other distinguishing values.
+// Sort key of bodies that are alike otherwise: the place first; then, for bodies at the same place, as planes often are, all other distinguishing values.
 using Key = std::array<double, 12>;
 Key key_of(const Body& body) {
     const auto* space = std::get_if<HalfSpace>(&body.collider);
@@ -33,17 +36,44 @@ Key key_of(const Body& body) {
             double(body.integrator)};
 }
 
-std::vector<std::uint32_t> put_in_order_of_place(std::vector<Body>& bodies) {
+// A value on a fine grid, off common places such as 0 and 1.
+double on_grid(double value, double grid) {
+    return grid > 0.0 && std::isfinite(value) ? std::floor(value / grid + 0.387) : value;
+}
+
+// Sorts by values that do not depend on the world's axes, as far as rounding allows: height, distance from the middle of
+// the moving bodies, size. A scene that is turned together with its gravity, or mirrored, so has the same order.
+void sort_by_shape_of_scene(const std::vector<Body>& bodies, const Vec3& gravity, std::vector<std::uint32_t>& order) {
+    Vec3 middle = Vec3::Zero();
+    double count = 0.0, size = 0.0;
+    for (const std::uint32_t i : order) {
+        if (!bodies[i].dynamic()) continue;
+        middle += bodies[i].position;
+        count += 1.0;
+    }
+    if (count > 0.0) middle /= count;
+    for (const Body& body : bodies)
+        if (body.dynamic()) size = std::max(size, (body.position - middle).norm() + body.radius);
+    const double grid = same_place * size, strength = gravity.norm();
+    std::vector<std::array<double, 3>> keys;
+    for (const Body& body : bodies) {
+        const Vec3 from = body.position - middle;
+        const double height = strength > 0.0 ? from.dot(gravity) / strength : 0.0;
+        keys.push_back({on_grid(height, grid), on_grid(from.norm(), grid), on_grid(body.radius, grid)});
+    }
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t l, std::uint32_t r) { return keys[l] < keys[r]; });
+}
+
+std::vector<std::uint32_t> put_in_order_of_place(std::vector<Body>& bodies, const Vec3& gravity) {
     std::vector<std::pair<Key, std::uint32_t>> places;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) places.push_back({key_of(bodies[i]), i});
     std::sort(places.begin(), places.end());
     std::vector<std::uint32_t> order;
+    for (const auto& place : places) order.push_back(place.second);
+    sort_by_shape_of_scene(bodies, gravity, order);
     std::vector<Body> ordered;
     ordered.reserve(bodies.size());
-    for (const auto& place : places) {
-        order.push_back(place.second);
-        ordered.push_back(std::move(bodies[place.second]));
-    }
+    for (const std::uint32_t i : order) ordered.push_back(std::move(bodies[i]));
     bodies = std::move(ordered);
     return order;
 }
@@ -71,7 +101,7 @@ SceneDescription seen_from(const SceneDescription& scene, const Vec3& origin) {
 }
 
 std::vector<std::uint32_t> put_in_exact_order(std::vector<Body>& bodies, const Vec3& gravity) {
-    const std::vector<std::uint32_t> by_place = put_in_order_of_place(bodies);
+    const std::vector<std::uint32_t> by_place = put_in_order_of_place(bodies, gravity);
     std::vector<std::uint32_t> order = put_in_memory_order(bodies, gravity);
     for (std::uint32_t& body : order) body = by_place[body];
     return order;

@@ -112,7 +112,9 @@ double ImpactFriction::relax(ImpactSystem& cluster, Block& block, Normal normal)
         parting += length * length * push + block.normal_first * step0 + block.normal_second * step1;
         slip0 += k0 * step0;
         slip1 += k1 * step1;
-        const double now = std::max({length * length * std::abs(push), k0 * std::abs(step0), k1 * std::abs(step1)});
+        // By its length: the directions are arbitrary where both compliances are the same.
+        const double slid = std::sqrt(k0 * step0 * (k0 * step0) + k1 * step1 * (k1 * step1));
+        const double now = std::max(length * length * std::abs(push), slid);
         change = std::max(change, now);
         if (now <= tolerance() * change) break;
     }

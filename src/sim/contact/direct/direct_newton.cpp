@@ -16,6 +16,8 @@ using namespace contact_rows;
 
 namespace {
 
+double length(double x, double y) { return std::sqrt(x * x + y * y); }
+
 void add_outer(BlockCholesky::Block& block, const double* left, const BlockCholesky::Row& right) {
     for (int k = 0; k < 6; ++k) block.row[k] += left[k] * right;
 }
@@ -338,9 +340,14 @@ std::pair<double, double> DirectSolver::next_round() {
     auto& change = most.first;
     auto& largest = most.second;
     for (ConstraintRows& constraint : constraints_) {
+        // Friction by its length: the directions of its rows must not decide when the rounds end.
+        const auto& [along_1, along_2] = constraint.friction;
+        change = std::max(change, length(along_1.impulse - along_1.estimate, along_2.impulse - along_2.estimate));
+        largest = std::max(largest, length(along_1.impulse, along_2.impulse));
         each_row(constraint, [&](Row& row) {
-            change = std::max(change, std::abs(row.impulse - row.estimate));
-            largest = std::max(largest, std::abs(row.impulse));
+            const bool across = &row == &along_1 || &row == &along_2;
+            change = std::max(change, across ? 0.0 : std::abs(row.impulse - row.estimate));
+            largest = std::max(largest, across ? 0.0 : std::abs(row.impulse));
             row.estimate = row.impulse;
         });
         if (!limits_held_) set_limits(constraint);
