@@ -29,7 +29,8 @@ struct ConstraintRows {
     double lever[4] = {}, overlap[4] = {};  // m
     double rebound[4] = {};                 // m/s, of points that bounce in an island with joints
     double coefficient = 0.0, limit = 0.0, torsion_limit = 0.0, size = 0.0;
-    double spin_lever = 0.0;  // m, of torsional friction that shares the friction limit
+    double last_limits[2] = {};  // N s, of the rounds before, the later one first
+    double spin_lever = 0.0;     // m, of torsional friction that shares the friction limit
     double free_slip = 0.0, free_spin = 0.0, torsion_mass = 0.0;  // m/s and rad/s after the forces alone; kg m^2
     bool spins = false;  // the spin is faster than torsional friction can stop: it shares the friction limit
     Vec3 tangent_1 = Vec3::Zero();

@@ -61,7 +61,7 @@ void DirectSolver::evaluate_speeds() {
 
 // Impulses for velocities at a fraction of the Newton step, and the weights of the rows in the second derivatives.
 void DirectSolver::evaluate(ConstraintRows& constraint, double along, Weights* weights) const {
-    const double tie = -tuning::direct_tie * speed_scale_ / compliance_;
+    const double tie = ties_ ? -tuning::direct_tie * speed_scale_ / compliance_ : 0.0;
     for (int i = 0; i < constraint.count; ++i) {
         Row& row = constraint.normal[i];
         const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
@@ -258,7 +258,8 @@ double DirectSolver::line_search(double slope_0, double mass_slope, double mass_
     return x;
 }
 
-bool DirectSolver::minimize(int most_steps) {
+// `steps_without_ties`: that follow where most_steps are not enough. A tie whose contact opens makes the steps creep.
+bool DirectSolver::minimize(int most_steps, int steps_without_ties) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
     const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
     // Under a heavy load the links' velocities count, which are a small part of the energy.
@@ -268,14 +269,16 @@ bool DirectSolver::minimize(int most_steps) {
     const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * (loose * speed) * (loose * speed);
     const double stalled = tuning::joint_stall * fastest_, rounding = total_mass_ * stalled * stalled;
     double last = infinity;
-    for (int k = 0; k <= most_steps; ++k) {
+    ties_ = true;
+    for (int k = 0; k <= most_steps + steps_without_ties; ++k) {
         if (k == 0 || joints_.empty()) evaluate_speeds();
         const double now = gradient(gradient_);
         if (now <= tolerance) return true;
         // Joints are stiffer than contacts: where a full step no longer helps, the rest is rounding.
         if (!joints_.empty() && k > 0 && now > 0.1 * last && now <= rounding) return true;
         last = now;
-        if (k == most_steps || !factored()) return false;
+        if (k == most_steps) ties_ = false;
+        if (k == most_steps + steps_without_ties || !factored()) return false;
         for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
         matrix_.solve(step_);
         double slope_0 = 0.0, mass_slope = 0.0, mass_curvature = 0.0;
@@ -355,16 +358,30 @@ std::pair<double, double> DirectSolver::next_round() {
     return most;
 }
 
+// Where friction itself carries the load that limits it, as at a ball wedged at a friction coefficient near 1, the limits
+// follow each other by a factor near 1. Every third time they take their limit (Aitken's extrapolation).
+void DirectSolver::follow_limits(int time) {
+    for (ConstraintRows& constraint : constraints_) {
+        double(&last)[2] = constraint.last_limits;
+        const double step = constraint.limit - last[0], step_before = last[0] - last[1];
+        last[1] = last[0];
+        last[0] = constraint.limit;
+        if (time % 3 < 2 || !(step * step_before > 0.0 && std::abs(step) < std::abs(step_before))) continue;
+        constraint.limit = std::max(0.0, constraint.limit + step * step / (step_before - step));
+    }
+}
+
 // From free_ and the rows' targets to velocity_ and their impulses.
 bool DirectSolver::solve_rounds() {
     // Friction starts soft, where Newton's method does not stall on the edges of the discs; it becomes stiffer from
     // round to round, each starting from the solution of the last, as far as that converges.
     friction_compliance_ = tuning::direct_friction_soft * compliance_;
     start();
-    bool found = false;
-    for (int round = 0; round < tuning::direct_rounds; ++round) {
+    bool found = false, refused = true;  // a solution outside the cones is none: the rounds go on
+    for (int round = 0; round < (refused ? tuning::direct_most_rounds : tuning::direct_rounds); ++round) {
         if (found) kept_ = velocity_;
-        if (!minimize(found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps)) {
+        const int steps = found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps;
+        if (!minimize(steps, refused ? steps : 0)) {
             if (!found) return false;
             velocity_ = kept_;
             for (ConstraintRows& constraint : constraints_)
@@ -373,7 +390,10 @@ bool DirectSolver::solve_rounds() {
         }
         found = true;
         const auto [change, largest] = next_round();
-        if (change <= tuning::direct_round_tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_)) break;
+        refused = !within_cones();
+        if (refused && round >= tuning::direct_rounds) follow_limits(round - tuning::direct_rounds);
+        const double least = std::max(largest, 1e-6 * total_mass_ * speed_scale_);
+        if (!refused && change <= tuning::direct_round_tolerance * least) break;
         friction_compliance_ = std::max(friction_compliance_ * tuning::direct_friction_stiffening,
                                         tuning::direct_friction_stiff * compliance_);
     }

@@ -160,26 +160,28 @@ double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
     return sum;
 }
 
+// Friction may exceed its cone a little, because its limit follows the normal impulse.
+bool DirectSolver::within_cones() const {
+    return std::all_of(constraints_.begin(), constraints_.end(), [&](const ConstraintRows& constraint) {
+        double load = 0.0;
+        for (int i = 0; i < constraint.count; ++i) load += constraint.normal[i].impulse;
+        const double friction = std::hypot(constraint.friction[0].impulse, constraint.friction[1].impulse);
+        return friction <= tuning::direct_cone * constraint.coefficient * load + 1e-6 * total_mass_ * speed_scale_;
+    });
+}
+
 // Contact must not add energy; friction must stay within its cone.
 bool DirectSolver::admissible() const {
     const double scale = total_mass_ * speed_scale_ * speed_scale_;
     if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
     const double closing = tuning::direct_closing * speed_scale_ + tuning::direct_rounding * fastest_;
-    for (const ConstraintRows& constraint : constraints_) {
-        double load = 0.0;
+    for (const ConstraintRows& constraint : constraints_)
         for (int i = 0; i < constraint.count; ++i) {
             const Row& row = constraint.normal[i];
-            load += row.impulse;
             // A body squeezed between walls has no solution.
             if (row.offset + dot(constraint, row, velocity_) < row.target - closing) return false;
         }
-        if (!constraint.rubs) continue;
-        const double friction = hypotenuse(constraint.friction[0].impulse, constraint.friction[1].impulse);
-        const double limit =
-            constraint.area ? shared_load(constraint, &Row::impulse).first : constraint.coefficient * load;
-        if (friction > tuning::direct_cone * limit + 1e-6 * total_mass_ * speed_scale_) return false;
-    }
-    return true;
+    return within_cones();
 }
 
 // Gives the contacts' impulses to the bodies; `reached` marks those that got one, by index in the island.

@@ -72,7 +72,7 @@ private:
                    std::span<const std::uint32_t> manifolds);
     void start();
     void set_limits(ConstraintRows& constraint);
-    bool minimize(int most_steps);
+    bool minimize(int most_steps, int steps_without_ties = 0);
     void evaluate_speeds();
     void evaluate(ConstraintRows& constraint, double along, Weights* weights) const;
     double gradient(std::vector<double>& g);
@@ -82,6 +82,7 @@ private:
     bool factor_weights(bool pushing);
     Weights push_weights(const ConstraintRows& constraint) const;
     void set_masses(bool pushing);
+    void follow_limits(int time);
     bool solve_rounds();
     bool solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                            std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints);
@@ -109,6 +110,7 @@ private:
     double objective(const std::vector<double>& u);
     double kinetic_energy(const std::vector<double>& u) const;
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
+    bool within_cones() const;
     bool admissible() const;
     bool push_out(double h);
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
@@ -147,6 +149,7 @@ private:
     int rounds_ = 0;                       // most passes of a substep
     bool consistent_ = true;               // the impulses fit the velocities
     bool joint_friction_softens_ = false;  // the friction of joints is as soft as that of contacts
+    bool ties_ = true;                     // contacts about to open or close count as closed in the second derivatives
     bool near_rest_ = false;               // see comes_to_rest()
     bool limits_held_ = false;             // friction's limits no longer follow the loads: the rounds did not settle
     bool factored_ = false;                // the matrix is that of the rows' weights

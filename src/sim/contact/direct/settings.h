@@ -35,9 +35,11 @@ inline constexpr double direct_round_tolerance = 1e-4;
 /// fitted: a bound of the cost.
 inline constexpr int direct_first_newton_steps = 40;
 
-/// Newton steps of each later round, number of rounds, and steps of a line search. Not fitted: bounds of the cost.
+/// Newton steps of each later round, number of rounds, the same while friction exceeds its cones, and steps of a line
+/// search. Not fitted: bounds of the cost.
 inline constexpr int direct_newton_steps = 12;
 inline constexpr int direct_rounds = 12;
+inline constexpr int direct_most_rounds = 30;
 inline constexpr int direct_line_search = 25;
 
 /// A contact this close to opening or closing (share of the speed scale) counts as closed in the second
