@@ -30,6 +30,34 @@ bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
     return true;
 }
 
+// The numbers (b c)+ of the least sum of squares for which b^T (b c)+ is `sum`: c minimizes |(b c)+|^2 / 2 - c . sum, by
+// Newton's method from the given c. Returns false where that does not converge.
+bool spread_evenly(const Eigen::MatrixXd& b, const Eigen::VectorXd& sum, Eigen::VectorXd c, Eigen::VectorXd& even) {
+    const auto value = [&](const Eigen::VectorXd& at) {
+        double square = 0.0;
+        for (Eigen::Index k = 0; k < b.rows(); ++k) {
+            const double x = std::max(0.0, b.row(k).dot(at));
+            square += x * x;
+        }
+        return 0.5 * square - at.dot(sum);
+    };
+    for (int step = 0; step < tuning::projection_even_steps; ++step) {
+        even = b.lazyProduct(c).cwiseMax(0.0);
+        Eigen::VectorXd turn = sum - b.transpose().lazyProduct(even);
+        if (turn.norm() <= tuning::projection_even_rounding * sum.norm()) return true;
+        Eigen::MatrixXd gram = tuning::projection_even_least * Eigen::MatrixXd::Identity(b.cols(), b.cols());
+        for (Eigen::Index k = 0; k < b.rows(); ++k)
+            if (even[k] > 0.0) gram += b.row(k).transpose().lazyProduct(b.row(k));
+        const Eigen::VectorXd down = turn;
+        if (!solve_symmetric(gram, turn)) return false;
+        const double slope = down.dot(turn), now = value(c), rounding = 1e-15 * std::abs(now);
+        double share = 1.0;
+        while (share > 1e-6 && value(c + share * turn) > now - 0.1 * share * slope + rounding) share *= 0.5;
+        c += share * turn;
+    }
+    return false;
+}
+
 }  // namespace
 
 ActiveSet::ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
@@ -313,10 +341,13 @@ void ActiveSet::spread() {
     }
     if (Index(rows.size()) > rank) {
         Eigen::MatrixXd gram = b.transpose().lazyProduct(b);
-        Eigen::VectorXd c = b.transpose().lazyProduct(now);
+        const Eigen::VectorXd sum = b.transpose().lazyProduct(now);
+        Eigen::VectorXd c = sum;
         if (solve_symmetric(gram, c)) {
-            const Eigen::VectorXd even = b.lazyProduct(c);
+            Eigen::VectorXd even = b.lazyProduct(c);
             double share = 1.0;
+            if (even.minCoeff() < 0.0 && rows.size() <= tuning::projection_even_rows && !spread_evenly(b, sum, c, even))
+                even = b.lazyProduct(c);
             for (Index k = 0; k < now.size(); ++k)
                 if (even[k] < 0.0) share = std::min(share, now[k] / (now[k] - even[k]));
             for (Index k = 0; k < now.size(); ++k)

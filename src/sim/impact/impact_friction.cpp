@@ -76,7 +76,7 @@ ImpactFriction::Block ImpactFriction::make_block(ImpactSystem& cluster, std::siz
 void ImpactFriction::add_blocks(ImpactSystem& cluster) {
     const std::size_t before = blocks_.size();
     for (std::size_t i = 0; i < cluster.contacts(); ++i) {
-        if (has_block_[i] || !(cluster.impulse(i) > 0.0) || cluster.contact(i).friction <= 0.0) continue;
+        if (has_block_[i] || !cluster.felt(i) || cluster.contact(i).friction <= 0.0) continue;
         has_block_[i] = 1;
         blocks_.push_back(make_block(cluster, i));
     }
@@ -89,52 +89,130 @@ double ImpactFriction::tolerance() const {
     return precision_ == Precision::last_digits ? tuning::friction_tolerance : tuning::friction_tolerance_step;
 }
 
-// Solves a lone block's three impulses; among others does one round towards them. Returns the change of speed, m/s.
-double ImpactFriction::relax(ImpactSystem& cluster, Block& block, Normal normal) const {
+// N s, of the block's friction when its normal impulse grows by `pushed`.
+double ImpactFriction::limit(const ImpactSystem& cluster, const Block& block, double pushed) const {
+    if (limits_held_) return block.limit;
+    return cluster.contact(block.contact).friction * std::max(0.0, cluster.impulse(block.contact) + pushed);
+}
+
+// Solves a lone block's three impulses; among others does one round towards them, for `crowd` times its compliance.
+ImpactFriction::Step ImpactFriction::relaxed(const ImpactSystem& cluster, const Block& block, Normal normal,
+                                             double crowd) const {
     const std::size_t i = block.contact;
-    const double mu = cluster.contact(i).friction, length = cluster.length(i), k0 = block.first_compliance,
-                 k1 = block.second_compliance;
+    const double length = cluster.length(i), k0 = crowd * block.first_compliance, k1 = crowd * block.second_compliance,
+                 kn = crowd * length * length;
     double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, pushed = 0.0;
     double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
     double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
     double f0 = block.f0, f1 = block.f1, change = 0.0;
     const int rounds = blocks_.size() < 2 && normal == Normal::adapted ? tuning::friction_sweeps : 1;
     for (int round = 0; round < rounds; ++round) {
-        const double push = std::max((block.kept - parting) / (length * length), -cluster.impulse(i) - pushed);
+        const double push = std::max((block.kept - parting) / kn, -cluster.impulse(i) - pushed);
         pushed += push;
-        slip0 += block.normal_first * push;
-        slip1 += block.normal_second * push;
+        slip0 += crowd * block.normal_first * push;
+        slip1 += crowd * block.normal_second * push;
         const auto [next0, next1] =
-            least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, mu * (cluster.impulse(i) + pushed), tolerance());
+            least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, limit(cluster, block, pushed), tolerance());
         const double step0 = next0 - f0, step1 = next1 - f1;
         f0 = next0;
         f1 = next1;
-        parting += length * length * push + block.normal_first * step0 + block.normal_second * step1;
+        parting += kn * push + crowd * (block.normal_first * step0 + block.normal_second * step1);
         slip0 += k0 * step0;
         slip1 += k1 * step1;
         // By its length: the directions are arbitrary where both compliances are the same.
         const double slid = std::sqrt(k0 * step0 * (k0 * step0) + k1 * step1 * (k1 * step1));
-        const double now = std::max(length * length * std::abs(push), slid);
+        const double now = std::max({kn * std::abs(push), slid);
         change = std::max(change, now);
         if (now <= tolerance() * change) break;
     }
-    if (pushed != 0.0) cluster.push(i, pushed * length);
-    cluster.push_along(block.first_row, f0 - block.f0);
-    cluster.push_along(block.second_row, f1 - block.f1);
-    block.f0 = f0;
-    block.f1 = f1;
-    return change;
+    return {pushed, f0 - block.f0, f1 - block.f1, change};
+}
+
+void ImpactFriction::take(ImpactSystem& cluster, Block& block, const Step& step) {
+    if (step.push != 0.0) cluster.push(block.contact, step.push * cluster.length(block.contact));
+    cluster.push_along(block.first_row, step.f0);
+    cluster.push_along(block.second_row, step.f1);
+    block.f0 += step.f0;
+    block.f1 += step.f1;
+}
+
+// By block: the number of blocks with which it shares the body that has more of them.
+void ImpactFriction::find_crowds(const ImpactSystem& cluster) {
+    std::vector<int> blocks(cluster.bodies(), 0);  // by body
+    const auto each_body = [&](const Block& block, auto&& visit) {
+        const VelocityRow& row = cluster.rows()[block.contact];
+        for (const auto& [first, count] : {std::pair(row.a, row.bodies_a()), std::pair(row.b, row.bodies_b())})
+            for (std::uint32_t k = 0; first != VelocityRow::none && k < count; ++k) visit(first + k);
+    };
+    for (const Block& block : blocks_) each_body(block, [&](std::uint32_t body) { ++blocks[body]; });
+    crowds_.clear();
+    for (const Block& block : blocks_) {
+        int most = 1;
+        each_body(block, [&](std::uint32_t body) { most = std::max(most, blocks[body]); });
+        crowds_.push_back(double(most));
+    }
+}
+
+// All blocks at once from the same velocities, so that no order of contacts shows in the answer: each as if its bodies'
+// masses were divided among their blocks (Tonge, Benevolenski and Voroshilov 2012, "Mass splitting"), accelerated
+// (Nesterov 1983) and restarted where that overshoots (O'Donoghue and Candes 2015). Returns the largest change of speed in a
+// sweep.
+double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
+    find_crowds(cluster);
+    moved_.assign(blocks_.size(), Step{});
+    double most = 0.0, time = 1.0, ahead = 0.0;
+    limits_held_ = false;
+    for (int sweep = 1;; ++sweep) {
+        double change = 0.0, along = 0.0;
+        steps_.clear();
+        for (std::size_t k = 0; k < blocks_.size(); ++k) {
+            const Block& block = blocks_[k];
+            const Step& step = steps_.emplace_back(relaxed(cluster, block, normal, crowds_[k]));
+            change = std::max(change, step.change);
+            Step& moved = moved_[k];
+            moved = {step.push + ahead * moved.push, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0};
+            const double length = cluster.length(block.contact);
+            along +=
+                crowds_[k] * (length * length * step.push * moved.push + block.first_compliance * step.f0 * moved.f0 +
+                              block.second_compliance * step.f1 * moved.f1);
+        }
+        most = std::max(most, change);
+        const bool last = sweep == tuning::friction_sweeps || change <= tolerance() * most;
+        const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * time * time));
+        ahead = last || along < 0.0 ? 0.0 : (time - 1.0) / next;
+        time = along < 0.0 ? 1.0 : next;
+        for (std::size_t k = 0; k < blocks_.size(); ++k) {
+            const Step &step = steps_[k], &moved = moved_[k];
+            take(cluster, blocks_[k],
+                 {step.push + ahead * moved.push, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0});
+        }
+        if (last) break;
+        if (sweep == tuning::friction_follow) hold_limits(cluster);
+    }
+    limits_held_ = false;
+    return most;
+}
+
+// Where limits and loads drive each other, their sweeps have no end, and would amplify rounding.
+void ImpactFriction::hold_limits(const ImpactSystem& cluster) {
+    for (Block& block : blocks_) block.limit = limit(cluster, block, 0.0);
+    limits_held_ = true;
 }
 
 // Returns the largest change of speed in a sweep.
 double ImpactFriction::relax_all(ImpactSystem& cluster, Normal normal) {
+    if (blocks_.size() > 1 && cluster.contacts() <= tuning::friction_at_once) return relax_at_once(cluster, normal);
     double most = 0.0;
     const int sweeps = blocks_.size() <= tuning::friction_few
                            ? tuning::friction_sweeps
                            : std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
     for (int sweep = 0; sweep < sweeps; ++sweep) {
         double change = 0.0;
-        for (Block& block : blocks_) change = std::max(change, relax(cluster, block, normal));
+        for (Block& block : blocks_) {
+            const Step step = relaxed(cluster, block, normal, 1.0);
+            take(cluster, block, step);
+            change = std::max(change, step.change);
+        }
         most = std::max(most, change);
         if (blocks_.size() < 2 || change <= tolerance() * most) break;
     }

@@ -129,6 +129,10 @@ void ImpactSystem::announce(std::size_t i, double amount, double restitution) {
     announced_.push_back(i);
 }
 
+bool ImpactSystem::felt(std::size_t i) const {
+    return impulse_[i] * length_[i] * length_[i] > tuning::impact_felt * rounding_;
+}
+
 void ImpactSystem::end_pass() {
     std::size_t entry = trace_->entries.size() - announced_.size();
     for (const std::size_t i : announced_) trace_->entries[entry++].speed_after = speed(i);
@@ -172,7 +176,7 @@ std::vector<JointBlow> ImpactSystem::store(std::vector<Contact>& contacts, std::
     for (std::size_t i = 0; i < index_.size(); ++i) {
         Contact& c = contacts[index_[i]];
         c.impact = impulse_[i];
-        if (c.impact > 0.0) c.bounce_velocity = std::max(0.0, speed(i));
+        if (felt(i)) c.bounce_velocity = std::max(0.0, speed(i));
     }
     return blows;
 }

@@ -39,6 +39,14 @@ inline constexpr double projection_dependent = 1e-8;
 inline constexpr double projection_spread_dependent = 1e-12;
 inline constexpr double projection_spread_independent = 1e-3;
 
+/// Most rows over which impulses are distributed with the least sum of squares among those that only push, with the most
+/// Newton steps, the relative error of their sum, and the least second derivative. Beyond, the distribution stops short
+/// of that. Limits the cost; not fitted: rounding.
+inline constexpr std::size_t projection_even_rows = 128;
+inline constexpr int projection_even_steps = 30;
+inline constexpr double projection_even_rounding = 1e-14;
+inline constexpr double projection_even_least = 1e-10;
+
 /// A row whose multiplier falls slower than this, relative to the rising one, does not block it: rounding. Not
 /// fitted: rounding.
 inline constexpr double projection_weight = 1e-13;
@@ -53,6 +61,11 @@ inline constexpr double approach_relative = 1e-13;
 
 /// and those below this share of its largest speed. Not fitted: some ten units of rounding.
 inline constexpr double approach_rounding = 4e-15;
+
+/// An impulse counts, for friction and as a bounce, if it changes v_rel by more than this many times the rounding of speeds:
+/// 1e-9 of the fastest approach. Not fitted: far above the rounding of positions and normals. Related test:
+/// Rack.BouncesAsItsMirrorImage.
+inline constexpr double impact_felt = 1e4;
 
 /// Compliance of a joint's locked coordinates at an impact, of unit forms: square root of the rounding of double
 /// precision, where a pass removes all but a share of 1e-8 of an error for the least of the two causes, rounding and the
@@ -113,6 +126,13 @@ inline constexpr double friction_tolerance_step = 1e-5;
 /// Contacts with friction up to which that tolerance holds, and the tolerance for more. Limits the cost.
 inline constexpr std::size_t friction_few = 8;
 inline constexpr double friction_tolerance_many = 1e-6;
+
+/// Contacts of an impact up to which those with friction are relaxed at once, so that no order shows: a rack of 15 balls has
+/// 47. Beyond, one after the other takes fewer sweeps. Limits the cost. Related test: Rack.BouncesAsItsMirrorImage.
+inline constexpr std::size_t friction_at_once = 128;
+
+/// Sweeps at once in which friction's limits follow the normal impulses. Not fitted: most impacts need fewer.
+inline constexpr int friction_follow = 100;
 
 /// Newton steps to the edge of a friction disc. The method converges quadratically: 4 to 8 are enough for any
 /// compliance. Not fitted: a bound of the cost.

@@ -87,6 +87,7 @@ void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
     const ImpactSettings impacts{.threshold = threshold(step),
                                  .slow = tuning::impact_slow * threshold(step),
                                  .law = step.settings.impact_law,
+                                 .resting = tuning::impact_slow * threshold(step),
                                  .friction = true,
                                  .span = step.h};
     Island& island = colliding_[index];
