@@ -121,7 +121,7 @@ ImpactFriction::Step ImpactFriction::relaxed(const ImpactSystem& cluster, const 
         slip1 += k1 * step1;
         // By its length: the directions are arbitrary where both compliances are the same.
         const double slid = std::sqrt(k0 * step0 * (k0 * step0) + k1 * step1 * (k1 * step1));
-        const double now = std::max({kn * std::abs(push), slid);
+        const double now = std::max(kn * std::abs(push), slid);
         change = std::max(change, now);
         if (now <= tolerance() * change) break;
     }

@@ -163,10 +163,13 @@ double DirectSolver::kinetic_energy(const std::vector<double>& u) const {
 // Friction may exceed its cone a little, because its limit follows the normal impulse.
 bool DirectSolver::within_cones() const {
     return std::all_of(constraints_.begin(), constraints_.end(), [&](const ConstraintRows& constraint) {
+        if (!constraint.rubs) return true;
         double load = 0.0;
         for (int i = 0; i < constraint.count; ++i) load += constraint.normal[i].impulse;
-        const double friction = std::hypot(constraint.friction[0].impulse, constraint.friction[1].impulse);
-        return friction <= tuning::direct_cone * constraint.coefficient * load + 1e-6 * total_mass_ * speed_scale_;
+        const double friction = hypotenuse(constraint.friction[0].impulse, constraint.friction[1].impulse);
+        const double limit =
+            constraint.area ? shared_load(constraint, &Row::impulse).first : constraint.coefficient * load;
+        return friction <= tuning::direct_cone * limit + 1e-6 * total_mass_ * speed_scale_;
     });
 }
 
