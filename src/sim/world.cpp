@@ -3,10 +3,12 @@
 #include "core/check.h"
 #include "sim/checkpoint/archive.h"
 #include "sim/contact/contact_solver.h"
+#include "sim/contact/model/free_motion.h"
 #include "sim/contact/model/sleep.h"
 #include "sim/detection/broad_phase.h"
 #include "sim/detection/narrow_phase.h"
 #include "sim/dynamics/kinematic_body.h"
+#include "sim/impact/settings.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/joint_structure.h"
 #include "sim/log/contact_log.h"
@@ -215,11 +217,13 @@ void World::State::apply_forces(const StepContext& step) {
 }
 
 void World::State::solve_contacts(const StepContext& step) {
-    const double threshold = ImpactStage::threshold(step), least_rebound = motion->least_rebound(step);
+    const double threshold = ImpactStage::threshold(step), rebound = motion->rebound_share();
+    const FreeMotion free = step.free_motion();
     const ContactProblem problem{set.bodies,
                                  detection.manifolds(),
                                  set.old_velocities,
-                                 {step.h, threshold, least_rebound},
+                                 {step.h, threshold, rebound * step.gravity_speed(), &free,
+                                  tuning::restitution_threshold, rebound, settings.impacts == ImpactMode::stepped},
                                  log ? &totals : nullptr,
                                  joints.empty() ? nullptr : &joints,
                                  &forces.field()};

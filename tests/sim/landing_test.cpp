@@ -19,6 +19,20 @@ using namespace tumble::testing;
 namespace {
 
 const Vec3 gravity(0.0, -9.81, 0.0);
+constexpr double h = 1.0 / 960.0;  // s
+
+// Gravity alone, on some bodies.
+const ForceField& field() {
+    static const ForceField falling = [] {
+        SceneDescription scene;
+        scene.simulation.gravity = gravity;
+        scene.bodies.resize(8);
+        return ForceField(scene);
+    }();
+    return falling;
+}
+
+FreeMotion falling() { return {field(), {}, 0.0, h, h}; }
 
 Body at_time(const Body& body, double t) {
     Body there = body;
@@ -60,6 +74,13 @@ std::optional<double> gap_acceleration(const Body& a, const Body& b) {
     return (gap[0] - 2.0 * gap[1] + gap[2]) / (d * d);
 }
 
+// Gaps between the contacts' own points.
+std::vector<Gap> flat_gaps(const std::vector<Contact>& contacts) {
+    std::vector<Gap> gaps;
+    for (const Contact& c : contacts) gaps.push_back({c.normal, c.corners, {}, c.arm_a, c.arm_b});
+    return gaps;
+}
+
 double pressing(const Body& a, const Body& b) {
     auto m = *one_point(a, b, 1e-6);
     m.a = 0;
@@ -67,9 +88,9 @@ double pressing(const Body& a, const Body& b) {
     const std::vector<Body> bodies{a, b};
     std::vector<Contact> contacts;
     add_contacts(m, bodies, contacts);
-    std::vector<ContactGap> gaps;
-    make_gaps({m}, contacts, bodies, gaps);
-    return pressing_acceleration(contacts[0], gaps[0], a, b, gravity, false, false);
+    std::vector<Gap> gaps;
+    make_gaps({m}, bodies, gaps);
+    return pressing_acceleration(contacts[0], gaps[0], bodies, falling(), Supports(2, support::none));
 }
 
 Body ground() {
@@ -167,11 +188,13 @@ TEST(MarkHeld, DoesNotDependOnTheOrderOfContacts) {
             c.corners = Corners::of_b;
             contacts.push_back(c);
         }
-        std::vector<bool> held(bodies.size(), false), other(bodies.size(), false);
-        const std::vector<ContactGap> gaps(contacts.size());
-        mark_held(contacts, gaps, bodies, gravity, 0.0, 0.2, held);
+        Supports held(bodies.size(), support::none), other(bodies.size(), support::none);
+        const HoldLimits limits{9.81, 0.0, 0.02};
+        std::vector<Gap> gaps = flat_gaps(contacts);
+        mark_held(contacts, gaps, bodies, falling(), limits, held);
         std::reverse(contacts.begin(), contacts.end());
-        mark_held(contacts, gaps, bodies, gravity, 0.0, 0.2, other);
+        std::reverse(gaps.begin(), gaps.end());
+        mark_held(contacts, gaps, bodies, falling(), limits, other);
         ASSERT_EQ(held, other) << trial;
     }
 }
@@ -190,9 +213,9 @@ TEST(MarkHeld, ReleasesRestingBodiesThatPart) {
     const double rest = -tuning::direct_slop * bodies[1].radius;
     const auto held = [&](double separation) {
         c.separation = separation;
-        std::vector<bool> marks(2, false);
-        mark_held({c}, {{}}, bodies, gravity, 0.0, 0.01, marks);
-        return bool(marks[1]);
+        Supports marks(2, support::none);
+        mark_held({c}, flat_gaps({c}), bodies, falling(), {9.81, 0.0, 0.001}, marks);
+        return marks[1] != support::none;
     };
     EXPECT_FALSE(held(0.0));
     EXPECT_FALSE(held(rest * (1.0 - 1e-9)));

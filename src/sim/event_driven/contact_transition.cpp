@@ -10,103 +10,61 @@
 namespace tumble {
 namespace {
 
-// Acceleration of the body's point at `arm` without contacts: g + alpha x r + omega x (omega x r),
-// alpha = -I^-1 (omega x L).
-Vec3 free_acceleration(const Body& body, const Vec3& arm, const Vec3& gravity, bool supported) {
-    if (supported || !body.dynamic()) return Vec3::Zero();
-    const Vec3& omega = body.angular_velocity;
-    const Vec3 alpha = -(body.inverse_inertia * omega.cross(body.angular_momentum));
-    return gravity + alpha.cross(arm) + omega.cross(omega.cross(arm));
+// Acceleration (m/s^2) of the body's point at `arm`: with its support where it has one.
+Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<Body>& bodies, const FreeMotion& free,
+                            const Supports& supports) {
+    const Body& body = bodies[k];
+    if (!body.dynamic() || (!body.asleep && supports[k] == support::none)) return free.acceleration(k, body, arm);
+    if (body.asleep || supports[k] == support::still) return Vec3::Zero();
+    const Body& carrier = bodies[supports[k]];
+    return free.acceleration(supports[k], carrier, body.position + arm - carrier.position);
 }
 
-// n' of the contact's normal (1/s): it rotates with the body whose face it is; of crossing edges n stays across both,
-// so that with c = e_a x e_b, n' is the component of c' / |c| across n.
-Vec3 normal_rate(const Contact& c, const PointGeometry& geometry, const Body& a, const Body& b) {
-    const auto* ball = std::get_if<BallOverFace>(&geometry);
-    if (c.corners == Corners::of_a || (ball && ball->ball_of_a)) return b.angular_velocity.cross(c.normal);
-    if (c.corners == Corners::of_b || ball) return a.angular_velocity.cross(c.normal);
-    const auto* edges = std::get_if<CrossingEdges>(&geometry);
-    if (!edges) return Vec3::Zero();
-    const Vec3 across = edges->of_a.cross(edges->of_b);
-    const double length = across.norm();
-    if (!(length > 0.0)) return Vec3::Zero();
-    const Vec3 change = a.angular_velocity.cross(edges->of_a).cross(edges->of_b) +
-                        edges->of_a.cross(b.angular_velocity.cross(edges->of_b));
-    const double sign = across.dot(c.normal) < 0.0 ? -1.0 : 1.0;
-    return sign / length * (change - c.normal.dot(change) * c.normal);
-}
-
-// Contribution of the normal's rotation to the acceleration along n, for points with the relative velocity v. For the
-// gap between two points, d n, or between a point and a line along the unit e, less a radius: with s = d n.e,
-// d'' = n.a + (v^2 - (n.v)^2 - s'^2) / d. For any other gap: d/dt (n.v) = n.a + 2 n'.v (Baraff 1997, "Physically Based
-// Modeling", resting contact).
-double turning(const Contact& c, const ContactGap& gap, const Body& a, const Body& b, const Vec3& v) {
-    const auto* curve = std::get_if<CurvedGap>(&gap.geometry);
-    if (!curve) return 2.0 * normal_rate(c, gap.geometry, a, b).dot(v);
-    const double distance = (b.position + gap.arm_b - a.position - gap.arm_a).norm();
-    if (!(distance > 0.0)) return 0.0;
-    const Body& edged = std::holds_alternative<Ball>(a.collider) ? b : a;
-    const double along = v.dot(curve->line) + distance * c.normal.dot(edged.angular_velocity.cross(curve->line));
-    return ((v - c.normal.dot(v) * c.normal).squaredNorm() - along * along) / distance;
-}
-
-// A sum whose terms cancel up to rounding is set to zero.
-double beyond_rounding(double sum, double terms) {
-    return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0;
+// Whether a touching contact that does not overlap holds its bodies.
+bool presses(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
+             const HoldLimits& limits, const Supports& supports) {
+    const double part = relative_velocity(c, bodies[c.a], bodies[c.b]);
+    const double pressing = -pressing_acceleration(c, gap, bodies, free, supports);
+    if (!(pressing > 0.0)) return false;
+    const double most = std::max(limits.gravity, pressing);
+    return c.separation <= std::max(c.touch_distance, 0.5 * most * limits.near * limits.near) &&
+           part <= most * limits.release;
 }
 
 }  // namespace
 
-void make_gaps(const std::vector<Manifold>& manifolds, const std::vector<Contact>& contacts,
-               const std::vector<Body>& bodies, std::vector<ContactGap>& gaps) {
-    gaps.clear();
-    for (const Manifold& m : manifolds) {
-        ContactGap gap{m.geometry()};
-        const auto* curve = std::get_if<CurvedGap>(&gap.geometry);
-        const auto* ball = std::get_if<BallOverFace>(&gap.geometry);
-        for (int i = 0; i < m.count; ++i) {
-            const Contact& c = contacts[gaps.size()];
-            const bool own = !curve && !ball;
-            gap.arm_a = own ? c.arm_a : Vec3((curve ? curve->on_a : ball->center) - bodies[m.a].position);
-            gap.arm_b = own ? c.arm_b : Vec3((curve ? curve->on_b : ball->center) - bodies[m.b].position);
-            gaps.push_back(gap);
-        }
-    }
+std::uint32_t support_on(std::uint32_t k, const Body& body, const Supports& supports) {
+    if (!body.dynamic()) return body.track ? k : support::still;
+    return body.asleep || supports[k] == support::none ? support::still : supports[k];
 }
 
-double pressing_acceleration(const Contact& c, const ContactGap& gap, const Body& a, const Body& b, const Vec3& gravity,
-                             bool a_supported, bool b_supported) {
-    const Vec3 &arm_a = gap.arm_a, &arm_b = gap.arm_b;
-    const Vec3 of_a = free_acceleration(a, arm_a, gravity, a_supported),
-               of_b = free_acceleration(b, arm_b, gravity, b_supported);
-    const double more = turning(c, gap, a, b, b.point_velocity(arm_b) - a.point_velocity(arm_a));
-    return beyond_rounding(c.normal.dot(of_b - of_a) + more, of_a.norm() + of_b.norm() + std::abs(more));
+double pressing_acceleration(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
+                             const Supports& supports) {
+    return gap_acceleration(gap, bodies[c.a], bodies[c.b],
+                            supported_acceleration(c.a, gap.arm_a, bodies, free, supports),
+                            supported_acceleration(c.b, gap.arm_b, bodies, free, supports));
 }
 
-void mark_held(const std::vector<Contact>& contacts, const std::vector<ContactGap>& gaps,
-               const std::vector<Body>& bodies, const Vec3& gravity, double near, double release,
-               std::vector<bool>& held) {
-    std::vector<std::uint32_t> found;
+void mark_held(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, const std::vector<Body>& bodies,
+               const FreeMotion& free, const HoldLimits& limits, Supports& supports) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> found;  // body and support
     do {  // in rounds: the result must not depend on the contacts' order
         found.clear();
         for (std::size_t i = 0; i < contacts.size(); ++i) {
             const Contact& c = contacts[i];
             const Body &a = bodies[c.a], &b = bodies[c.b];
-            if (!(c.separation <= std::max(c.touch_distance, near)) || (held[c.a] && held[c.b])) continue;
+            const auto needs = [&](std::uint32_t k) { return bodies[k].dynamic() && supports[k] == support::none; };
+            if (!needs(c.a) && !needs(c.b)) continue;
             // Position correction leaves this overlap to a resting body, to the last digit: it alone does not hold the
             // body.
             const double left = tuning::direct_slop * std::min(a.radius, b.radius);
             const bool overlap = c.separation < -(left + c.touch_distance);
-            if (!overlap) {
-                if (relative_velocity(c, a, b) > release) continue;
-                const bool a_stands = !a.dynamic() || a.asleep || held[c.a],
-                           b_stands = !b.dynamic() || b.asleep || held[c.b];
-                if (!(pressing_acceleration(c, gaps[i], a, b, gravity, a_stands, b_stands) < 0.0)) continue;
-            }
-            for (const std::uint32_t k : {c.a, c.b})
-                if (bodies[k].dynamic() && !held[k]) found.push_back(k);
+            if (!overlap && !presses(c, gaps[i], bodies, free, limits, supports)) continue;
+            for (const auto& [k, other] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+                if (needs(k)) found.push_back({k, support_on(other, bodies[other], supports)});
         }
-        for (const std::uint32_t k : found) held[k] = true;
+        std::sort(found.begin(), found.end());
+        for (auto entry = found.rbegin(); entry != found.rend(); ++entry) supports[entry->first] = entry->second;
     } while (!found.empty());
 }
 

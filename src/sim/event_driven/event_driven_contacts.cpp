@@ -18,16 +18,15 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 }  // namespace
 
-bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std::vector<ContactGap>& gaps,
+bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps,
                                  std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
-    held_.assign(bodies.size(), false);
+    supports_.assign(bodies.size(), support::none);
     // A body that rolls over a hill leaves it along the tangent in each step, by v^2 h^2 / 2 R: less than gravity's
     // displacement while it stays on.
-    const double g = settings_.gravity.norm();
-    mark_held(contacts, gaps, bodies, settings_.gravity, 0.5 * g * h_ * h_, g * h_, held_);
+    mark_held(contacts, gaps, bodies, free_motion(forces, {step, 0.0}), {settings_.gravity.norm(), h_, h_}, supports_);
     bool any = false;
     for (const std::uint32_t i : movers_) {
-        if (!held(bodies[i]) || held_[i] || bodies[i].jointed) continue;
+        if (!held(bodies[i]) || supports_[i] != support::none || bodies[i].jointed) continue;
         events_[i].pushed = false;
         fly(i, bodies, forces, {step, 0.0});
         taken_off_.push_back(i);
@@ -90,13 +89,18 @@ void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t s
 void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     const auto& receivers = cluster_.impulse_receivers();
     if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
-    held_.resize(bodies.size());
-    for (std::size_t k = 0; k < bodies.size(); ++k) held_[k] = held(bodies[k]);
-    for (const std::uint32_t k : receivers) held_[k] = false;
-    mark_held(cluster_.contacts(), cluster_.gaps(), bodies, settings_.gravity, 0.0, settings_.gravity.norm() * h_,
-              held_);
+    supports_.resize(bodies.size(), support::none);
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        if (!held(bodies[k]))
+            supports_[k] = support::none;
+        else if (supports_[k] == support::none)
+            supports_[k] = support::still;
+    }
+    for (const std::uint32_t k : receivers) supports_[k] = support::none;
+    mark_held(cluster_.contacts(), cluster_.gaps(), bodies, free_motion(forces, now),
+              {settings_.gravity.norm(), 0.0, h_}, supports_);
     for (const std::uint32_t k : receivers) {
-        if (!held(bodies[k]) || held_[k] || bodies[k].jointed) continue;
+        if (!held(bodies[k]) || supports_[k] != support::none || bodies[k].jointed) continue;
         bodies[k].flying = true;
         // Gravity of the whole step has acted already; the flight adds that of its rest once more.
         if (log_) log_->add_gravity(k, bodies[k], -clock_.between(now, {now.step + 1, 0.0}), bodies[k].position);
@@ -119,27 +123,38 @@ void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMo
 void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> switched;
     std::vector<std::uint32_t> switching;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> landing;  // body and support
+    const FreeMotion free = free_motion(forces, now);
+    supports_.resize(bodies.size(), support::none);
     do {  // in rounds: the result must not depend on the contacts' order
         switching.clear();
+        landing.clear();
         for (std::size_t i = 0; i < cluster_.contacts().size(); ++i) {
             const Contact& c = cluster_.contacts()[i];
             const Body &a = bodies[c.a], &b = bodies[c.b];
             if (!a.flying && !b.flying) continue;
-            const double acceleration =
-                pressing_acceleration(c, cluster_.gaps()[i], a, b, settings_.gravity, !a.flying, !b.flying);
+            const double acceleration = pressing_acceleration(c, cluster_.gaps()[i], bodies, free, supports_);
             const double time = std::max(a.flying ? zeno_limit(c.a) : 0.0, b.flying ? zeno_limit(c.b) : 0.0);
             const double speed = std::abs(relative_velocity(c, a, b));
             const bool below_limit = (a.flying && below_zeno_limit(c.a, bodies, speed)) ||
                                      (b.flying && below_zeno_limit(c.b, bodies, speed));
             if (!below_limit && !hop_is_shorter(c, a, b, acceleration, time)) continue;
-            for (const std::uint32_t k : {c.a, c.b})
-                if (bodies[k].flying) switching.push_back(k);
+            for (const auto& [k, other] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
+                if (bodies[k].flying) landing.push_back({k, support_on(other, bodies[other], supports_)});
+        }
+        std::sort(landing.begin(), landing.end());
+        for (auto entry = landing.rbegin(); entry != landing.rend(); ++entry) {
+            supports_[entry->first] = entry->second;
+            switching.push_back(entry->first);
         }
         for (std::size_t i = switching.size(); i-- > 0;)
             if (const std::uint32_t g = groups_.group(switching[i]); g != GroupFlights::none)
                 switching.insert(switching.end(), groups_.groups()[g].bodies.begin(), groups_.groups()[g].bodies.end());
         sort_unique(switching);
-        for (const std::uint32_t k : switching) bodies[k].flying = false;
+        for (const std::uint32_t k : switching) {
+            bodies[k].flying = false;
+            if (supports_[k] == support::none) supports_[k] = support::still;
+        }
         switched.insert(switched.end(), switching.begin(), switching.end());
     } while (!switching.empty());
     const auto& receivers = cluster_.impulse_receivers();

@@ -66,7 +66,8 @@ void EventDrivenMotion::take_off_groups(std::vector<Body>& bodies, const ForceFi
         const std::vector<std::uint32_t>& members = groups_.groups()[g].bodies;
         const bool flying = bodies[members[0]].flying;
         const auto any = [&](auto&& test) { return std::any_of(members.begin(), members.end(), test); };
-        if (any([&](std::uint32_t k) { return bodies[k].asleep || (!flying && held_[k]); })) continue;
+        if (any([&](std::uint32_t k) { return bodies[k].asleep || (!flying && supports_[k] != support::none); }))
+            continue;
         const auto moves = [&](const Body& body, const Vec3& velocity, const Vec3& turn) {
             return velocity.norm() + body.radius * turn.norm() > rest;
         };
@@ -146,7 +147,7 @@ void EventDrivenMotion::release_groups(std::vector<Body>& bodies, const ForceFie
     sort_unique(released);
     for (const std::uint32_t g : released) {
         const std::vector<std::uint32_t>& members = groups_.groups()[g].bodies;
-        const auto stays = [&](std::uint32_t k) { return held_[k] || bodies[k].asleep; };
+        const auto stays = [&](std::uint32_t k) { return supports_[k] != support::none || bodies[k].asleep; };
         if (!groups_.can_fly(g, forces, h_) || std::any_of(members.begin(), members.end(), stays)) continue;
         for (const std::uint32_t k : members) {
             Body& body = bodies[k];

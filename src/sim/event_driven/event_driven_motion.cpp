@@ -407,14 +407,20 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     if (meeting)
         for (const std::uint32_t k : {i, j}) events_[k].meetings += bodies[k].dynamic();
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
-    const bool changed = cluster_.resolve(i, j, bodies, neighbor_boxes_, bring_body,
-                                          {.threshold = threshold,
-                                           .law = settings_.impact_law,
-                                           .resting = slow,
-                                           .friction = true,
-                                           .complete = true,
-                                           .span = h_},
-                                          log_ ? &trace_ : nullptr);
+    const auto load = [&](const Contact& c) {
+        if (bodies[c.a].flying || bodies[c.b].flying) return 0.0;
+        return std::max(0.0, -h_ * pressing_acceleration(c, bodies, free_motion(forces, now), supports_));
+    };
+    supports_.resize(bodies.size(), support::none);
+    const bool changed =
+        cluster_.resolve(i, j, bodies, neighbor_boxes_, bring_body, meeting ? ImpactCluster::LoadSpeed(load) : nullptr,
+                         {.threshold = threshold,
+                          .law = settings_.impact_law,
+                          .resting = slow,
+                          .friction = true,
+                          .complete = true,
+                          .span = h_},
+                         log_ ? &trace_ : nullptr);
     if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now), cluster_.blows());
     if (!changed && meeting) {  // no more of these in this step
         events_[i].meetings = tuning::meetings_in_step;

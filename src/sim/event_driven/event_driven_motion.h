@@ -15,6 +15,7 @@
 #include "sim/contact/model/contact.h"
 #include "sim/contact/model/sleep.h"
 #include "sim/dynamics/forces.h"
+#include "sim/event_driven/contact_transition.h"
 #include "sim/event_driven/event_queue.h"
 #include "sim/event_driven/event_time.h"
 #include "sim/event_driven/group_flights.h"
@@ -53,7 +54,7 @@ public:
     /// Groups of joined bodies end their flights of the step.
     void end_flights() { groups_.end_all(); }
     /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
-    bool take_off(const std::vector<Contact>& contacts, const std::vector<ContactGap>& gaps, std::vector<Body>& bodies,
+    bool take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, std::vector<Body>& bodies,
                   const ForceField& forces, std::int64_t step);
     /// Whether any body needs stepping: one in contact, a moving kinematic one, one under varying forces.
     bool stepping(const std::vector<Body>& bodies) const;
@@ -73,6 +74,8 @@ public:
     bool stands_at(std::int64_t step) const {
         return until_ == step && (queue_.empty() || !(queue_.first_moment() < EventTime{step, 0.0}));
     }
+    /// The velocities of kinematic bodies at the start of the step, by body. They must outlive the last run().
+    void start_from(const std::vector<BodyVelocity>& velocities) { at_start_ = &velocities; }
     /// Moves all moving bodies to their poses at the start of a step.
     void place(std::vector<Body>& bodies, std::int64_t step) const;
 
@@ -81,8 +84,9 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster,
                log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
-               velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, held] = self;
-        archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands);
+               velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, supports, at_start] =
+            self;
+        archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands, at_start);
         archive.keep_each(balls);
         archive.by_body(events);
         archive.by_body(velocities_before);
@@ -91,7 +95,7 @@ public:
         archive.between(0, until, EventTime::last_step);
         archive.bodies(taken_off);
         archive.bodies(changed);
-        archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, held);
+        archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, supports);
     }
 
 private:
@@ -179,6 +183,9 @@ private:
     void count_impact(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     bool below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const;
     double zeno_limit(std::uint32_t i) const;
+    FreeMotion free_motion(const ForceField& forces, const EventTime& now) const {
+        return {forces, *at_start_, clock_.seconds(now), clock_.seconds(now.step + 1), h_};
+    }
     ImpactTime impact_time(const EventTime& now) const;
     EventTime later(const EventTime& now, double seconds) const;
     MovingBody moving_body(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) const;
@@ -230,7 +237,8 @@ private:
     std::int64_t impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;                                       // of the current run
     std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;  // bodies with new trajectories
-    std::vector<bool> held_;
+    Supports supports_;
+    const std::vector<BodyVelocity>* at_start_ = nullptr;
 };
 
 }  // namespace tumble

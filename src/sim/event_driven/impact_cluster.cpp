@@ -176,8 +176,8 @@ void ImpactCluster::resolve_island(Island& island, std::vector<Body>& bodies, co
 }
 
 bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies,
-                            const NeighborBoxes& neighbor_boxes, const Bring& bring, const ImpactSettings& settings,
-                            ImpactTrace* trace) {
+                            const NeighborBoxes& neighbor_boxes, const Bring& bring, const LoadSpeed& load,
+                            const ImpactSettings& settings, ImpactTrace* trace) {
     receivers_.clear();
     broken_.clear();
     // If the manifold misses the contact that the search found, a wider margin finds it.
@@ -194,6 +194,8 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
                 return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
             });
             make_contacts(manifolds_, bodies, contacts_);
+            if (load)
+                for (Contact& c : contacts_) c.load_speed = load(c);
             Island reached = island(bodies, bring);
             before_.clear();
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
@@ -202,7 +204,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const std::uint32_t k : reached.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbor_boxes, bring);
         }
-        make_gaps(manifolds_, contacts_, bodies, gaps_);
+        make_gaps(manifolds_, bodies, gaps_);
         for (const Contact& c : contacts_) {
             if (c.impact <= 0.0) continue;
             add_impact(c, bodies[c.a], bodies[c.b]);

@@ -35,15 +35,19 @@ public:
     /// `groups`: of joined bodies. It must outlive the cluster.
     explicit ImpactCluster(GroupFlights& groups) : groups_(groups) { scratch_.choice = AxisChoice::nearest; }
 
+    /// Load speed of a contact, m/s.
+    using LoadSpeed = std::function<double(const Contact&)>;
+
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
     /// whether anything changed. Joints whose strength the impact exceeds break (joint_strength.h). `trace`: gets the
-    /// impulses on contacts(), or null.
+    /// impulses on contacts(), or null. `load`: null where contacts have none.
     bool resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
-                 const Bring& bring, const ImpactSettings& settings, ImpactTrace* trace = nullptr);
+                 const Bring& bring, const LoadSpeed& load, const ImpactSettings& settings,
+                 ImpactTrace* trace = nullptr);
 
     /// Of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }
-    const std::vector<ContactGap>& gaps() const { return gaps_; }  // by contact
+    const std::vector<Gap>& gaps() const { return gaps_; }  // by contact
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& impulse_receivers() const { return receivers_; }
     const std::vector<JointBlow>& blows() const { return blows_; }
@@ -80,7 +84,7 @@ private:
     std::vector<Manifold> manifolds_;
     enum class Reach : char { none, motion, impulse };  // effect of an impact on the two bodies of a contact
     std::vector<Contact> contacts_;
-    std::vector<ContactGap> gaps_;
+    std::vector<Gap> gaps_;
     std::vector<Contact> own_;
     std::vector<double> before_;  // by contact: v_rel before the impact
     std::vector<Reach> reach_;    // by contact

@@ -42,9 +42,6 @@ inline constexpr double refine_longer = 30.0;
 /// fitted.
 inline constexpr std::int64_t impacts_in_frame = 20000;
 
-/// Relative accelerations of touching points below this share of their terms are rounding. Not fitted: rounding.
-inline constexpr double pressing_rounding = 1e-12;
-
 /// The box of a ballistic body in the neighbor search covers a displacement between these bounds, radii,
 inline constexpr double shortest_box_displacement = 0.75;
 inline constexpr double longest_box_displacement = 40.0;

@@ -11,6 +11,7 @@ namespace tumble {
 namespace {
 
 double restitution_now(const ImpactSystem& cluster, std::size_t i, double threshold) {
+    if (i < cluster.contacts()) threshold = least_impact(cluster.contact(i), threshold);
     return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.restitution(i) : 0.0;
 }
 
@@ -202,6 +203,10 @@ private:
 };
 
 }  // namespace
+
+double least_impact(const Contact& c, double threshold) {
+    return std::max(threshold, tuning::restitution_threshold * c.load_speed);
+}
 
 bool bounces(const ImpactSystem& cluster, double threshold) {
     for (std::size_t i = 0; i < cluster.size(); ++i)

@@ -32,6 +32,10 @@ struct ImpactSettings {
     double span = 1.0;  // s: a joint's force in an impact is the mean over this time
 };
 
+/// m/s: the contact bounces if it approaches faster. The threshold of the impact, or of the contact's load if that is
+/// larger.
+double least_impact(const Contact& contact, double threshold);
+
 /// Whether any contact with restitution approaches fast enough to bounce.
 bool bounces(const ImpactSystem& cluster, double threshold);
 

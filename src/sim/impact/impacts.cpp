@@ -18,7 +18,7 @@ bool may_collide(const Island& island, const std::vector<Contact>& contacts, con
         const Contact& c = contacts[k];
         if (!c.touching()) continue;
         const double u = relative_velocity(c, bodies[c.a], bodies[c.b]);
-        if (settings.complete ? u < 0.0 : u < -settings.threshold && c.restitution > 0.0) return true;
+        if (settings.complete ? u < 0.0 : u < -least_impact(c, settings.threshold) && c.restitution > 0.0) return true;
     }
     return false;
 }
@@ -107,7 +107,9 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     for (const std::uint32_t k : island.contacts) {
         const Contact& c = contacts[k];
         // An impulse through a contact at rest may leave it parting by rounding, which is not a bounce.
-        if (!(c.impact > 0.0 && c.bounce_velocity > 0.5 * c.restitution * threshold && c.restitution > 0.0)) continue;
+        if (!(c.impact > 0.0 && c.bounce_velocity > 0.5 * c.restitution * least_impact(c, threshold) &&
+              c.restitution > 0.0))
+            continue;
         if (bodies[c.a].flew || bodies[c.b].flew) continue;
         bounced.contacts.push_back(k);
         for (const std::uint32_t i : {c.a, c.b})

@@ -8,6 +8,7 @@ namespace tumble {
 std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t until) {
     std::vector<Body>& bodies = step.set.bodies;
     events_.record_in(step.log);
+    events_.start_from(step.set.old_velocities);
     events_.join(step.joints, bodies, step.forces.field());
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
@@ -24,8 +25,9 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
                                                                 const std::vector<Manifold>& manifolds) {
     std::vector<Body>& bodies = step.set.bodies;
     make_contacts(manifolds, bodies, contacts_);
-    make_gaps(manifolds, contacts_, bodies, gaps_);
+    make_gaps(manifolds, bodies, gaps_);
     events_.record_in(step.log);
+    events_.start_from(step.set.old_velocities);
     events_.join(step.joints, bodies, step.forces.field());
     events_.take_off(contacts_, gaps_, bodies, step.forces.field(), step.index);
     stepped_.clear();

@@ -20,7 +20,7 @@ public:
     std::span<const std::uint32_t> choose_stepped(const StepContext& step,
                                                   const std::vector<Manifold>& manifolds) override;
     bool has_ballistic_bodies() const override { return true; }
-    double least_rebound(const StepContext&) const override { return 0.0; }
+    double rebound_share() const override { return 0.0; }
     void advance(const StepContext& step, ContactDetection& detection) override;
     std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext& step) override { events_.lay_down(step.set.bodies, step.index); }
@@ -41,7 +41,7 @@ private:
     ClampedMotions motions_;
     EventDrivenMotion events_;
     std::vector<Contact> contacts_;
-    std::vector<ContactGap> gaps_;        // by contact
+    std::vector<Gap> gaps_;               // by contact
     std::vector<std::uint32_t> stepped_;  // bodies, ascending
     std::vector<BroadPhase::Pair> pairs_;
 };

@@ -1,6 +1,7 @@
 #include "sim/step/impact_stage.h"
 
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/contact/model/free_motion.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/geometry/contact_tolerance.h"
@@ -19,7 +20,8 @@ namespace tumble {
 namespace {
 
 // Whether touching points with restitution approach faster than resting contact does.
-bool collides(std::size_t island, ContactDetection& detection, const std::vector<Body>& bodies, double threshold) {
+bool collides(std::size_t island, ContactDetection& detection, const StepContext& step, double threshold) {
+    const std::vector<Body>& bodies = step.set.bodies;
     const auto touching = detection.islands().pairs(island);
     for (std::size_t k = 0; k < touching.size(); ++k) {
         const Body &a = bodies[touching[k].a], &b = bodies[touching[k].b];
@@ -28,7 +30,11 @@ bool collides(std::size_t island, ContactDetection& detection, const std::vector
         const double touch = touch_distance(a.radius, b.radius);
         for (int i = 0; i < m.count; ++i) {
             const ContactPoint& p = m.points[std::size_t(i)];
-            if (p.separation <= touch && relative_velocity(p, m.normal, a, b) < -threshold) return true;
+            if (p.separation > touch) continue;
+            const double speed = relative_velocity(p, m.normal, a, b);
+            if (speed < -threshold &&
+                speed < -tuning::restitution_threshold * load_speed(m, i, a, b, step.free_motion()))
+                return true;
         }
     }
     return false;
@@ -38,30 +44,25 @@ bool collides(std::size_t island, ContactDetection& detection, const std::vector
 
 double ImpactStage::threshold(const StepContext& step) { return tuning::restitution_threshold * step.gravity_speed(); }
 
+ImpactSettings ImpactStage::hit_settings(const StepContext& step) {
+    return {.threshold = threshold(step),
+            .law = step.settings.impact_law,
+            .resting = threshold(step),
+            .friction = true,
+            .complete = true,
+            .span = step.h};
+}
+
 void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) {
     std::vector<Body>& bodies = step.set.bodies;
-    const ContactIslands& islands = detection.islands();
-    std::vector<Manifold>& manifolds = detection.manifolds();
     struck_.clear();
-    impulses_before_.clear();
     colliding_.clear();
     contacts_.clear();
-    for (std::size_t k = 0; k < islands.size(); ++k) {
-        if (!collides(k, detection, bodies, threshold(step))) continue;
-        Island& island = colliding_.emplace_back();
-        island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
-        island.all_joints = step.joints.joints();
-        for (const std::uint32_t j : islands.joints(k)) {
-            Joint& joint = step.joints.joints()[step.joints.active()[j]];
-            if (!joint.broken) island.joints.push_back(&joint);
-        }
-        for (const std::uint32_t m : islands.manifolds(k)) {
-            struck_.push_back(m);
-            impulses_before_.push_back(normal_impulse(manifolds[m]));
-            const auto first = std::uint32_t(contacts_.size());
-            add_contacts(manifolds[m], bodies, contacts_);
-            for (std::uint32_t i = first; i < contacts_.size(); ++i) island.contacts.push_back(i);
-        }
+    // In the event-driven mode bodies meet at events.
+    const bool meet = step.settings.impacts == ImpactMode::stepped;
+    for (std::size_t k = 0; k < detection.islands().size(); ++k) {
+        if (meet) meetings_.resolve(detection.islands().manifolds(k), detection.manifolds(), step, hit_settings(step));
+        if (collides(k, detection, step, threshold(step))) add_island(k, step, detection);
     }
     if (struck_.empty()) return;
     traces_.assign(step.log ? colliding_.size() : 0, {});
@@ -70,16 +71,50 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
                        [&](std::size_t i, std::size_t) { resolve_island(step, i); });
     for (std::size_t i = 0; i < traces_.size(); ++i)
         step.log->add_impact(traces_[i], contacts_, bodies, step.impact_time(), blows_[i]);
-    std::size_t next = 0;
-    for (const std::uint32_t k : struck_) {
-        for (int i = 0; i < manifolds[k].count; ++i) {
-            const Contact& c = contacts_[next++];
-            // Eqs. 9 and 10: the contribution of the impulses to P and L, equal and opposite to the last bit.
-            if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
-        }
-    }
+    // Eqs. 9 and 10: the contribution of the impulses to P and L, equal and opposite to the last bit.
+    for (const Contact& c : contacts_)
+        if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
     for (const std::vector<JointBlow>& blows : blows_)
         for (const JointBlow& blow : blows) take_blow(blow, bodies);
+}
+
+void ImpactStage::add_island(std::size_t k, const StepContext& step, ContactDetection& detection) {
+    const ContactIslands& islands = detection.islands();
+    const std::vector<Manifold>& manifolds = detection.manifolds();
+    Island& island = colliding_.emplace_back();
+    island.bodies.assign(islands.bodies(k).begin(), islands.bodies(k).end());
+    island.all_joints = step.joints.joints();
+    for (const std::uint32_t j : islands.joints(k)) {
+        Joint& joint = step.joints.joints()[step.joints.active()[j]];
+        if (!joint.broken) island.joints.push_back(&joint);
+    }
+    const std::size_t first = contacts_.size();
+    const std::span<const std::uint32_t> all = islands.manifolds(k);
+    for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
+        const Manifold& m = manifolds[all[from]];
+        while (to < all.size() && manifolds[all[to]].a == m.a && manifolds[all[to]].b == m.b) ++to;
+        const auto pair = all.subspan(from, to - from);
+        const bool met = step.settings.impacts == ImpactMode::stepped &&
+                         meetings_.find_contacts(pair, manifolds, step, threshold(step), contacts_);
+        for (const std::uint32_t i : pair) {
+            Struck& struck = struck_.emplace_back(Struck{i, normal_impulse(manifolds[i]), 0.0});
+            if (!met) add_contacts_under_load(manifolds[i], step, struck);
+        }
+    }
+    for (std::size_t i = first; i < contacts_.size(); ++i) island.contacts.push_back(std::uint32_t(i));
+}
+
+void ImpactStage::add_contacts_under_load(const Manifold& m, const StepContext& step, Struck& struck) {
+    const std::vector<Body>& bodies = step.set.bodies;
+    const FreeMotion free = step.free_motion();
+    const std::size_t first = contacts_.size();
+    add_contacts(m, bodies, contacts_);
+    for (std::size_t i = first; i < contacts_.size(); ++i) {
+        Contact& c = contacts_[i];
+        if (!c.touching()) continue;
+        c.load_speed = load_speed(m, int(i - first), bodies[c.a], bodies[c.b], free);
+        struck.load_speed = std::max(struck.load_speed, c.load_speed);
+    }
 }
 
 // Impacts of too much work are left to the contact solver.
@@ -120,13 +155,13 @@ void ImpactStage::hold_bounces(const StepContext& step) {
 
 void ImpactStage::limit_warm_start(const StepContext& step, ContactDetection& detection) const {
     const std::vector<Body>& bodies = step.set.bodies;
-    for (std::size_t k = 0; k < struck_.size(); ++k) {
-        Manifold& m = detection.manifolds()[struck_[k]];
+    for (const Struck& struck : struck_) {
+        Manifold& m = detection.manifolds()[struck.manifold];
         double lighter = std::numeric_limits<double>::infinity();
         for (const std::uint32_t i : {m.a, m.b})
             if (bodies[i].dynamic()) lighter = std::min(lighter, bodies[i].mass);
-        const double sum = normal_impulse(m),
-                     most = 2.0 * std::max(impulses_before_[k], lighter * step.gravity_speed());
+        const double speed = std::max(struck.load_speed, step.gravity_speed());
+        const double sum = normal_impulse(m), most = 2.0 * std::max(struck.impulse_before, lighter * speed);
         if (sum > most) scale_impulses(m, most / sum);
     }
 }

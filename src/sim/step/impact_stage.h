@@ -5,6 +5,7 @@
 #include "sim/contact/model/contact.h"
 #include "sim/geometry/manifold.h"
 #include "sim/impact/impacts.h"
+#include "sim/step/meetings.h"
 
 #include <cstdint>
 #include <vector>
@@ -25,7 +26,7 @@ public:
     void hold_bounces(const StepContext& step);
 
     /// After the contacts are solved: an impulse that stopped an impact in this step is a bad initial guess for the
-    /// next. A contact may keep at most twice its last value, or twice the weight of the lighter body.
+    /// next. A contact may keep at most twice its last value, or twice the lighter body's load, its weight or more.
     void limit_warm_start(const StepContext& step, ContactDetection& detection) const;
 
     /// Approach speed (m/s) below which a contact does not bounce.
@@ -34,19 +35,27 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [contacts, colliding, struck, traces, blows, impulses_before] = self;
-        archive.scratch(contacts, colliding, struck, traces, blows, impulses_before);
+        auto& [contacts, colliding, struck, traces, blows, meetings] = self;
+        archive.scratch(contacts, colliding, struck, traces, blows);
+        archive.keep(meetings);
     }
 
 private:
+    struct Struck {
+        std::uint32_t manifold = 0;
+        double impulse_before = 0.0, load_speed = 0.0;  // N s, before the step; m/s, the largest of its points
+    };
+    static ImpactSettings hit_settings(const StepContext& step);
+    void add_island(std::size_t island, const StepContext& step, ContactDetection& detection);
+    void add_contacts_under_load(const Manifold& manifold, const StepContext& step, Struck& struck);
     void resolve_island(const StepContext& step, std::size_t island);
 
     std::vector<Contact> contacts_;              // of the colliding islands, point by point
     std::vector<Island> colliding_;              // islands with impacts in this step
-    std::vector<std::uint32_t> struck_;          // indices of the manifolds of these islands
+    std::vector<Struck> struck_;                 // manifolds of these islands
     std::vector<ImpactTrace> traces_;            // by entry of colliding_; for the log
     std::vector<std::vector<JointBlow>> blows_;  // by entry of colliding_
-    std::vector<double> impulses_before_;        // N s, by entry of struck_: before the step
+    Meetings meetings_;
 };
 
 }  // namespace tumble

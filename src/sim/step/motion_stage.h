@@ -30,8 +30,8 @@ public:
     /// Whether stepped bodies may differ from the awake ones, and bodies move between steps.
     virtual bool has_ballistic_bodies() const = 0;
 
-    /// Smallest speed (m/s) at which a contact under load may rebound.
-    virtual double least_rebound(const StepContext& step) const = 0;
+    /// Smallest speed at which a contact under load may rebound, over the speed that its load gives it in a step.
+    virtual double rebound_share() const = 0;
 
     /// x and q to t_n+1, at the velocities of the solved contacts.
     virtual void advance(const StepContext& step, ContactDetection& detection) = 0;

@@ -1,6 +1,7 @@
 // The data of a step that all of its stages share.
 #pragma once
 
+#include "sim/contact/model/free_motion.h"
 #include "sim/contact/model/sleep.h"
 #include "sim/event_driven/event_time.h"
 #include "sim/snapshot/contact_records.h"
@@ -35,6 +36,7 @@ struct StepContext {
     ImpactTime impact_time() const { return {end(), (index + 1) / settings.steps_per_frame, false}; }
     /// Change of speed by gravity in a step, m/s.
     double gravity_speed() const { return settings.gravity.norm() * h; }
+    FreeMotion free_motion() const { return {forces.field(), set.old_velocities, start(), end(), h}; }
 };
 
 }  // namespace tumble

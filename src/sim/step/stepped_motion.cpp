@@ -25,9 +25,7 @@ bool turns_freely(std::uint32_t i, const StepContext& step) {
 SteppedMotion::SteppedMotion(const SceneDescription& scene, const BodySet& set, const StepClock& clock)
     : motions_(set.bodies), free_flights_(set.bodies.size(), scene.simulation.gravity, clock) {}
 
-double SteppedMotion::least_rebound(const StepContext& step) const {
-    return tuning::restitution_rebound * step.gravity_speed();
-}
+double SteppedMotion::rebound_share() const { return tuning::restitution_rebound; }
 
 // Explicit Euler moves a pose by the velocities of the step's start, all others by those of its end; the rotation by
 // their mean.

@@ -17,7 +17,7 @@ public:
         return step.set.awake;
     }
     bool has_ballistic_bodies() const override { return false; }
-    double least_rebound(const StepContext& step) const override;
+    double rebound_share() const override;
     void advance(const StepContext& step, ContactDetection& detection) override;
     std::span<const std::size_t> clamped_islands() const override { return motions_.clamped_islands(); }
     void bodies_fell_asleep(const StepContext&) override {}

@@ -29,7 +29,7 @@ double rebound(const Manifold& m, const ContactConstraint::Point& p, const Bodie
         return m.normal.dot(v.velocity + v.angular_velocity.cross(arm));
     };
     const double approach = speed(bodies.before_a, p.arm_a) - speed(bodies.before_b, p.arm_b);
-    return approach > settings.bounce_threshold && e * approach > settings.least_rebound ? e * approach : 0.0;
+    return settings.bounces(approach, m, p.source, bodies.a, bodies.b) ? e * approach : 0.0;
 }
 
 }  // namespace

@@ -58,6 +58,31 @@ void JointRows::push_row(const Row& row) {
         added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }
 
+// Rate of a coordinate, m/s or rad/s, and what tells its load: the part that the forces and the carriers of this step have
+// added, and the change of the rate by an impulse on the two bodies without their other joints.
+JointRows::LimitRates JointRows::limit_rates(const JointIsland& island, const Row& row, const Vec3& point) const {
+    const Joint& j = joint(blocks_.back());
+    LimitRates rates;
+    for (const auto& [body, sign] : {std::pair(j.a, -1.0), std::pair(j.b, 1.0)}) {
+        if (body == Joint::world) continue;
+        const Body& b = island.problem.bodies[body];
+        if (!b.moves()) continue;
+        const BodyVelocity& before = island.problem.before[body];
+        const Vec3 arm = point - b.position;
+        const auto rate = [&](const Vec3& velocity, const Vec3& turn) {
+            return sign * row.direction.dot(row.turns() ? turn : Vec3(velocity + turn.cross(arm)));
+        };
+        const double now = rate(b.velocity, b.angular_velocity);
+        rates.speed += now;
+        // The velocity of a kinematic body is the mean of the step: half of the change.
+        rates.gained += (b.dynamic() ? 1.0 : 2.0) * (now - rate(before.velocity, before.angular_velocity));
+        if (!b.dynamic()) continue;
+        const Vec3 moment = row.turns() ? row.direction : Vec3(arm.cross(row.direction));
+        rates.mobility += (row.turns() ? 0.0 : b.inverse_mass) + moment.dot(b.inverse_inertia * moment);
+    }
+    return rates;
+}
+
 void JointRows::add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law) {
     Row r = row;
     const Joint& j = joint(blocks_.back());
@@ -72,16 +97,13 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     r.goal = limit;
     r.target = unit * (r.reference - value) / h_;
     const double e = law == Joint::cone ? 0.0 : j.axis(row.coordinate).restitution;
-    if (e > 0.0) {
-        const Body* a = j.a == Joint::world ? nullptr : &island.problem.bodies[j.a];
-        const Body* b = j.b == Joint::world ? nullptr : &island.problem.bodies[j.b];
-        const Vec3& p = blocks_.back().point;
-        const auto rate = [&](const Body* body) {
-            if (!body) return 0.0;
-            return row.direction.dot(row.turns() ? body->angular_velocity : body->point_velocity(p - body->position));
-        };
-        const double speed = rate(b) - rate(a), approach = above ? -speed : speed;
-        const double threshold = island.problem.settings.bounce_threshold / (row.turns() ? j.size : 1.0);
+    const ConstraintSettings& settings = island.problem.settings;
+    if (e > 0.0 && settings.bounce_threshold < infinity) {
+        const LimitRates rates = limit_rates(island, row, blocks_.back().point);
+        const double speed = rates.speed, sign = above ? -1.0 : 1.0, approach = sign * speed;
+        const double load = std::max(sign * rates.gained, rates.mobility * std::abs(j.impulse[row.coordinate][law]));
+        const double threshold =
+            std::max(settings.bounce_threshold / (row.turns() ? j.size : 1.0), settings.threshold_share * load);
         if (approach > threshold && approach * h_ > room) {
             r.target = -e * unit * speed;
             r.closes = false;

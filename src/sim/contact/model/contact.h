@@ -16,7 +16,7 @@
 namespace tumble {
 
 /// Heaps make one for each point of colliding islands in each step, and wait for memory: a member that few readers need
-/// has a list of its own (ContactGap in event_driven/contact_transition.h).
+/// has a list of its own (Gap in free_motion.h).
 struct Contact {
     std::uint32_t a = 0, b = 0, part = 0;    // body indices, and the triangle index of a mesh
     std::int16_t points = 1;                 // of its manifold
@@ -29,6 +29,7 @@ struct Contact {
     double separation = 0.0;      // m; negative: overlap
     double touch_distance = 0.0;  // m, contact tolerance
     double restitution = 0.0, friction = 0.0;  // of the pair of materials
+    double load_speed = 0.0;                   // m/s: load_speed() of free_motion.h, where asked for
 
     double impact = 0.0;  // N s, impulse of this step's impact
     Vec3 impact_friction =

@@ -1,5 +1,6 @@
 #include "sim/contact/model/contact_constraint.h"
 
+#include "sim/contact/model/free_motion.h"
 #include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
 
@@ -48,12 +49,35 @@ double relative_velocity(const ContactPoint& p, const Vec3& normal, const Body& 
     return normal.dot(b.point_velocity(p.position - b.position) - a.point_velocity(p.position - a.position));
 }
 
-bool will_bounce(const ContactPoint& p, const Vec3& normal, const Body& a, const Body& b, double slower,
+bool ConstraintSettings::bounces(double approach, const Manifold& m, int point, const Body& a, const Body& b) const {
+    const double e = pair_restitution(a, b);
+    if (!(approach > bounce_threshold && e * approach > least_rebound)) return false;
+    if (!free) return true;
+    const double load = load_speed(m, point, a, b, *free);
+    return approach > threshold_share * load && e * approach > rebound_share * load;
+}
+
+namespace {
+
+// Whether the normal of a curved gap turns until the bodies meet within the step.
+bool turns_ahead(const Manifold& m, const Body& a, const Body& b, const ConstraintSettings& settings) {
+    if (a.jointed || b.jointed) return false;
+    const auto gap = std::get<CurvedGap>(m.geometry());
+    Vec3 u = b.point_velocity(gap.on_b - b.position) - a.point_velocity(gap.on_a - a.position);
+    u -= gap.line.dot(u) * gap.line;
+    const double closing = -m.normal.dot(u), left = m.points[0].separation;
+    if (!(closing > settings.bounce_threshold && closing * settings.h > left)) return false;
+    return (u + closing * m.normal).norm() * left > tuning::meeting_turn * closing * gap.distance;
+}
+
+}  // namespace
+
+bool will_bounce(const Manifold& m, int point, const Body& a, const Body& b, double slower,
                  const ConstraintSettings& settings) {
-    const double restitution = pair_restitution(a, b);
-    if (p.separation <= touch_distance(a.radius, b.radius) || restitution <= 0.0) return false;
-    const double approach = -(relative_velocity(p, normal, a, b) + slower);
-    return approach > settings.bounce_threshold && restitution * approach > settings.least_rebound;
+    const ContactPoint& p = m.points[std::size_t(point)];
+    if (p.separation <= touch_distance(a.radius, b.radius)) return false;
+    if (pair_restitution(a, b) <= 0.0) return settings.meets && m.has_curved_gap() && turns_ahead(m, a, b, settings);
+    return settings.bounces(-(relative_velocity(p, m.normal, a, b) + slower), m, point, a, b);
 }
 
 Vec3 turn_of_carrier(const Body& carrier, const Vec3& motion, const Vec3& normal) {
@@ -72,7 +96,7 @@ ContactConstraint make_constraint(const Manifold& m, const BodiesInStep& bodies,
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
         const PredictedGap seen = predicted_gap(m, i, bodies, settings.h);
-        if (will_bounce(from, m.normal, a, b, seen.slower, settings)) continue;
+        if (will_bounce(m, i, a, b, seen.slower, settings)) continue;
         const Vec3 place = acting_point(seen.position, from.separation, m.normal, a.dynamic(), b.dynamic());
         const Vec3 arm_a = place - a.position, arm_b = place - b.position;
         ContactConstraint::Point& to = constraint.points[std::size_t(constraint.count++)];

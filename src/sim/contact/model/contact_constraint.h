@@ -27,11 +27,20 @@ struct ContactConstraint {
     std::array<Point, Manifold::capacity> points;
 };
 
+struct FreeMotion;
+
 /// Settings of the step for contact constraints.
 struct ConstraintSettings {
     double h;                    // s
     double bounce_threshold;     // m/s: with restitution, points that approach faster may overlap and collide,
     double least_rebound = 0.0;  // m/s: if their rebound is faster than this
+    /// Both speeds of a contact under load are at least these shares of its load speed. Null: of no load.
+    const FreeMotion* free = nullptr;
+    double threshold_share = 0.0, rebound_share = 0.0;
+    bool meets = false;  // overlaps of bodies without joints are hits, resolved at the poses in which they met
+
+    /// Whether a point that approaches at this speed (m/s) bounces.
+    bool bounces(double approach, const Manifold& manifold, int point, const Body& a, const Body& b) const;
 };
 
 /// The impulse that a solver has given to a manifold's bodies.
@@ -78,9 +87,9 @@ inline Vec3 acting_point(const Vec3& position, double separation, const Vec3& no
 /// v_rel of a manifold's point, m/s; negative: approaching.
 double relative_velocity(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b);
 
-/// Whether a point is skipped in this step because it will bounce: stopping it at the surface would take the speed of
-/// its rebound. `slower` (m/s): PredictedGap::slower.
-bool will_bounce(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b, double slower,
+/// Whether a point is skipped in this step because it will bounce, or meet the other body at another normal: stopping it at
+/// the surface would take the speed of its rebound, or push it along the present normal. `slower` (m/s): PredictedGap::slower.
+bool will_bounce(const Manifold& manifold, int point, const Body& a, const Body& b, double slower,
                  const ConstraintSettings& settings);
 
 /// Returns a constraint without points when none has to be held.

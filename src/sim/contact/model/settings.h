@@ -22,6 +22,13 @@ inline constexpr double friction_far_weight = 0.01;
 /// SpinFriction.AHeavyEndSlidesStraight.
 inline constexpr double spin_share = 0.2;
 
+/// Turn of a normal, rad, until two bodies without restitution meet: those that turn more are not stopped at the surface, but
+/// meet in an overlap that the impact resolves. Related test: OffCenter.BallsLeaveAlongTheLineOfTheirCenters.
+inline constexpr double meeting_turn = 1e-3;
+
+/// Relative accelerations of touching points below this share of their terms are rounding. Not fitted: rounding.
+inline constexpr double pressing_rounding = 1e-12;
+
 /// Share of an overlap that is corrected in a step. Smaller values leave boxes sunk after a hard landing; larger
 /// ones make heaps tremble (bench_contact). Related: bench_contact "pile of 1000" and the test
 /// ContactHardInput.OverlapsDissolveSlowly.

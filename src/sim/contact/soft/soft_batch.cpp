@@ -204,7 +204,8 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
         // For one substep more than the step: the last sweep looks that far ahead.
         if (predicts_gaps) seen = predicted_gap(m, i, bodies, problem.settings.h + d_);
         // The stage of impacts leaves large nets as they are: their contacts stop at the surface.
-        if (bouncy && joints_.size() == 0 && will_bounce(p, m.normal, body_a, body_b, seen.slower, problem.settings))
+        if ((bouncy || m.has_curved_gap()) && joints_.size() == 0 &&
+            will_bounce(m, i, body_a, body_b, seen.slower, problem.settings))
             continue;
         const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);

@@ -1,0 +1,349 @@
+#include "sim/step/meetings.h"
+
+#include "sim/contact/model/contact_constraint.h"
+#include "sim/contact/model/free_motion.h"
+#include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/geometry/contact_tolerance.h"
+#include "sim/impact/settings.h"
+#include "sim/log/contact_log.h"
+#include "sim/step/step_context.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// Calls `use` for the manifolds of each pair of bodies.
+template <class Use>
+void each_pair(std::span<const std::uint32_t> island, const std::vector<Manifold>& manifolds, Use&& use) {
+    for (std::size_t from = 0, to = 0; from < island.size(); from = to) {
+        const Manifold& m = manifolds[island[from]];
+        while (to < island.size() && manifolds[island[to]].a == m.a && manifolds[island[to]].b == m.b) ++to;
+        use(island.subspan(from, to - from));
+    }
+}
+
+bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
+
+// Whether the pair is new in contact, overlaps, and came so far in the step that its normal may be out of date.
+bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifold>& manifolds, const StepContext& step,
+                  double threshold) {
+    const std::vector<BodyVelocity>& motions = step.set.motions;
+    const Manifold& first = manifolds[pair[0]];
+    const Body &a = step.set.bodies[first.a], &b = step.set.bodies[first.b];
+    if (!(pair_restitution(a, b) > 0.0 || ball(a) || ball(b))) return false;  // bodies with faces stop at the surface
+    const double touch = touch_distance(a.radius, b.radius), far = tuning::met_motion * std::min(a.radius, b.radius);
+    bool met = false;
+    for (const std::uint32_t k : pair) {
+        const Manifold& m = manifolds[k];
+        for (int i = 0; i < m.count; ++i) {
+            const ContactPoint& p = m.points[std::size_t(i)];
+            if (p.impulse > 0.0) return false;
+            if (met || p.separation >= -touch || !(relative_velocity(p, m.normal, a, b) < -threshold)) continue;
+            const BodyVelocity &of_a = motions[m.a], &of_b = motions[m.b];
+            const Vec3 motion = of_b.velocity + of_b.angular_velocity.cross(p.position - b.position) - of_a.velocity -
+                                of_a.angular_velocity.cross(p.position - a.position);
+            met = step.h * motion.norm() > far && motion.dot(m.normal) < 0.0;
+        }
+    }
+    return met;
+}
+
+// Whether the normals of a meeting differ from those of the present pose.
+bool differ(const std::vector<Manifold>& then, const Manifold& now) {
+    const bool curve = now.count == 1 && now.corners == Corners::neither;
+    const double least = curve ? tuning::met_turn_of_curve : tuning::met_turn;
+    return std::any_of(then.begin(), then.end(),
+                       [&](const Manifold& m) { return m.normal.dot(now.normal) < 1.0 - least; });
+}
+
+void set_pose(Body& body, const Vec3& position, const Quat& orientation) {
+    body.position = position;
+    body.orientation = orientation;
+    body.rotation = orientation.toRotationMatrix();
+    if (body.dynamic()) body.derive();
+}
+
+// The body `lag` s before the end of the step, on its way.
+void go_back(Body& body, const BodyVelocity& way, double lag) {
+    if (!body.moves()) return;
+    set_pose(body, body.position - lag * way.velocity,
+             (from_rotation_vector(-lag * way.angular_velocity) * body.orientation).normalized());
+}
+
+bool loaded(std::uint32_t body, std::span<const std::uint32_t> island, const std::vector<Manifold>& manifolds) {
+    return std::any_of(island.begin(), island.end(), [&](std::uint32_t k) {
+        const Manifold& m = manifolds[k];
+        return (m.a == body || m.b == body) && normal_impulse(m) > 0.0;
+    });
+}
+
+// Impulse of the forces in the last `lag` s. The path of the Euler methods is a polygon on the parabola of the flight: its
+// velocity is that of the middle of the step.
+Impulse late_forces(std::uint32_t k, const StepContext& step, double lag) {
+    const Body& body = step.set.bodies[k];
+    const Wrench wrench = step.forces.field().throughout(k, body, step.start(), step.end());
+    const double span = body.flew ? lag : lag - 0.5 * step.h;
+    return {span * wrench.force, span * wrench.torque};
+}
+
+}  // namespace
+
+void Meetings::resolve(std::span<const std::uint32_t> island, std::vector<Manifold>& manifolds, const StepContext& step,
+                       const ImpactSettings& settings) {
+    std::vector<Body>& bodies = step.set.bodies;
+    movers_.clear();
+    hits_.clear();
+    each_pair(island, manifolds, [&](std::span<const std::uint32_t> pair) {
+        const Manifold& m = manifolds[pair[0]];
+        if (bodies[m.a].jointed || bodies[m.b].jointed || !may_have_met(pair, manifolds, step, settings.threshold))
+            return;
+        const auto hit = next_hit(m.a, m.b, step);
+        if (!hit || !(hit->lag < step.h)) return;
+        find_touch(*hit, step);
+        if (differ(found_, m)) hits_.push_back(*hit);
+    });
+    const std::size_t most = tuning::meetings_each * island.size();
+    for (std::size_t count = 0; count < most && !hits_.empty(); ++count) {
+        const auto first =
+            std::max_element(hits_.begin(), hits_.end(), [](const Hit& x, const Hit& y) { return x.lag < y.lag; });
+        const Hit hit = *first;
+        hits_.erase(first);
+        if (!strike(hit, island, manifolds, step, settings)) continue;
+        const auto moved = [&](std::uint32_t body) {
+            return std::any_of(cluster_.begin(), cluster_.end(),
+                               [&](const Member& member) { return member.struck && member.body == body; });
+        };
+        std::erase_if(hits_, [&](const Hit& h) { return moved(h.a) || moved(h.b); });
+        each_pair(island, manifolds, [&](std::span<const std::uint32_t> pair) {
+            const Manifold& m = manifolds[pair[0]];
+            if (!moved(m.a) && !moved(m.b)) return;
+            for (const std::uint32_t k : pair) refresh(manifolds[k], bodies);
+            if (bodies[m.a].jointed || bodies[m.b].jointed) return;
+            if (const auto next = next_hit(m.a, m.b, step)) hits_.push_back(*next);
+        });
+    }
+}
+
+Meetings::Mover Meetings::mover(std::uint32_t body, const StepContext& step) const {
+    for (const Mover& m : movers_)
+        if (m.body == body) return m;
+    return {body, step.h, step.set.motions[body]};
+}
+
+// The next hit of two bodies after their last ones.
+std::optional<Meetings::Hit> Meetings::next_hit(std::uint32_t a, std::uint32_t b, const StepContext& step) {
+    const Mover on_a = mover(a, step), on_b = mover(b, step);
+    const double lag = std::min(on_a.lag, on_b.lag);
+    Body then_a = step.set.bodies[a], then_b = step.set.bodies[b];
+    go_back(then_a, on_a.way, lag);
+    go_back(then_b, on_b.way, lag);
+    const Trajectory way_a = Trajectory::uniform(then_a, on_a.way.velocity, on_a.way.angular_velocity),
+                     way_b = Trajectory::uniform(then_b, on_b.way.velocity, on_b.way.angular_velocity);
+    const TimeOfImpact touch = search_.find({&then_a, &way_a, 0.0}, {&then_b, &way_b, 0.0}, lag);
+    if (touch.kind != TimeOfImpact::Kind::impact) return std::nullopt;
+    return Hit{a, b, lag - touch.time};
+}
+
+// Manifolds of the bodies as they met, in found_.
+void Meetings::find_touch(const Hit& hit, const StepContext& step) {
+    Body a = step.set.bodies[hit.a], b = step.set.bodies[hit.b];
+    go_back(a, mover(hit.a, step).way, hit.lag);
+    go_back(b, mover(hit.b, step).way, hit.lag);
+    found_.clear();
+    scratch_.reduced.clear();
+    tumble::collide(a.collider, b.collider, {a.pose(), b.pose(), touch_distance(a.radius, b.radius), scratch_, found_});
+    for (Manifold& m : found_) {
+        m.a = hit.a;
+        m.b = hit.b;
+    }
+}
+
+bool Meetings::find_contacts(std::span<const std::uint32_t> pair, const std::vector<Manifold>& manifolds,
+                             const StepContext& step, double threshold, std::vector<Contact>& contacts) {
+    if (!may_have_met(pair, manifolds, step, threshold)) return false;
+    movers_.clear();
+    const Manifold& now = manifolds[pair[0]];
+    const auto hit = next_hit(now.a, now.b, step);
+    if (!hit || !(hit->lag < step.h)) return false;
+    find_touch(*hit, step);
+    if (found_.empty() || !differ(found_, now)) return false;
+    std::vector<Body>& bodies = step.set.bodies;
+    const Body a = bodies[now.a], b = bodies[now.b];
+    go_back(bodies[now.a], step.set.motions[now.a], hit->lag);
+    go_back(bodies[now.b], step.set.motions[now.b], hit->lag);
+    for (const Manifold& m : found_) add_contacts(m, bodies, contacts);
+    bodies[now.a] = a;
+    bodies[now.b] = b;
+    return true;
+}
+
+// Adds a body to those of a hit, at its place then.
+void Meetings::join(std::uint32_t k, double lag, std::span<const std::uint32_t> island,
+                    const std::vector<Manifold>& manifolds, const StepContext& step) {
+    Body& body = step.set.bodies[k];
+    Member& member = cluster_.emplace_back();
+    member.body = k;
+    member.position = body.position;
+    member.orientation = body.orientation;
+    member.rotation = body.rotation;
+    member.momentum = body.momentum;
+    member.angular_momentum = body.angular_momentum;
+    if (!body.moves()) return;
+    if (body.dynamic()) {
+        if (!loaded(k, island, manifolds)) member.late = late_forces(k, step, lag);
+        body.momentum -= member.late.linear;
+        body.angular_momentum -= member.late.angular;
+    }
+    go_back(body, mover(k, step).way, lag);
+    member.momentum_then = body.momentum;
+    member.angular_momentum_then = body.angular_momentum;
+}
+
+void Meetings::leave(const Member& member, std::vector<Body>& bodies) {
+    Body& body = bodies[member.body];
+    if (!body.moves()) return;
+    body.momentum = member.momentum;
+    body.angular_momentum = member.angular_momentum;
+    body.position = member.position;
+    body.orientation = member.orientation;
+    body.rotation = member.rotation;
+    if (body.dynamic()) body.derive();
+}
+
+// Goes on for the rest of the step after a hit.
+void Meetings::go_on(const Member& member, double lag, const StepContext& step) {
+    Body& body = step.set.bodies[member.body];
+    const Quat from = body.orientation;
+    body.momentum += member.late.linear;
+    body.derive_velocities();
+    body.position += lag * body.velocity;
+    turn_freely(body, from, lag);
+    body.angular_momentum += member.late.angular;
+    body.derive();
+    const Vec3 turn =
+        lag > 0.0 ? Vec3(rotation_vector(body.orientation * from.conjugate()) / lag) : body.angular_velocity;
+    std::erase_if(movers_, [&](const Mover& m) { return m.body == member.body; });
+    movers_.push_back({member.body, lag, {body.velocity, turn}});
+}
+
+// Contacts of two bodies at a hit. Returns whether there are any.
+bool Meetings::add_touching(std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> pair,
+                            const std::vector<Manifold>& manifolds, const StepContext& step) {
+    const std::vector<Body>& bodies = step.set.bodies;
+    const Body &on_a = bodies[a], &on_b = bodies[b];
+    const double near = touch_distance(on_a.radius, on_b.radius), reach = on_a.radius + on_b.radius + near;
+    if (std::isfinite(reach) && (on_b.position - on_a.position).squaredNorm() > reach * reach) return false;
+    found_.clear();
+    scratch_.reduced.clear();
+    tumble::collide(on_a.collider, on_b.collider, {on_a.pose(), on_b.pose(), near, scratch_, found_});
+    double load = 0.0;
+    for (const std::uint32_t k : pair)
+        for (int i = 0; i < manifolds[k].count; ++i)
+            if (manifolds[k].points[std::size_t(i)].impulse > 0.0)
+                load = std::max(load, load_speed(manifolds[k], i, on_a, on_b, step.free_motion()));
+    for (Manifold& m : found_) {
+        m.a = a;
+        m.b = b;
+        add_contacts(m, bodies, contacts_);
+    }
+    for (Contact& c : std::span(contacts_).last(contacts_.size() - first_of_pair_)) c.load_speed = load;
+    first_of_pair_ = contacts_.size();
+    return !found_.empty();
+}
+
+// The bodies that touch one of the cluster, and their contacts. Returns false for more bodies than an impact should have.
+bool Meetings::gather(const Hit& hit, std::span<const std::uint32_t> island, const std::vector<Manifold>& manifolds,
+                      const StepContext& step) {
+    cluster_.clear();
+    contacts_.clear();
+    first_of_pair_ = 0;
+    join(hit.a, hit.lag, island, manifolds, step);
+    join(hit.b, hit.lag, island, manifolds, step);
+    const std::vector<Body>& bodies = step.set.bodies;
+    const auto joined = [&](std::uint32_t body) {
+        return std::any_of(cluster_.begin(), cluster_.end(), [&](const Member& m) { return m.body == body; });
+    };
+    const auto grows = [&](std::uint32_t body) { return bodies[body].dynamic() && joined(body); };
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> seen;
+    for (bool more = true; more;) {
+        more = false;
+        each_pair(island, manifolds, [&](std::span<const std::uint32_t> pair) {
+            const std::uint32_t a = manifolds[pair[0]].a, b = manifolds[pair[0]].b;
+            if ((!grows(a) && !grows(b)) || std::find(seen.begin(), seen.end(), std::pair(a, b)) != seen.end()) return;
+            seen.push_back({a, b});
+            const bool new_a = !joined(a), new_b = !joined(b);
+            if (new_a) join(a, hit.lag, island, manifolds, step);
+            if (new_b) join(b, hit.lag, island, manifolds, step);
+            if (add_touching(a, b, pair, manifolds, step)) {
+                more = more || new_a || new_b;
+            } else if (new_a || new_b) {
+                leave(cluster_.back(), step.set.bodies);
+                cluster_.pop_back();
+            }
+        });
+        if (cluster_.size() > tuning::meeting_bodies) return false;
+    }
+    return std::none_of(cluster_.begin(), cluster_.end(), [&](const Member& m) { return bodies[m.body].jointed; });
+}
+
+// Resolves the impact of a hit. Returns whether it was one; else the bodies stay as they are.
+bool Meetings::strike(const Hit& hit, std::span<const std::uint32_t> island, const std::vector<Manifold>& manifolds,
+                      const StepContext& step, const ImpactSettings& settings) {
+    std::vector<Body>& bodies = step.set.bodies;
+    const bool whole = gather(hit, island, manifolds, step);
+    const auto approaches = [&](const Contact& c) {
+        return c.a == hit.a && c.b == hit.b && relative_velocity(c, bodies[c.a], bodies[c.b]) < -settings.threshold;
+    };
+    Island impact;
+    for (const Member& member : cluster_)
+        if (bodies[member.body].dynamic()) impact.bodies.push_back(member.body);
+    std::sort(impact.bodies.begin(), impact.bodies.end());
+    for (std::uint32_t i = 0; i < contacts_.size(); ++i) impact.contacts.push_back(i);
+    ImpactTrace trace;
+    const bool any = whole && std::any_of(contacts_.begin(), contacts_.end(), approaches) &&
+                     resolve_impacts(impact, contacts_, bodies, settings, step.log ? &trace : nullptr) > 0;
+    if (any && step.log) step.log->add_impact(trace, contacts_, bodies, step.impact_time(), {});
+    if (any)
+        for (const Contact& c : contacts_)
+            if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
+    for (Member& member : cluster_) {
+        Body& body = bodies[member.body];
+        member.struck = body.dynamic() && (body.momentum != member.momentum_then ||
+                                           body.angular_momentum != member.angular_momentum_then);
+        if (member.struck)
+            go_on(member, hit.lag, step);
+        else
+            leave(member, bodies);
+    }
+    return any;
+}
+
+// Finds the manifold again after one of its bodies has moved.
+void Meetings::refresh(Manifold& m, const std::vector<Body>& bodies) {
+    const Body &a = bodies[m.a], &b = bodies[m.b];
+    const double margin = std::min(a.radius, b.radius);
+    found_.clear();
+    scratch_.reduced.clear();
+    tumble::collide(a.collider, b.collider, {a.pose(), b.pose(), margin, scratch_, found_});
+    const Manifold* now = nullptr;
+    for (const Manifold& other : found_)
+        if (other.part == m.part && other.count >= m.count &&
+            (!now || other.points[0].separation < now->points[0].separation))
+            now = &other;
+    if (!now) {
+        for (int i = 0; i < m.count; ++i) m.points[std::size_t(i)].separation = margin;
+        return;
+    }
+    m.normal = now->normal;
+    for (int i = 0; i < m.count; ++i) {
+        const double impulse = m.points[std::size_t(i)].impulse;
+        m.points[std::size_t(i)] = now->points[std::size_t(i)];
+        m.points[std::size_t(i)].impulse = impulse;
+    }
+    m.corners = now->corners;
+    if (m.count == 1 && now->count == 1) m.set_geometry(now->geometry());
+}
+
+}  // namespace tumble

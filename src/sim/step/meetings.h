@@ -1,0 +1,87 @@
+// Hits of the last step, at their own times. At the end of the step the bodies overlap, and the normal and the points of
+// that pose are not those of the hit: a ball that is hit off its center would leave in a wrong direction. So the bodies
+// go back to the poses in which they met, get their impulses there, and go on with their new velocities for the rest of
+// the step, in which they may meet others. This keeps the momenta, the angular momentum about any point, and the energy.
+#pragma once
+
+#include "sim/ccd/time_of_impact.h"
+#include "sim/contact/model/contact.h"
+#include "sim/geometry/manifold.h"
+#include "sim/impact/impacts.h"
+#include "sim/math/wrench.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+struct StepContext;
+
+class Meetings {
+public:
+    /// Resolves the hits of an island between bodies without joints, in the order of their times. `manifolds`: of all
+    /// islands; those of moved bodies are found again.
+    void resolve(std::span<const std::uint32_t> island, std::vector<Manifold>& manifolds, const StepContext& step,
+                 const ImpactSettings& settings);
+
+    /// Contacts of a pair as the bodies met, if resolve() has left it an overlap with other normals: of joined bodies,
+    /// and of large heaps. `pair`: indices of its manifolds. Returns whether any are appended.
+    bool find_contacts(std::span<const std::uint32_t> pair, const std::vector<Manifold>& manifolds,
+                       const StepContext& step, double threshold, std::vector<Contact>& contacts);
+
+    /// For checkpoints: see sim/checkpoint/archive.h.
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [movers, hits, cluster, contacts, first_of_pair, search, scratch, found] = self;
+        archive.scratch(movers, hits, cluster, contacts, first_of_pair, scratch, found);
+        archive.keep(search);
+    }
+
+private:
+    struct Mover {  // a body that was hit
+        std::uint32_t body;
+        double lag;        // s, from its last hit to the end of the step
+        BodyVelocity way;  // of its pose since then
+    };
+    struct Hit {
+        std::uint32_t a, b;
+        double lag;  // s, from the hit to the end of the step
+    };
+    struct Member {  // a body at the time of a hit
+        std::uint32_t body;
+        Vec3 position;  // at the end of the step, as are the others
+        Quat orientation;
+        Mat3 rotation;
+        Vec3 momentum, angular_momentum;
+        Impulse late;                               // of the forces from the hit to the end of the step
+        Vec3 momentum_then, angular_momentum_then;  // before the hit
+        bool struck = false;
+    };
+    Mover mover(std::uint32_t body, const StepContext& step) const;
+    std::optional<Hit> next_hit(std::uint32_t a, std::uint32_t b, const StepContext& step);
+    void find_touch(const Hit& hit, const StepContext& step);
+    bool gather(const Hit& hit, std::span<const std::uint32_t> island, const std::vector<Manifold>& manifolds,
+                const StepContext& step);
+    bool strike(const Hit& hit, std::span<const std::uint32_t> island, const std::vector<Manifold>& manifolds,
+                const StepContext& step, const ImpactSettings& settings);
+    void join(std::uint32_t body, double lag, std::span<const std::uint32_t> island,
+              const std::vector<Manifold>& manifolds, const StepContext& step);
+    static void leave(const Member& member, std::vector<Body>& bodies);
+    void go_on(const Member& member, double lag, const StepContext& step);
+    bool add_touching(std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> pair,
+                      const std::vector<Manifold>& manifolds, const StepContext& step);
+    void refresh(Manifold& manifold, const std::vector<Body>& bodies);
+
+    std::vector<Mover> movers_;
+    std::vector<Hit> hits_;
+    std::vector<Member> cluster_;
+    std::vector<Contact> contacts_;
+    std::size_t first_of_pair_ = 0;
+    ImpactSearch search_;
+    CollisionScratch scratch_;
+    std::vector<Manifold> found_;
+};
+
+}  // namespace tumble
