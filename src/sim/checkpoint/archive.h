@@ -385,8 +385,7 @@ private:
     }
     template <class T>
     void check(T value) {
-        if (!(unbounded_ ? value == value : std::isfinite(value)))
-            damaged("has a number that is not finite");
+        if (!(unbounded_ ? value == value : std::isfinite(value))) damaged("has a number that is not finite");
     }
     template <class T>
     requires requires(CheckpointReader& archive, T& value) { T::visit(archive, value); }
@@ -500,7 +499,7 @@ private:
     std::span<const std::byte> bytes_;  // those not read yet
     std::size_t bodies_ = 0;
     bool unbounded_ = false;  // infinite numbers are right; NaN never is
-    bool made_ = false;  // whether the value that is read was made for it
+    bool made_ = false;       // whether the value that is read was made for it
     std::vector<SharedIndices> shared_;
 };
 

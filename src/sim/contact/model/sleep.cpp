@@ -11,8 +11,8 @@
 namespace tumble {
 
 void SleepMonitor::count_sleepers() {
-    sleepers_ = std::size_t(
-        std::count_if(groups_.begin(), groups_.end(), [](const auto& group) { return group != nullptr; }));
+    sleepers_ =
+        std::size_t(std::count_if(groups_.begin(), groups_.end(), [](const auto& group) { return group != nullptr; }));
 }
 
 bool SleepMonitor::sound(const std::vector<Body>& bodies) const {
