@@ -407,9 +407,9 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
     if (meeting)
         for (const std::uint32_t k : {i, j}) events_[k].meetings += bodies[k].dynamic();
     const double slow = tuning::restitution_threshold * settings_.gravity.norm() * h_, threshold = meeting ? slow : 0.0;
-    const auto load = [&](const Contact& c) {
+    const auto load = [&](const Contact& c, const Gap& gap) {
         if (bodies[c.a].flying || bodies[c.b].flying) return 0.0;
-        return std::max(0.0, -h_ * pressing_acceleration(c, bodies, free_motion(forces, now), supports_));
+        return std::max(0.0, -h_ * pressing_acceleration(c, gap, bodies, free_motion(forces, now), supports_));
     };
     supports_.resize(bodies.size(), support::none);
     const bool changed =

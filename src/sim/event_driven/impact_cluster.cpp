@@ -194,8 +194,10 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
                 return std::tie(l.a, l.b, l.part) < std::tie(r.a, r.b, r.part);
             });
             make_contacts(manifolds_, bodies, contacts_);
+            make_gaps(manifolds_, bodies, gaps_);
             if (load)
-                for (Contact& c : contacts_) c.load_speed = load(c);
+                for (std::size_t i = 0; i < contacts_.size(); ++i)
+                    contacts_[i].load_speed = load(contacts_[i], gaps_[i]);
             Island reached = island(bodies, bring);
             before_.clear();
             for (const Contact& c : contacts_) before_.push_back(relative_velocity(c, bodies[c.a], bodies[c.b]));
@@ -204,7 +206,6 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const std::uint32_t k : reached.bodies) bodies[k].derive();  // the velocities before the impact
             grown = grow(bodies, neighbor_boxes, bring);
         }
-        make_gaps(manifolds_, bodies, gaps_);
         for (const Contact& c : contacts_) {
             if (c.impact <= 0.0) continue;
             add_impact(c, bodies[c.a], bodies[c.b]);

@@ -36,7 +36,7 @@ public:
     explicit ImpactCluster(GroupFlights& groups) : groups_(groups) { scratch_.choice = AxisChoice::nearest; }
 
     /// Load speed of a contact, m/s.
-    using LoadSpeed = std::function<double(const Contact&)>;
+    using LoadSpeed = std::function<double(const Contact&, const Gap&)>;
 
     /// Resolves the impact of bodies `a` and `b` and its cluster; momenta and velocities are changed in place. Returns
     /// whether anything changed. Joints whose strength the impact exceeds break (joint_strength.h). `trace`: gets the
