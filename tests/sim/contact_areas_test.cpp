@@ -119,7 +119,7 @@ TEST(ContactAreas, OnlyFacesOfOnePlaneShare) {
     aside.normal = Vec3::UnitX();
     line.count = 2;
     scene.bodies[7].type = BodyType::kinematic;
-    scene.bodies[7].track = std::make_shared<const KeyframeTrack>(std::vector<Keyframe>(2), Interpolation::linear);
+    scene.bodies[7].track = std::make_shared<const KeyframeTrack>(std::vector<Keyframe>(1), Interpolation::linear);
     scene.manifolds = {above, aside, below, step, line, carried};
     const std::uint32_t awake[] = {3};
     scene.islands.find(body_pairs(scene.manifolds), scene.bodies, awake);

@@ -124,12 +124,27 @@ TEST(Growth, ReplacesANeighborWhereThereIsNoRoom) {
     EXPECT_LT(largest_gap(both), 2.0);
 }
 
-// Tilted further and further around: the middle always lies between the points.
+// Eight neighboring corners touch, and the others are farther off: none of these takes the place of one that touches.
+TEST(Growth, OnlyPointsThatDoNotTouchGiveWay) {
+    std::vector<ContactPoint> points = polygon(64, 0.0);
+    for (std::size_t i = 8; i < points.size(); ++i) points[i].separation = 5e-3;
+    std::vector<Manifold> both(2);
+    both[1].more = true;
+    for (std::size_t i = 0; i < 8; ++i) {
+        Manifold& m = both[i / 4];
+        m.points[std::size_t(m.count++)] = points[i];
+    }
+    Found now(points);
+    const Manifold more = grow(both, 1.0, now.first, now.reduced);
+    for (std::uint64_t i = 0; i < 8; ++i) EXPECT_TRUE(now.first.has(i) || more.has(i)) << i;
+}
+
+// Tilted further and further around, on all corners: the middle always lies between the points.
 TEST(Growth, PointsDoNotGatherOnOneSide) {
     const auto tilted = [](double towards) {
         std::vector<ContactPoint> points = polygon(64, 0.0);
         for (ContactPoint& p : points)
-            p.separation -= 1e-2 * p.position.dot(Vec3(std::cos(towards), 0.0, std::sin(towards)));
+            p.separation -= 5e-4 * p.position.dot(Vec3(std::cos(towards), 0.0, std::sin(towards)));
         return points;
     };
     std::vector<Manifold> both{Found(polygon(64, 0.0)).first};
