@@ -167,6 +167,7 @@ colors = ["#050505"]
 template = "other"
 name = "sign"
 pose = { pin = 20 }
+color = "#070707"
 )";
 
 const std::vector<std::vector<Change>> joint_changes = {
@@ -193,6 +194,7 @@ const std::vector<std::vector<Change>> joint_changes = {
      {"grid", "[[instance]]", "spacing = 9", "spacing = 8", true},
      {"scatter", "[[instance]]", "grid = { count = [1, 2, 1], spacing = 9 }",
       "scatter = { count = 2, size = [99, 99, 99] }", true},
+     {"color", "[[instance]]", "#070707", "#080808", false},
      {"colors", "[[instance]]", "#050505", "#060606", false}},
     {{"name", "[[chain]]", "name = \"rope\"", "name = \"string\"", true},
      {"links", "[[chain]]", "links = 5", "links = 6", true},

@@ -1,7 +1,7 @@
 // The moments of frames with an open shutter: the middles of its parts.
 #include "sim/frames/frame_sequence.h"
 
-#include "core/deterministic_math.h"
+#include "support/compounds.h"
 
 #include <gtest/gtest.h>
 
@@ -19,11 +19,8 @@ SceneDescription thrown_brick(int steps_per_frame) {
     scene.simulation.duration = 1.0;
     scene.simulation.steps_per_frame = steps_per_frame;
     scene.simulation.integrator = IntegratorKind::exact;
-    CompoundPart part;
-    part.shape = BoxShape{{0.4, 0.2, 0.4}};
-    part.position = {0.3, 0.0, 0.0};
     BodyDescription brick;
-    brick.shape = CompoundShape{std::make_shared<const std::vector<CompoundPart>>(1, part)};
+    brick.shape = testing::compound_of({testing::part(BoxShape{{0.4, 0.2, 0.4}}, {0.3, 0.0, 0.0})});
     brick.velocity = {3.0, 4.0, 0.0};
     brick.angular_velocity = {0.0, 2.0, 0.0};
     scene.bodies = {brick};
