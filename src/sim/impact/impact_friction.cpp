@@ -189,7 +189,7 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
         if (last) break;
         if (sweep == tuning::friction_follow) hold_limits(cluster);
     }
-    limits_held_ = false;
+    if (limits_held_) let_limits_go(cluster);
     return most;
 }
 
@@ -197,6 +197,17 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
 void ImpactFriction::hold_limits(const ImpactSystem& cluster) {
     for (Block& block : blocks_) block.limit = limit(cluster, block, 0.0);
     limits_held_ = true;
+}
+
+// Friction returns into the cones of the normal impulses.
+void ImpactFriction::let_limits_go(ImpactSystem& cluster) {
+    limits_held_ = false;
+    for (Block& block : blocks_) {
+        const double size = std::sqrt(block.f0 * block.f0 + block.f1 * block.f1);
+        const double most = limit(cluster, block, 0.0);
+        if (size > most)
+            take(cluster, block, {0.0, (most / size - 1.0) * block.f0, (most / size - 1.0) * block.f1, 0.0});
+    }
 }
 
 // Returns the largest change of speed in a sweep.

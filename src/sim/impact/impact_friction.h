@@ -60,6 +60,7 @@ private:
     };
     double limit(const ImpactSystem& cluster, const Block& block, double pushed) const;
     void hold_limits(const ImpactSystem& cluster);
+    void let_limits_go(ImpactSystem& cluster);
     Step relaxed(const ImpactSystem& cluster, const Block& block, Normal normal, double crowd) const;
     static void take(ImpactSystem& cluster, Block& block, const Step& step);
     void find_crowds(const ImpactSystem& cluster);
