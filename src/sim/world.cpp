@@ -203,7 +203,8 @@ void World::State::list_asleep() {
 }
 
 void World::State::log_skipped(std::int64_t skipped) {
-    for (const Sleeper& s : asleep) log->add_gravity(s.body, set.bodies[s.body], clock.seconds(skipped), s.place);
+    const StepContext step = context();
+    for (const Sleeper& s : asleep) forces.log_asleep(step, s.body, clock.seconds(skipped), s.place);
 }
 
 void World::State::apply_forces(const StepContext& step) {

@@ -41,15 +41,15 @@ const char* const modes[] = {"stepped", "exact"};
 
 // A crate of 2 kg on a plate that rises with a (m/s^2).
 SceneDescription lift(double a, double e, const std::string& mode) {
-    const double span = 0.5;
+    const double span = 1.0;  // beyond the duration: the end of the path is a kink
     std::string keys;
-    for (int k = 0; k <= 60; ++k) {
-        const double t = span * k / 60.0;
+    for (int k = 0; k <= 120; ++k) {
+        const double t = span * k / 120.0;
         keys += fmt::format("{{ time = {}, position = [0, {}, 0] }}, ", t, 0.5 * a * t * t);
     }
     return parse(fmt::format(R"(
 [simulation]
-duration = {}
+duration = 0.5
 impacts = "{}"
 [[body]]
 type = "kinematic"
@@ -61,7 +61,7 @@ shape = {{ type = "box", size = [0.4, 0.3, 0.4] }}
 position = [0, 0.2, 0]
 restitution = {}
 )",
-                             span, mode, keys, e));
+                             mode, keys, e));
 }
 
 TEST(Pressed, ALiftThatAcceleratesCarriesItsLoad) {
@@ -145,7 +145,7 @@ impacts = "{}"
 [[body]]
 type = "kinematic"
 restitution = 0.2
-friction = 0.4
+friction = 0
 shape = {{ type = "compound", parts = [
   {{ shape = {{ type = "box", size = [4, 0.5, 2] }}, position = [0, 2.25, 0] }},
   {{ shape = {{ type = "box", size = [4, 0.5, 2] }}, position = [0, -2.25, 0] }},
@@ -159,7 +159,7 @@ shape = {{ type = "sphere", radius = 0.14 }}
 position = [1.86, 1.86, 0]
 velocity = [{}, {}, 0]
 angular_velocity = [0, 0, {}]
-friction = 0.4
+friction = 0
 restitution = 0.2
 )",
                              gravity ? -9.81 : 0.0, solver, mode, keys, -w * 1.86, w * 1.86, w));
@@ -169,7 +169,7 @@ restitution = 0.2
 TEST(Pressed, ATurningDrumHoldsABall) {
     for (const double rpm : {10.0, 60.0, 120.0})
         for (const bool gravity : {false, true})
-            for (const char* solver : {"auto", "soft"})
+            for (const char* solver : {"by-island", "soft"})
                 for (const char* mode : modes) {
                     if (gravity && rpm < 60.0) continue;  // it falls from the upper corner
                     const Load load = measure(drum(rpm / 60.0, gravity, solver, mode));

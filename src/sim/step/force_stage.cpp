@@ -57,8 +57,16 @@ void ForceStage::apply(const StepContext& step, OutOfDate derived) {
     });
     if (!step.log) return;
     for (std::uint32_t i = 0; i < set.bodies.size(); ++i)
-        if (set.bodies[i].dynamic() && set.bodies[i].asleep)
-            step.log->add_gravity(i, set.bodies[i], h, set.bodies[i].position);
+        if (set.bodies[i].dynamic() && set.bodies[i].asleep) log_asleep(step, i, h, set.bodies[i].position);
+}
+
+void ForceStage::log_asleep(const StepContext& step, std::uint32_t i, double span, const Vec3& place) const {
+    const Body& body = step.set.bodies[i];
+    step.log->add_gravity(i, body, span, place);
+    if (field_.only_gravity(i)) return;
+    const Wrench wrench = field_.throughout(i, body, step.start(), step.end());
+    step.log->add_external(i, {span * (wrench.force - body.mass * step.settings.gravity), span * wrench.torque}, place,
+                           {});
 }
 
 void ForceStage::log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const {

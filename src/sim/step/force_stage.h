@@ -29,6 +29,9 @@ public:
     /// speed against the forces that act throughout: a bounce must not cancel a brief force.
     void apply_brief(const StepContext& step);
 
+    /// Logs the forces of `span` s on a sleeping body: its contacts carry them.
+    void log_asleep(const StepContext& step, std::uint32_t i, double span, const Vec3& place) const;
+
     /// Takes the body's present momenta for those that the forces alone would have given it.
     void accept(std::uint32_t body, const BodySet& set);
     /// Sets the body back to its momenta before the forces: the start of an integrator of higher order.
@@ -61,6 +64,7 @@ private:
     struct alignas(64) Effect {
         Momenta before, after;
     };
+
     void log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const;
 
     ForceField field_;

@@ -1,5 +1,6 @@
 #include "sim/step/meetings.h"
 
+#include "sim/ccd/settings.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/contact/model/free_motion.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
@@ -33,7 +34,8 @@ bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifol
     const Manifold& first = manifolds[pair[0]];
     const Body &a = step.set.bodies[first.a], &b = step.set.bodies[first.b];
     if (!(pair_restitution(a, b) > 0.0 || ball(a) || ball(b))) return false;  // bodies with faces stop at the surface
-    const double touch = touch_distance(a.radius, b.radius), far = tuning::met_motion * std::min(a.radius, b.radius);
+    const double touch = touch_distance(a.radius, b.radius), least = tuning::met_motion * std::min(a.radius, b.radius);
+    const double most = std::min(depth(a.collider), depth(b.collider));  // CCD stops faster bodies where they meet
     bool met = false;
     for (const std::uint32_t k : pair) {
         const Manifold& m = manifolds[k];
@@ -44,7 +46,9 @@ bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifol
             const BodyVelocity &of_a = motions[m.a], &of_b = motions[m.b];
             const Vec3 motion = of_b.velocity + of_b.angular_velocity.cross(p.position - b.position) - of_a.velocity -
                                 of_a.angular_velocity.cross(p.position - a.position);
-            met = step.h * motion.norm() > far && motion.dot(m.normal) < 0.0;
+            const double way = step.h * motion.norm();
+            if (way > most) return false;
+            met = way > least && motion.dot(m.normal) < 0.0;
         }
     }
     return met;
@@ -212,12 +216,14 @@ void Meetings::leave(const Member& member, std::vector<Body>& bodies) {
     if (body.dynamic()) body.derive();
 }
 
-// Goes on for the rest of the step after a hit.
-void Meetings::go_on(const Member& member, double lag, const StepContext& step) {
+// Goes on for the rest of the step after a hit, but not so far that it could pass a body that is not in its island.
+void Meetings::go_on(const Member& member, double rest, const StepContext& step) {
     Body& body = step.set.bodies[member.body];
     const Quat from = body.orientation;
     body.momentum += member.late.linear;
     body.derive_velocities();
+    const double speed = body.velocity.norm() + (ball(body) ? 0.0 : body.radius * body.angular_velocity.norm());
+    const double far = tuning::fast_share * depth(body.collider), lag = rest * speed > far ? far / speed : rest;
     body.position += lag * body.velocity;
     turn_freely(body, from, lag);
     body.angular_momentum += member.late.angular;

@@ -69,7 +69,7 @@ private:
     void join(std::uint32_t body, double lag, std::span<const std::uint32_t> island,
               const std::vector<Manifold>& manifolds, const StepContext& step);
     static void leave(const Member& member, std::vector<Body>& bodies);
-    void go_on(const Member& member, double lag, const StepContext& step);
+    void go_on(const Member& member, double rest, const StepContext& step);
     bool add_touching(std::uint32_t a, std::uint32_t b, std::span<const std::uint32_t> pair,
                       const std::vector<Manifold>& manifolds, const StepContext& step);
     void refresh(Manifold& manifold, const std::vector<Body>& bodies);

@@ -103,7 +103,7 @@ double load_speed(const Manifold& m, int point, const Body& a, const Body& b, co
     const Gap gap = gap_of(m, point, a, b);
     const double now =
         gap_acceleration(gap, a, b, free.acceleration(m.a, a, gap.arm_a), free.acceleration(m.b, b, gap.arm_b));
-    return std::max({0.0, last, -free.h * now});
+    return std::max({0.0, tuning::load_left * last, -free.h * now});
 }
 
 }  // namespace tumble

@@ -42,8 +42,8 @@ double gap_acceleration(const Gap& gap, const Body& a, const Body& b, const Vec3
 /// Speed (m/s) with which the bodies approach within a step at a point of their manifold because they are pressed
 /// together, if nothing stops them. A contact that rests on a support approaches at this speed in each step; an impact is
 /// faster. The larger one of two estimates:
-/// - the speed that the manifold's impulses of the last step took from the approach: the load of other bodies, joints
-///   and motors is in them;
+/// - tuning::load_left of the speed that the manifold's impulses of the last step took from the approach: the load of
+///   other bodies, joints and motors is in them;
 /// - the acceleration of the gap in free motion: for the first step of a load.
 double load_speed(const Manifold& manifold, int point, const Body& a, const Body& b, const FreeMotion& free);
 
