@@ -48,7 +48,9 @@ bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifol
                                 of_a.angular_velocity.cross(p.position - a.position);
             const double way = step.h * motion.norm();
             if (way > most) return false;
-            met = way > least && motion.dot(m.normal) < 0.0;
+            met = way > least && motion.dot(m.normal) < 0.0 &&
+                  relative_velocity(p, m.normal, a, b) <
+                      -tuning::restitution_threshold * load_speed(m, i, a, b, step.free_motion());
         }
     }
     return met;
@@ -247,8 +249,7 @@ bool Meetings::add_touching(std::uint32_t a, std::uint32_t b, std::span<const st
     double load = 0.0;
     for (const std::uint32_t k : pair)
         for (int i = 0; i < manifolds[k].count; ++i)
-            if (manifolds[k].points[std::size_t(i)].impulse > 0.0)
-                load = std::max(load, load_speed(manifolds[k], i, on_a, on_b, step.free_motion()));
+            load = std::max(load, load_speed(manifolds[k], i, on_a, on_b, step.free_motion()));
     for (Manifold& m : found_) {
         m.a = a;
         m.b = b;
@@ -300,7 +301,8 @@ bool Meetings::strike(const Hit& hit, std::span<const std::uint32_t> island, con
     std::vector<Body>& bodies = step.set.bodies;
     const bool whole = gather(hit, island, manifolds, step);
     const auto approaches = [&](const Contact& c) {
-        return c.a == hit.a && c.b == hit.b && relative_velocity(c, bodies[c.a], bodies[c.b]) < -settings.threshold;
+        return c.a == hit.a && c.b == hit.b &&
+               relative_velocity(c, bodies[c.a], bodies[c.b]) < -least_impact(c, settings.threshold);
     };
     Island impact;
     for (const Member& member : cluster_)
