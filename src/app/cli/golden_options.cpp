@@ -18,7 +18,7 @@ void add_suite(CLI::App& command, GoldenCommand& c) {
 constexpr const char* checked_platform =
     "References of the folder NAME replace general ones; none: no folder does. By default\n"
     "the processor: amd, intel, arm or other";
-constexpr const char* accepted_platform =
+constexpr const char* accepted_platform_help =
     "Write references for processors of that name, in the folder NAME, in place of general\nones";
 
 void add_common(CLI::App& command, GoldenCommand& c, const char* platform) {
@@ -96,7 +96,7 @@ void add_accept(CLI::App& golden, GoldenCommand& c) {
     command->add_flag("--all", c.all, "All cases");
     command->add_flag("--even-alike", c.even_alike,
                       "Replace references also where the new image is within the tolerances");
-    add_common(*command, c, accepted_platform);
+    add_common(*command, c, accepted_platform_help);
     command->footer("Example:\n  tumble golden accept golden.toml falling_boxes");
 }
 
@@ -120,7 +120,7 @@ void add_add(CLI::App& golden, GoldenCommand& c) {
     command->add_option("--plot", added.overrides.plot, "Curves of quantities in the pictures (tumble render --help)")
         ->type_name("LIST");
     command->add_flag("--transparent", added.transparent, "Draw the bodies alone on a transparent background");
-    add_common(*command, c, accepted_platform);
+    add_common(*command, c, accepted_platform_help);
     command->footer("Example:\n  tumble golden add golden.toml scene.toml --frames 0,45,90 --size 160x90");
 }
 
