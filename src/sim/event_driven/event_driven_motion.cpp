@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "core/sort_unique.h"
+#include "sim/contact/model/contact_constraint.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/event_driven/contact_transition.h"
@@ -324,13 +325,13 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     const auto* ball = std::get_if<Ball>(&a.collider);
     const auto* other_ball = std::get_if<Ball>(&b.collider);
     const HalfSpaceFilter* plane = half_spaces_[j].valid ? &half_spaces_[j] : nullptr;
-    if (!ball || !a.flying || events_[i].driven || (a.friction > 0.0 && b.friction > 0.0)) return false;
+    if (!ball || !a.flying || events_[i].driven || pair_friction(a, b) > 0.0) return false;
     if (!plane && !(other_ball && b.flying && !events_[j].driven)) return false;
     const double ta = clock_.between(events_[i].start, now), tb = clock_.between(events_[j].start, now);
     const Vec3 at = events_[i].path.position(ta), va = events_[i].path.velocity(ta);
     const Vec3 vb = other_ball ? events_[j].path.velocity(tb) : Vec3(Vec3::Zero());
     const Vec3 n = other_ball ? Vec3((events_[j].path.position(tb) - at).normalized()) : Vec3(-plane->normal);
-    const double v = n.dot(vb - va), e = std::max(a.restitution, b.restitution);
+    const double v = n.dot(vb - va), e = pair_restitution(a, b);
     if (!(v < 0.0)) return false;
     const double press = plane ? -n.dot(settings_.gravity) : 0.0;
     if (press < 0.0 && -2.0 * e * v < -press * zeno_limit(i)) return false;  // this one switches to contact
