@@ -132,7 +132,7 @@ restitution = 0.5
 // A ball at rest in the corner of a square drum that turns.
 SceneDescription drum(double turns, bool gravity, const std::string& solver, const std::string& mode) {
     std::string keys;
-    for (int k = 0; k <= int(4.0 * turns); ++k)
+    for (int k = 0; k <= int(4.0 * turns) + 2; ++k)
         keys +=
             fmt::format("{{ time = {}, rotation = {{ axis = [0, 0, 1], angle = {} }} }}, ", 0.25 * k / turns, 90 * k);
     const double w = 2.0 * std::numbers::pi * turns;

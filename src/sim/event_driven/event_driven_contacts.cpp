@@ -126,6 +126,8 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
     std::vector<std::pair<std::uint32_t, std::uint32_t>> landing;  // body and support
     const FreeMotion free = free_motion(forces, now);
     supports_.resize(bodies.size(), support::none);
+    for (const std::uint32_t k : movers_)
+        if (held(bodies[k]) && supports_[k] == support::none) supports_[k] = support::still;
     do {  // in rounds: the result must not depend on the contacts' order
         switching.clear();
         landing.clear();

@@ -19,6 +19,8 @@ struct FreeMotion {
     double from, to;                         // s
     double h;                                // s, length of the step
 
+    /// m/s^2, world, of the center of a dynamic body.
+    Vec3 by_forces(std::uint32_t body, const Body& state) const;
     /// m/s^2, world, of the body's point at `arm` from its center.
     Vec3 acceleration(std::uint32_t body, const Body& state, const Vec3& arm) const;
 };
@@ -44,7 +46,7 @@ double gap_acceleration(const Gap& gap, const Body& a, const Body& b, const Vec3
 /// faster. The larger one of two estimates:
 /// - tuning::load_left of the speed that the manifold's impulses of the last step took from the approach: the load of
 ///   other bodies, joints and motors is in them;
-/// - the acceleration of the gap in free motion: for the first step of a load.
+/// - the acceleration of the gap by forces and by the motion of a kinematic body: for the first step of a load.
 double load_speed(const Manifold& manifold, int point, const Body& a, const Body& b, const FreeMotion& free);
 
 }  // namespace tumble
