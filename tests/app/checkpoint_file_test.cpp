@@ -4,6 +4,7 @@
 #include "sim/checkpoint/archive.h"
 #include "support/scenes.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
@@ -96,8 +97,10 @@ TEST(CheckpointFile, NamesTheDifference) {
               std::string::npos);
     other = header();
     other.format = checkpoint_format + 1;
-    EXPECT_NE(reason(checkpoint_bytes(other, content)).find("format 2, and this program reads format 1"),
-              std::string::npos);
+    EXPECT_NE(
+        reason(checkpoint_bytes(other, content))
+            .find(fmt::format("format {}, and this program reads format {}", checkpoint_format + 1, checkpoint_format)),
+        std::string::npos);
     other = header();
     other.frame = 120;
     EXPECT_NE(reason(checkpoint_bytes(other, content)).find("renamed"), std::string::npos);

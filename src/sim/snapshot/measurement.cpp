@@ -42,7 +42,7 @@ std::vector<Overlap> overlaps_of(const std::vector<Manifold>& manifolds, const s
                                  std::span<const std::uint32_t> scene_index) {
     std::map<std::pair<std::size_t, std::size_t>, Overlap> by_pair;  // a pair of several parts has several manifolds
     for (const Manifold& m : manifolds) {
-        const auto [a, b] = std::minmax<std::size_t>(scene_index[m.a], scene_index[m.b]);
+        const auto [a, b] = std::minmax({std::size_t(scene_index[m.a]), std::size_t(scene_index[m.b])});
         for (int i = 0; i < m.count; ++i) {
             const double deep = -m.points[std::size_t(i)].separation;
             if (!(deep > 0.0)) continue;
