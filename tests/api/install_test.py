@@ -42,7 +42,7 @@ def without_mark(png):
 
 def links_of(text):
     """The relative links of a page, without their anchors."""
-    text = re.sub(r"^```.*?^```", "", text, flags=re.M | re.S)
+    text = re.sub(r"`[^`\n]*`", "", re.sub(r"^```.*?^```", "", text, flags=re.M | re.S))
     found = re.findall(r"\]\(<?([^()\s>]+)>?\)", text)
     return [link.split("#")[0] for link in found if not re.match(r"[a-z][a-z0-9+.-]*:|#", link)]
 

@@ -20,7 +20,7 @@ frames = false
 scene = "toml"
 tables = ["trajectory"]
 """
-LESSON = "---\ntitle: One\nsummary: One.\n---\n\nText.\n"
+LESSON = '+++\ntitle = "One"\nsummary = "One."\n+++\n\nText.\n'
 
 
 class Inputs(program.ProgramTest):

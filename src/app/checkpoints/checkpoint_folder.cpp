@@ -62,6 +62,12 @@ fs::path checkpoint_path(const fs::path& folder, std::int64_t frame) {
 void add_checkpoints(OutputPlan& plan, const fs::path& folder) {
     constexpr const char* option = "--checkpoints";
     const auto path_of_motion = [](const fs::path& in, std::int64_t frame) { return motion_path(in, frame, 0); };
+    for (const fs::path& file : checkpoint_files_in(folder)) {  // replaced or removed, whatever their numbers
+        const std::string name = file.filename().string();
+        if (!number_in(name, "checkpoint_", ".tumble") && !number_in(name, "motion_", ".tumble") &&
+            file != clip_path(folder))
+            plan.add(option, file);
+    }
     plan.add(option, clip_path(folder));
     plan.add({option, folder, "checkpoint_", ".tumble", checkpoint_path, 0, limits::frames});
     plan.add({option, folder, "motion_", ".tumble", path_of_motion, 0, limits::frames});

@@ -58,12 +58,8 @@ void say_run(const SimulateCommand& command, const SceneDescription& scene, std:
 void check_tables(const SimulateCommand& command, const FileList& inputs) {
     OutputPlan plan;
     plan.add_inputs(inputs);
-    if (const auto& folder = command.from_checkpoints ? command.from_checkpoints : command.checkpoints) {
-        const std::vector<std::filesystem::path> files = checkpoint_files_in(*folder);
-        if (command.from_checkpoints) plan.add_inputs(files);
-        // Those of an earlier run are replaced.
-        if (command.checkpoints)
-            for (const std::filesystem::path& file : files) plan.add("--checkpoints", file);
+    if (const auto& folder = command.from_checkpoints) {
+        plan.add_inputs(checkpoint_files_in(*folder));
         plan.add_input_folder(*folder, is_checkpoint_name);
     }
     command.tables.add_to(plan);
