@@ -24,7 +24,9 @@ Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<
 bool presses(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
              const HoldLimits& limits, const Supports& supports) {
     const double part = relative_velocity(c, bodies[c.a], bodies[c.b]);
-    const double pressing = -pressing_acceleration(c, gap, bodies, free, supports);
+    double pressing = -pressing_acceleration(c, gap, bodies, free, supports);
+    // Bodies between others have no forces of their own: the load of the last step is still there.
+    if (pressing == 0.0) pressing = c.load_speed / free.h;
     if (!(pressing > 0.0)) return false;
     const double most = std::max(limits.gravity, pressing);
     return c.separation <= std::max(c.touch_distance, 0.5 * most * limits.near * limits.near) &&

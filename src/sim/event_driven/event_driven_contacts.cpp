@@ -85,17 +85,22 @@ void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t s
     predict_changed(bodies, now);
 }
 
-// Bodies in contact that the impact released are ballistic from now on, not from the next step.
-void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
-    const auto& receivers = cluster_.impulse_receivers();
-    if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
+// All bodies in contact have a support, and no others.
+void EventDrivenMotion::support_stepped(const std::vector<Body>& bodies) {
     supports_.resize(bodies.size(), support::none);
-    for (std::size_t k = 0; k < bodies.size(); ++k) {
+    for (const std::uint32_t k : movers_) {
         if (!held(bodies[k]))
             supports_[k] = support::none;
         else if (supports_[k] == support::none)
             supports_[k] = support::still;
     }
+}
+
+// Bodies in contact that the impact released are ballistic from now on, not from the next step.
+void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
+    const auto& receivers = cluster_.impulse_receivers();
+    if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
+    support_stepped(bodies);
     for (const std::uint32_t k : receivers) supports_[k] = support::none;
     mark_held(cluster_.contacts(), cluster_.gaps(), bodies, free_motion(forces, now),
               {settings_.gravity.norm(), 0.0, h_}, supports_);
@@ -125,9 +130,7 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
     std::vector<std::uint32_t> switching;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> landing;  // body and support
     const FreeMotion free = free_motion(forces, now);
-    supports_.resize(bodies.size(), support::none);
-    for (const std::uint32_t k : movers_)
-        if (held(bodies[k]) && supports_[k] == support::none) supports_[k] = support::still;
+    support_stepped(bodies);
     do {  // in rounds: the result must not depend on the contacts' order
         switching.clear();
         landing.clear();

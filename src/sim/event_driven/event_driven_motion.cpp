@@ -412,7 +412,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         if (bodies[c.a].flying || bodies[c.b].flying) return 0.0;
         return std::max(0.0, -h_ * pressing_acceleration(c, gap, bodies, free_motion(forces, now), supports_));
     };
-    supports_.resize(bodies.size(), support::none);
+    if (meeting) support_stepped(bodies);
     const bool changed =
         cluster_.resolve(i, j, bodies, neighbor_boxes_, bring_body, meeting ? ImpactCluster::LoadSpeed(load) : nullptr,
                          {.threshold = threshold,

@@ -165,6 +165,7 @@ private:
     void box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now);
     void predict_changed(const std::vector<Body>& bodies, const EventTime& now);
+    void support_stepped(const std::vector<Body>& bodies);
     void release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void hold_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);

@@ -26,6 +26,9 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
     std::vector<Body>& bodies = step.set.bodies;
     make_contacts(manifolds, bodies, contacts_);
     make_gaps(manifolds, bodies, gaps_);
+    auto contact = contacts_.begin();
+    for (const Manifold& m : manifolds)
+        for (int i = 0; i < m.count; ++i) (contact++)->load_speed = last_load(m, i, bodies[m.a], bodies[m.b]);
     events_.record_in(step.log);
     events_.start_from(step.set.old_velocities);
     events_.join(step.joints, bodies, step.forces.field());

@@ -168,9 +168,11 @@ void Meetings::find_touch(const Hit& hit, const StepContext& step) {
 
 bool Meetings::find_contacts(std::span<const std::uint32_t> pair, const std::vector<Manifold>& manifolds,
                              const StepContext& step, double threshold, std::vector<Contact>& contacts) {
+    const Manifold& now = manifolds[pair[0]];
+    // Joined bodies stay where they are: an impulse at the place of the touch would change their angular momentum.
+    if (step.set.bodies[now.a].jointed || step.set.bodies[now.b].jointed) return false;
     if (!may_have_met(pair, manifolds, step, threshold)) return false;
     movers_.clear();
-    const Manifold& now = manifolds[pair[0]];
     const auto hit = next_hit(now.a, now.b, step);
     if (!hit || !(hit->lag < step.h)) return false;
     find_touch(*hit, step);

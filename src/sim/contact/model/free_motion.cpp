@@ -105,9 +105,13 @@ double gap_acceleration(const Gap& gap, const Body& a, const Body& b, const Vec3
     return beyond_rounding(gap.normal.dot(of_b - of_a) + more, of_a.norm() + of_b.norm() + std::abs(more));
 }
 
-double load_speed(const Manifold& m, int point, const Body& a, const Body& b, const FreeMotion& free) {
+double last_load(const Manifold& m, int point, const Body& a, const Body& b) {
     const Vec3& place = m.points[std::size_t(point)].position;
-    const double last = load_change(m, a, place) + load_change(m, b, place);
+    return load_change(m, a, place) + load_change(m, b, place);
+}
+
+double load_speed(const Manifold& m, int point, const Body& a, const Body& b, const FreeMotion& free) {
+    const double last = last_load(m, point, a, b);
     const Gap gap = gap_of(m, point, a, b);
     // The rotation of dynamic bodies is left out: it is no load, and too fast for its acceleration in coarse steps.
     const auto pushed = [&](std::uint32_t k, const Body& body, const Vec3& arm) -> Vec3 {

@@ -41,6 +41,9 @@ void make_gaps(const std::vector<Manifold>& manifolds, const std::vector<Body>& 
 /// Zero where the terms cancel up to rounding.
 double gap_acceleration(const Gap& gap, const Body& a, const Body& b, const Vec3& of_a, const Vec3& of_b);
 
+/// Speed (m/s) that the manifold's impulses of the last step took from the approach at one of its points.
+double last_load(const Manifold& manifold, int point, const Body& a, const Body& b);
+
 /// Speed (m/s) with which the bodies approach within a step at a point of their manifold because they are pressed
 /// together, if nothing stops them. A contact that rests on a support approaches at this speed in each step; an impact is
 /// faster. The larger one of two estimates:

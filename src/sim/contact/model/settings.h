@@ -26,7 +26,7 @@ inline constexpr double spin_share = 0.2;
 /// begins, because its solver is not exact. Not the whole: the loads under a rigid body on many supports are not unique, and
 /// with them as thresholds some of the supports would bounce and others not. Related tests: those of
 /// tests/physics/pressed_test.cpp and ManyContacts.FlatBoxOnABedOfBalls.
-inline constexpr double load_left = 0.1;
+inline constexpr double load_left = 0.01;
 
 /// Turn of a normal, rad, until two bodies without restitution meet: those that turn more are not stopped at the surface, but
 /// meet in an overlap that the impact resolves. Related test: OffCenter.BallsLeaveAlongTheLineOfTheirCenters.
