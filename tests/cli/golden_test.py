@@ -242,7 +242,7 @@ class Accept(Golden):
 
     def test_references_that_cannot_be_written(self):
         (self.folder / "references").write_text("a file")
-        self.assertIn("references", self.golden(1, "accept", "--all").stderr)
+        self.assertIn("references", self.golden(2, "accept", "--all").stderr)
 
     def test_a_platform_has_references_of_its_own(self):
         self.golden(0, "accept", "--all")

@@ -224,7 +224,7 @@ class LessonTest(pages.PageTestCase):
         self.mistake(text.replace('stage = "drop"\neq', 'stage = "drop"\nimpact = 900\neq'),
                      r":\d+:1: error: impact: the run has \d+ impacts \(asked for impact 900\)")
         self.mistake(text.replace('stage = "drop"\neq', 'stage = "drop"\nrun = 1\neq'), r"run: the stage has 1 runs")
-        now = text.replace('stage = "drop"\neq', 'stage = "drop"\nmoment = "now"\neq').replace("vrelp", "P")
+        now = text.replace('stage = "drop"\neq', 'stage = "drop"\nmoment = "now"\neq').replace('value = "vrelp"', 'value = "P"')
         self.mistake(now.replace("-0.6*vrel", "1.01*m*v"), r"error: value: the left side is \(0, .*residual 0\.0099")
         self.lesson("a.md", now.replace("-0.6*vrel", "m*v"))
         self.check(0, "lesson", "a.md", "--check", "--quiet", "--no-pictures")

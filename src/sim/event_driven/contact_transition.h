@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// What holds each body in contact: nothing, something that stands, or the kinematic body of this index, which carries it.
+/// The support of each body in contact: none, one that stands, or the kinematic body of this index, which carries it.
 using Supports = std::vector<std::uint32_t>;
 namespace support {
 inline constexpr std::uint32_t none = UINT32_MAX, still = UINT32_MAX - 1;

@@ -14,18 +14,6 @@ inline constexpr double restitution_threshold = 2.0;
 /// ContactEnergy.ABodyThatHardlyBouncesLandsAtTheSurface.
 inline constexpr double restitution_rebound = 1.0;
 
-/// A contact that is met within a step gets the normals of that time if its points moved by more than the first share of
-/// the smaller radius, and if a normal differs by an angle whose cosine is below 1 minus the second: 1e-6 rad for curved
-/// surfaces, 1e-3 rad for faces. Related tests: those of tests/physics/off_center_test.cpp.
-inline constexpr double met_motion = 0.002;
-inline constexpr double met_turn_of_curve = 1e-12;
-inline constexpr double met_turn = 5e-7;
-
-/// Bodies that take part in a hit within a step, and hits in a step for each pair of an island. Beyond, the impact is that of
-/// the step's end. Limit the cost.
-inline constexpr std::size_t meeting_bodies = 64;
-inline constexpr std::size_t meetings_each = 4;
-
 /// Contacts of an impact that are solved together exactly. The cost grows with the cube of the contacts: 1 ms at
 /// 100, 30 ms at 256, 0.3 s at 512. Sweeps, which take over beyond, stop short of the solution in long chains.
 /// Limits the cost.

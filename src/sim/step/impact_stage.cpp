@@ -44,26 +44,13 @@ bool collides(std::size_t island, ContactDetection& detection, const StepContext
 
 double ImpactStage::threshold(const StepContext& step) { return tuning::restitution_threshold * step.gravity_speed(); }
 
-ImpactSettings ImpactStage::hit_settings(const StepContext& step) {
-    return {.threshold = threshold(step),
-            .law = step.settings.impact_law,
-            .resting = threshold(step),
-            .friction = true,
-            .complete = true,
-            .span = step.h};
-}
-
 void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) {
     std::vector<Body>& bodies = step.set.bodies;
     struck_.clear();
     colliding_.clear();
     contacts_.clear();
-    // In the event-driven mode bodies meet at events.
-    const bool meet = step.settings.impacts == ImpactMode::stepped;
-    for (std::size_t k = 0; k < detection.islands().size(); ++k) {
-        if (meet) meetings_.resolve(detection.islands().manifolds(k), detection.manifolds(), step, hit_settings(step));
+    for (std::size_t k = 0; k < detection.islands().size(); ++k)
         if (collides(k, detection, step, threshold(step))) add_island(k, step, detection);
-    }
     if (struck_.empty()) return;
     traces_.assign(step.log ? colliding_.size() : 0, {});
     blows_.assign(colliding_.size(), {});
@@ -89,17 +76,9 @@ void ImpactStage::add_island(std::size_t k, const StepContext& step, ContactDete
         if (!joint.broken) island.joints.push_back(&joint);
     }
     const std::size_t first = contacts_.size();
-    const std::span<const std::uint32_t> all = islands.manifolds(k);
-    for (std::size_t from = 0, to = 0; from < all.size(); from = to) {
-        const Manifold& m = manifolds[all[from]];
-        while (to < all.size() && manifolds[all[to]].a == m.a && manifolds[all[to]].b == m.b) ++to;
-        const auto pair = all.subspan(from, to - from);
-        const bool met = step.settings.impacts == ImpactMode::stepped &&
-                         meetings_.find_contacts(pair, manifolds, step, threshold(step), contacts_);
-        for (const std::uint32_t i : pair) {
-            Struck& struck = struck_.emplace_back(Struck{i, normal_impulse(manifolds[i]), 0.0});
-            if (!met) add_contacts_under_load(manifolds[i], step, struck);
-        }
+    for (const std::uint32_t m : islands.manifolds(k)) {
+        Struck& struck = struck_.emplace_back(Struck{m, normal_impulse(manifolds[m]), 0.0});
+        add_contacts_under_load(manifolds[m], step, struck);
     }
     for (std::size_t i = first; i < contacts_.size(); ++i) island.contacts.push_back(std::uint32_t(i));
 }

@@ -5,7 +5,6 @@
 #include "sim/contact/model/contact.h"
 #include "sim/geometry/manifold.h"
 #include "sim/impact/impacts.h"
-#include "sim/step/meetings.h"
 
 #include <cstdint>
 #include <vector>
@@ -35,9 +34,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [contacts, colliding, struck, traces, blows, meetings] = self;
+        auto& [contacts, colliding, struck, traces, blows] = self;
         archive.scratch(contacts, colliding, struck, traces, blows);
-        archive.keep(meetings);
     }
 
 private:
@@ -45,7 +43,6 @@ private:
         std::uint32_t manifold = 0;
         double impulse_before = 0.0, load_speed = 0.0;  // N s, before the step; m/s, the largest of its points
     };
-    static ImpactSettings hit_settings(const StepContext& step);
     void add_island(std::size_t island, const StepContext& step, ContactDetection& detection);
     void add_contacts_under_load(const Manifold& manifold, const StepContext& step, Struck& struck);
     void resolve_island(const StepContext& step, std::size_t island);
@@ -55,7 +52,6 @@ private:
     std::vector<Struck> struck_;                 // manifolds of these islands
     std::vector<ImpactTrace> traces_;            // by entry of colliding_; for the log
     std::vector<std::vector<JointBlow>> blows_;  // by entry of colliding_
-    Meetings meetings_;
 };
 
 }  // namespace tumble
