@@ -59,7 +59,9 @@ bool NarrowPhase::sound() const {
     std::size_t first = 0;
     for (const Entry& entry : entries_) {
         const std::size_t end = first + entry.count;
-        if ((entry.count > 0 && entry.first != first) || end > count || entry.search >= searches_.size()) return false;
+        // A new entry without manifolds has no place yet.
+        if (entry.first != first && (entry.count > 0 || entry.first > count)) return false;
+        if (end > count || entry.search >= searches_.size()) return false;
         if (entry.mover != entry.pair.a && entry.mover != entry.pair.b) return false;
         for (; first < end; ++first)
             if (touching_[first] != entry.pair || BodyPair{manifolds_[first].a, manifolds_[first].b} != entry.pair)
