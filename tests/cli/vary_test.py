@@ -6,7 +6,7 @@ BOUNCE = """format = 1
 [simulation]
 duration = 0.8
 [output]
-size = [32, 24]
+size = [192, 96]
 fps = 20
 [[body]]
 name = "floor"
@@ -16,7 +16,7 @@ shape = { type = "plane" }
 name = "ball"
 shape = { type = "sphere", radius = 0.2 }
 position = [0, 0.6, 0]
-velocity = [1, 0, 0]
+velocity = [5, 0, 0]
 """
 OF_FLOOR = BOUNCE.replace('{ type = "plane" }', '{ type = "plane" }\nrestitution = 0.5\nfriction = 0')
 
@@ -49,7 +49,7 @@ class AlikeRuns(program.ProgramTest):
 
     def test_values_of_the_picture_and_equal_values_may_move_alike(self):
         for vary in ("body.ball.color=\"#ff0000\",\"#00ff00\"", "output.samples=1,4", "body.ball.restitution=0.5,0.50"):
-            run = self.check(0, "render", "scene.toml", "--vary", vary.replace("body.ball", "body.1"), "-o", "c.mkv", "--duration", "0.1")
+            run = self.check(0, "render", "scene.toml", "--vary", vary.replace("body.ball", "body.1"), "-o", "c.mkv", "--duration", "0.1", "--size", "192x96")
             self.assertNotIn("move alike", run.stderr)
 
     def test_without_effect_for_another_reason(self):
@@ -64,7 +64,7 @@ OVERLAP = """format = 1
 [simulation]
 duration = 0.1
 [output]
-size = [32, 24]
+size = [192, 96]
 [[body]]
 type = "fixed"
 shape = { type = "plane" }

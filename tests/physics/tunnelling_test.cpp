@@ -318,8 +318,8 @@ TEST(ThinWall, ARackIsBroken) {
         for (std::size_t k = 1; k < i; ++k)
             EXPECT_GT((s.bodies[i].center_of_mass - s.bodies[k].center_of_mass).norm(), 1.99 * r) << i << ' ' << k;
     const Measurement m = world.measure();
-    EXPECT_NEAR(m.momentum.x(), 0.17 * 6.0, 1e-12);
-    EXPECT_LT(m.kinetic, 0.35 * 3.06);  // exact impacts: 0.16
+    EXPECT_NEAR(m.momentum.x(), 0.17 * 6.0, 1e-9);  // the direct solver ends at some 1e-10
+    EXPECT_LT(m.kinetic, 0.35 * 3.06);              // exact impacts: 0.16
 }
 
 // A rod that rotates by a radian per step beside a block that it never reaches: CCD checks its motion, which is that of
