@@ -6,11 +6,12 @@
 namespace tumble::tuning {
 
 /// Approach speeds below this times |g| h, or times the load speed of the contact (load_speed()), do not bounce. Gravity
-/// gives a resting contact g h in each step, its load the load speed; twice that is distinct from it. Not fitted. Tests: those of the contact solver (tests/sim/contact_scenes.h).
+/// gives a resting contact g h in each step, its load the load speed; twice that is distinct from it. Not fitted. Tests:
+/// tests/sim/contact_scenes.h, tests/physics/pressed_test.cpp.
 inline constexpr double restitution_threshold = 2.0;
 
-/// With time-stepped impacts, a bounce that would separate slower than this times |g| h, or the load speed, does not happen either: the
-/// hop would last two steps, and the body would stay in an overlap and be lifted out of it. Related test:
+/// With time-stepped impacts, a bounce that would separate slower than this times |g| h, or times the load speed, does not
+/// happen either: the hop would last two steps, and the body would stay in an overlap and be lifted out of it. Related test:
 /// ContactEnergy.ABodyThatHardlyBouncesLandsAtTheSurface.
 inline constexpr double restitution_rebound = 1.0;
 

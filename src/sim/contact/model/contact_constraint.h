@@ -37,7 +37,7 @@ struct ConstraintSettings {
     /// Both speeds of a contact under load are at least these shares of its load speed. Null: of no load.
     const FreeMotion* free = nullptr;
     double threshold_share = 0.0, rebound_share = 0.0;
-    bool meets = false;  // overlaps of bodies without joints are hits, resolved at the poses in which they met
+    bool meets = false;  // time-stepping: a curved gap that turns toward contact may close into an overlap
 
     /// Whether a point that approaches at this speed (m/s) bounces.
     bool bounces(double approach, const Manifold& manifold, int point, const Body& a, const Body& b) const;
