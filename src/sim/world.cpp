@@ -18,6 +18,7 @@
 #include "sim/step/contact_detection.h"
 #include "sim/step/event_driven_stage.h"
 #include "sim/step/force_stage.h"
+#include "sim/step/hit_stage.h"
 #include "sim/step/impact_stage.h"
 #include "sim/step/step_context.h"
 #include "sim/step/stepped_motion.h"
@@ -54,6 +55,7 @@ struct World::State {
     ForceStage forces;
     ContactDetection detection;
     ImpactStage impacts;
+    HitStage hits;
     ContactSolver contact_solver;
     std::unique_ptr<MotionStage> motion;
     SleepMonitor sleep;
@@ -105,12 +107,12 @@ struct World::State {
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, contact_solver, motion, sleep,
-               check, log, totals, records, notes, asleep, pool] = self;
+        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, hits, contact_solver, motion,
+               sleep, check, log, totals, records, notes, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
         archive.between(0, steps, most_steps);
-        archive.keep(set, joints, forces, detection, impacts, contact_solver, sleep, check);
+        archive.keep(set, joints, forces, detection, impacts, hits, contact_solver, sleep, check);
         archive.require([&] { return self.sleep.sound(self.set.bodies); });
         if (notes) archive.keep(*notes);
         archive.scratch(woken, motion, log, totals, records, asleep, pool);
@@ -128,20 +130,24 @@ struct World::State {
     void list_asleep();
     void log_skipped(std::int64_t skipped);
     void fall_asleep();
+    void resolve_hits();
     template <class Use>
     void with_present_contacts(Use&& use) const;
     void finish_records(double duration);
 };
 
 void World::State::run_stages(const StepContext& step) {
+    const std::uint64_t changes = sleep.changes() + joints.changes();
     forces.wake(step);
     begin_joints(step);
+    if (sleep.changes() + joints.changes() != changes) detection.out_of_date();
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     apply_forces(step);                // F and tau at t_n change P and L
     solve_contacts(step);              // non-penetration, friction and joints
     joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
+    detection.out_of_date();
     close_clamped_joints(step);
     joints.take_events();
 }
@@ -167,6 +173,15 @@ void World::State::step() {
     set.place_kinematic(clock, steps);
     stop_if_not_finite(context());
     fall_asleep();  // islands at rest are excluded from the simulation
+    resolve_hits();
+}
+
+// In the event-driven mode bodies meet at events; the method of the notes has no times within a step.
+void World::State::resolve_hits() {
+    if (notes || settings.impacts != ImpactMode::stepped) return;
+    const StepContext next = context();
+    detection.update(next, *motion);
+    if (hits.resolve(next, detection)) detection.out_of_date();
 }
 
 void World::State::begin_frame() {

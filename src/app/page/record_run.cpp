@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,7 @@ private:
     void add_impacts(const ContactRecords& records);
     void add_contacts(std::vector<ContactRecord> contacts);
     std::size_t add_event(std::size_t body, const ImpactRecord& impact, const StruckBody& struck, std::size_t& event);
+    double acting_time(const ImpactTime& when) const;
     void keep_strongest_impacts();
 
     PageRun& run_;
@@ -88,11 +90,16 @@ void RunObserver::add_bodies(const Snapshot& snapshot) {
 
 void RunObserver::add_impacts(const ContactRecords& records) {
     events_.assign(records.struck.size(), no_event);
-    for (const ImpactRecord& r : records.impacts) {
-        PageImpact impact{r, no_event, no_event};
+    const std::size_t first = run_.impacts.size();
+    for (const ImpactRecord& r : records.impacts) run_.impacts.push_back({r, no_event, no_event});
+    std::vector<std::size_t> acting(records.impacts.size());
+    std::iota(acting.begin(), acting.end(), first);
+    std::ranges::stable_sort(acting, {}, [&](std::size_t i) { return acting_time(run_.impacts[i].record.when); });
+    for (const std::size_t i : acting) {
+        PageImpact& impact = run_.impacts[i];
+        const ImpactRecord& r = impact.record;
         impact.event_a = add_event(r.a, r, records.struck[r.struck_a], events_[r.struck_a]);
         impact.event_b = add_event(r.b, r, records.struck[r.struck_b], events_[r.struck_b]);
-        run_.impacts.push_back(impact);
     }
     run_.all_impacts += std::int64_t(records.impacts.size());
     if (run_.impacts.size() > 4 * most_impacts) keep_strongest_impacts();
@@ -108,9 +115,13 @@ std::size_t RunObserver::add_event(std::size_t index, const ImpactRecord& impact
         return no_event;
     }
     event = body.events.size();
-    const double time = impact.when.exact ? impact.when.time : impact.when.time - run_.scene.step();
-    body.events.push_back({time, struck, impact.when.exact});
+    body.events.push_back({acting_time(impact.when), struck, impact.when.exact});
     return event;
+}
+
+/// When the impulse of an impact acts, s: at its time, or at the start of the step that resolves it.
+double RunObserver::acting_time(const ImpactTime& when) const {
+    return when.exact ? when.time : when.time - run_.scene.step();
 }
 
 void RunObserver::add_contacts(std::vector<ContactRecord> contacts) {

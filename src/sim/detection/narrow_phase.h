@@ -32,6 +32,8 @@ public:
     std::vector<Manifold>& find(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies, double h,
                                 ThreadPool& pool);
 
+    /// The manifolds of the last call.
+    std::vector<Manifold>& manifolds() { return manifolds_; }
     /// Body pairs of these manifolds, in their order: without fetching the manifolds from memory.
     const std::vector<BodyPair>& touching() const { return touching_; }
     /// Increases whenever that list changes.

@@ -425,6 +425,8 @@ ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const F
     add_corrections(bodies, duration);
     add_losses(bodies);
     name_by_scene();
+    // Impacts at the end of a step are recorded before its hits, which have times within the step.
+    std::ranges::stable_sort(records_.impacts, {}, [](const ImpactRecord& impact) { return impact.when.time; });
     return records_;
 }
 

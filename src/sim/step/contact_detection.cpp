@@ -12,13 +12,15 @@ const std::vector<BroadPhase::Pair>& ContactDetection::find_pairs(const StepCont
 
 void ContactDetection::find(const StepContext& step) {
     if (step.set.list(step.sleep)) broad_phase_.bodies_woke();
-    manifolds_ = &narrow_phase_.find(find_pairs(step), step.set.bodies, step.h, step.pool);
+    if (!current_) narrow_phase_.find(find_pairs(step), step.set.bodies, step.h, step.pool);
 }
 
 void ContactDetection::update(const StepContext& step, MotionStage& motion) {
     find(step);
+    manifolds_ = &narrow_phase_.manifolds();
     // Woken bodies need the contacts among themselves too, which were not searched.
-    if (step.sleep.wake_touched(*manifolds_, step.set.bodies, step.h, step.gravity_speed())) find(step);
+    if (!current_ && step.sleep.wake_touched(*manifolds_, step.set.bodies, step.h, step.gravity_speed())) find(step);
+    current_ = true;
     const std::span<const std::uint32_t> stepped = motion.choose_stepped(step, *manifolds_);
     // The same pairs and the same stepped bodies give the same islands. Ballistic bodies may be stepped again at any
     // time.

@@ -22,7 +22,10 @@ public:
     ContactDetection(std::size_t bodies, int threads, NarrowPhase::Memory memory)
         : narrow_phase_(threads, NarrowPhase::Mode::step, memory), islands_(bodies) {}
 
+    /// Finds the contacts of the present poses, where they are out of date.
     void update(const StepContext& step, MotionStage& motion);
+    /// To be called when bodies have moved, woken or been joined since update().
+    void out_of_date() { current_ = false; }
 
     /// The step's manifolds, ascending by body; the solvers write into them. Precondition: update().
     std::vector<Manifold>& manifolds() { return *manifolds_; }
@@ -37,8 +40,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [broad_phase, narrow_phase, manifolds, islands, seen_by_islands] = self;
-        archive.keep(broad_phase, narrow_phase);
+        auto& [broad_phase, narrow_phase, current, manifolds, islands, seen_by_islands] = self;
+        archive.keep(broad_phase, narrow_phase, current);
         archive.rebuilt(islands, seen_by_islands);  // found in the first step, of the same pairs
         archive.scratch(manifolds);
     }
@@ -48,6 +51,7 @@ private:
 
     BroadPhase broad_phase_;
     NarrowPhase narrow_phase_;
+    bool current_ = false;                        // update() has found the contacts of the present poses
     std::vector<Manifold>* manifolds_ = nullptr;  // owned by the narrow phase
     ContactIslands islands_;                      // of the stepped bodies
     // Change counters of the manifolds, of sleep and of joints at which the islands were found.

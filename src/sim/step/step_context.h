@@ -34,6 +34,10 @@ struct StepContext {
     double end() const { return clock.seconds(index + 1); }  // s
     /// Of an impact that this step resolves.
     ImpactTime impact_time() const { return {end(), (index + 1) / settings.steps_per_frame, false}; }
+    /// Of an impact in the last step, `lag` s before its end.
+    ImpactTime time_before_start(double lag) const {
+        return {start() - lag, (index - 1) / settings.steps_per_frame, true};
+    }
     /// Change of speed by gravity in a step, m/s.
     double gravity_speed() const { return settings.gravity.norm() * h; }
     FreeMotion free_motion() const { return {forces.field(), set.old_velocities, start(), end(), h}; }
