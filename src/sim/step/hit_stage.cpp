@@ -29,41 +29,56 @@ void each_pair(const HitIsland& island, Use&& use) {
 }
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
+bool hull(const Body& body) { return std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider); }
+bool flat(const Body& body) { return std::holds_alternative<HalfSpace>(body.collider) && !body.moves(); }
 
 // A hit is looked for where points have moved in the step by more than this share of the smaller radius.
 constexpr double least_way = 0.002;
 // It is resolved at its own time if its normal differs from the present one by an angle whose cosine is below 1 minus this:
-// 1e-6 rad for curved surfaces, 1e-3 rad for faces.
+// 1e-6 rad for curved surfaces, half a degree for faces.
 constexpr double least_turn_of_curve = 1e-12;
-constexpr double least_turn = 5e-7;
-// Bodies of a hit, and hits of a step for each manifold of an island: they limit the cost. Beyond, the impact is that of the
-// step's end.
-constexpr std::size_t most_bodies = 64;
+constexpr double least_turn = 3.8e-5;
+// Body pairs of an island, up to which balls hit edges at their own times. Limits the cost.
+constexpr std::size_t most_pairs_of_edges = 16;
+// Contacts of a hit, and hits of a step for each manifold of an island: they limit the cost. Beyond, the impact is that of
+// the step's end.
+constexpr std::size_t most_contacts = 64;
 constexpr std::size_t most_hits_each = 4;
+
+// Whether hits of two bodies are looked for. In a crowd of bodies with faces an impact at the step's end is as good, and
+// costs less: what follows a hit there depends on many contacts.
+bool takes_part(const Body& a, const Body& b, std::size_t pairs) {
+    if (a.jointed || b.jointed || flat(a) || flat(b)) return false;
+    if (ball(a) && ball(b)) return true;
+    if (ball(a) || ball(b)) return pairs <= most_pairs_of_edges;
+    return pairs == 1 && hull(a) && hull(b) &&
+           pair_restitution(a, b) > 0.0;  // without restitution faces stop at the surface
+}
 
 // Whether the pair is new in contact, overlaps, and came so far in the step that its normal may be out of date.
 bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifold>& manifolds, const Body& a,
-                  const Body& b, const StepContext& step) {
+                  const Body& b, const StepContext& step, double threshold) {
+    for (const std::uint32_t k : pair)
+        if (normal_impulse(manifolds[k]) > 0.0) return false;
     const double touch = touch_distance(a.radius, b.radius), least = least_way * std::min(a.radius, b.radius);
-    const double threshold = ImpactStage::threshold(step);
-    bool met = false;
     for (const std::uint32_t k : pair) {
         const Manifold& m = manifolds[k];
         for (int i = 0; i < m.count; ++i) {
             const ContactPoint& p = m.points[std::size_t(i)];
-            if (p.impulse > 0.0) return false;
-            if (met || p.separation >= -touch || !(relative_velocity(p, m.normal, a, b) < -threshold)) continue;
+            if (p.separation >= -touch) continue;
+            const double speed = -relative_velocity(p, m.normal, a, b);
+            if (!(speed > threshold)) continue;
             const BodyVelocity &of_a = step.set.motions[m.a], &of_b = step.set.motions[m.b];
             const Vec3 motion = of_b.velocity + of_b.angular_velocity.cross(p.position - b.position) - of_a.velocity -
                                 of_a.angular_velocity.cross(p.position - a.position);
             const double way = step.h * motion.norm();
             if (way > std::min(depth(a.collider), depth(b.collider))) return false;  // CCD stops it where they meet
-            met = way > least && motion.dot(m.normal) < 0.0 &&
-                  relative_velocity(p, m.normal, a, b) <
-                      -tuning::restitution_threshold * load_speed(m, i, a, b, step.free_motion());
+            if (way > least && motion.dot(m.normal) < 0.0 &&
+                speed > tuning::restitution_threshold * load_speed(m, i, a, b, step.free_motion()))
+                return true;
         }
     }
-    return met;
+    return false;
 }
 
 // Whether the normals of a hit differ from those of the present pose.
@@ -117,14 +132,15 @@ bool HitStage::resolve(const StepContext& step, ContactDetection& detection) {
 // Resolves the hits of an island in the order of their times.
 bool HitStage::resolve_island(const HitIsland& island, const std::vector<Manifold>& manifolds,
                               const StepContext& step) {
-    std::vector<Body>& bodies = step.set.bodies;
+    const std::vector<Body>& bodies = step.set.bodies;
+    const double threshold = ImpactStage::threshold(step);
+    std::size_t pairs = 0;
+    each_pair(island, [&](const BodyPair&, std::span<const std::uint32_t>) { ++pairs; });
     movers_.clear();
     hits_.clear();
     each_pair(island, [&](const BodyPair& m, std::span<const std::uint32_t> pair) {
         const Body &a = bodies[m.a], &b = bodies[m.b];
-        if (a.jointed || b.jointed) return;
-        if (!(pair_restitution(a, b) > 0.0 || ball(a) || ball(b))) return;  // bodies with faces stop at the surface
-        if (!may_have_met(pair, manifolds, a, b, step)) return;
+        if (!takes_part(a, b, pairs) || !may_have_met(pair, manifolds, a, b, step, threshold)) return;
         const auto hit = next_hit(m.a, m.b, step);
         if (!hit || !(hit->lag < step.h)) return;
         find_touch(*hit, step);
@@ -143,7 +159,7 @@ bool HitStage::resolve_island(const HitIsland& island, const std::vector<Manifol
         };
         std::erase_if(hits_, [&](const Hit& h) { return moved(h.a) || moved(h.b); });
         each_pair(island, [&](const BodyPair& m, std::span<const std::uint32_t>) {
-            if ((!moved(m.a) && !moved(m.b)) || bodies[m.a].jointed || bodies[m.b].jointed) return;
+            if ((!moved(m.a) && !moved(m.b)) || !takes_part(bodies[m.a], bodies[m.b], pairs)) return;
             if (const auto next = next_hit(m.a, m.b, step)) hits_.push_back(*next);
         });
     }
@@ -299,7 +315,7 @@ bool HitStage::gather(const Hit& hit, const HitIsland& island, const std::vector
                 cluster_.pop_back();
             }
         });
-        if (cluster_.size() > most_bodies) return false;
+        if (contacts_.size() > most_contacts) return false;
     }
     return std::none_of(cluster_.begin(), cluster_.end(), [&](const Member& m) { return bodies[m.body].jointed; });
 }
@@ -309,13 +325,14 @@ bool HitStage::strike(const Hit& hit, const HitIsland& island, const std::vector
                       const StepContext& step) {
     std::vector<Body>& bodies = step.set.bodies;
     const double threshold = ImpactStage::threshold(step);
+    const bool curved = ball(bodies[hit.a]) || ball(bodies[hit.b]);
+    const bool whole = gather(hit, island, manifolds, step) && (curved || cluster_.size() == 2);
     const ImpactSettings settings{.threshold = threshold,
                                   .law = step.settings.impact_law,
                                   .resting = threshold,
                                   .friction = true,
-                                  .complete = true,
+                                  .complete = curved,
                                   .span = step.h};
-    const bool whole = gather(hit, island, manifolds, step);
     const auto approaches = [&](const Contact& c) {
         return c.a == hit.a && c.b == hit.b &&
                relative_velocity(c, bodies[c.a], bodies[c.b]) < -least_impact(c, threshold);
