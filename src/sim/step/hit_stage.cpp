@@ -46,13 +46,13 @@ constexpr std::size_t most_contacts = 64;
 constexpr std::size_t most_hits_each = 4;
 
 // Whether hits of two bodies are looked for. In a crowd of bodies with faces an impact at the step's end is as good, and
-// costs less: what follows a hit there depends on many contacts.
+// costs less: the motion after a hit there depends on many contacts.
 bool takes_part(const Body& a, const Body& b, std::size_t pairs) {
     if (a.jointed || b.jointed || flat(a) || flat(b)) return false;
     if (ball(a) && ball(b)) return true;
     if (ball(a) || ball(b)) return pairs <= most_pairs_of_edges;
-    return pairs == 1 && hull(a) && hull(b) &&
-           pair_restitution(a, b) > 0.0;  // without restitution faces stop at the surface
+    // Faces without restitution stop at the surface.
+    return pairs == 1 && hull(a) && hull(b) && pair_restitution(a, b) > 0.0;
 }
 
 // Whether the pair is new in contact, overlaps, and came so far in the step that its normal may be out of date.

@@ -2,6 +2,7 @@
 
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/contact/model/free_motion.h"
+#include "sim/contact/model/settings.h"
 #include "sim/dynamics/integrators/advance.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/geometry/contact_tolerance.h"
@@ -75,12 +76,37 @@ void ImpactStage::add_island(std::size_t k, const StepContext& step, ContactDete
         Joint& joint = step.joints.joints()[step.joints.active()[j]];
         if (!joint.broken) island.joints.push_back(&joint);
     }
-    const std::size_t first = contacts_.size();
+    const std::size_t first = contacts_.size(), first_struck = struck_.size();
     for (const std::uint32_t m : islands.manifolds(k)) {
         Struck& struck = struck_.emplace_back(Struck{m, normal_impulse(manifolds[m]), 0.0});
         add_contacts_under_load(manifolds[m], step, struck);
     }
+    if (!spread_load(first, first_struck, step)) {
+        contacts_.resize(first);
+        struck_.resize(first_struck);
+        colliding_.pop_back();
+        return;
+    }
     for (std::size_t i = first; i < contacts_.size(); ++i) island.contacts.push_back(std::uint32_t(i));
+}
+
+// A load reaches contacts of its island that carried none in the last step. Returns whether any still collides.
+bool ImpactStage::spread_load(std::size_t first, std::size_t first_struck, const StepContext& step) {
+    double most = 0.0;
+    for (std::size_t i = first_struck; i < struck_.size(); ++i) most = std::max(most, struck_[i].load_speed);
+    const double least = tuning::load_left * most;
+    if (tuning::restitution_threshold * least <= threshold(step)) return true;
+    for (std::size_t i = first_struck; i < struck_.size(); ++i)
+        struck_[i].load_speed = std::max(struck_[i].load_speed, least);
+    bool any = false;
+    for (std::size_t i = first; i < contacts_.size(); ++i) {
+        Contact& c = contacts_[i];
+        if (!c.touching()) continue;
+        c.load_speed = std::max(c.load_speed, least);
+        const double speed = relative_velocity(c, step.set.bodies[c.a], step.set.bodies[c.b]);
+        any = any || (c.restitution > 0.0 && speed < -least_impact(c, threshold(step)));
+    }
+    return any;
 }
 
 void ImpactStage::add_contacts_under_load(const Manifold& m, const StepContext& step, Struck& struck) {

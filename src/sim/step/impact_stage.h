@@ -44,6 +44,7 @@ private:
         double impulse_before = 0.0, load_speed = 0.0;  // N s, before the step; m/s, the largest of its points
     };
     void add_island(std::size_t island, const StepContext& step, ContactDetection& detection);
+    bool spread_load(std::size_t first_contact, std::size_t first_struck, const StepContext& step);
     void add_contacts_under_load(const Manifold& manifold, const StepContext& step, Struck& struck);
     void resolve_island(const StepContext& step, std::size_t island);
 
