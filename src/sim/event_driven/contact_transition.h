@@ -6,15 +6,20 @@
 #include "sim/ccd/time_of_impact.h"
 #include "sim/contact/model/free_motion.h"
 
+#include <functional>
 #include <vector>
 
 namespace tumble {
 
-/// The support of each body in contact: none, one that stands, or the kinematic body of this index, which carries it.
-using Supports = std::vector<std::uint32_t>;
 namespace support {
 inline constexpr std::uint32_t none = UINT32_MAX, still = UINT32_MAX - 1;
 }
+struct Support {
+    std::uint32_t on = support::none;  // none, still, or the kinematic body of this index, which carries the body
+    double pressing = 0.0;             // m/s^2, the largest one of the contacts that hold the body
+    bool none() const { return on == support::none; }
+};
+using Supports = std::vector<Support>;  // by body
 /// Support of a body that rests on the body `k`.
 std::uint32_t support_on(std::uint32_t k, const Body& body, const Supports& supports);
 
@@ -35,9 +40,11 @@ struct HoldLimits {
 };
 
 /// Adds supports of the dynamic bodies that their contacts hold. A contact holds if its gap and its speed are within the
-/// limits and it would not part by itself. Overlapping bodies are held too, to be pushed out.
+/// limits and it would not part by itself. Overlapping bodies are held too, to be pushed out, and so are bodies that touch a
+/// held one at rest, until a solve has told the load between them. `solved`: whether that is so for a body's contacts.
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, const std::vector<Body>& bodies,
-               const FreeMotion& free, const HoldLimits& limits, Supports& supports);
+               const FreeMotion& free, const HoldLimits& limits, const std::function<bool(std::uint32_t)>& solved,
+               Supports& supports);
 
 /// Time (s) in which the overlap of two touching bodies that do not approach stays below tuning::impact_harmless of the
 /// smaller: with Q the largest relative acceleration of their points, the overlap is at most Q t^2 / 2.

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace tumble {
@@ -20,13 +21,15 @@ bool held(const Body& body) { return body.dynamic() && !body.flying && !body.asl
 
 bool EventDrivenMotion::take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps,
                                  std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
-    supports_.assign(bodies.size(), support::none);
+    supports_.assign(bodies.size(), {});
     // A body that rolls over a hill leaves it along the tangent in each step, by v^2 h^2 / 2 R: less than gravity's
     // displacement while it stays on.
-    mark_held(contacts, gaps, bodies, free_motion(forces, {step, 0.0}), {settings_.gravity.norm(), h_, h_}, supports_);
+    mark_held(
+        contacts, gaps, bodies, free_motion(forces, {step, 0.0}), {settings_.gravity.norm(), h_, h_},
+        [&](std::uint32_t k) { return events_[k].solved; }, supports_);
     bool any = false;
     for (const std::uint32_t i : movers_) {
-        if (!held(bodies[i]) || supports_[i] != support::none || bodies[i].jointed) continue;
+        if (!held(bodies[i]) || !supports_[i].none() || bodies[i].jointed) continue;
         events_[i].pushed = false;
         fly(i, bodies, forces, {step, 0.0});
         taken_off_.push_back(i);
@@ -58,7 +61,7 @@ void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<
     taken_off_.clear();
     for (const std::uint32_t i : movers_) {
         const Body& body = bodies[i];
-        events_[i].pushed = !body.flying && !body.asleep;
+        events_[i].pushed = events_[i].solved = !body.flying && !body.asleep;
         if (body.flying) {
             if (!events_[i].driven || events_[i].start == now) continue;
             bring(i, bodies, now);
@@ -87,12 +90,12 @@ void EventDrivenMotion::lay_down(const std::vector<Body>& bodies, std::int64_t s
 
 // All bodies in contact have a support, and no others.
 void EventDrivenMotion::support_stepped(const std::vector<Body>& bodies) {
-    supports_.resize(bodies.size(), support::none);
+    supports_.resize(bodies.size());
     for (const std::uint32_t k : movers_) {
         if (!held(bodies[k]))
-            supports_[k] = support::none;
-        else if (supports_[k] == support::none)
-            supports_[k] = support::still;
+            supports_[k] = {};
+        else if (supports_[k].none())
+            supports_[k].on = support::still;
     }
 }
 
@@ -101,12 +104,14 @@ void EventDrivenMotion::release_receivers(std::vector<Body>& bodies, const Force
     const auto& receivers = cluster_.impulse_receivers();
     if (std::none_of(receivers.begin(), receivers.end(), [&](std::uint32_t k) { return held(bodies[k]); })) return;
     support_stepped(bodies);
-    for (const std::uint32_t k : receivers) supports_[k] = support::none;
-    mark_held(cluster_.contacts(), cluster_.gaps(), bodies, free_motion(forces, now),
-              {settings_.gravity.norm(), 0.0, h_}, supports_);
+    for (const std::uint32_t k : receivers) supports_[k] = {};
+    mark_held(
+        cluster_.contacts(), cluster_.gaps(), bodies, free_motion(forces, now), {settings_.gravity.norm(), 0.0, h_},
+        [&](std::uint32_t k) { return events_[k].solved; }, supports_);
     for (const std::uint32_t k : receivers) {
-        if (!held(bodies[k]) || supports_[k] != support::none || bodies[k].jointed) continue;
+        if (!held(bodies[k]) || !supports_[k].none() || bodies[k].jointed) continue;
         bodies[k].flying = true;
+        events_[k].solved = false;
         // Gravity of the whole step has acted already; the flight adds that of its rest once more.
         if (log_) log_->add_gravity(k, bodies[k], -clock_.between(now, {now.step + 1, 0.0}), bodies[k].position);
     }
@@ -128,7 +133,7 @@ void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMo
 void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> switched;
     std::vector<std::uint32_t> switching;
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> landing;  // body and support
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> landing;  // body, support, what presses it
     const FreeMotion free = free_motion(forces, now);
     support_stepped(bodies);
     do {  // in rounds: the result must not depend on the contacts' order
@@ -145,12 +150,14 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
                                      (b.flying && below_zeno_limit(c.b, bodies, speed));
             if (!below_limit && !hop_is_shorter(c, a, b, acceleration, time)) continue;
             for (const auto& [k, other] : {std::pair(c.a, c.b), std::pair(c.b, c.a)})
-                if (bodies[k].flying) landing.push_back({k, support_on(other, bodies[other], supports_)});
+                if (bodies[k].flying)
+                    landing.push_back({k, support_on(other, bodies[other], supports_), -acceleration});
         }
         std::sort(landing.begin(), landing.end());
         for (auto entry = landing.rbegin(); entry != landing.rend(); ++entry) {
-            supports_[entry->first] = entry->second;
-            switching.push_back(entry->first);
+            const auto& [k, on, pressing] = *entry;
+            supports_[k] = {on, std::max(supports_[k].pressing, pressing)};
+            switching.push_back(k);
         }
         for (std::size_t i = switching.size(); i-- > 0;)
             if (const std::uint32_t g = groups_.group(switching[i]); g != GroupFlights::none)
@@ -158,7 +165,7 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
         sort_unique(switching);
         for (const std::uint32_t k : switching) {
             bodies[k].flying = false;
-            if (supports_[k] == support::none) supports_[k] = support::still;
+            if (supports_[k].none()) supports_[k].on = support::still;
         }
         switched.insert(switched.end(), switching.begin(), switching.end());
     } while (!switching.empty());

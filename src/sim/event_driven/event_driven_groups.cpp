@@ -66,8 +66,7 @@ void EventDrivenMotion::take_off_groups(std::vector<Body>& bodies, const ForceFi
         const std::vector<std::uint32_t>& members = groups_.groups()[g].bodies;
         const bool flying = bodies[members[0]].flying;
         const auto any = [&](auto&& test) { return std::any_of(members.begin(), members.end(), test); };
-        if (any([&](std::uint32_t k) { return bodies[k].asleep || (!flying && supports_[k] != support::none); }))
-            continue;
+        if (any([&](std::uint32_t k) { return bodies[k].asleep || (!flying && !supports_[k].none()); })) continue;
         const auto moves = [&](const Body& body, const Vec3& velocity, const Vec3& turn) {
             return velocity.norm() + body.radius * turn.norm() > rest;
         };
@@ -147,11 +146,12 @@ void EventDrivenMotion::release_groups(std::vector<Body>& bodies, const ForceFie
     sort_unique(released);
     for (const std::uint32_t g : released) {
         const std::vector<std::uint32_t>& members = groups_.groups()[g].bodies;
-        const auto stays = [&](std::uint32_t k) { return supports_[k] != support::none || bodies[k].asleep; };
+        const auto stays = [&](std::uint32_t k) { return !supports_[k].none() || bodies[k].asleep; };
         if (!groups_.can_fly(g, forces, h_) || std::any_of(members.begin(), members.end(), stays)) continue;
         for (const std::uint32_t k : members) {
             Body& body = bodies[k];
             body.flying = true;
+            events_[k].solved = false;
             body.momentum -= rest * body.mass * settings_.gravity;
             body.derive_velocities();
             if (log_) log_->add_gravity(k, body, -rest, body.position);

@@ -108,6 +108,7 @@ private:
         std::uint32_t version = 0;  // number of the trajectory
         bool driven = false;        // without contact, but under varying forces
         bool pushed = false;        // this step's forces at points are applied already, up to its end
+        bool solved = false;        // in contact since the start of the last step: its solve knows the loads
         Vec3 turn_from = Vec3::Zero(), turn_to = Vec3::Zero();  // L at the trajectory's ends, of a driven body
         Bounds swept = everywhere;                              // m, world: holds the body throughout the trajectory
         EventTime boxed_until;  // time until which the body stays in its box of NeighborBoxes
@@ -125,11 +126,11 @@ private:
             unknown;  // J, twice the energy: of a body in contact without impacts since the start of its trajectory
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [path, start, until, version, driven, pushed, turn_from, turn_to, swept, boxed_until,
+            auto& [path, start, until, version, driven, pushed, solved, turn_from, turn_to, swept, boxed_until,
                    box_displacement, event, partner, partner_version, last_impact, since_impact, impacts_in_row, met,
                    meetings, spin] = self;
-            archive.keep(path, start, until, driven, pushed, turn_from, turn_to, swept, boxed_until, box_displacement,
-                         last_impact, since_impact);
+            archive.keep(path, start, until, driven, pushed, solved, turn_from, turn_to, swept, boxed_until,
+                         box_displacement, last_impact, since_impact);
             archive.unbounded(spin);
             archive.enumeration(event, Event::drives_on);
             archive.body(partner);
