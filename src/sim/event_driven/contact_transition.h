@@ -18,6 +18,7 @@ struct Support {
     std::uint32_t on = support::none;  // none, still, or the kinematic body of this index, which carries the body
     double pressing = 0.0;             // m/s^2, the largest one of the contacts that hold the body
     bool none() const { return on == support::none; }
+    friend bool operator==(const Support&, const Support&) = default;
 };
 using Supports = std::vector<Support>;  // by body
 /// Support of a body that rests on the body `k`.

@@ -72,10 +72,12 @@ JointRows::LimitRates JointRows::limit_rates(const JointIsland& island, const Ro
         const auto rate = [&](const Vec3& velocity, const Vec3& turn) {
             return sign * row.direction.dot(row.turns() ? turn : Vec3(velocity + turn.cross(arm)));
         };
-        const double now = rate(b.velocity, b.angular_velocity);
+        const double now = rate(b.velocity, b.angular_velocity), start = rate(before.velocity, before.angular_velocity);
         rates.speed += now;
+        rates.at_start += start;
+        rates.by_forces += b.dynamic() ? now - start : 0.0;
         // The velocity of a kinematic body is the mean of the step: half of the change.
-        rates.gained += (b.dynamic() ? 1.0 : 2.0) * (now - rate(before.velocity, before.angular_velocity));
+        rates.gained += (b.dynamic() ? 1.0 : 2.0) * (now - start);
         if (!b.dynamic()) continue;
         const Vec3 moment = row.turns() ? row.direction : Vec3(arm.cross(row.direction));
         rates.mobility += (row.turns() ? 0.0 : b.inverse_mass) + moment.dot(b.inverse_inertia * moment);
@@ -104,8 +106,10 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
         const double load = std::max(sign * rates.gained, rates.mobility * std::abs(j.impulse[row.coordinate][law]));
         const double threshold =
             std::max(settings.bounce_threshold / (row.turns() ? j.size : 1.0), settings.threshold_share * load);
-        if (approach > threshold && approach * h_ > room) {
-            r.target = -e * unit * speed;
+        const double rebound = e * sign * rates.at_start;
+        if (approach > threshold && approach * h_ > room && rebound > settings.rebound_share * load) {
+            // The step's forces act after the rebound: before it, each would add to the bounce, and hops would never end.
+            r.target = unit * (rates.by_forces - sign * rebound);
             r.closes = false;
         }
     }

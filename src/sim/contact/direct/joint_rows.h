@@ -174,8 +174,8 @@ private:
     Row make_row(const JointIsland& island, const Block& block, const Vec3& direction, std::size_t coordinate) const;
     void add_laws(const JointIsland& island, const JointGeometry& g, std::size_t coordinate, const Row& row);
     struct LimitRates {
-        double speed = 0.0, gained = 0.0;  // m/s or rad/s
-        double mobility = 0.0;             // 1/kg or 1/(kg m^2)
+        double speed = 0.0, at_start = 0.0, by_forces = 0.0, gained = 0.0;  // m/s or rad/s
+        double mobility = 0.0;                                              // 1/kg or 1/(kg m^2)
     };
     LimitRates limit_rates(const JointIsland& island, const Row& row, const Vec3& point) const;
     void add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law);
