@@ -19,7 +19,7 @@ using namespace tumble::testing;
 namespace {
 
 const Vec3 gravity(0.0, -9.81, 0.0);
-constexpr double h = 1.0 / 960.0;  // s
+constexpr double h = 1.0 / 960.0;                        // s
 const auto always = [](std::uint32_t) { return true; };  // all loads are known
 
 // Gravity alone, on some bodies.

@@ -21,8 +21,8 @@ Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<
     return free.acceleration(supports[k].on, carrier, body.position + arm - carrier.position);
 }
 
-// Whether a contact of this acceleration along its normal has no relative motion, beside what presses the held body of its
-// two in a step of h s.
+// Whether a contact of this acceleration along its normal has no relative motion in a step of h s, compared with the
+// acceleration that presses its held body.
 bool neutral(const Contact& c, const Body& a, const Body& b, double acceleration, const Support& held, double h) {
     const double least = tuning::neutral_share * held.pressing;
     if (!(std::abs(acceleration) < least)) return false;
@@ -40,7 +40,7 @@ double holding(const Contact& c, const Gap& gap, const std::vector<Body>& bodies
     const double load = c.load_speed / free.h, nothing = tuning::neutral_share * load;
     const double opening = bodies[c.a].dynamic() && bodies[c.b].dynamic() ? load : nothing;
     if (pressing < nothing && pressing > -opening) pressing = load;
-    // Before the first solve any contact without relative motion may carry a part of what presses its held body.
+    // Before the first solve any contact without relative motion may carry a part of the load of its held body.
     for (const std::uint32_t k : {c.a, c.b})
         if (!known && !supports[k].none() && c.touching() &&
             neutral(c, bodies[c.a], bodies[c.b], pressing, supports[k], free.h))
@@ -68,7 +68,7 @@ double pressing_acceleration(const Contact& c, const Gap& gap, const std::vector
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, const std::vector<Body>& bodies,
                const FreeMotion& free, const HoldLimits& limits, const std::function<bool(std::uint32_t)>& solved,
                Supports& supports) {
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> found;  // body, support, what presses it
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> found;  // body, support, its pressing
     do {  // in rounds: the result must not depend on the contacts' order
         found.clear();
         for (std::size_t i = 0; i < contacts.size(); ++i) {

@@ -133,7 +133,7 @@ void EventDrivenMotion::wake(std::uint32_t i, std::vector<Body>& bodies, SleepMo
 void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> switched;
     std::vector<std::uint32_t> switching;
-    std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> landing;  // body, support, what presses it
+    std::vector<std::tuple<std::uint32_t, std::uint32_t, double>> landing;  // body, support, its pressing
     const FreeMotion free = free_motion(forces, now);
     support_stepped(bodies);
     do {  // in rounds: the result must not depend on the contacts' order

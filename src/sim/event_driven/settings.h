@@ -39,7 +39,7 @@ inline constexpr double refine_first = 1e-3;
 inline constexpr double refine_longer = 30.0;
 
 /// A contact is neutral if its relative acceleration, and its relative velocity over the step, are below this share of the
-/// acceleration that presses its held body. Not fitted: rounding, and what landings leave. Tests: those of
+/// acceleration that presses its held body. Not fitted: rounding and the rest of a landing. Tests: those of
 /// tests/physics/pressed_row_test.cpp.
 inline constexpr double neutral_share = 1e-3;
 
