@@ -76,14 +76,16 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     direct_.clear();
     softly_.clear();
     candidates_.clear();
-    std::size_t all_manifolds = 0, all_pairs = 0;
+    std::size_t all_manifolds = 0, all_pairs = 0, all_points = 0;
     for (std::size_t k = 0; k < islands.size(); ++k) all_manifolds += islands.manifolds(k).size();
     // Hysteresis: between the solvers the bodies are lifted out of their soft contacts and sink back in, and a heap
     // that alternates would rock without end. So directly solved scenes stay so a little beyond the limit.
-    const std::size_t few = few_ ? tuning::direct_few_pairs * 5 / 4 : tuning::direct_few_pairs;
-    // pairs to factor
-    for (std::size_t k = 0; k < islands.size() && all_pairs <= few; ++k) all_pairs += islands.touching_pairs(k);
-    few_ = all_pairs <= few;
+    const auto few = [&](std::size_t most) { return few_ ? most * 5 / 4 : most; };
+    const std::size_t pairs = few(tuning::direct_few_pairs), points = few(tuning::direct_few_points);
+    for (std::size_t k = 0; k < islands.size() && all_pairs <= pairs; ++k) all_pairs += islands.touching_pairs(k);
+    if (all_pairs <= pairs)
+        for (const Manifold& m : problem.manifolds) all_points += std::size_t(m.count);
+    few_ = all_pairs <= pairs && all_points <= points;
     const double enough =
         all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {

@@ -89,6 +89,11 @@ double ImpactFriction::tolerance() const {
     return precision_ == Precision::last_digits ? tuning::friction_tolerance : tuning::friction_tolerance_step;
 }
 
+int ImpactFriction::most_sweeps() const {
+    if (blocks_.size() <= tuning::friction_few) return tuning::friction_sweeps;
+    return std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
+}
+
 // N s, of the block's friction when its normal impulse grows by `pushed`.
 double ImpactFriction::limit(const ImpactSystem& cluster, const Block& block, double pushed) const {
     if (limits_held_) return block.limit;
@@ -162,6 +167,7 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
     moved_.assign(blocks_.size(), Step{});
     double most = 0.0, time = 1.0, ahead = 0.0;
     limits_held_ = false;
+    const int sweeps = precision_ == Precision::last_digits ? tuning::friction_sweeps : most_sweeps();
     for (int sweep = 1;; ++sweep) {
         double change = 0.0, along = 0.0;
         steps_.clear();
@@ -177,7 +183,7 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
                               block.second_compliance * step.f1 * moved.f1);
         }
         most = std::max(most, change);
-        const bool last = sweep == tuning::friction_sweeps || change <= tolerance() * most;
+        const bool last = sweep == sweeps || change <= tolerance() * most;
         const double next = 0.5 * (1.0 + std::sqrt(1.0 + 4.0 * time * time));
         ahead = last || along < 0.0 ? 0.0 : (time - 1.0) / next;
         time = along < 0.0 ? 1.0 : next;
@@ -214,10 +220,7 @@ void ImpactFriction::let_limits_go(ImpactSystem& cluster) {
 double ImpactFriction::relax_all(ImpactSystem& cluster, Normal normal) {
     if (blocks_.size() > 1 && cluster.contacts() <= tuning::friction_at_once) return relax_at_once(cluster, normal);
     double most = 0.0;
-    const int sweeps = blocks_.size() <= tuning::friction_few
-                           ? tuning::friction_sweeps
-                           : std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
-    for (int sweep = 0; sweep < sweeps; ++sweep) {
+    for (int sweep = 0; sweep < most_sweeps(); ++sweep) {
         double change = 0.0;
         for (Block& block : blocks_) {
             const Step step = relaxed(cluster, block, normal, 1.0);

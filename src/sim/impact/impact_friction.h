@@ -67,6 +67,7 @@ private:
     double relax_at_once(ImpactSystem& cluster, Normal normal);
     double relax_all(ImpactSystem& cluster, Normal normal);
     double tolerance() const;
+    int most_sweeps() const;
     static State state(const ImpactSystem& cluster, const Block& block);
     void look(const ImpactSystem& cluster, std::vector<State>& states) const;
     void set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to, double share);

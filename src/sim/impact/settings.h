@@ -111,11 +111,11 @@ inline constexpr double impact_elastic_work = 0.1;
 inline constexpr int friction_bounces = 4;
 inline constexpr int friction_rounds = 12;
 
-/// Sweeps of friction over an impact system, and. Not fitted: a bound of the cost.
+/// Sweeps of friction over an impact system. Not fitted: a bound of the cost.
 inline constexpr int friction_sweeps = 400;
 
-/// relaxations of a contact in a large system in all, with this least number of sweeps. Each sweep lowers the
-/// energy, so any may be the last. Not fitted: bounds of the cost.
+/// Relaxations of contacts in a large system in all, with this least number of sweeps. Each sweep lowers the energy, so
+/// any may be the last. Not fitted: bounds of the cost.
 inline constexpr int friction_work = 400;
 inline constexpr int friction_least_sweeps = 2;
 
