@@ -70,6 +70,37 @@ TEST(OffCenter, BallsLeaveAlongTheLineOfTheirCenters) {
     for (const double offset : {0.3, 1.0, 1.5, 1.95}) expect_exact({8.0, offset, 0.41, 1.0});
 }
 
+// Frames show the way after the hit, whose record has its own time.
+TEST(OffCenter, FramesAndRecordsFollowTheHit) {
+    for (const int steps_per_frame : {1, 3, 16})
+        for (const double phase : {0.07, 0.41, 0.83}) {
+            const Hit hit{8.0, 1.3, phase, 0.6};
+            SceneDescription scene = hit.scene();
+            scene.simulation.steps_per_frame = steps_per_frame;
+            scene.output.fps = 960.0 / steps_per_frame;
+            World world(scene);
+            world.record_contacts();
+            const Vec3 v(hit.speed, 0.0, 0.0), n = hit.normal(), struck = 0.5 * (1.0 + hit.e) * v.dot(n) * n;
+            const double met = (10.0 + phase) * step;
+            int records = 0;
+            while (world.snapshot().time < 0.03) {
+                world.advance_frame();
+                const Snapshot now = world.snapshot();
+                const double since = std::max(0.0, now.time - met);
+                EXPECT_LT((now.bodies[1].center_of_mass - since * struck).norm(), 1e-9) << phase << ' ' << now.time;
+                const Vec3 other = scene.bodies[0].position + now.time * v - since * struck;
+                EXPECT_LT((now.bodies[0].center_of_mass - other).norm(), 1e-9) << phase << ' ' << now.time;
+                for (const ImpactRecord& impact : world.contact_records().impacts) {
+                    ++records;
+                    EXPECT_TRUE(impact.when.exact);
+                    EXPECT_NEAR(impact.when.time, met, 1e-9);
+                    EXPECT_EQ(impact.when.frame, now.frame - 1);
+                }
+            }
+            EXPECT_EQ(records, 1) << phase;
+        }
+}
+
 // A ball without friction that hits an edge of a block: v' = v - (1 + e) (v . n) n, with n from the edge to its center.
 TEST(OffCenter, BallsLeaveAnEdgeAlongTheNormalOfTheMeeting) {
     for (const double speed : {1.0, 4.0, 12.0})
