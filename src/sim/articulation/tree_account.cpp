@@ -84,6 +84,15 @@ void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const
     }
 }
 
+void TreeAccount::start(const ForwardDynamics& dynamics, std::span<const Wrench> impulses) {
+    dynamics.joint_forces(impulses, forces_);
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+        const Sample s = joint_sample(dynamics, int(k), 0.0);
+        moments_[k] += s.point.cross(s.force);
+        carried_[k] += frame_.origin.cross(s.force);
+    }
+}
+
 void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
                          std::span<const PushedImpulse> pushed) {
     dynamics.joint_forces(pushes, forces_);
@@ -209,8 +218,7 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     const bool on_ground = tree_.parent_of(index) == TreeNode::no_body;
     const double on_child = behind.work, on_parent = on_ground ? 0.0 : -behind.work;
     joint.account.step = {};
-    joint.account.step.add_flight(load, second ? on_parent : on_child, second ? on_child : on_parent,
-                                  !joint.account.holds);
+    joint.account.step.add_flight(load, second ? on_parent : on_child, second ? on_child : on_parent);
     return true;
 }
 

@@ -22,6 +22,8 @@ class TreeAccount {
 public:
     TreeAccount(const JointTree& tree, const TreeStep& step, const FallingFrame& frame);
 
+    /// Impulses at the start, as the forces of sample(); before it.
+    void start(const ForwardDynamics& dynamics, std::span<const Wrench> impulses);
     /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places of
     /// the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again at the same time
     /// where the forces change.

@@ -67,7 +67,33 @@ bool TreeFlight::start() {
     for (const std::uint32_t i : step.island)
         velocities.push_back({step.bodies[i].angular_velocity, step.bodies[i].velocity - frame_.velocity});
     dynamics_.find_speeds(velocities, y_.data() + coordinates_);
-    return y_.allFinite() && fits() && (friction_.empty() || begin_friction());
+    account_.emplace(tree_, step, frame_);
+    lost_ = 0.0;
+    if (!y_.allFinite()) return false;
+    if (!fits()) fit();
+    return y_.allFinite() && (friction_.empty() || begin_friction());
+}
+
+// The tree's speeds at the bodies' momenta: the nearest in the metric of their masses. Impulses in the joints make the change.
+void TreeFlight::fit() {
+    const std::vector<double> still(std::size_t(tree_.speeds()), 0.0);
+    dynamics_.move(y_.data(), still.data());
+    std::vector<Wrench> momenta;
+    for (std::size_t i = 0; i < step_->island.size(); ++i) {
+        const Body& body = step_->bodies[step_->island[i]];
+        momenta.push_back({body.momentum - body.mass * frame_.velocity, body.angular_momentum});
+        dynamics_.push(tree_.node_of_body()[i], momenta.back());
+    }
+    dynamics_.accelerate(Vec3::Zero(), y_.data() + coordinates_);
+    account_->start(dynamics_, momenta);
+    dynamics_.move(y_.data(), y_.data() + coordinates_);
+    for (std::size_t i = 0; i < step_->island.size(); ++i) {
+        const Body& body = step_->bodies[step_->island[i]];
+        const ForwardDynamics::Link& link = dynamics_.link(tree_.node_of_body()[i]);
+        const Vec3 moves = link.center_velocity() + frame_.velocity - body.velocity,
+                   turns = body.rotation.transpose() * (link.velocity.turn - body.angular_velocity);
+        lost_ += 0.5 * (body.mass * moves.squaredNorm() + turns.dot(body.inertia_body * turns));
+    }
 }
 
 // Whether the bodies' velocities are those of the tree.
@@ -324,7 +350,6 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKin
     step_ = &*own_;
     event_ = none;
     if (!start()) return Outcome::declined;
-    account_.emplace(tree_, *own_, frame_);
     find_weak();
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
@@ -343,6 +368,7 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKin
     place();
     count_turns();
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
+    if (lost_ > 0.0) step_->joints[0]->account.step.work.impacts += lost_;
     springs_.account(*own_, y_.data(), y_.data() + heats_);
     friction_.account(*own_, dynamics_, y_.data());
     return Outcome::flown;

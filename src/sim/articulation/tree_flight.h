@@ -56,6 +56,7 @@ private:
     Outcome advance_tree(const TreeStep& step, IntegratorKind method);
     Outcome advance_pieces(const TreeStep& step, IntegratorKind method, int broken);
     bool fits() const;
+    void fit();
     Totals totals() const;
     Vector rate(const Vector& y);
     void add_pushes(const Vector& y, Vector& dy);
@@ -101,6 +102,7 @@ private:
     Vector y_;
     int coordinates_ = 0, heats_ = 0, extras_ = 0;  // number of coordinates; places in y
     bool pushed_ = false;
+    double lost_ = 0.0;                   // J, where the velocities did not fit the joints at the start
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up
     std::vector<Wrench> pushes_;          // by body
     int evaluations_ = 0;

@@ -96,7 +96,6 @@ void TreeFriction::account(const TreeStep& step, const ForwardDynamics& dynamics
         Joint& joint = *step.joints[std::size_t(f.joint)];
         f.heat += f.bound * std::abs(q[f.at] - f.since);
         joint.account.step.work.heat += f.heat;
-        if (!joint.account.holds) joint.account.step.work.impacts -= f.heat;
         const double effort = f.way != 0.0 ? -f.way * f.bound : -dynamics.net_effort(f.node);
         joint.impulse[f.coordinate][Joint::friction] = f.sign * effort * step.h;
     }

@@ -37,15 +37,13 @@ void TreeSprings::drive(ForwardDynamics& dynamics, const double* q, const double
     }
 }
 
-// The loss of potential energy, less the heat. A joint that begins to hold has counted its whole work as an impact's.
+// The loss of potential energy, less the heat.
 void TreeSprings::account(const TreeStep& step, const double* q, const double* heats) const {
     for (const Spring& spring : list_) {
-        JointAccount& account = step.joints[std::size_t(spring.joint)]->account;
         const double moved = q[spring.at];
         double done = spring.stiffness * moved * (spring.pull - 0.5 * moved);
         if (spring.heat >= 0) done -= heats[spring.heat];
-        account.step.work.springs += done;
-        if (!account.holds) account.step.work.impacts += done;
+        step.joints[std::size_t(spring.joint)]->account.step.work.springs += done;
     }
 }
 

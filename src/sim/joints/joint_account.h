@@ -70,12 +70,11 @@ struct JointAccount {
             work.add(other.work);
             solves += other.solves;
         }
-        /// Of locks alone; `catches`: the joint begins to hold its bodies.
-        void add_flight(const JointLoad& given, double on_a, double on_b, bool catches) {
+        /// Of a flight in joint coordinates, where locks do no work.
+        void add_flight(const JointLoad& given, double on_a, double on_b) {
             load.add(given);
             work_a += on_a;
             work_b += on_b;
-            if (catches) work.impacts -= on_a + on_b;
             ++solves;
         }
     };

@@ -59,6 +59,13 @@ inline constexpr double joint_round_tolerance = 1e-8;
 /// The velocities fit the joints at this share of the fastest one. Not fitted: rounding.
 inline constexpr double joint_flight_fits = 1e-15;
 
+/// The same at the end of a step by rows. Not fitted: rounding.
+inline constexpr double joint_fits = 1e-14;
+
+/// Share of its bound up to which a motor or dry friction counts as holding its speed at the end of a step: the bound of
+/// friction follows the loads, and the impulse of a slipping joint is not quite at it. Not fitted.
+inline constexpr double joint_fit_below = 0.999;
+
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
 

@@ -147,6 +147,20 @@ void DirectSolver::move(const JointIsland& island) {
         }
 }
 
+// Moves the bodies to the end of the step, with the push. `moved`: they are there but for the push.
+void DirectSolver::move_to_end(const JointIsland& island, bool moved) {
+    const double h = island.problem.settings.h;
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        Body& body = island.problem.bodies[island.bodies[k]];
+        const Vec3 push = three(push_, 6 * k), push_turn = three(push_, 6 * k + 3) / length_;
+        if (moved)
+            turn_exactly(body, push, push_turn, h);
+        else
+            turn_exactly(body, body.velocity + push, body.angular_velocity + gyration(body, h) + push_turn, h);
+        body.derive();
+    }
+}
+
 // Changes momenta and, in several substeps, poses. Returns false where substeps are too long.
 bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds,
                                       int substeps) {
@@ -319,32 +333,24 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     if (flown)  // the phase of a swing is proportional to the substep
         while (next > 1 && 2.0 * swing_ * substeps < tuning::joint_easy_swing * next) next /= 2;
     for (Joint* joint : island_joints) joint->substeps = next;
-    const bool pushed = !flown && push_joined(island, substeps > 1);
+    if (!flown) push_joined(island, substeps > 1);
     store_contacts(problem);
+    if (!flown) {
+        move_to_end(island, substeps > 1);
+        fit_velocities(island, JointRows::Booking::fit);
+    }
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
-        body.push_velocity.setZero();
-        body.push_angular_velocity.setZero();
-        if (flown || substeps > 1) {
-            // Back to the start: the step's velocities move the body to the end of the substeps.
-            Vec3 moved = body.position - starts_[k].position;
-            Quat end = body.orientation;
-            if (pushed) {
-                moved += h * three(push_, 6 * k);
-                end = (from_rotation_vector(h / length_ * three(push_, 6 * k + 3)) * end).normalized();
-            }
-            const Vec3 turned = rotation_vector(end * starts_[k].orientation.conjugate());
-            body.position = starts_[k].position;
-            body.orientation = starts_[k].orientation;
-            body.rotation = starts_[k].rotation;
-            body.derive();
-            find_gyration(body, h);
-            body.push_velocity = moved / h - body.velocity;
-            body.push_angular_velocity = turned / h - body.angular_velocity - body.gyration;
-        } else if (pushed) {
-            body.push_velocity = three(push_, 6 * k);
-            body.push_angular_velocity = three(push_, 6 * k + 3) / length_;
-        }
+        // Back to the start: the step's velocities move the body to its end.
+        const Vec3 moved = body.position - starts_[k].position;
+        const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());
+        body.position = starts_[k].position;
+        body.orientation = starts_[k].orientation;
+        body.rotation = starts_[k].rotation;
+        body.derive();
+        find_gyration(body, h);
+        body.push_velocity = moved / h - body.velocity;
+        body.push_angular_velocity = turned / h - body.angular_velocity - body.gyration;
     }
     return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
         return problem.bodies[i].momentum.allFinite() && problem.bodies[i].angular_momentum.allFinite();
@@ -355,7 +361,14 @@ void DirectSolver::close_poses(const ContactProblem& problem, std::span<const st
                                std::span<const std::uint32_t> joints) {
     double length = 0.0;
     for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
-    flight_.close_poses({problem, bodies, joints, length, problem.joints->from(), problem.joints->to()});
+    const JointIsland island{problem, bodies, joints, length, problem.joints->from(), problem.joints->to()};
+    flight_.close_poses(island);
+    load_bodies(problem, bodies);
+    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
+    joints_.keep_estimates();  // the impulses of the step
+    consistent_ = true;
+    structure(problem, bodies, {});
+    fit_velocities(island, JointRows::Booking::stop);
 }
 
 }  // namespace tumble

@@ -39,7 +39,7 @@ public:
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints = {});
 
-    /// Closes the joints at the present poses: see JointFlight::close_poses().
+    /// Closes the joints at the present poses, see JointFlight::close_poses(), and makes the velocities fit them.
     void close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                      std::span<const std::uint32_t> joints);
 
@@ -95,6 +95,7 @@ private:
     bool comes_to_rest(const JointIsland& island) const;
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
+    void move_to_end(const JointIsland& island, bool moved);
     bool fly(const JointIsland& island, bool rows_fly, int& substeps);
     void set_back(const JointIsland& island);
     TreeFlight::Outcome fly_tree(const JointIsland& island);
@@ -117,6 +118,7 @@ private:
     void store_contacts(const ContactProblem& problem);
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
     bool push_joined(const JointIsland& island, bool moved);
+    void fit_velocities(const JointIsland& island, JointRows::Booking booking);
 
     struct Mass {
         double mass = 0.0;                                            // kg

@@ -34,20 +34,40 @@ bool JointRows::geared_forest(const JointIsland& island) const {
 // The row is unit_1 (theta_1' + ratio theta_2'), where the unit of an angle is the island's length.
 void JointRows::add_gear(const JointIsland& island, std::uint32_t index) {
     const Joint& gear = (*joints_)[index];
-    const GearGeometry g =
-        measure_gear(gear, *joints_, [&](std::uint32_t body) { return side_of(island.problem.bodies, body); });
-    const auto unit_of = [&](std::size_t coordinate) { return coordinate < 3 ? 1.0 : length_; };
     Gear& row_of = gears_.emplace_back();
     Block& block = blocks_.emplace_back();
     block.joint = index;
     block.gear = &row_of;
-    block.point = g.joints[0].point;
     block.first = rows_.size();
     block.count = 1;
+    Row row;
+    const GearGeometry g = place_gear(island, block, row);
+    const std::size_t first = row.coordinate;
+    const double unit = row.turns() ? length_ : 1.0;
+    double square = 0.0;
+    for (const GearSide& side : row_of.sides) square += side.factor * side.factor;
+    row.law = Joint::lock;
+    row.closes = true;
+    row.compliance = compliance_ * square;  // as of a row of unit length
+    row.least = -infinity;
+    row.most = infinity;
+    row.reference = std::abs(g.error) <= tuning::joint_rounding * (row.turns() ? 1.0 : gear.size) ? 0.0 : g.error;
+    row.target = unit * ((row.reference - g.error) / h_ + h_ * gear.curving[first]);
+    row_of.value = std::max(std::abs(g.value[0]), std::abs(g.value[1] * gear.description.ratio));
+    push_row(row);
+}
+
+// Where the row acts at the present poses.
+GearGeometry JointRows::place_gear(const JointIsland& island, Block& block, Row& row) {
+    const Joint& gear = joint(block);
+    const GearGeometry g = measure_gear(gear, *joints_, [&](std::uint32_t body) { return side_at(island, body); });
+    const auto unit_of = [&](std::size_t coordinate) { return coordinate < 3 ? 1.0 : length_; };
+    Gear& row_of = *block.gear;
+    row_of.row.clear_numbers();
+    block.point = g.joints[0].point;
     const std::size_t first = geared_coordinate((*joints_)[gear.description.geared[0]]);
     const double unit = unit_of(first);
-    Row row;
-    double offset = 0.0, square = 0.0;
+    double offset = 0.0;
     for (std::size_t s = 0; s < 2; ++s) {
         GearSide& side = row_of.sides[s];
         side.joint = std::uint32_t(gear.description.geared[s]);
@@ -65,20 +85,11 @@ void JointRows::add_gear(const JointIsland& island, std::uint32_t index) {
         if (side.a != none) row_of.row.add_side(side.a, part.on_a, side.factor);
         if (side.b != none) row_of.row.add_side(side.b, part.on_b, side.factor);
         offset += side.factor * part.offset;
-        square += side.factor * side.factor;
     }
-    row.law = Joint::lock;
-    row.closes = true;
     row.coordinate = std::uint8_t(first);
     row.direction = row_of.sides[0].direction;
     row.offset = offset;
-    row.compliance = compliance_ * square;  // as of a row of unit length
-    row.least = -infinity;
-    row.most = infinity;
-    row.reference = std::abs(g.error) <= tuning::joint_rounding * (row.turns() ? 1.0 : gear.size) ? 0.0 : g.error;
-    row.target = unit * ((row.reference - g.error) / h_ + h_ * gear.curving[first]);
-    row_of.value = std::max(std::abs(g.value[0]), std::abs(g.value[1] * gear.description.ratio));
-    push_row(row);
+    return g;
 }
 
 JointLoad JointRows::load_of(const Block& block, std::size_t which) const {
@@ -110,7 +121,7 @@ double JointRows::value_of(const JointIsland& island, const Block& block, const 
 }
 
 // Equal and opposite, about one point for each of the two joints.
-void JointRows::store_gear(const JointIsland& island, const Block& block) {
+void JointRows::give_gear(const JointIsland& island, const Block& block) const {
     std::vector<Body>& bodies = island.problem.bodies;
     for (std::size_t s = 0; s < 2; ++s) {
         const GearSide& side = block.gear->sides[s];
@@ -127,9 +138,7 @@ void JointRows::store_gear(const JointIsland& island, const Block& block) {
     }
 }
 
-void JointRows::account_gear(const JointIsland& island, const Block& block) {
-    Joint& j = joint(block);
-    JointAccount::Span& step = j.account.step;
+void JointRows::account_gear(const JointIsland& island, const Block& block, bool catches, JointAccount::Span& step) {
     double done = 0.0;
     for (std::size_t s = 0; s < 2; ++s) {
         const GearSide& side = block.gear->sides[s];
@@ -149,7 +158,7 @@ void JointRows::account_gear(const JointIsland& island, const Block& block) {
     }
     if (block.breaks)
         step.work.heat -= done;
-    else if (!j.account.holds)
+    else if (catches)
         step.work.impacts -= done;
     ++step.solves;
 }

@@ -12,6 +12,10 @@ namespace tumble {
 
 class GearRow {
 public:
+    /// Zeros in place of all numbers; bodies and pairs stay.
+    void clear_numbers() {
+        for (Side& side : sides_) side.six = {};
+    }
     /// Adds `factor` times six numbers to those of a body of the island.
     void add_side(int body, const double* six, double factor);
 

@@ -33,7 +33,7 @@ JointRows::Row JointRows::make_row(const JointIsland& island, const Block& block
     const auto side = [&](std::uint32_t body, int place, double sign, double* six) {
         if (body == Joint::world) return;
         const Body& b = island.problem.bodies[body];
-        const Vec3 arm = block.point - b.position;
+        const Vec3 arm = block.point - (place == none ? side_at(island, body).position : b.position);
         if (place != none) {
             if (row.turns())
                 contact_rows::put(six, Vec3::Zero(), sign * direction);
@@ -94,6 +94,7 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     r.law = law;
     (above ? r.least : r.most) = 0.0;
     r.closes = true;
+    r.rests = room <= tolerance;
     // A limit violated at the start is not left by speed: see add_push().
     r.reference = room < -tolerance ? value : limit;
     r.goal = limit;
@@ -240,6 +241,7 @@ void JointRows::load(const JointIsland& island, double compliance) {
     h_ = island.problem.settings.h;
     from_ = island.from;
     to_ = island.to;
+    ahead_ = 0.0;
     length_ = island.length;
     total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;

@@ -124,7 +124,7 @@ void JointRows::evaluate_with_weights() {
         }
         const double y = row.estimate + (row.target - row.speed) / row.compliance;
         row.impulse = std::clamp(y, row.least, row.most);
-        const auto bound = std::int8_t((y > row.most || row.least == row.most) - (y < row.least));
+        const auto bound = std::int8_t(row.least == row.most || y > row.most ? 1 : -(y < row.least));
         weights_changed_ = weights_changed_ || bound != row.bound;
         row.bound = bound;
         row.weight = bound == 0 ? 1.0 / row.compliance : 0.0;
@@ -316,8 +316,12 @@ bool JointRows::start_push(const JointIsland& island, double share, PushStiffnes
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
-            const bool limit = row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
-            const bool held = row.law == Joint::lock || (limit && (row.impulse != 0.0 || row.goal != row.reference));
+            if (row.law == Joint::spring || row.law == Joint::motor || row.law == Joint::friction) {
+                row.weight = row.estimate = 0.0;  // start_fit() asks for the rest
+                continue;
+            }
+            const bool held =
+                row.law == Joint::lock || (is_limit(row) && (row.impulse != 0.0 || row.goal != row.reference));
             const double wanted = row.closes ? share * (row.goal - row.reference) : 0.0;
             const double small = tuning::joint_push_small * (row.turns() ? 1.0 : joint(block).size);
             any = any || wanted != 0.0;
@@ -360,39 +364,57 @@ double JointRows::close_push(const JointIsland& island, std::span<const JointSid
 void JointRows::store(const JointIsland& island, bool apply) {
     if (!apply)
         for (Row& row : rows_) row.impulse = 0.0;
-    std::vector<Body>& bodies = island.problem.bodies;
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
-        Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
         j.impulse = {};
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
             j.impulse[row.coordinate][row.law] = amount;
             if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
-            (row.turns() ? torque : force) += amount * row.direction;
         }
-        j.force = force / h_;
-        j.torque = torque / h_;
+        const JointLoad load = load_of(block);
+        j.force = load.force / h_;
+        j.torque = load.torque / h_;
         j.point = block.point;
         if (block.breaks) {
             j.broken = true;
             j.broken_at = to_;
         }
-        if (block.gear) store_gear(island, block);
-        if (block.gear || (force.isZero(0.0) && torque.isZero(0.0))) continue;
+    }
+    give(island);
+}
+
+void JointRows::give(const JointIsland& island) const {
+    std::vector<Body>& bodies = island.problem.bodies;
+    for (const Block& block : blocks_) {
+        if (block.gear) {
+            give_gear(island, block);
+            continue;
+        }
+        const JointLoad load = load_of(block);
+        if (load.force.isZero(0.0) && load.torque.isZero(0.0)) continue;
+        const Joint& j = joint(block);
         // Equal and opposite, about one point: momentum and angular momentum are kept to the last bit.
         if (block.a != none) {
             Body& a = bodies[j.a];
-            a.momentum -= force;
-            a.angular_momentum -= (block.point - a.position).cross(force) + torque;
+            a.momentum -= load.force;
+            a.angular_momentum -= (block.point - a.position).cross(load.force) + load.torque;
         }
         if (block.b != none) {
             Body& b = bodies[j.b];
-            b.momentum += force;
-            b.angular_momentum += (block.point - b.position).cross(force) + torque;
+            b.momentum += load.force;
+            b.angular_momentum += (block.point - b.position).cross(load.force) + load.torque;
         }
     }
+}
+
+JointLoad JointRows::load_of(const Block& block) const {
+    JointLoad load;
+    for (const Row& row : rows(block))
+        (row.turns() ? load.torque : load.force) += (row.turns() ? length_ * row.impulse : row.impulse) * row.direction;
+    load.moment = block.point.cross(load.force) + load.torque;
+    return load;
 }
 
 }  // namespace tumble

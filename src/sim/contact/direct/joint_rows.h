@@ -14,6 +14,7 @@
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/gear_row.h"
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/joints/gear.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/swing.h"
 #include "sim/math/block_cholesky.h"
@@ -53,6 +54,7 @@ public:
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
         bool closes = false;       // takes part in close()
+        bool rests = false;        // a limit that the coordinate is at from the start
         bool soft = false;         // its estimate stays 0: a spring; in a push, a row whose error is moved out
         bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
@@ -154,11 +156,25 @@ public:
 
     /// For account(): the velocities at the start of the step (`first`), or of a later substep.
     void keep_velocities(const JointIsland& island, bool first);
+    /// What the impulses are of: the solve of the step, the fit at its end, or the fit where CCD has stopped the bodies,
+    /// whose work is lost as in an impact.
+    enum class Booking { solve, fit, stop };
     /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
-    void account(const JointIsland& island);
+    void account(const JointIsland& island, Booking booking = Booking::solve);
+
+    /// Moves the rows to the present poses and makes them those of a fit: locks and all else that has held its speed in the
+    /// solve ask for it again, within what is left of their bounds. `ahead` (s): by so much carriers are further on.
+    /// `solved`: the impulses are those of the solve.
+    void start_fit(const JointIsland& island, double ahead, bool solved);
+    /// Fastest speed (m/s) that misses a row of the fit; after evaluate_speeds().
+    double misfit() const;
+    /// Joints that break under the loads of the solve and the fit together.
+    void break_under_loads(const JointIsland& island);
 
     /// Gives the impulses to the bodies and keeps them with the joints. Without `apply` all are zero.
     void store(const JointIsland& island, bool apply);
+    /// The former alone.
+    void give(const JointIsland& island) const;
 
     /// Fastest rate (rad/s) at which a body would swing about its joints under their forces: sqrt(4 T / (m l)) for a
     /// rod of length l.
@@ -195,13 +211,19 @@ private:
 
     bool geared_forest(const JointIsland& island) const;
     void add_gear(const JointIsland& island, std::uint32_t index);
+    GearGeometry place_gear(const JointIsland& island, Block& block, Row& row);
+    JointSide side_at(const JointIsland& island, std::uint32_t body) const;
+    JointLoad load_of(const Block& block) const;
     double gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
     JointLoad load_of(const Block& block, std::size_t which) const;  // of a gear, on one of its joints
-    void store_gear(const JointIsland& island, const Block& block);
-    void account_gear(const JointIsland& island, const Block& block);
+    void give_gear(const JointIsland& island, const Block& block) const;
+    void account_gear(const JointIsland& island, const Block& block, bool catches, JointAccount::Span& step);
     void push_row(const Row& row);
     double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
+    static bool is_limit(const Row& row) {
+        return row.law == Joint::lower || row.law == Joint::upper || row.law == Joint::cone;
+    }
 
     std::vector<Joint>* joints_ = nullptr;
     std::vector<Block> blocks_;
@@ -210,6 +232,7 @@ private:
     std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;         // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
+    double ahead_ = 0.0;  // s, of the carriers
     bool weights_changed_ = true, tree_ = true;
 };
 

@@ -52,34 +52,34 @@ BodyVelocity JointRows::mean_velocity(const JointIsland& island, std::uint32_t b
     const Body& b = island.problem.bodies[body];
     const BodyVelocity of =
         place == none ? BodyVelocity{b.velocity, b.angular_velocity} : mean_of(before_[std::size_t(place)], b);
-    return {of.velocity + of.angular_velocity.cross(point - b.position), of.angular_velocity};
+    const Vec3 center = place == none ? side_at(island, body).position : b.position;
+    return {of.velocity + of.angular_velocity.cross(point - center), of.angular_velocity};
 }
 
-void JointRows::account(const JointIsland& island) {
-    const bool first = from_ == island.problem.joints->from();
+void JointRows::account(const JointIsland& island, Booking booking) {
+    const bool first = booking == Booking::solve && from_ == island.problem.joints->from();
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
-        JointAccount::Span& step = j.account.step;
+        JointAccount::Span& step = booking == Booking::stop ? j.account.events : j.account.step;
+        const bool catches = booking == Booking::stop || !j.account.holds;
         if (first) step = {};
         if (block.gear) {
-            account_gear(island, block);
+            account_gear(island, block, catches, step);
             continue;
         }
         const BodyVelocity a = mean_velocity(island, j.a, block.a, block.point),
                            b = mean_velocity(island, j.b, block.b, block.point);
         const Vec3 apart = b.velocity - a.velocity, turning = b.angular_velocity - a.angular_velocity;
-        JointLoad load;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const Vec3 impulse = (row.turns() ? length_ : 1.0) * row.impulse * row.direction;
-            (row.turns() ? load.torque : load.force) += impulse;
             const double done = impulse.dot(row.turns() ? turning : apart);
             if (block.breaks)
                 step.work.heat -= done;
             else
-                add_work(step.work, row.law, done, !j.account.holds);
+                add_work(step.work, row.law, done, catches);
         }
-        load.moment = block.point.cross(load.force) + load.torque;
+        const JointLoad load = load_of(block);
         step.load.add(load);
         const double on_a = -(load.force.dot(a.velocity) + load.torque.dot(a.angular_velocity));
         const double on_b = load.force.dot(b.velocity) + load.torque.dot(b.angular_velocity);

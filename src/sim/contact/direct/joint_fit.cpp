@@ -1,0 +1,139 @@
+// The fit at the end of a step by rows: impulses that make the velocities fit the joints at the new poses. Without it they
+// are those along the chords of the step, and their energy is too large by up to (h w)^2 / 4 of it.
+#include "core/deterministic_math.h"
+#include "sim/contact/direct/direct_solver.h"
+#include "sim/contact/direct/settings.h"
+#include "sim/joints/settings.h"
+#include "sim/math/keyframe_track.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+// A carrier moves at the end of the step: until then its pose is found from its velocity.
+JointSide JointRows::side_at(const JointIsland& island, std::uint32_t body) const {
+    JointSide side = side_of(island.problem.bodies, body);
+    if (ahead_ == 0.0 || body == Joint::world || island.problem.bodies[body].dynamic()) return side;
+    const Body& b = island.problem.bodies[body];
+    side.position += ahead_ * b.velocity;
+    side.orientation = (from_rotation_vector(ahead_ * b.angular_velocity) * side.orientation).normalized();
+    return side;
+}
+
+void JointRows::start_fit(const JointIsland& island, double ahead, bool solved) {
+    ahead_ = ahead;
+    weights_changed_ = true;
+    for (Block& block : blocks_) {
+        const Joint& j = joint(block);
+        JointGeometry g;
+        if (block.gear) {
+            place_gear(island, block, rows_[block.first]);
+        } else {
+            g = measure(j, side_at(island, j.a), side_at(island, j.b));
+            block.point = g.point;
+        }
+        const auto at_end = [&](const Row& row) {
+            const Eigen::Index axis = row.coordinate - 3;
+            const bool alike =
+                row.turns() && j.turns_alike() && (row.law == Joint::spring || row.law == Joint::friction);
+            const Vec3 direction = row.law == Joint::cone ? g.swing.direction
+                                   : alike                ? Vec3(g.axes.col(axis))
+                                                          : g.coordinates[row.coordinate].direction;
+            return make_row(island, block, direction, row.coordinate);
+        };
+        double ball = 0.0;  // N s: of the friction of a ball, by its length
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            if (row.starts_ball) ball = hypotenuse(row.impulse, hypotenuse(rows_[k + 1].impulse, rows_[k + 2].impulse));
+            const bool in_ball = j.turns_alike() && row.law == Joint::friction;
+            const double size = in_ball ? ball : std::abs(row.impulse);
+            // A limit that is met or bounces holds no speed; nor does friction that slips, or a motor at its bound. Along the
+            // rim of a cone the swing itself changes.
+            const bool rigid = row.law == Joint::lock;
+            const bool limits =
+                is_limit(row) && row.law != Joint::cone && row.rests && row.closes && row.impulse != 0.0;
+            const bool drives = solved && !row.soft && (row.law == Joint::motor || row.law == Joint::friction) &&
+                                size < tuning::joint_fit_below * row.most;
+            if (!block.gear) {
+                const Row end = at_end(row);
+                std::copy(std::begin(end.on_a), std::end(end.on_a), row.on_a);
+                std::copy(std::begin(end.on_b), std::end(end.on_b), row.on_b);
+                row.offset = end.offset;
+                row.direction = end.direction;
+                row.compliance = compliance_;
+            }
+            row.soft = false;
+            if (block.breaks || !(rigid || limits || drives)) {
+                row.least = row.most = 0.0;
+            } else if (drives) {
+                row.most -= size;
+                row.least = -row.most;
+            } else if (limits) {
+                row.least -= row.impulse;
+                row.most -= row.impulse;
+            }
+            if (row.law != Joint::motor) row.target = 0.0;
+            row.estimate = row.impulse = 0.0;
+            row.starts_ball = false;
+            row.bound = 2;
+        }
+    }
+}
+
+double JointRows::misfit() const {
+    double most = 0.0;
+    for (const Row& row : rows_)
+        if (row.impulse > row.least && row.impulse < row.most) most = std::max(most, std::abs(row.target - row.speed));
+    return most;
+}
+
+void JointRows::break_under_loads(const JointIsland& island) {
+    const double h = island.problem.settings.h;
+    for (const Block& block : blocks_) {
+        Joint& j = joint(block);
+        const JointDescription& strength = j.description;
+        if (j.broken || block.gear || !strength.ever_breaks()) continue;
+        const double force = j.account.step.load.force.norm(), torque = j.account.step.load.torque.norm();
+        j.broken = std::max({force / (h * strength.break_force), force / strength.break_impulse,
+                             torque / (h * strength.break_torque)}) > 1.0;
+        if (j.broken) j.broken_at = island.to;
+    }
+}
+
+// At the present poses. The step's contacts are no longer needed.
+void DirectSolver::fit_velocities(const JointIsland& island, JointRows::Booking booking) {
+    const ContactProblem& problem = island.problem;
+    constraints_.clear();
+    load_bodies(problem, island.bodies);
+    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
+        const Body& body = problem.bodies[island.bodies[k]];
+        contact_rows::put(&free_[6 * k], body.velocity, length_ * body.angular_velocity);
+    }
+    joints_.keep_velocities(island, false);
+    joints_.start_fit(island, problem.settings.h, consistent_);
+    joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
+    velocity_ = free_;
+    joints_.evaluate_speeds(velocity_);
+    double last = speed_scale_ = joints_.misfit();
+    const double fits = tuning::joint_fits * fastest_;
+    if (!(last > fits)) return;
+    int slow = 0;
+    for (int pass = 0; pass < tuning::joint_rounds && last > fits; ++pass) {
+        if (!step_linear() && !minimize(tuning::joint_first_newton_steps)) return;
+        joints_.next_round(false);
+        joints_.evaluate_speeds(velocity_);
+        const double error = joints_.misfit();
+        if (!std::isfinite(error)) return;
+        // A limit or a drive that comes to its bound costs a pass.
+        slow = error >= 0.5 * last ? slow + 1 : 0;
+        last = error;
+        if (slow >= 3) break;
+    }
+    joints_.give(island);
+    for (const std::uint32_t i : island.bodies) problem.bodies[i].derive_velocities();
+    joints_.account(island, booking);
+    joints_.break_under_loads(island);
+}
+
+}  // namespace tumble
