@@ -156,14 +156,14 @@ public:
 
     /// For account(): the velocities at the start of the step (`first`), or of a later substep.
     void keep_velocities(const JointIsland& island, bool first);
-    /// What the impulses are of: the solve of the step, the fit at its end, or the fit where CCD has stopped the bodies,
+    /// The source of the impulses: the solve of the step, the fit at its end, or the fit where CCD has stopped the bodies,
     /// whose work is lost as in an impact.
     enum class Booking { solve, fit, stop };
     /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
     void account(const JointIsland& island, Booking booking = Booking::solve);
 
     /// Moves the rows to the present poses and makes them those of a fit: locks and all else that has held its speed in the
-    /// solve ask for it again, within what is left of their bounds. `ahead` (s): by so much carriers are further on.
+    /// solve ask for it again, within the rest of their bounds. `ahead` (s): by so much carriers are further on.
     /// `solved`: the impulses are those of the solve.
     void start_fit(const JointIsland& island, double ahead, bool solved);
     /// Fastest speed (m/s) that misses a row of the fit; after evaluate_speeds().
