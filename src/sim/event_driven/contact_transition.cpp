@@ -21,8 +21,8 @@ Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<
     return free.acceleration(supports[k].on, carrier, body.position + arm - carrier.position);
 }
 
-// Whether a contact of this acceleration along its normal has no relative motion in a step of h s, compared with the
-// acceleration that presses its held body.
+// True if the bodies have no relative motion at the contact: its acceleration (m/s^2, along the normal) and its velocity
+// are small beside the acceleration that presses the held body, and that acceleration times h (s).
 bool neutral(const Contact& c, const Body& a, const Body& b, double acceleration, const Support& held, double h) {
     const double least = tuning::neutral_share * held.pressing;
     if (!(std::abs(acceleration) < least)) return false;
@@ -30,8 +30,8 @@ bool neutral(const Contact& c, const Body& a, const Body& b, double acceleration
     return v.norm() <= least * h;
 }
 
-// Acceleration (m/s^2) that presses a touching contact without overlap if it holds its bodies, else zero. `known`: whether
-// its load of the last step is.
+// Acceleration (m/s^2) that presses a touching contact without overlap if it holds its bodies, else zero. `known`: the last
+// step has solved the contact's load.
 double holding(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
                const HoldLimits& limits, bool known, const Supports& supports) {
     const double part = relative_velocity(c, bodies[c.a], bodies[c.b]);

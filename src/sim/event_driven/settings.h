@@ -39,8 +39,8 @@ inline constexpr double refine_first = 1e-3;
 inline constexpr double refine_longer = 30.0;
 
 /// A contact is neutral if its relative acceleration, and its relative velocity over the step, are below this share of the
-/// acceleration that presses its held body. Not fitted: rounding and the rest of a landing. Tests: those of
-/// tests/physics/pressed_row_test.cpp.
+/// acceleration that presses its held body. Not fitted: above rounding and the speed that a landing leaves, far below a
+/// motion. Tests: tests/physics/pressed_row_test.cpp.
 inline constexpr double neutral_share = 1e-3;
 
 /// Largest number of impacts in a frame per body: far beyond any clip (a million hits of each body per second). Not

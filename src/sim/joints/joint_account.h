@@ -70,7 +70,7 @@ struct JointAccount {
             work.add(other.work);
             solves += other.solves;
         }
-        /// Of a flight in joint coordinates, where locks do no work.
+        /// Adds the load and the work of a flight in joint coordinates. Locks do no work there.
         void add_flight(const JointLoad& given, double on_a, double on_b) {
             load.add(given);
             work_a += on_a;

@@ -17,11 +17,10 @@ void ContactDetection::find(const StepContext& step) {
 
 void ContactDetection::update(const StepContext& step, MotionStage& motion) {
     find(step);
-    manifolds_ = &narrow_phase_.manifolds();
     // Woken bodies need the contacts among themselves too, which were not searched.
-    if (!current_ && step.sleep.wake_touched(*manifolds_, step.set.bodies, step.h, step.gravity_speed())) find(step);
+    if (!current_ && step.sleep.wake_touched(manifolds(), step.set.bodies, step.h, step.gravity_speed())) find(step);
     current_ = true;
-    const std::span<const std::uint32_t> stepped = motion.choose_stepped(step, *manifolds_);
+    const std::span<const std::uint32_t> stepped = motion.choose_stepped(step, manifolds());
     // The same pairs and the same stepped bodies give the same islands. Ballistic bodies may be stepped again at any
     // time.
     const std::array now{narrow_phase_.changes(), step.sleep.changes(), step.joints.changes()};

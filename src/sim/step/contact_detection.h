@@ -28,7 +28,7 @@ public:
     void out_of_date() { current_ = false; }
 
     /// The step's manifolds, ascending by body; the solvers write into them. Precondition: update().
-    std::vector<Manifold>& manifolds() { return *manifolds_; }
+    std::vector<Manifold>& manifolds() { return narrow_phase_.manifolds(); }
     const ContactIslands& islands() const { return islands_; }
 
     /// Pairs of bodies that do not collide, ascending.
@@ -40,10 +40,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [broad_phase, narrow_phase, current, manifolds, islands, seen_by_islands] = self;
+        auto& [broad_phase, narrow_phase, current, islands, seen_by_islands] = self;
         archive.keep(broad_phase, narrow_phase, current);
         archive.rebuilt(islands, seen_by_islands);  // found in the first step, of the same pairs
-        archive.scratch(manifolds);
     }
 
 private:
@@ -51,9 +50,8 @@ private:
 
     BroadPhase broad_phase_;
     NarrowPhase narrow_phase_;
-    bool current_ = false;                        // update() has found the contacts of the present poses
-    std::vector<Manifold>* manifolds_ = nullptr;  // owned by the narrow phase
-    ContactIslands islands_;                      // of the stepped bodies
+    bool current_ = false;    // update() has found the contacts of the present poses
+    ContactIslands islands_;  // of the stepped bodies
     // Change counters of the manifolds, of sleep and of joints at which the islands were found.
     std::array<std::uint64_t, 3> seen_by_islands_{UINT64_MAX, UINT64_MAX, UINT64_MAX};
 };

@@ -45,8 +45,8 @@ constexpr std::size_t most_pairs_of_edges = 16;
 constexpr std::size_t most_contacts = 64;
 constexpr std::size_t most_hits_each = 4;
 
-// Whether hits of two bodies are looked for. In a crowd of bodies with faces an impact at the step's end is as good, and
-// costs less: the motion after a hit there depends on many contacts.
+// Two bodies whose hits have their own times. In a crowd of bodies with faces the motion depends on many contacts: the
+// impact at the end of the step costs less, and its error does not show.
 bool takes_part(const Body& a, const Body& b, std::size_t pairs) {
     if (a.jointed || b.jointed || flat(a) || flat(b)) return false;
     if (ball(a) && ball(b)) return true;
@@ -55,7 +55,7 @@ bool takes_part(const Body& a, const Body& b, std::size_t pairs) {
     return pairs == 1 && hull(a) && hull(b) && pair_restitution(a, b) > 0.0;
 }
 
-// Whether the pair is new in contact, overlaps, and came so far in the step that its normal may be out of date.
+// True if the pair is new in contact, overlaps, and came so far in the step that its normal may be out of date.
 bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifold>& manifolds, const Body& a,
                   const Body& b, const StepContext& step, double threshold) {
     for (const std::uint32_t k : pair)
@@ -81,7 +81,7 @@ bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifol
     return false;
 }
 
-// Whether the normals of a hit differ from those of the present pose.
+// True if a normal of the hit differs from the normal of the overlapped pose.
 bool differ(const std::vector<Manifold>& then, const Manifold& now) {
     const double least = now.count == 1 && now.corners == Corners::neither ? least_turn_of_curve : least_turn;
     return std::any_of(then.begin(), then.end(),
@@ -121,9 +121,10 @@ Impulse late_forces(std::uint32_t k, const StepContext& step, double lag) {
 }  // namespace
 
 bool HitStage::resolve(const StepContext& step, ContactDetection& detection) {
+    const ContactIslands& islands = detection.islands();
     bool any = false;
-    for (std::size_t k = 0; k < detection.islands().size(); ++k)
-        if (resolve_island({detection.islands().pairs(k), detection.islands().manifolds(k)}, detection.manifolds(),
+    for (std::size_t k = 0; k < islands.size(); ++k)
+        if (resolve_island({islands.pairs(k), islands.manifolds(k), islands.touching_pairs(k)}, detection.manifolds(),
                            step))
             any = true;
     return any;
@@ -134,13 +135,11 @@ bool HitStage::resolve_island(const HitIsland& island, const std::vector<Manifol
                               const StepContext& step) {
     const std::vector<Body>& bodies = step.set.bodies;
     const double threshold = ImpactStage::threshold(step);
-    std::size_t pairs = 0;
-    each_pair(island, [&](const BodyPair&, std::span<const std::uint32_t>) { ++pairs; });
     movers_.clear();
     hits_.clear();
     each_pair(island, [&](const BodyPair& m, std::span<const std::uint32_t> pair) {
         const Body &a = bodies[m.a], &b = bodies[m.b];
-        if (!takes_part(a, b, pairs) || !may_have_met(pair, manifolds, a, b, step, threshold)) return;
+        if (!takes_part(a, b, island.touching_pairs) || !may_have_met(pair, manifolds, a, b, step, threshold)) return;
         const auto hit = next_hit(m.a, m.b, step);
         if (!hit || !(hit->lag < step.h)) return;
         find_touch(*hit, step);
@@ -159,7 +158,7 @@ bool HitStage::resolve_island(const HitIsland& island, const std::vector<Manifol
         };
         std::erase_if(hits_, [&](const Hit& h) { return moved(h.a) || moved(h.b); });
         each_pair(island, [&](const BodyPair& m, std::span<const std::uint32_t>) {
-            if ((!moved(m.a) && !moved(m.b)) || !takes_part(bodies[m.a], bodies[m.b], pairs)) return;
+            if ((!moved(m.a) && !moved(m.b)) || !takes_part(bodies[m.a], bodies[m.b], island.touching_pairs)) return;
             if (const auto next = next_hit(m.a, m.b, step)) hits_.push_back(*next);
         });
     }
@@ -326,7 +325,7 @@ bool HitStage::strike(const Hit& hit, const HitIsland& island, const std::vector
     std::vector<Body>& bodies = step.set.bodies;
     const double threshold = ImpactStage::threshold(step);
     const bool curved = ball(bodies[hit.a]) || ball(bodies[hit.b]);
-    const bool whole = gather(hit, island, manifolds, step) && (curved || cluster_.size() == 2);
+    const bool whole = gather(hit, island, manifolds, step);
     const ImpactSettings settings{.threshold = threshold,
                                   .law = step.settings.impact_law,
                                   .resting = threshold,

@@ -23,6 +23,7 @@ struct StepContext;
 struct HitIsland {
     std::span<const BodyPair> pairs;
     std::span<const std::uint32_t> manifolds;
+    std::size_t touching_pairs;  // number of different pairs
 };
 
 class HitStage {

@@ -162,9 +162,9 @@ public:
     /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
     void account(const JointIsland& island, Booking booking = Booking::solve);
 
-    /// Moves the rows to the present poses and makes them those of a fit: locks and all else that has held its speed in the
-    /// solve ask for it again, within the rest of their bounds. `ahead` (s): by so much carriers are further on.
-    /// `solved`: the impulses are those of the solve.
+    /// Prepares the rows for the fit at the present poses. Locks, and motors, friction and limits that held their speed in
+    /// the solve, hold it again, within the rest of their bounds; the other rows get no impulse. `ahead` (s): time by which
+    /// carriers are placed ahead of their present poses. `solved`: the rows have the impulses of the solve.
     void start_fit(const JointIsland& island, double ahead, bool solved);
     /// Fastest speed (m/s) that misses a row of the fit; after evaluate_speeds().
     double misfit() const;
@@ -173,7 +173,7 @@ public:
 
     /// Gives the impulses to the bodies and keeps them with the joints. Without `apply` all are zero.
     void store(const JointIsland& island, bool apply);
-    /// The former alone.
+    /// Adds the impulses of the rows to the momenta of the bodies.
     void give(const JointIsland& island) const;
 
     /// Fastest rate (rad/s) at which a body would swing about its joints under their forces: sqrt(4 T / (m l)) for a
