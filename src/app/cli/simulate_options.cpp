@@ -104,7 +104,7 @@ CLI::App* add_simulate(CLI::App& app, CommandLine& line) {
     command
         ->add_option_function<std::string>(
             "--impacts", [&c](const std::string& text) { read_impacts(text, c); },
-            "stepped: resolved at the step; exact: each at its own time. Or a table: a row for each\nimpulse, as CSV "
+            "stepped: resolved in the steps; exact: each at its own time. Or a table: a row for each\nimpulse, as CSV "
             "or "
             ".npz; - is standard output. Give it twice for both")
         ->take_all()

@@ -15,7 +15,7 @@ export function build_about(state: PlayerState): HTMLElement {
       ["Length", `${trimmed_text(run.duration)} s, ${count_text(run.frames, "frame")} at ${trimmed_text(run.fps)} per second`],
       ["Bodies", `${run.scene.bodies.length}, of which ${moving.length} move`],
       ["Integrator", `${settings.integrator}, step ${trimmed_text(settings.step)} s`],
-      ["Impacts", settings.impacts === "exact" ? "exact: each at its own time" : "stepped: resolved at the step"],
+      ["Impacts", settings.impacts === "exact" ? "exact: each at its own time" : "stepped: resolved in the steps"],
       ["Method", settings.method],
       ["Gravity", `(${settings.gravity.map((value) => trimmed_text(value)).join(", ")}) m/s\u00b2`],
       ["Motion", `${exact} of ${moving.length} bodies exact between keys, the others interpolated between frames`],

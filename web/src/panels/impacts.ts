@@ -15,8 +15,11 @@ export function build_impacts(state: PlayerState, actions: Actions, heading: "h3
     const total = run.impacts.reduce((sum, impact) => sum + impact.impulse, 0);
     const kept = run.impacts.length < run.all_impacts ? `The ${run.impacts.length} strongest of ${run.all_impacts} impacts` :
       count_text(run.impacts.length, "impact");
+    const own = run.impacts.filter((impact) => impact.exact).length;
+    const times = own === run.impacts.length ? "each at its own time" :
+      own === 0 ? "at the times of the steps" : `${own} at their own times, the others at the times of the steps`;
     set_text(summary, run.impacts.length === 0 ? "No impacts in this run." :
-      `${kept}, ${run.settings.impacts === "exact" ? "each at its own time" : "at the times of the steps"}; ` +
+      `${kept}, ${times}; ` +
       `impulses of ${trimmed_text(total, 4)} N s in all.`);
     list.element.hidden = card.element.hidden = run.impacts.length === 0;
   };
