@@ -344,11 +344,11 @@ std::pair<double, double> DirectSolver::next_round() {
     auto& largest = most.second;
     for (ConstraintRows& constraint : constraints_) {
         // Friction by its length: the directions of its rows must not decide when the rounds end.
-        const auto& [along_1, along_2] = constraint.friction;
-        change = std::max(change, length(along_1.impulse - along_1.estimate, along_2.impulse - along_2.estimate));
-        largest = std::max(largest, length(along_1.impulse, along_2.impulse));
+        const Row(&along)[2] = constraint.friction;
+        change = std::max(change, length(along[0].impulse - along[0].estimate, along[1].impulse - along[1].estimate));
+        largest = std::max(largest, length(along[0].impulse, along[1].impulse));
         each_row(constraint, [&](Row& row) {
-            const bool across = &row == &along_1 || &row == &along_2;
+            const bool across = &row == &along[0] || &row == &along[1];
             change = std::max(change, across ? 0.0 : std::abs(row.impulse - row.estimate));
             largest = std::max(largest, across ? 0.0 : std::abs(row.impulse));
             row.estimate = row.impulse;
