@@ -69,7 +69,7 @@ JointRows::LimitRates JointRows::limit_rates(const JointIsland& island, const Ro
         if (!b.moves()) continue;
         const BodyVelocity& before = island.problem.before[body];
         const Vec3 arm = point - b.position;
-        const auto rate = [&](const Vec3& velocity, const Vec3& turn) {
+        const auto rate = [&, sign = sign](const Vec3& velocity, const Vec3& turn) {
             return sign * row.direction.dot(row.turns() ? turn : Vec3(velocity + turn.cross(arm)));
         };
         const double now = rate(b.velocity, b.angular_velocity), start = rate(before.velocity, before.angular_velocity);
