@@ -176,6 +176,16 @@ double FreeRotation::integral(const Jacobi& v) const {
     return square * v.sn / 3.0 * carlson_rj(v.cn * v.cn, v.dn * v.dn, 1.0, 1.0 + nu_ * square);
 }
 
+namespace {
+
+// A whole number modulo 4; 0 where it is beyond all numbers, as with rates of a damaged checkpoint.
+int quarter(double whole) {
+    const double rest = whole - 4.0 * std::floor(0.25 * whole);
+    return rest > 0.0 && rest < 4.0 ? int(rest) : 0;
+}
+
+}  // namespace
+
 FreeRotation::Phase FreeRotation::phase(double u) const {
     Phase p;
     if (kind_ == Kind::separatrix) {
@@ -195,9 +205,8 @@ FreeRotation::Phase FreeRotation::phase(double u) const {
 // The rotation from the principal frame to one whose first axis is L's: R_b(-theta) R_p(-alpha), with theta the angle
 // between m and the pole, and alpha that of m about the pole. Half angles by square roots.
 Quat FreeRotation::frame(const Phase& phase) const {
-    const auto half_periods = static_cast<long long>(phase.half_periods);
-    const double turned =
-        half_periods & 1 && !pole_circulates_ ? -1.0 : 1.0;  // sign change of sn and cn after each half period
+    // The signs of sn and cn change after each half period.
+    const double turned = quarter(phase.half_periods) % 2 != 0 && !pole_circulates_ ? -1.0 : 1.0;
     const double x = turned * amplitude_cn_ * phase.value.cn, y = turned * amplitude_sn_ * phase.value.sn,
                  z = amplitude_dn_ * phase.value.dn;
     const double p = pole_circulates_ ? z : x, a = pole_circulates_ ? x : y, b = pole_circulates_ ? y : z;
@@ -206,7 +215,7 @@ Quat FreeRotation::frame(const Phase& phase) const {
     const HalfAngle theta = half_angle(p / all, across / all);
     if (pole_circulates_) {
         // Each half period of the phase is half a revolution of alpha: a quarter revolution of its half.
-        switch ((amplitude_sn_ < 0.0 ? -half_periods : half_periods) & 3) {
+        switch (quarter(amplitude_sn_ < 0.0 ? -phase.half_periods : phase.half_periods)) {
             case 1:
                 alpha = {-alpha.sin, alpha.cos};
                 break;
