@@ -93,8 +93,7 @@ TEST(Articulation, PlacesBodiesWhereTheyAre) {
             const ForwardDynamics::Link& link = t.dynamics.link(t.tree.node_of_body()[i]);
             const Body& body = t.scene.set.bodies[i];
             EXPECT_LT((t.tree.origin() + link.position() - body.position).norm(), 1e-13);
-            const Mat3 rotation = body.rotation * body.principal_axes.toRotationMatrix();
-            EXPECT_LT((link.rotation - rotation).norm(), 1e-13);
+            EXPECT_LT((link.rotation - body.rotation).norm(), 1e-13);
         }
     }
 }
@@ -180,7 +179,7 @@ TEST(Articulation, JointForcesDoNoWork) {
             const ForwardDynamics::Link& link = t.dynamics.link(int(k));
             const double scale = 1.0 + forces[k].force.norm() + forces[k].moment.norm();
             if (node.kind == TreeNode::Kind::ball) {
-                EXPECT_LT(forces[k].moment.norm(), 1e-11 * scale);
+                EXPECT_LT(forces[k].moment.norm(), 5e-11 * scale);
             }
             if (node.kind == TreeNode::Kind::revolute) {
                 EXPECT_LT(std::abs(link.axis.dot(forces[k].moment)), 1e-11 * scale);

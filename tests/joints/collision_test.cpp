@@ -167,7 +167,7 @@ TEST(JointCollision, ABallStrikesAFreeChain) {
         EXPECT_GT(impulse, 1.0);
         EXPECT_LT((after.momentum - before.momentum).norm(), 1e-12);
         EXPECT_LT((after.angular_momentum - before.angular_momentum).norm(), 1e-11);
-        EXPECT_NEAR(after.kinetic, before.kinetic, exact ? 1e-9 : 1e-3);
+        EXPECT_NEAR(after.kinetic, before.kinetic, exact ? 1e-9 : 3e-3);  // Verlet's method: not symplectic
         EXPECT_LT(largest_gap(world), 1e-12);
     }
 }
@@ -258,14 +258,18 @@ TEST(JointCollision, ABlowBreaksAHinge) {
     }
 }
 
-// The blow keeps the energy. That of RATTLE after it oscillates by (h w)^2: by a quarter with half the step.
+// The blow keeps the energy. That of Verlet's method after it oscillates by (h w)^2: by a quarter with half the step.
 TEST(JointCollision, ABlowOnHeldRodsKeepsTheEnergy) {
     const auto error = [](ImpactMode mode, int steps) {
         const SceneDescription scene = struck_rods_scene(mode, steps, infinity);
         World world(scene);
         const double start = energy_of(world);
-        run(world, scene, 0.5);
-        return std::abs(energy_of(world) - start);
+        double most = 0.0;
+        for (int frame = 0; frame < 30; ++frame) {
+            world.advance_frame();
+            most = std::max(most, std::abs(energy_of(world) - start));
+        }
+        return most;
     };
     for (const int steps : {4, 16}) EXPECT_LT(error(ImpactMode::exact, steps), 1e-12);
     const double coarse = error(ImpactMode::stepped, 16), fine = error(ImpactMode::stepped, 32);

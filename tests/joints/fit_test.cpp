@@ -71,10 +71,11 @@ SceneDescription whirling_pair(ImpactMode mode, int rate, double friction) {
         Quat(0.25293140593548613, -0.3548711326338827, -0.5535295582833129, -0.7097162892461496),
         {0.30824126914691297, 1.3404003629479022, -0.2432068936861292},
         {-7.003572721776372, -14.365181973864319, 52.828470585604414});
-    add_joint(scene, JointType::hinge, 0, 1, {-0.34121362092551333, 0.9219719055585793, 0.02763457699414429},
-              {-0.05834206457388498, -0.004522538469552223, 0.9982864068728212})
-        .turn[0]
-        .friction = friction * share * share;
+    JointDescription& joint =
+        add_joint(scene, JointType::hinge, 0, 1, {-0.34121362092551333, 0.9219719055585793, 0.02763457699414429},
+                  {-0.05834206457388498, -0.004522538469552223, 0.9982864068728212});
+    joint.turn[0].friction = friction * share * share;
+    joint.friction_coefficient = 1e-9;  // of the bearing: rows move the pair
     return scene;
 }
 

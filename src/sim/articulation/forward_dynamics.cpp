@@ -42,17 +42,15 @@ SpatialMotion free_acceleration(const SpatialInertia& inertia, const SpatialForc
 
 }  // namespace
 
-void ForwardDynamics::move_node(const TreeNode& node, Link& link, const double* q, const double* speed) const {
+void ForwardDynamics::place_node(const TreeNode& node, Link& link, const double* q) const {
     if (node.kind == NodeKind::free) {
         link.orientation = quaternion_at(q + 3);
         link.rotation = link.orientation.toRotationMatrix();
         link.point = vector_at(q);
-        link.velocity = {vector_at(speed), vector_at(speed + 3)};
-        link.bias = {};
+        link.center = Vec3::Zero();
         return;
     }
     const Link& parent = above(node);
-    const Mat3& rotation = parent.rotation;
     if (node.kind == NodeKind::ball) {
         link.orientation = parent.orientation * quaternion_at(q);
     } else if (node.kind == NodeKind::revolute) {
@@ -65,67 +63,107 @@ void ForwardDynamics::move_node(const TreeNode& node, Link& link, const double* 
         link.orientation = parent.orientation * node.turned;
     }
     link.rotation = link.orientation.toRotationMatrix();
-    const Vec3 &omega = parent.velocity.turn, &velocity = parent.velocity.move;
-    link.axis = node.kind == NodeKind::revolute ? Vec3(link.rotation * node.axis) : Vec3(rotation * node.axis);
-    link.arm = rotation * node.arm;
-    if (node.kind == NodeKind::prismatic) link.arm += q[0] * link.axis;
+    if (node.kind == NodeKind::revolute) link.axis = link.rotation * node.axis;
+    link.arm = parent.rotation * node.arm;
+    if (node.kind == NodeKind::prismatic) {
+        link.axis = parent.rotation * node.axis;
+        link.arm += q[0] * link.axis;
+    }
     link.point = parent.point + link.arm;
+    link.center = link.rotation * node.center;
+}
+
+void ForwardDynamics::speed_node(const TreeNode& node, Link& link, const double* speed) const {
+    if (node.kind == NodeKind::free) {
+        link.velocity = {vector_at(speed), vector_at(speed + 3)};
+        return;
+    }
+    const Link& parent = above(node);
+    const Vec3& omega = parent.velocity.turn;
     const Vec3 around = omega.cross(link.arm);
-    link.velocity = {omega, velocity + around};
-    link.bias = {Vec3::Zero(), omega.cross(around)};
-    switch (node.kind) {
-        case NodeKind::revolute:
-            link.velocity.turn += speed[0] * link.axis;
-            link.bias.turn = speed[0] * omega.cross(link.axis);
-            break;
-        case NodeKind::prismatic:
-            link.velocity.move += speed[0] * link.axis;
-            link.bias.move += 2.0 * speed[0] * omega.cross(link.axis);
-            break;
-        case NodeKind::ball:  // its speeds are components in the world
-            link.velocity.turn += vector_at(speed);
-            break;
-        default:
-            break;
+    link.velocity = {omega, parent.velocity.move + around};
+    link.bias.turn = Vec3::Zero();
+    link.bias.move = omega.cross(around);
+    if (node.kind == NodeKind::revolute) {
+        const Vec3 own = speed[0] * link.axis;
+        link.velocity.turn += own;
+        link.bias.turn = omega.cross(own);
+    } else if (node.kind == NodeKind::prismatic) {
+        const Vec3 own = speed[0] * link.axis;
+        link.velocity.move += own;
+        link.bias.move += 2.0 * omega.cross(own);
+    } else if (node.kind == NodeKind::ball) {
+        const Vec3 own = parent.rotation * vector_at(speed);
+        link.velocity.turn += own;
+        link.bias.turn = omega.cross(own);
     }
 }
 
-// I_i and b_i = (w x I w; m w x (w x c)) of a rigid body about its joint.
-void ForwardDynamics::add_body(const TreeNode& node, Link& link) const {
+// I_i of a rigid body about its joint.
+void ForwardDynamics::load_inertia(const TreeNode& node, Link& link) {
+    link.added = 0.0;
     if (node.body == TreeNode::no_body) {
-        link.center = Vec3::Zero();
+        link.turning = {};
         link.inertia = {};
-        link.effort = {};
         return;
     }
     const double m = node.mass;
-    const Vec3 c = link.center = link.rotation * node.center, mc = m * c;
-    Sym3 turning;
-    for (int k = 0; k < 3; ++k) turning.add_outer(node.inertia[k], link.rotation.col(k));
-    const double square = mc.dot(c);
+    const Vec3 &c = link.center, mc = m * c;
+    Sym3 turning = node.inertia_at(link.rotation);
     turning.add_outer(-m, c);
+    const double square = mc.dot(c);
     turning.xx += square;
     turning.yy += square;
     turning.zz += square;
+    link.turning = turning;
     link.inertia.turning = turning;
     link.inertia.mixed << 0.0, -mc[2], mc[1], mc[2], 0.0, -mc[0], -mc[1], mc[0], 0.0;
     link.inertia.moving = {m, 0.0, 0.0, m, 0.0, m};
+}
+
+// b_i = (w x I w; m w x (w x c)).
+void ForwardDynamics::load_effort(const TreeNode& node, Link& link) {
+    link.drive = 0.0;
+    if (node.body == TreeNode::no_body) {
+        link.effort = {};
+        return;
+    }
     const Vec3& w = link.velocity.turn;
-    link.effort = {w.cross(turning * w), w.cross(w.cross(mc))};
+    link.effort = {w.cross(link.turning * w), node.mass * w.cross(w.cross(link.center))};
+}
+
+void ForwardDynamics::start() {
+    links_.resize(tree_.nodes().size());
+    ground_.orientation = tree_.ground();
+    ground_.rotation = tree_.ground().toRotationMatrix();
 }
 
 void ForwardDynamics::move(const double* coordinates, const double* speeds) {
+    start();
     const std::vector<TreeNode>& nodes = tree_.nodes();
-    links_.resize(nodes.size());
-    ground_.orientation = tree_.ground();
-    ground_.rotation = tree_.ground().toRotationMatrix();
     for (std::size_t i = 0; i < nodes.size(); ++i) {
-        Link& link = links_[i];
-        move_node(nodes[i], link, coordinates + nodes[i].at, speeds + nodes[i].speed_at);
-        add_body(nodes[i], link);
-        link.drive = 0.0;
-        link.held = false;
-        link.turning.setZero();
+        const TreeNode& node = nodes[i];
+        place_node(node, links_[i], coordinates + node.at);
+        speed_node(node, links_[i], speeds + node.speed_at);
+        load_inertia(node, links_[i]);
+        load_effort(node, links_[i]);
+    }
+}
+
+void ForwardDynamics::place(const double* coordinates, const double* speeds) {
+    start();
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        place_node(nodes[i], links_[i], coordinates + nodes[i].at);
+        speed_node(nodes[i], links_[i], speeds + nodes[i].speed_at);
+    }
+}
+
+void ForwardDynamics::set_speeds(const double* speeds) {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        speed_node(nodes[i], links_[i], speeds + nodes[i].speed_at);
+        load_effort(nodes[i], links_[i]);
     }
 }
 
@@ -135,57 +173,55 @@ void ForwardDynamics::push(int node, const Wrench& wrench) {
     link.effort.force -= wrench.force;
 }
 
-// Articulated inertias from the leaves to the root (Featherstone 2008, equations 7.37 to 7.43, second loop of Table 7.1).
+// Articulated inertias and efforts from the leaves to the root (Featherstone 2008, equations 7.37 to 7.43, second loop of
+// Table 7.1); or efforts alone, with the inertias of the last sweep.
+template <bool factor>
 void ForwardDynamics::sweep_in() {
     const std::vector<TreeNode>& nodes = tree_.nodes();
     for (std::size_t i = nodes.size(); i-- > 0;) {
         const TreeNode& node = nodes[i];
+        if (node.kind == NodeKind::free) continue;
         Link& link = links_[i];
         SpatialInertia& inertia = link.inertia;
-        SpatialForce p = link.effort;
+        SpatialForce& p = link.effort;
         const Vec3& s = link.axis;
         const SpatialMotion& c = link.bias;
-        switch (node.kind) {
-            case NodeKind::free:
-                continue;
-            case NodeKind::ball: {
-                link.inverse = inertia.turning.inverse();
-                link.turning -= p.moment;
-                if (node.parent == TreeNode::ground) continue;
-                SpatialInertia passed;
-                passed.moving = behind_ball(inertia, link.inverse);
-                p.force += passed.moving * c.move + inertia.mixed.transpose() * (link.inverse * link.turning);
-                p.moment += link.turning;  // the drive alone
-                Link& parent = links_[std::size_t(node.parent)];
-                parent.inertia += passed.shifted(link.arm);
-                parent.effort += shifted(p, link.arm);
-                continue;
-            }
-            case NodeKind::revolute:
-                link.column = {inertia.turning * s, inertia.mixed.transpose() * s};
-                link.pivot = link.held ? 0.0 : 1.0 / s.dot(link.column.moment);
+        if (node.kind == NodeKind::ball) {
+            // Passes forces at its point alone.
+            if (factor) link.inverse = inertia.turning.inverse();
+            link.column.moment = -p.moment;  // u
+            p.force -= inertia.mixed.transpose() * (link.inverse * p.moment);
+            p.moment.setZero();
+            if (factor) inertia.moving = behind_ball(inertia, link.inverse);
+            p.force += inertia.moving * c.move;
+        } else if (node.kind != NodeKind::fixed) {
+            if (node.kind == NodeKind::revolute) {
+                if (factor) {
+                    link.column = {inertia.turning * s, inertia.mixed.transpose() * s};
+                    link.pivot = 1.0 / (s.dot(link.column.moment) + link.added);
+                }
                 link.drive -= s.dot(p.moment);
-                break;
-            case NodeKind::prismatic:
-                link.column = {inertia.mixed * s, inertia.moving * s};
-                link.pivot = link.held ? 0.0 : 1.0 / s.dot(link.column.force);
+            } else {
+                if (factor) {
+                    link.column = {inertia.mixed * s, inertia.moving * s};
+                    link.pivot = 1.0 / (s.dot(link.column.force) + link.added);
+                }
                 link.drive -= s.dot(p.force);
-                break;
-            case NodeKind::fixed:
-                break;
-        }
-        if (node.parent == TreeNode::ground) continue;
-        SpatialInertia passed = inertia;
-        if (node.kind != NodeKind::fixed) {
-            passed.subtract_outer(link.column, link.pivot);
+            }
+            if (factor) inertia.subtract_outer(link.column, link.pivot);
             const double k = link.pivot * link.drive;
             p.moment += k * link.column.moment;
             p.force += k * link.column.force;
         }
-        p += passed * c;
+        if (node.kind != NodeKind::ball) p += inertia * c;
+        if (node.parent == TreeNode::ground) continue;
         Link& parent = links_[std::size_t(node.parent)];
-        parent.inertia += passed.shifted(link.arm);
         parent.effort += shifted(p, link.arm);
+        if (!factor) continue;
+        if (node.kind == NodeKind::ball)
+            parent.inertia.add_moving(inertia.moving, link.arm);
+        else
+            parent.inertia.add_shifted(inertia, link.arm);
     }
 }
 
@@ -208,8 +244,9 @@ void ForwardDynamics::sweep_out(const Vec3& base, double* rates) {
         const SpatialMotion& parent = above(node).acceleration;
         SpatialMotion a{parent.turn + link.bias.turn, parent.move + parent.turn.cross(link.arm) + link.bias.move};
         if (node.kind == NodeKind::ball) {
-            const Vec3 turn = link.inverse * (link.turning - link.inertia.mixed * a.move) - a.turn;
-            for (int k = 0; k < 3; ++k) rate[k] = turn[k];
+            const Vec3 turn = link.inverse * (link.column.moment - link.inertia.mixed * a.move) - a.turn;
+            const Vec3 own = above(node).rotation.transpose() * turn;
+            for (int k = 0; k < 3; ++k) rate[k] = own[k];
             a.turn += turn;
         } else if (node.kind != NodeKind::fixed) {
             const double along = link.column.moment.dot(a.turn) + link.column.force.dot(a.move);
@@ -221,8 +258,25 @@ void ForwardDynamics::sweep_out(const Vec3& base, double* rates) {
 }
 
 void ForwardDynamics::accelerate(const Vec3& base, double* rates) {
-    sweep_in();
+    sweep_in<true>();
     sweep_out(base, rates);
+}
+
+void ForwardDynamics::respond(const Vec3& base, double* rates) {
+    sweep_in<false>();
+    sweep_out(base, rates);
+}
+
+SpatialForce ForwardDynamics::joint_force(int node) const {
+    const Link& link = links_[std::size_t(node)];
+    const SpatialMotion& parent = above(tree_.nodes()[std::size_t(node)]).acceleration;
+    const SpatialMotion a{parent.turn, parent.move + parent.turn.cross(link.arm)};
+    SpatialForce f = link.effort;
+    if (tree_.nodes()[std::size_t(node)].kind == NodeKind::ball)
+        f.force += link.inertia.moving * a.move;
+    else
+        f += link.inertia * a;
+    return f;
 }
 
 void ForwardDynamics::coordinate_rates(const double* coordinates, const double* speeds, double* rates) const {
@@ -236,11 +290,30 @@ void ForwardDynamics::coordinate_rates(const double* coordinates, const double* 
             q += 3;
         }
         if (node.kind != NodeKind::ball && node.kind != NodeKind::free) continue;
-        // dq/dt = w q / 2 with w in the axes of the parent.
-        Vec3 w = vector_at(speed);
-        if (node.kind == NodeKind::ball) w = above(node).rotation.transpose() * w;
+        const Vec3 w = vector_at(speed);  // dq/dt = w q / 2
         const Quat turned = Quat(0.0, w.x(), w.y(), w.z()) * Quat(q[3], q[0], q[1], q[2]);
         for (int k = 0; k < 4; ++k) rate[k] = 0.5 * turned.coeffs()[k];
+    }
+}
+
+void ForwardDynamics::look(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                           const double* coordinates) {
+    start();
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const TreeNode& node = nodes[i];
+        Link& link = links_[i];
+        if (node.kind == NodeKind::free || node.kind == NodeKind::prismatic || node.body == TreeNode::no_body) {
+            place_node(node, link, coordinates + node.at);
+            continue;
+        }
+        const Body& body = bodies[island[std::size_t(node.body)]];
+        link.orientation = body.orientation;
+        link.rotation = body.rotation;
+        link.axis = link.rotation * node.axis;
+        link.arm = above(node).rotation * node.arm;
+        link.point = above(node).point + link.arm;
+        link.center = link.rotation * node.center;
     }
 }
 
@@ -271,10 +344,12 @@ void ForwardDynamics::find_speeds(std::span<const SpatialMotion> bodies, double*
                 speed[0] = link.axis.dot(move);
                 link.velocity.move += speed[0] * link.axis;
                 break;
-            case NodeKind::ball:
-                for (int k = 0; k < 3; ++k) speed[k] = turn[k];
+            case NodeKind::ball: {
+                const Vec3 own = parent.rotation.transpose() * turn;
+                for (int k = 0; k < 3; ++k) speed[k] = own[k];
                 link.velocity.turn += turn;
                 break;
+            }
             case NodeKind::free:
                 for (int k = 0; k < 3; ++k) {
                     speed[k] = given.turn[k];
@@ -295,7 +370,7 @@ void ForwardDynamics::joint_forces(std::span<const Wrench> pushes, std::vector<S
         if (node.body != TreeNode::no_body) {
             const Vec3 &w = link.velocity.turn, &turning = link.acceleration.turn, &c = link.center;
             const auto inertia_times = [&](const Vec3& v) -> Vec3 {
-                return link.rotation * (node.inertia.cwiseProduct(link.rotation.transpose() * v));
+                return link.rotation * (node.inertia * Vec3(link.rotation.transpose() * v));
             };
             Vec3 force = node.mass * (link.acceleration.move + turning.cross(c) + w.cross(w.cross(c)));
             Vec3 torque = inertia_times(turning) + w.cross(inertia_times(w));

@@ -28,27 +28,34 @@ public:
 
     private:
         friend class ForwardDynamics;
-        SpatialMotion bias;           // c: of the acceleration, by the velocities
-        SpatialInertia inertia;       // I^A
-        SpatialForce effort;          // p^A
-        SpatialForce column;          // U = I^A S
-        double pivot = 0.0;           // 1 / (S^T U)
-        double drive = 0.0;           // u = tau - S^T p^A
-        bool held = false;            // its coordinate does not accelerate
-        Sym3 inverse;                 // of a ball: D^-1
-        Vec3 turning = Vec3::Zero();  // of a ball: u
+        SpatialMotion bias;      // c: of the acceleration, by the velocities
+        Sym3 turning;            // kg m^2, of the body about its joint
+        SpatialInertia inertia;  // I^A; then I^a, which its joint passes on
+        SpatialForce effort;     // p^A; then p^a
+        SpatialForce column;     // U = I^A S
+        double pivot = 0.0;      // 1 / D, D = S^T U + added
+        double added = 0.0;      // to D: infinite where its coordinate does not accelerate
+        double drive = 0.0;      // u = tau - S^T p^A
+        Sym3 inverse;            // of a ball: D^-1
     };
 
     explicit ForwardDynamics(const JointTree& tree) : tree_(tree) {}
 
-    /// Places, velocities and inertias of all nodes. Quaternions may have any length.
+    /// Places, velocities and inertias of all nodes. Quaternions may have any length. Speeds of a ball are components in the
+    /// parent's frame.
     void move(const double* coordinates, const double* speeds);
+    /// The same without inertias: for places and velocities alone.
+    void place(const double* coordinates, const double* speeds);
+    /// Other speeds at the places of the last move().
+    void set_speeds(const double* speeds);
     /// A force on a node's body, and a torque (N m) or force (N) along the coordinate of a revolute or prismatic node;
-    /// between move() and accelerate().
+    /// between move() or set_speeds() and accelerate() or respond().
     void push(int node, const Wrench& wrench);
     void drive(int node, double effort) { links_[std::size_t(node)].drive += effort; }
-    /// Between the same: the coordinate of a revolute or prismatic node does not accelerate.
-    void hold(int node) { links_[std::size_t(node)].held = true; }
+    /// Between move() and accelerate(): the coordinate of a revolute or prismatic node does not accelerate; or has a further
+    /// inertia (kg m^2, kg), as that of an implicit damper.
+    void hold(int node) { links_[std::size_t(node)].added = infinity; }
+    void add_inertia(int node, double amount) { links_[std::size_t(node)].added += amount; }
     /// Effort (N m, N) that accelerates the coordinate of a held node if it is let go, after accelerate().
     double net_effort(int node) const {
         const Link& held = links_[std::size_t(node)];
@@ -57,12 +64,20 @@ public:
     }
     /// Rates of the speeds. `base`: acceleration of the ground, which acts as gravity of -base; not of free trees.
     void accelerate(const Vec3& base, double* rates);
+    /// The same with the inertias of the last accelerate(): for other efforts and speeds at the same places.
+    void respond(const Vec3& base, double* rates);
     /// Rates of the coordinates, after move().
     void coordinate_rates(const double* coordinates, const double* speeds, double* rates) const;
 
-    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after move() with speeds of 0; and its
+    /// The places of all nodes by the present poses of the bodies, for find_speeds().
+    void look(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const double* coordinates);
+    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after look() or move(); and its
     /// velocities at those speeds. They are the given ones if these fit the joints.
     void find_speeds(std::span<const SpatialMotion> bodies, double* speeds);
+
+    /// Force and moment (about the node's point) that the joint of a node gives to the rest of the tree behind it, after
+    /// accelerate() or respond(): I^a a + p^a, with the acceleration of the parent. Not of a free root.
+    SpatialForce joint_force(int node) const;
 
     /// Force and moment (about the node's point) that the joint of each node gives to the rest of the tree behind it: by
     /// the recursive Newton-Euler algorithm (Featherstone 2008, Table 5.1), after accelerate().
@@ -71,11 +86,15 @@ public:
     const Link& link(int node) const { return links_[std::size_t(node)]; }
 
 private:
-    void move_node(const TreeNode& node, Link& link, const double* q, const double* speed) const;
-    void add_body(const TreeNode& node, Link& link) const;
+    void start();
+    void place_node(const TreeNode& node, Link& link, const double* q) const;
+    void speed_node(const TreeNode& node, Link& link, const double* speed) const;
+    static void load_inertia(const TreeNode& node, Link& link);
+    static void load_effort(const TreeNode& node, Link& link);
     const Link& above(const TreeNode& node) const {
         return node.parent == TreeNode::ground ? ground_ : links_[std::size_t(node.parent)];
     }
+    template <bool factor>
     void sweep_in();
     void sweep_out(const Vec3& base, double* rates);
 

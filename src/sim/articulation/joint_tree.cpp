@@ -1,6 +1,7 @@
 #include "sim/articulation/joint_tree.h"
 
 #include "core/deterministic_math.h"
+#include "sim/joints/joint_set.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,17 +22,11 @@ std::array<double, 2> unit(double c, double s) {
     return length > 0.0 ? std::array{c / length, s / length} : std::array{1.0, 0.0};
 }
 
-/// One side of a joint as its node sees it.
-struct Side {
-    Quat frame;   // joint frame to the node's frame
-    Vec3 anchor;  // m, from the node's center of mass, in its frame
-};
-
 /// The coordinates of a joint from the parent to the child, as primitive joints.
 struct Sequence {
     const Joint& joint;
-    bool forward;  // the parent is the joint's first body
-    Side parent, child;
+    bool forward;         // the parent is the joint's first body
+    Quat parent, child;   // joint frame to the frame of the body
     Quat relative;        // of the child's joint frame in the parent's
     JointGeometry shape;  // at the present poses
     std::vector<TreeNode>& nodes;
@@ -85,28 +80,28 @@ struct Sequence {
 
     // The displacements are along axes of the first body: the parent, or the child.
     void fill() {
-        const Quat weld = (parent.frame * child.frame.conjugate()).normalized();
+        const Quat weld = (parent * child.conjugate()).normalized();
         std::vector<std::size_t> moves;
         for (std::size_t k = 0; k < 3; ++k)
             if (!joint.locked(k)) moves.push_back(k);
         bool welded = false;
-        if (!forward || moves.empty()) welded = add_turns(parent.frame, child.frame);
+        if (!forward || moves.empty()) welded = add_turns(parent, child);
         if (welded && moves.empty()) {
             add(NodeKind::fixed, 0).turned = weld;
             return;
         }
-        Quat frame = parent.frame;
-        if (!forward && !welded) frame = child.frame;  // behind the rotations
+        Quat frame = parent;
+        if (!forward && !welded) frame = child;  // behind the rotations
         for (const std::size_t k : moves) {
             TreeNode& node = add(NodeKind::prismatic, k);
             node.axis = frame * Vec3::Unit(int(k));
             node.arm = node.sign * shape.coordinates[k].value * node.axis;
             if (!forward && welded && k == moves.front()) {
                 node.turned = weld;
-                frame = child.frame;
+                frame = child;
             }
         }
-        if (forward && !moves.empty() && add_turns(parent.frame, child.frame)) nodes.back().turned = weld;
+        if (forward && !moves.empty() && add_turns(parent, child)) nodes.back().turned = weld;
     }
 };
 
@@ -178,89 +173,98 @@ bool JointTree::order_bodies(const std::vector<Body>& bodies, std::span<const st
     return order_.size() == n;
 }
 
+// The two sides of a joint, as the tree sees them.
+struct TreeSides {
+    JointSide parent, child;
+    Quat frame_parent, frame_child;
+    Vec3 anchor_parent, anchor_child;
+
+    TreeSides(const Joint& joint, const std::vector<Body>& bodies, bool forward) {
+        parent = side_of(bodies, forward ? joint.a : joint.b);
+        child = side_of(bodies, forward ? joint.b : joint.a);
+        frame_parent = forward ? joint.frame_a : joint.frame_b;
+        frame_child = forward ? joint.frame_b : joint.frame_a;
+        anchor_parent = forward ? joint.anchor_a : joint.anchor_b;
+        anchor_child = forward ? joint.anchor_b : joint.anchor_a;
+    }
+};
+
+void JointTree::find_basis(Hang& hang, const Joint& joint) const {
+    const Quat entry = hang.forward ? joint.frame_a : joint.frame_b;
+    const Quat exit = (hang.forward ? joint.frame_b : joint.frame_a).conjugate();
+    const TreeNode& node = nodes_[std::size_t(hang.first)];
+    const int axis = node.kind == NodeKind::revolute ? node.coordinate - 3 : 0;
+    hang.basis[0] = (entry * exit).normalized();
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 e = Vec3::Unit((axis + k) % 3);
+        hang.basis[k + 1] = (entry * Quat(0.0, e.x(), e.y(), e.z()) * exit).normalized();
+    }
+}
+
 void JointTree::add_joint(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, Joint& joint,
                           const Link& link) {
-    const bool forward = ends_[2 * std::size_t(link.joint) + 1] == link.body;
-    const auto pose = [&](std::uint32_t i) -> JointSide {
-        if (i == Joint::world) return {};
-        return {bodies[i].position, bodies[i].orientation};
-    };
-    const JointSide a = pose(joint.a), b = pose(joint.b);
-    const JointGeometry shape = measure(joint, a, b);
-    gap_ = std::max(gap_, worst_error(joint, shape));
-    Quat frame_p = joint.frame_a, frame_c = joint.frame_b;
-    Vec3 anchor_p = joint.anchor_a, anchor_c = joint.anchor_b;
-    JointSide side_p = a, side_c = b;
-    if (!forward) {
-        std::swap(frame_p, frame_c);
-        std::swap(anchor_p, anchor_c);
-        std::swap(side_p, side_c);
-    }
-    const Body& body = bodies[island[std::size_t(link.body)]];
+    Hang& hang = hangs_[std::size_t(link.joint)];
+    hang = {};
+    hang.forward = ends_[2 * std::size_t(link.joint) + 1] == link.body;
+    hang.first = int(nodes_.size());
+    const TreeSides sides(joint, bodies, hang.forward);
+    sequence_.clear();
+    Sequence{joint, hang.forward, sides.frame_parent, sides.frame_child, Quat::Identity(), {}, sequence_}.fill();
     const int parent_body = parent_of(link.joint);
-    const Quat to_child = body.principal_axes.conjugate();
-    const Side child{to_child * frame_c, to_child * anchor_c};
-    Side parent{frame_p, anchor_p};
-    int parent_node = TreeNode::ground;
-    Vec3 arm = Vec3::Zero();
-    if (parent_body == TreeNode::no_body) {
-        ground_ = side_p.orientation;
-        origin_ = side_p.position + side_p.orientation * anchor_p;
-    } else {
-        parent_node = node_of_[std::size_t(parent_body)];
-        const TreeNode& above = nodes_[std::size_t(parent_node)];
-        const Quat to_parent = above.principal.conjugate();
-        parent = {to_parent * frame_p, to_parent * anchor_p};
-        arm = above.center + parent.anchor;
-    }
-    const std::size_t begin = nodes_.size();
-    const Quat relative = ((side_p.orientation * frame_p).conjugate() * (side_c.orientation * frame_c)).normalized();
-    Sequence{joint, forward, parent, child, relative, shape, nodes_}.fill();
-    nodes_[begin].arm += arm;
-    for (std::size_t k = begin; k < nodes_.size(); ++k) {
-        TreeNode& node = nodes_[k];
-        node.parent = k == begin ? parent_node : int(k) - 1;
+    for (std::size_t k = 0; k < sequence_.size(); ++k) {
+        TreeNode& node = nodes_.emplace_back(sequence_[k]);
+        node.parent = k > 0                              ? int(nodes_.size()) - 2
+                      : parent_body == TreeNode::no_body ? TreeNode::ground
+                                                         : node_of_[std::size_t(parent_body)];
         node.joint = link.joint;
     }
-    TreeNode& last = nodes_.back();
-    last.center = -child.anchor;
-    set_body(last, link.body, body);
+    hang.count = int(sequence_.size());
+    const NodeKind kind = nodes_.back().kind;
+    hang.direct = hang.count == 1 && kind != NodeKind::prismatic;
+    hang.plain = hang.count == 1 && (kind != NodeKind::ball || joint.turns_alike());
+    if (hang.direct) find_basis(hang, joint);
+    nodes_.back().center = -sides.anchor_child;
+    set_body(nodes_.back(), link.body, bodies[island[std::size_t(link.body)]]);
+    for (int side = 0; side < 2; ++side) {
+        const int place = side == 0 ? link.body : parent_body;
+        if (place == TreeNode::no_body) continue;
+        const Body& body = bodies[island[std::size_t(place)]];
+        const Vec3 arm = body.principal_axes.conjugate() * (side == 0 ? sides.anchor_child : sides.anchor_parent);
+        for (int c = 0; c < 3; ++c)
+            hang.levers[side] =
+                std::max(hang.levers[side], Vec3::Unit(c).cross(arm).norm() / body.principal_inertia[c]);
+    }
 }
 
 void JointTree::set_body(TreeNode& node, int place, const Body& body) {
     node.body = place;
     node.mass = body.mass;
-    node.inertia = body.principal_inertia;
-    node.principal = body.principal_axes;
-    node_of_[std::size_t(place)] = int(nodes_.size()) - 1;
+    node.inertia = symmetric(body.inertia_body);
+    node.aligned = node.inertia.xy == 0.0 && node.inertia.xz == 0.0 && node.inertia.yz == 0.0;
+    node_of_[std::size_t(place)] = int(&node - nodes_.data());
 }
 
-bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
-                     std::span<Joint* const> joints) {
-    if (!order_bodies(bodies, island, joints)) return false;
+bool JointTree::same(std::span<const std::uint32_t> island, std::span<Joint* const> joints) const {
+    return std::equal(island.begin(), island.end(), island_.begin(), island_.end()) &&
+           std::equal(joints.begin(), joints.end(), joints_.begin(), joints_.end()) &&
+           std::none_of(joints.begin(), joints.end(), [](const Joint* joint) { return joint->broken; });
+}
+
+// All of the nodes but their arms and turns at the present poses.
+void JointTree::build(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                      std::span<Joint* const> joints) {
     nodes_.clear();
+    nodes_.reserve(6 * island.size());
     node_of_.assign(island.size(), 0);
-    gap_ = 0.0;
+    hangs_.resize(joints.size());
     for (const Link& link : order_) {
         if (link.joint != TreeNode::no_joint) {
             add_joint(bodies, island, *joints[std::size_t(link.joint)], link);
             continue;
         }
-        double mass = 0.0;
-        Vec3 sum = Vec3::Zero();
-        const Vec3 near = bodies[island[0]].position;
-        for (const std::uint32_t i : island) {
-            mass += bodies[i].mass;
-            sum += bodies[i].mass * (bodies[i].position - near);
-        }
-        origin_ = near + sum / mass;
-        ground_ = Quat::Identity();
-        const Body& body = bodies[island[std::size_t(link.body)]];
         TreeNode& root = nodes_.emplace_back();
         root.kind = NodeKind::free;
-        root.arm = body.position - origin_;
-        root.turned = (body.orientation * body.principal_axes).normalized();
-        set_body(root, link.body, body);
+        set_body(root, link.body, bodies[island[std::size_t(link.body)]]);
     }
     coordinates_ = speeds_ = 0;
     for (TreeNode& node : nodes_) {
@@ -268,6 +272,112 @@ bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint3
         node.speed_at = speeds_;
         coordinates_ += node.coordinates();
         speeds_ += node.speeds();
+    }
+}
+
+// A free tree: from the center of mass.
+void JointTree::load_root(const std::vector<Body>& bodies, std::span<const std::uint32_t> island) {
+    double mass = 0.0;
+    Vec3 sum = Vec3::Zero();
+    const Vec3 near = bodies[island[0]].position;
+    for (const std::uint32_t i : island) {
+        mass += bodies[i].mass;
+        sum += bodies[i].mass * (bodies[i].position - near);
+    }
+    origin_ = near + sum / mass;
+    ground_ = Quat::Identity();
+    TreeNode& root = nodes_.front();
+    const Body& body = bodies[island[std::size_t(root.body)]];
+    root.arm = body.position - origin_;
+    root.turned = body.orientation;
+}
+
+// A joint without displacements that is a single node.
+void JointTree::load_direct(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const Joint& joint,
+                            const Link& link) {
+    const Hang& hang = hangs_[std::size_t(link.joint)];
+    TreeNode& node = nodes_[std::size_t(hang.first)];
+    const Body& child = bodies[island[std::size_t(link.body)]];
+    const Vec3& anchor_parent = hang.forward ? joint.anchor_a : joint.anchor_b;
+    const Vec3& anchor_child = hang.forward ? joint.anchor_b : joint.anchor_a;
+    Vec3 apart = child.position + child.rotation * anchor_child;
+    Quat relative;
+    if (const int above = parent_of(link.joint); above != TreeNode::no_body) {
+        const Body& parent = bodies[island[std::size_t(above)]];
+        apart -= parent.position + parent.rotation * anchor_parent;
+        node.arm = nodes_[std::size_t(node.parent)].center + anchor_parent;
+        relative = parent.orientation.conjugate() * child.orientation;
+    } else {
+        const JointSide side = side_of(bodies, hang.forward ? joint.a : joint.b);
+        ground_ = side.orientation;
+        origin_ = side.position + side.orientation * anchor_parent;
+        apart -= origin_;
+        relative = side.orientation.conjugate() * child.orientation;
+    }
+    double worst = apart.norm() / joint.size;
+    if (node.kind == NodeKind::ball) {
+        node.turned = relative.normalized();
+    } else {
+        const bool turns = node.kind == NodeKind::revolute;
+        double part[4];
+        for (int k = 0; k < 4; ++k) part[k] = hang.basis[k].coeffs().dot(relative.coeffs());
+        if (!turns) worst = std::max(worst, 2.0 * std::abs(part[1]));
+        worst = std::max({worst, 2.0 * std::abs(part[2]), 2.0 * std::abs(part[3])});
+        node.turned = hang.basis[0];
+        if (turns) {
+            const double length = std::sqrt(part[0] * part[0] + part[1] * part[1]);
+            node.turned.coeffs() =
+                part[0] / length * hang.basis[0].coeffs() + part[1] / length * hang.basis[1].coeffs();
+        }
+    }
+    gap_ = std::max(gap_, worst);
+}
+
+void JointTree::load_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link) {
+    const Hang& hang = hangs_[std::size_t(link.joint)];
+    const TreeSides sides(joint, bodies, hang.forward);
+    TreeNode& first = nodes_[std::size_t(hang.first)];
+    Vec3 arm = Vec3::Zero();
+    if (parent_of(link.joint) == TreeNode::no_body) {
+        ground_ = sides.parent.orientation;
+        origin_ = sides.parent.position + sides.parent.orientation * sides.anchor_parent;
+    } else {
+        arm = nodes_[std::size_t(first.parent)].center + sides.anchor_parent;
+    }
+    const JointSide &a = hang.forward ? sides.parent : sides.child, &b = hang.forward ? sides.child : sides.parent;
+    const JointGeometry shape = measure(joint, a, b);
+    gap_ = std::max(gap_, worst_error(joint, shape));
+    const Quat relative =
+        ((sides.parent.orientation * sides.frame_parent).conjugate() * (sides.child.orientation * sides.frame_child))
+            .normalized();
+    sequence_.clear();
+    Sequence{joint, hang.forward, sides.frame_parent, sides.frame_child, relative, shape, sequence_}.fill();
+    for (std::size_t k = 0; k < sequence_.size(); ++k) {
+        TreeNode& node = nodes_[std::size_t(hang.first) + k];
+        node.arm = sequence_[k].arm;
+        node.turned = sequence_[k].turned;
+        node.axis = sequence_[k].axis;
+    }
+    first.arm += arm;
+}
+
+bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                     std::span<Joint* const> joints) {
+    if (!same(island, joints)) {
+        island_.assign(island.begin(), island.end());
+        joints_.assign(joints.begin(), joints.end());
+        is_tree_ = order_bodies(bodies, island, joints);
+        if (is_tree_) build(bodies, island, joints);
+    }
+    if (!is_tree_) return false;
+    gap_ = 0.0;
+    for (const Link& link : order_) {
+        if (link.joint == TreeNode::no_joint)
+            load_root(bodies, island);
+        else if (hangs_[std::size_t(link.joint)].direct)
+            load_direct(bodies, island, *joints[std::size_t(link.joint)], link);
+        else
+            load_joint(bodies, *joints[std::size_t(link.joint)], link);
     }
     return true;
 }

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "sim/articulation/spatial.h"
 #include "sim/dynamics/body.h"
 #include "sim/joints/joint.h"
 
@@ -26,16 +27,25 @@ struct TreeNode {
     std::uint8_t coordinate = 0;  // of the joint, 0 to 5: of revolute and prismatic nodes
     double sign = 1.0;            // of the joint's coordinate along the node's own
     int at = 0, speed_at = 0;     // first of its coordinates and of its speeds
-    // In the parent's frame. A frame is along the principal axes of the body; its reference point is the joint's anchor.
+    // In the parent's frame. A frame is that of the body, but its reference point is the joint's anchor.
     Vec3 arm = Vec3::Zero();         // m, from the parent's reference to this one's, at a coordinate of 0
     Quat turned = Quat::Identity();  // orientation at a coordinate of 0
     Vec3 axis = Vec3::Zero();        // prismatic: in the parent's frame; revolute: in the node's own
     // Of the body.
-    double mass = 0.0;                  // kg
-    Vec3 inertia = Vec3::Zero();        // kg m^2, about the center of mass
-    Vec3 center = Vec3::Zero();         // m, from the reference to the center of mass
-    Quat principal = Quat::Identity();  // rotates principal coordinates into body coordinates
+    double mass = 0.0;           // kg
+    Sym3 inertia;                // kg m^2, about the center of mass
+    bool aligned = false;        // the inertia has its principal axes along the frame
+    Vec3 center = Vec3::Zero();  // m, from the reference to the center of mass
 
+    /// Inertia in world axes, of a frame that r rotates into them.
+    Sym3 inertia_at(const Mat3& r) const {
+        if (!aligned) return inertia.turned(r);
+        Sym3 sum;
+        sum.add_outer(inertia.xx, r.col(0));
+        sum.add_outer(inertia.yy, r.col(1));
+        sum.add_outer(inertia.zz, r.col(2));
+        return sum;
+    }
     int coordinates() const {
         constexpr int counts[] = {0, 1, 1, 4, 7};
         return counts[int(kind)];
@@ -44,6 +54,8 @@ struct TreeNode {
         constexpr int counts[] = {0, 1, 1, 3, 6};
         return counts[int(kind)];
     }
+    /// Whether speed k is one of a displacement.
+    bool is_length(int k) const { return kind == Kind::prismatic || (kind == Kind::free && k >= 3); }
 };
 
 using NodeKind = TreeNode::Kind;
@@ -52,8 +64,10 @@ class JointTree {
 public:
     /// Whether the joints form a tree of these bodies (indices, ascending), which hangs on at most one joint to the world,
     /// a fixed or a kinematic body, and all are of types that nodes describe. Then nodes() are those of the present poses.
+    /// The structure is kept from call to call while bodies and joints stay the same.
     bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints);
 
+    bool found() const { return is_tree_; }
     const std::vector<TreeNode>& nodes() const { return nodes_; }
     bool is_free() const { return nodes_.front().kind == NodeKind::free; }
     /// Node of each body of the island.
@@ -67,6 +81,11 @@ public:
         int body, joint;
     };
     std::span<const Link> order() const { return order_; }
+    /// Compliance against turns about the principal axes of a joint's child (0) or parent (1), times the lever of a force
+    /// across each: the largest, 1/(kg m).
+    double lever_of(int joint, int side) const { return hangs_[std::size_t(joint)].levers[std::size_t(side)]; }
+    /// Whether the joint is a single node.
+    bool plain(int joint) const { return hangs_[std::size_t(joint)].plain; }
 
     /// Where the root hangs: the side of its joint that does not move, or the center of mass of a free tree.
     const Vec3& origin() const { return origin_; }
@@ -82,12 +101,33 @@ public:
 private:
     bool order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
                       std::span<Joint* const> joints);
+    struct Hang {                  // the joint that a body hangs on
+        int first = 0, count = 0;  // its nodes
+        bool forward = true;       // the parent is the joint's first body
+        bool direct = false;       // one node that locks all displacements
+        bool plain = false;
+        double levers[2] = {0.0, 0.0};
+        // Of a direct joint: the orientations of the child in the parent's frame, as unit quaternions, that the joint allows
+        // (one if it is fixed, the first two of a hinge), and the others square to them.
+        Quat basis[4];
+    };
+    bool same(std::span<const std::uint32_t> island, std::span<Joint* const> joints) const;
+    void build(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints);
     void add_joint(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, Joint& joint,
                    const Link& link);
+    void find_basis(Hang& hang, const Joint& joint) const;
+    void load_root(const std::vector<Body>& bodies, std::span<const std::uint32_t> island);
+    void load_direct(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const Joint& joint,
+                     const Link& link);
+    void load_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link);
     void set_body(TreeNode& node, int place, const Body& body);
 
-    std::vector<TreeNode> nodes_;
+    std::vector<TreeNode> nodes_, sequence_;
     std::vector<Link> order_;
+    std::vector<Hang> hangs_;  // by joint
+    std::vector<std::uint32_t> island_;
+    std::vector<Joint*> joints_;
+    bool is_tree_ = false;
     std::vector<int> node_of_, child_, parent_, first_, next_, ends_;
     Vec3 origin_ = Vec3::Zero();
     Quat ground_ = Quat::Identity();

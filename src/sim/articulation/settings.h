@@ -24,6 +24,18 @@ inline constexpr int tree_shortest = 16;
 inline constexpr double tree_gap = 1e-9;
 inline constexpr double tree_misfit = 1e-9;
 
+/// Change of the speeds at the end of a stage of Verlet's method that ends its passes, as a share of the fastest one: of second
+/// order, and in compositions. Not fitted: far below the method's own error, and rounding.
+inline constexpr double verlet_tolerance = 1e-7;
+inline constexpr double verlet_rounding = 1e-15;
+
+/// Share of the last change above which a pass does not converge, and the change that is then rounding. Not fitted.
+inline constexpr double verlet_contraction = 0.5;
+inline constexpr double verlet_stall = 1e-11;
+
+/// Passes beyond which the next step is tried with no fewer substeps. Not fitted: the number changes the cost alone.
+inline constexpr int verlet_easy_passes = 10;
+
 /// Speed below which a coordinate with friction is at rest, as a share of the fastest body's: rounding of the momenta. Not fitted.
 inline constexpr double friction_rest = 1e-12;
 

@@ -58,6 +58,13 @@ struct Sym3 {
         yz += y * v[2];
         zz += z * v[2];
     }
+    /// The same in the axes that columns of r are rotated from: r S r^T.
+    Sym3 turned(const Mat3& r) const {
+        Vec3 rows[3];  // of r S
+        for (int i = 0; i < 3; ++i) rows[i] = *this * Vec3(r.row(i));
+        const auto at = [&](int i, int j) { return rows[i].dot(r.row(j)); };
+        return {at(0, 0), at(0, 1), at(0, 2), at(1, 1), at(1, 2), at(2, 2)};
+    }
     Mat3 full() const {
         Mat3 m;
         m << xx, xy, xz, xy, yy, yz, xz, yz, zz;
@@ -97,22 +104,33 @@ struct SpatialInertia {
         for (int j = 0; j < 3; ++j) mixed.col(j) -= k[j] * u.moment;
         moving.add_outer(-pivot, u.force);
     }
-    /// The same about another point: `r` (m) from that point to the present one.
-    SpatialInertia shifted(const Vec3& r) const {
-        // mixed' = mixed + r* moving, turning' = turning + r* mixed^T + (r* mixed^T)^T + r* moving r*^T.
-        Mat3 n;
-        for (int i = 0; i < 3; ++i) n.col(i) = r.cross(moving.col(i));
+    /// Adds another one about the point of this one: `r` (m) from this point to that of the other.
+    /// mixed' = mixed + r* moving, turning' = turning + r* mixed^T + (r* mixed^T)^T + r* moving r*^T.
+    void add_shifted(const SpatialInertia& i, const Vec3& r) {
         Mat3 k;
-        for (int i = 0; i < 3; ++i) k.col(i) = r.cross(Vec3(mixed.row(i)));
-        const auto both = [&](int i, int j) { return k(i, j) + k(j, i); };
+        for (int c = 0; c < 3; ++c) k.col(c) = r.cross(Vec3(i.mixed.row(c)));
+        turning.xx += i.turning.xx + 2.0 * k(0, 0);
+        turning.xy += i.turning.xy + (k(0, 1) + k(1, 0));
+        turning.xz += i.turning.xz + (k(0, 2) + k(2, 0));
+        turning.yy += i.turning.yy + 2.0 * k(1, 1);
+        turning.yz += i.turning.yz + (k(1, 2) + k(2, 1));
+        turning.zz += i.turning.zz + 2.0 * k(2, 2);
+        mixed += i.mixed;
+        add_moving(i.moving, r);
+    }
+    /// The same for an inertia that has `moving` alone.
+    void add_moving(const Sym3& m, const Vec3& r) {
+        Mat3 n;
+        for (int c = 0; c < 3; ++c) n.col(c) = r.cross(m.col(c));
         const Vec3 x = r.cross(Vec3(n.row(0))), y = r.cross(Vec3(n.row(1)));
-        const double z = r[0] * n(2, 1) - r[1] * n(2, 0);
-        SpatialInertia s;
-        s.turning = {turning.xx + both(0, 0) + x[0], turning.xy + both(0, 1) + x[1], turning.xz + both(0, 2) + x[2],
-                     turning.yy + both(1, 1) + y[1], turning.yz + both(1, 2) + y[2], turning.zz + both(2, 2) + z};
-        s.mixed = mixed + n;
-        s.moving = moving;
-        return s;
+        turning.xx += x[0];
+        turning.xy += x[1];
+        turning.xz += x[2];
+        turning.yy += y[1];
+        turning.yz += y[2];
+        turning.zz += r[0] * n(2, 1) - r[1] * n(2, 0);
+        mixed += n;
+        moving += m;
     }
 };
 

@@ -1,37 +1,37 @@
 #include "sim/articulation/tree_account.h"
 
+#include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
-namespace {
 
-Vec3 anchor_of(const ForwardDynamics::Link& link, const TreeNode& node, const Vec3& anchor) {
-    return link.rotation * (node.principal.conjugate() * anchor);
-}
-
-}  // namespace
-
-TreeAccount::TreeAccount(const JointTree& tree, const TreeStep& step, const FallingFrame& frame)
-    : tree_(tree), step_(step), frame_(frame) {
-    for (const std::uint32_t i : step.island) {
-        const Body& body = step.bodies[i];
-        starts_.push_back({body.position, body.momentum, body.angular_momentum, body.kinetic_energy()});
+void TreeAccount::begin(const TreeStep& step) {
+    step_ = &step;
+    const std::size_t n = step.island.size(), m = step.joints.size();
+    starts_.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Body& body = step.bodies[step.island[i]];
+        starts_[i] = {body.position, body.momentum, body.angular_momentum, body.kinetic_energy()};
     }
-    samples_.resize(step.joints.size());
-    moments_.assign(step.joints.size(), Vec3::Zero());
-    carried_.assign(step.joints.size(), Vec3::Zero());
-    momenta_.resize(starts_.size());
-    pushes_.assign(starts_.size(), Vec3::Zero());
+    samples_.resize(m);
+    moments_.assign(m, Vec3::Zero());
+    carried_.assign(m, Vec3::Zero());
+    torques_.assign(m, Vec3::Zero());
+    momenta_.resize(n);
+    pushes_.assign(n, Vec3::Zero());
+    forces_.resize(tree_.nodes().size());
+    time_ = 0.0;
+    sampled_ = staged_ = false;
 }
 
 // The force on the joint's second body, about that body's anchor.
 TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, int index, double t) const {
-    const Joint& joint = *step_.joints[std::size_t(index)];
+    const Joint& joint = *step_->joints[std::size_t(index)];
     const int place = tree_.child_of(index), node = tree_.node_of_body()[std::size_t(place)];
-    const bool second = joint.b == step_.island[std::size_t(place)];
+    const bool second = joint.b == step_->island[std::size_t(place)];
     const ForwardDynamics::Link& link = dynamics.link(node);
     const SpatialForce& on_child = forces_[std::size_t(node)];
     Sample s;
@@ -43,7 +43,7 @@ TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, i
         if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
             const int at = tree_.node_of_body()[std::size_t(above)];
             const ForwardDynamics::Link& parent = dynamics.link(at);
-            const Vec3 anchor = anchor_of(parent, tree_.nodes()[std::size_t(at)], joint.anchor_b);
+            const Vec3 anchor = parent.rotation * joint.anchor_b;
             s.point = parent.position() + anchor;
             s.rate = parent.center_velocity() + parent.velocity.turn.cross(anchor);
         }
@@ -72,7 +72,7 @@ void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const
         if (const int above = tree_.parent_of(index); above != TreeNode::no_body)
             impulses[std::size_t(above)] += behind;
         const std::size_t j = std::size_t(index);
-        const bool second = step_.joints[j]->b == step_.island[std::size_t(body)];
+        const bool second = step_->joints[j]->b == step_->island[std::size_t(body)];
         const Sample &a = samples_[j], &b = ends[j];
         const Vec3 mean = (second ? 1.0 : -1.0) / span * behind;
         const Vec3 middle = 0.25 * (6.0 * mean - a.force - b.force);
@@ -90,7 +90,20 @@ void TreeAccount::start(const ForwardDynamics& dynamics, std::span<const Wrench>
         const Sample s = joint_sample(dynamics, int(k), 0.0);
         moments_[k] += s.point.cross(s.force);
         carried_[k] += frame_.origin.cross(s.force);
+        torques_[k] += s.torque;
     }
+}
+
+void TreeAccount::add_stage(const ForwardDynamics& dynamics, double t, double h) {
+    const Vec3 place = frame_.place(t);
+    for (std::size_t k = 0; k < samples_.size(); ++k) {
+        const std::size_t node = std::size_t(tree_.node_of_body()[std::size_t(tree_.child_of(int(k)))]);
+        forces_[node] = dynamics.joint_force(int(node));
+        samples_[k] = joint_sample(dynamics, int(k), t);
+        torques_[k] += h * samples_[k].torque;
+        carried_[k] += h * place.cross(samples_[k].force);
+    }
+    staged_ = true;
 }
 
 void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
@@ -117,27 +130,21 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
 double TreeAccount::load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes) {
     dynamics.joint_forces(pushes, forces_);
     const Sample s = joint_sample(dynamics, joint, 0.0);
-    const JointDescription& strength = step_.joints[std::size_t(joint)]->description;
+    const JointDescription& strength = step_->joints[std::size_t(joint)]->description;
     return std::max(s.force.norm() / strength.break_force, s.torque.norm() / strength.break_torque);
 }
 
 // As for the rows of the direct solver (JointRows::swing_rate): sqrt(4 T / (m l)) for a rod of length l.
-double TreeAccount::swing_rate() const {
+double TreeAccount::swing_rate() {
     double most = 0.0;
-    std::vector<double> sums(starts_.size(), 0.0);
+    sums_.assign(starts_.size(), 0.0);
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-        const Joint& joint = *step_.joints[k];
-        for (const int place : {tree_.child_of(int(k)), tree_.parent_of(int(k))}) {
+        const double load = samples_[k].force.norm() / 3.0;
+        for (const int side : {0, 1}) {
+            const int place = side == 0 ? tree_.child_of(int(k)) : tree_.parent_of(int(k));
             if (place == TreeNode::no_body) continue;
-            const std::uint32_t i = step_.island[std::size_t(place)];
-            const int at = tree_.node_of_body()[std::size_t(place)];
-            const TreeNode& node = tree_.nodes()[std::size_t(at)];
-            const Vec3 arm = node.principal.conjugate() * (joint.b == i ? joint.anchor_b : joint.anchor_a);
-            // Compliance against turns about the principal axes, times the lever across each.
-            double gives = 0.0;
-            for (int c = 0; c < 3; ++c) gives = std::max(gives, Vec3::Unit(c).cross(arm).norm() / node.inertia[c]);
-            double& sum = sums[std::size_t(place)];
-            sum += samples_[k].force.norm() * gives / 3.0;
+            double& sum = sums_[std::size_t(place)];
+            sum += load * tree_.lever_of(int(k), side);
             most = std::max(most, sum);
         }
     }
@@ -145,14 +152,14 @@ double TreeAccount::swing_rate() const {
 }
 
 bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
-    const double h = step_.h;
-    std::vector<Behind> behind(starts_.size());
+    const double h = step_->h;
+    behind_.assign(starts_.size(), {});
     for (std::size_t i = 0; i < starts_.size(); ++i) {
-        const Body& body = step_.bodies[step_.island[i]];
+        const Body& body = step_->bodies[step_->island[i]];
         const Start& start = starts_[i];
         const Vec3 before = start.momentum - body.mass * frame_.velocity;
         const Vec3 after = body.momentum - body.mass * frame_.speed(h);
-        Behind& b = behind[i];
+        Behind& b = behind_[i];
         b.momentum = after - before;
         b.moment = body.angular_momentum - start.angular_momentum + (body.position - frame_.place(h)).cross(after) -
                    (start.position - frame_.origin).cross(before);
@@ -166,60 +173,80 @@ bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
     for (std::size_t k = order.size(); k-- > 0;) {
         const auto [body, index] = order[k];
         if (index == TreeNode::no_joint) continue;
-        const Behind& b = behind[std::size_t(body)];
+        const Behind& b = behind_[std::size_t(body)];
         if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
-            Behind& next = behind[std::size_t(above)];
+            Behind& next = behind_[std::size_t(above)];
             next.momentum += b.momentum;
             next.moment += b.moment;
             next.work += b.work;
         }
-        if (!settle(*step_.joints[std::size_t(index)], index, b)) return false;
+        if (!settle(*step_->joints[std::size_t(index)], index, b)) return false;
     }
     return true;
 }
 
 bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     const std::size_t k = std::size_t(index);
-    const bool second = joint.b == step_.island[std::size_t(tree_.child_of(index))];
-    const double sign = second ? 1.0 : -1.0, h = step_.h;
-    const auto pose = [&](std::uint32_t i) -> JointSide {
-        if (i == Joint::world) return {};
-        return {step_.bodies[i].position, step_.bodies[i].orientation};
-    };
-    const JointGeometry g = measure(joint, pose(joint.a), pose(joint.b));
-    for (std::size_t c = 0; c < joint.count(); ++c)
-        if (!joint.locked(c)) joint.value[c] = g.coordinates[c].value;
-    if (beyond_limit(joint, g)) return false;
+    const bool second = joint.b == step_->island[std::size_t(tree_.child_of(index))];
+    const double sign = second ? 1.0 : -1.0, h = step_->h;
     JointLoad load;
     load.force = sign * behind.momentum;
-    load.torque = sign * behind.moment - moments_[k];
+    load.torque = staged_ ? torques_[k] : Vec3(sign * behind.moment - moments_[k]);
     load.moment = sign * behind.moment + carried_[k];
     joint.force = load.force / h;
     joint.torque = load.torque / h;
-    joint.point = g.point;
+    if (staged_) {
+        if (!joint.flew) {
+            joint.impulse = {};
+            joint.curving = {};
+            joint.constraint_rates = {};
+            joint.flew = true;
+        }
+    }
+    // Else the caller has counted the way of the coordinate.
+    if (!staged_ || joint.soft || !tree_.plain(index)) {
+        const JointGeometry g = measure(joint, side_of(step_->bodies, joint.a), side_of(step_->bodies, joint.b));
+        for (std::size_t c = 0; c < joint.count(); ++c)
+            if (!joint.locked(c)) joint.value[c] = g.coordinates[c].value;
+        if (beyond_limit(joint, g)) return false;
+        joint.point = g.point;
+        if (!staged_) keep_impulses(joint, g, samples_[k]);
+    } else {
+        if (joint.turns_alike())
+            joint.value[3] = twist_of(joint, side_of(step_->bodies, joint.a), side_of(step_->bodies, joint.b));
+        joint.point = joint.anchor_b;
+        if (joint.b != Joint::world) {
+            const Body& body = step_->bodies[joint.b];
+            joint.point = body.position + body.rotation * joint.anchor_b;
+        }
+    }
     const JointDescription& strength = joint.description;
     const double over = std::max({joint.force.norm() / strength.break_force, load.force.norm() / strength.break_impulse,
                                   joint.torque.norm() / strength.break_torque});
     if (over > tuning::joint_flight_over) return false;
     if (over > 1.0) {
         joint.broken = true;
-        joint.broken_at = step_.from + h;
-    }
-    joint.impulse = {};
-    joint.curving = {};
-    joint.constraint_rates = {};
-    const Sample& end = samples_[k];
-    for (std::size_t c = 0; c < joint.count(); ++c) {
-        if (!joint.locked(c)) continue;
-        const double force = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);
-        joint.constraint_force[c] = 0.5 * force;
-        joint.impulse[c][Joint::lock] = force * h;
+        joint.broken_at = step_->from + h;
     }
     const bool on_ground = tree_.parent_of(index) == TreeNode::no_body;
     const double on_child = behind.work, on_parent = on_ground ? 0.0 : -behind.work;
     joint.account.step = {};
     joint.account.step.add_flight(load, second ? on_parent : on_child, second ? on_child : on_parent);
     return true;
+}
+
+// The forces at the end, as the first estimate of the rows.
+void TreeAccount::keep_impulses(Joint& joint, const JointGeometry& g, const Sample& end) const {
+    joint.impulse = {};
+    joint.curving = {};
+    joint.constraint_rates = {};
+    joint.flew = false;
+    for (std::size_t c = 0; c < joint.count(); ++c) {
+        if (!joint.locked(c)) continue;
+        const double force = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);
+        joint.constraint_force[c] = 0.5 * force;
+        joint.impulse[c][Joint::lock] = force * step_->h;
+    }
 }
 
 }  // namespace tumble

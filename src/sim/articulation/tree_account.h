@@ -20,7 +20,10 @@ struct PushedImpulse {
 
 class TreeAccount {
 public:
-    TreeAccount(const JointTree& tree, const TreeStep& step, const FallingFrame& frame);
+    TreeAccount(const JointTree& tree, const FallingFrame& frame) : tree_(tree), frame_(frame) {}
+
+    /// From the present states of the bodies on.
+    void begin(const TreeStep& step);
 
     /// Impulses at the start, as the forces of sample(); before it.
     void start(const ForwardDynamics& dynamics, std::span<const Wrench> impulses);
@@ -29,10 +32,13 @@ public:
     /// where the forces change.
     void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
                 std::span<const PushedImpulse> pushed);
+    /// In place of sample() for a stage of Verlet's method of `h` s (negative in some stages of compositions) about time t,
+    /// after ForwardDynamics::accelerate() or respond() in its middle.
+    void add_stage(const ForwardDynamics& dynamics, double t, double h);
     /// Load of a joint (index among the island's) over its strength, after ForwardDynamics::accelerate().
     double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes);
     /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
-    double swing_rate() const;
+    double swing_rate();
 
     /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false where
     /// a limit is violated or a joint is loaded well beyond its strength.
@@ -55,17 +61,22 @@ private:
     void add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes, std::span<const Sample> ends,
                          double t);
     bool settle(Joint& joint, int index, const Behind& behind) const;
+    void keep_impulses(Joint& joint, const JointGeometry& g, const Sample& end) const;
 
     const JointTree& tree_;
-    const TreeStep& step_;
+    const TreeStep* step_ = nullptr;
     const FallingFrame& frame_;
     double time_ = 0.0;  // s, of the last sample
     bool sampled_ = false;
+    bool staged_ = false;                 // by add_stage()
     std::vector<Start> starts_;           // by body
     std::vector<Sample> samples_;         // by joint
     std::vector<Vec3> momenta_, pushes_;  // N s, by body: of the last sample
     std::vector<Vec3> moments_,
         carried_;                       // N m s, by joint: integrals of point x force, and of the frame's place x force
+    std::vector<Vec3> torques_;         // N m s, by joint: of stages
+    std::vector<Behind> behind_;        // by body
+    std::vector<double> sums_;          // by body
     std::vector<SpatialForce> forces_;  // by node
 };
 

@@ -61,7 +61,13 @@ double TreeFlight::unit_of(std::size_t event) const {
 
 // The change of y over s seconds.
 TreeFlight::Vector TreeFlight::go(const Part& part, double s) {
-    if (!part.exact) return runge_kutta_4(y_, s, [this](const Vector& y) { return rate(y); }) - y_;
+    if (part.method == IntegratorKind::runge_kutta_4)
+        return runge_kutta_4(y_, s, [this](const Vector& y) { return rate(y); }) - y_;
+    if (part.method != IntegratorKind::exact) {
+        Vector end = y_;
+        if (!compose(end, s, false)) end.setConstant(infinity);
+        return end - y_;
+    }
     Vector change = Vector::Zero(y_.size());
     extrapolate(part.first, s, part.scale, change);
     return change;

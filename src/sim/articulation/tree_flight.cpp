@@ -1,8 +1,10 @@
 #include "sim/articulation/tree_flight.h"
 
 #include "sim/articulation/settings.h"
+#include "sim/dynamics/integrators/composition.h"
 #include "sim/dynamics/integrators/extrapolation.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
+#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +17,7 @@ constexpr int pushed_numbers = 7;  // by body
 
 // m / length where a coordinate is a displacement.
 bool is_length(const TreeNode& node, int k, bool speed) {
-    if (node.kind == NodeKind::prismatic) return true;
-    return node.kind == NodeKind::free && (speed ? k >= 3 : k < 3);
+    return node.is_length(!speed && node.kind == NodeKind::free ? (k < 3 ? 3 : 0) : k);
 }
 
 }  // namespace
@@ -40,10 +41,11 @@ TreeFlight::Totals TreeFlight::totals() const {
     return sum;
 }
 
-bool TreeFlight::start() {
+// `stage`: length of a stage of Verlet's method, s; 0: of another method.
+bool TreeFlight::start(double stage) {
     const TreeStep& step = *step_;
     if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
-    if (!springs_.find(tree_, step)) return false;
+    if (!springs_.find(tree_, step, stage)) return false;
     friction_.find(tree_, step);
     pushed_ = false;
     for (const std::uint32_t i : step.island)
@@ -52,7 +54,7 @@ bool TreeFlight::start() {
     coordinates_ = tree_.coordinates();
     heats_ = coordinates_ + tree_.speeds();
     extras_ = heats_ + springs_.dampers();
-    y_ = Vector::Zero(extras_ + (pushed_ ? 1 + pushed_numbers * n + 6 : 0));
+    y_.setZero(extras_ + (pushed_ ? 1 + pushed_numbers * n + 6 : 0));
     pushes_.assign(pushed_ ? step.island.size() : 0, {});
     time_ = 0.0;
     evaluations_ = 0;
@@ -62,12 +64,15 @@ bool TreeFlight::start() {
         frame_.velocity = start_.momentum / start_.mass;
     }
     tree_.start(y_.data());
-    dynamics_.move(y_.data(), y_.data() + coordinates_);
-    std::vector<SpatialMotion> velocities;
-    for (const std::uint32_t i : step.island)
-        velocities.push_back({step.bodies[i].angular_velocity, step.bodies[i].velocity - frame_.velocity});
-    dynamics_.find_speeds(velocities, y_.data() + coordinates_);
-    account_.emplace(tree_, step, frame_);
+    dynamics_.look(step.bodies, step.island, y_.data());
+    velocities_.resize(step.island.size());
+    for (std::size_t i = 0; i < step.island.size(); ++i) {
+        const Body& body = step.bodies[step.island[i]];
+        velocities_[i] = {body.angular_velocity, body.velocity - frame_.velocity};
+    }
+    dynamics_.find_speeds(velocities_, y_.data() + coordinates_);
+    if (!account_) account_.emplace(tree_, frame_);
+    account_->begin(step);
     lost_ = 0.0;
     if (!y_.allFinite()) return false;
     if (!fits()) fit();
@@ -123,7 +128,8 @@ TreeFlight::Vector TreeFlight::rate(const Vector& y) {
 }
 
 // Forces beside gravity, for the velocities in the scene; their impulses and moments are taken in the falling frame.
-void TreeFlight::add_pushes(const Vector& y, Vector& dy) {
+// `ahead`: half of a stage of Verlet's method, whose impulses are those of its start.
+void TreeFlight::add_pushes(const Vector& y, Vector& dy, double ahead) {
     const double t = y[extras_];
     dy[extras_] = 1.0;
     const bool free = tree_.is_free();
@@ -136,7 +142,7 @@ void TreeFlight::add_pushes(const Vector& y, Vector& dy) {
         const Body& body = step_->bodies[index];
         const int node = tree_.node_of_body()[i];
         const ForwardDynamics::Link& link = dynamics_.link(node);
-        const Mat3 rotation = link.rotation * tree_.nodes()[std::size_t(node)].principal.conjugate().toRotationMatrix();
+        const Mat3& rotation = link.rotation;
         const Vec3 velocity = link.center_velocity() + speed, place = link.position();
         Wrench wrench = step_->forces.at(index, body, velocity, rotation, law_time_);
         wrench.force -= body.mass * frame_.gravity;
@@ -151,7 +157,7 @@ void TreeFlight::add_pushes(const Vector& y, Vector& dy) {
         center += body.mass * place;
         moment += place.cross(wrench.force) + wrench.torque;
         force += wrench.force;
-        impulse += y.segment<3>(at);
+        impulse += y.segment<3>(at) + ahead * wrench.force;
     }
     dy.segment<3>(y.size() - 6) = moment - (center / mass).cross(force);
     dy.segment<3>(y.size() - 3) = impulse / mass;
@@ -229,7 +235,8 @@ std::vector<PushedImpulse> TreeFlight::pushed_impulses() const {
 // After rate(y_).
 void TreeFlight::sample() { account_->sample(dynamics_, time_, pushes_, pushed_impulses()); }
 
-bool TreeFlight::integrate(double until, bool exact) {
+bool TreeFlight::integrate(double until, IntegratorKind method) {
+    const bool exact = method == IntegratorKind::exact;
     const double span = until - time_, begin = time_;
     double size = span, done = 0.0;
     for (bool fresh = true; done < span; fresh = false) {
@@ -257,7 +264,7 @@ bool TreeFlight::integrate(double until, bool exact) {
         }
         if (!change.allFinite()) return false;
         const double tried = size;
-        if (events_possible() && !shorten_to_event({first, scale, exact}, size, change)) return false;
+        if (events_possible() && !shorten_to_event({first, scale, method}, size, change)) return false;
         y_ += change;
         normalize();
         const bool last = size >= rest * (1.0 - 1e-12);
@@ -279,26 +286,32 @@ void TreeFlight::place() {
     const bool free = tree_.is_free();
     Vec3 shift = Vec3::Zero(), turn = Vec3::Zero(), center = Vec3::Zero(), push = Vec3::Zero();
     Vec3 wanted = Vec3::Zero(), moment = start_.angular_momentum, place = start_.center;
+    inertias_.resize(n);
     if (free) {
         Vec3 momentum = Vec3::Zero(), angular = Vec3::Zero();
-        const auto link_of = [&](std::size_t i) -> const ForwardDynamics::Link& {
-            return dynamics_.link(tree_.node_of_body()[i]);
-        };
         for (std::size_t i = 0; i < n; ++i) {
-            const double mass = step_->bodies[step_->island[i]].mass;
-            center += mass / start_.mass * link_of(i).position();
-            momentum += mass * link_of(i).center_velocity();
+            const int at = tree_.node_of_body()[i];
+            const ForwardDynamics::Link& link = dynamics_.link(at);
+            const double mass = tree_.nodes()[std::size_t(at)].mass;
+            center += mass * link.position();
+            momentum += mass * link.center_velocity();
         }
+        center /= start_.mass;
         const Vec3 mean = momentum / start_.mass;
-        Mat3 inertia = Mat3::Zero();
+        Sym3 inertia;
         for (std::size_t i = 0; i < n; ++i) {
-            const Body& body = step_->bodies[step_->island[i]];
-            const TreeNode& node = tree_.nodes()[std::size_t(tree_.node_of_body()[i])];
-            const ForwardDynamics::Link& link = link_of(i);
-            const Mat3 own = link.rotation * node.inertia.asDiagonal() * link.rotation.transpose();
-            const Vec3 arm = link.position() - center;
-            angular += own * link.velocity.turn + body.mass * arm.cross(link.center_velocity() - mean);
-            inertia += own + body.mass * (arm.squaredNorm() * Mat3::Identity() - arm * arm.transpose());
+            const int at = tree_.node_of_body()[i];
+            const ForwardDynamics::Link& link = dynamics_.link(at);
+            const TreeNode& node = tree_.nodes()[std::size_t(at)];
+            const Sym3& own = inertias_[i] = node.inertia_at(link.rotation);
+            const Vec3 arm = link.position() - center, carried = node.mass * arm;
+            angular += own * link.velocity.turn + carried.cross(link.center_velocity() - mean);
+            inertia += own;
+            inertia.add_outer(-node.mass, arm);
+            const double square = carried.dot(arm);
+            inertia.xx += square;
+            inertia.yy += square;
+            inertia.zz += square;
         }
         if (pushed_) {
             for (const PushedImpulse& given : pushed_impulses()) wanted += given.push;
@@ -306,36 +319,40 @@ void TreeFlight::place() {
             place += y_.tail<3>();
         }
         shift = place - center;
-        turn = inertia.inverse() * (moment - angular);
+        turn = inertia.inverse() * Vec3(moment - angular);
         push = wanted / start_.mass - mean;
     }
     // The rounding of the momenta goes to the root.
     Vec3 left = start_.momentum + start_.mass * h * frame_.gravity + wanted, moment_left = moment;
     const Vec3 base = free ? frame_.place(h) : frame_.origin, speed = free ? frame_.speed(h) : Vec3(Vec3::Zero());
+    const Vec3 drift = free ? Vec3(wanted / start_.mass + speed) : speed;
     // The rounding of the frame's place is the same in each step, and would add up.
     if (free) shift += h * (frame_.velocity + 0.5 * h * frame_.gravity) - (base - frame_.origin);
     for (std::size_t i = 0; i < n; ++i) {
         Body& body = step_->bodies[step_->island[i]];
         const int at = tree_.node_of_body()[i];
         const ForwardDynamics::Link& link = dynamics_.link(at);
-        body.orientation = (link.orientation * tree_.nodes()[std::size_t(at)].principal.conjugate()).normalized();
+        const Vec3 position = link.position();
+        body.orientation = link.orientation.normalized();
         body.rotation = body.orientation.toRotationMatrix();
-        body.position = base + (link.position() + shift);
-        const Vec3 omega = link.velocity.turn + turn;
-        const Vec3 velocity = link.center_velocity() + push + turn.cross(link.position() - center) + speed;
-        body.momentum = body.mass * velocity;
-        body.angular_momentum = body.rotation * (body.inertia_body * (body.rotation.transpose() * omega));
-        left -= body.momentum;
-        moment_left -=
-            body.angular_momentum +
-            (link.position() + shift - place).cross(body.momentum - body.mass * (wanted / start_.mass + speed));
+        body.position = base + (position + shift);
+        if (!free) {
+            body.momentum = body.mass * link.center_velocity();
+            body.angular_momentum = tree_.nodes()[std::size_t(at)].inertia_at(link.rotation) * link.velocity.turn;
+        } else {
+            const Vec3 velocity = link.center_velocity() + push + turn.cross(position - center) + speed;
+            body.momentum = body.mass * velocity;
+            body.angular_momentum = inertias_[i] * Vec3(link.velocity.turn + turn);
+            left -= body.momentum;
+            moment_left -= body.angular_momentum + (position + shift - place).cross(body.momentum - body.mass * drift);
+        }
         body.derive();
     }
     if (!free) return;
     Body& root = step_->bodies[step_->island[std::size_t(tree_.order().front().body)]];
     root.momentum += left;
     root.angular_momentum += moment_left;
-    root.derive();
+    root.derive_velocities();
 }
 
 // Of angles more than half a turn from those of the start, which the poses do not show.
@@ -345,11 +362,21 @@ void TreeFlight::count_turns() {
             step_->joints[std::size_t(node.joint)]->value[node.coordinate] += node.sign * y_[node.at];
 }
 
-TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKind method) {
+TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int substeps) {
     own_.emplace(step);
     step_ = &*own_;
     event_ = none;
-    if (!start()) return Outcome::declined;
+    coarse_ = false;
+    swing_ = 0.0;
+    if (!start(method.verlet() ? step.h / substeps : 0.0)) return Outcome::declined;
+    if (method.order != order_ && method.verlet()) {
+        order_ = method.order;
+        stages_ = composition_stages(order_);
+    }
+    // The stages that go back would let a stiff spring grow.
+    if (springs_.any_stiff() && method.order > 2) return Outcome::declined;
+    const auto bounded = [&] { return springs_.within_bounds(y_.data(), y_.data() + coordinates_); };
+    if (!bounded()) return Outcome::stopped;
     find_weak();
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
@@ -357,14 +384,19 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKin
         if (pushed_)
             for (const std::uint32_t i : step.island) next = std::min(next, step.forces.next_change(i, now));
         law_time_ = 0.5 * (now + next);
-        if (!integrate(next < end ? next - step.from : step.h, method == IntegratorKind::exact))
+        const double until = next < end ? next - step.from : step.h;
+        if (!(method.verlet() ? integrate_verlet(until, substeps) : integrate(until, method.kind)))
             return Outcome::declined;
         if (event_ != none) break;
         now = next;
     }
+    if (!bounded()) return Outcome::stopped;
     if (event_ != none) own_->h = time_;
-    rate(y_);
-    sample();
+    if (!method.verlet() || !friction_.empty())
+        rate(y_);
+    else
+        dynamics_.place(y_.data(), y_.data() + coordinates_);
+    if (!method.verlet()) sample();
     place();
     count_turns();
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
@@ -372,6 +404,18 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, IntegratorKin
     springs_.account(*own_, y_.data(), y_.data() + heats_);
     friction_.account(*own_, dynamics_, y_.data());
     return Outcome::flown;
+}
+
+// In more and more substeps, while they are too long.
+TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, TreeMethod method, int& substeps) {
+    for (;;) {
+        const Outcome outcome = fly(step, method, substeps);
+        if (!coarse_) return outcome;
+        if (2 * substeps > tuning::joint_swing_substeps) return Outcome::declined;
+        const double phase = swing_ * substeps;
+        do substeps *= 2;
+        while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
+    }
 }
 
 }  // namespace tumble

@@ -1,20 +1,36 @@
 // Flight of joined bodies that form a tree, in joint coordinates: gaps are zero by construction. The state stays that of
 // the bodies: coordinates and speeds are found at the start of a step, and the bodies placed at its end.
 //
-// By extrapolation with as many results and steps as the error demands (integrator = "exact"), or by the method of Runge
-// and Kutta ("rk4"). A free tree is computed in a frame that falls with its center of mass; its momentum and angular
+// By extrapolation with as many results and steps as the error demands (integrator = "exact"), by the method of Runge and
+// Kutta ("rk4"), or by Verlet's method: to second order, or composed ("splitting"). A free tree is computed in a frame that falls with its center of mass; its momentum and angular
 // momentum at the end are set to those at the start by a rigid motion of the whole.
 #pragma once
 
 #include "sim/articulation/tree_account.h"
 #include "sim/articulation/tree_friction.h"
 #include "sim/articulation/tree_springs.h"
+#include "sim/joints/flight_way.h"
 
 #include <optional>
 #include <span>
 #include <vector>
 
 namespace tumble {
+
+/// How a tree is integrated: by extrapolation, by the method of Runge and Kutta, or else by Verlet's method, composed to the
+/// given order.
+struct TreeMethod {
+    IntegratorKind kind = IntegratorKind::symplectic_euler;
+    int order = 2;
+
+    bool verlet() const { return kind != IntegratorKind::exact && kind != IntegratorKind::runge_kutta_4; }
+};
+
+/// Of bodies that are joined.
+inline TreeMethod tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {
+    const IntegratorKind kind = joined_integrator(bodies, joined);
+    return {kind, kind == IntegratorKind::exact ? 8 : kind == IntegratorKind::symplectic_euler ? 2 : 4};
+}
 
 class TreeFlight {
 public:
@@ -31,10 +47,22 @@ public:
     /// and joints, and leaves them in any state where they have not flown.
     ///
     /// Parts of the step end where the friction of a joint changes, and where a joint breaks: the pieces then fly on.
-    Outcome advance(const TreeStep& step, IntegratorKind method);
+    ///
+    /// Verlet's method and its compositions (tree_verlet.cpp) take `substeps`, a power of two, and more where links under
+    /// tension swing fast or the velocities do not settle; `substeps` is then the number for the next step.
+    Outcome advance(const TreeStep& step, TreeMethod method, int& substeps);
+    Outcome advance(const TreeStep& step, IntegratorKind method) {
+        int substeps = 1;
+        return advance(step, {method, 2}, substeps);
+    }
 
+    /// Whether the joints of the last step form a tree.
+    bool is_tree() const { return tree_.found(); }
     /// Evaluations of the dynamics in the last step.
     int evaluations() const { return evaluations_; }
+    /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next one should
+    /// have no fewer.
+    double swing() const { return swing_; }
 
 private:
     using Vector = Eigen::VectorXd;
@@ -47,20 +75,26 @@ private:
     struct Part {  // of the step from the present state
         const Vector& first;
         double scale;
-        bool exact;
+        IntegratorKind method;
     };
     // Changes that end a part of the step: first those of friction, by coordinate, then the breaks, by joint.
     static constexpr std::size_t none = std::size_t(-1);
 
-    bool start();
-    Outcome advance_tree(const TreeStep& step, IntegratorKind method);
-    Outcome advance_pieces(const TreeStep& step, IntegratorKind method, int broken);
+    bool start(double stage);
+    Outcome advance_tree(const TreeStep& step, TreeMethod method, int& substeps);
+    Outcome fly(const TreeStep& step, TreeMethod method, int substeps);
+    Outcome advance_pieces(const TreeStep& step, TreeMethod method, int& substeps, int broken);
     bool fits() const;
     void fit();
     Totals totals() const;
     Vector rate(const Vector& y);
-    void add_pushes(const Vector& y, Vector& dy);
-    bool integrate(double until, bool exact);
+    void add_pushes(const Vector& y, Vector& dy, double ahead = 0.0);
+    bool integrate(double until, IntegratorKind method);
+    bool integrate_verlet(double until, int substeps);
+    bool compose(Vector& y, double h, bool counts);
+    bool stage(Vector& y, double h, double time, bool counts);
+    void drift(double* coordinates, const double* speeds, double h) const;
+    double take_pass(const double* speeds, double h);
     double extrapolate(const Vector& first, double h, double scale, Vector& change);
     bool begin_friction();
     bool settle_friction();
@@ -106,6 +140,15 @@ private:
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up
     std::vector<Wrench> pushes_;          // by body
     int evaluations_ = 0;
+    // Of Verlet's method: stages of its composition, as shares of a part; the middle of a stage, its rates and the speeds at
+    // its end.
+    std::vector<double> stages_;
+    int order_ = 0;
+    Vector middle_, rates_, after_, mean_;
+    double swing_ = 0.0;
+    bool coarse_ = false;
+    std::vector<SpatialMotion> velocities_;  // by body
+    std::vector<Sym3> inertias_;             // kg m^2, by body
 };
 
 }  // namespace tumble

@@ -43,14 +43,14 @@ std::vector<Piece> pieces_of(const TreeStep& step) {
 
 }  // namespace
 
-TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, IntegratorKind method) {
-    const Outcome outcome = advance_tree(step, method);
+TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, TreeMethod method, int& substeps) {
+    const Outcome outcome = advance_tree(step, method, substeps);
     if (outcome != Outcome::flown || event_ == none) return outcome;
-    return advance_pieces(step, method, weak_[event_ - friction_.count()]);
+    return advance_pieces(step, method, substeps, weak_[event_ - friction_.count()]);
 }
 
 // After the part up to the break.
-TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, IntegratorKind method, int broken) {
+TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, TreeMethod method, int& substeps, int broken) {
     const double now = time_;
     Joint& weak = *step.joints[std::size_t(broken)];
     weak.broken = true;
@@ -62,7 +62,7 @@ TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, IntegratorK
     for (const Piece& piece : pieces_of(step)) {
         const TreeStep rest{step.bodies,     piece.bodies, piece.joints, step.forces,
                             step.from + now, step.h - now, step.length};
-        if (advance(rest, method) != Outcome::flown) return Outcome::stopped;
+        if (advance(rest, method, substeps) != Outcome::flown) return Outcome::stopped;
         evaluations += evaluations_;
     }
     evaluations_ = evaluations;

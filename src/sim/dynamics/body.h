@@ -33,6 +33,7 @@ struct Body {
     bool flying = false;   // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
     bool jointed = false;  // has a joint that holds: it moves with the bodies joined to it
     PairRules pair_rules;  // of the scene, at hand where two bodies meet
+    bool placed = false;   // by the contact solver: the push velocities lead to the end of the step without gyration
     bool flew = false;     // moved in the last step by an integrator of higher order than the two Euler methods
     double mass = 0.0, inverse_mass = 0.0;  // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                    // m, about the center of mass; infinity for a half-space
@@ -79,13 +80,15 @@ struct Body {
     void derive_velocities();
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, flew, mass, inverse_mass, radius,
-               restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
-               principal_axes, center_of_mass, name, position, orientation, rotation, momentum, angular_momentum,
-               velocity, angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity] = self;
+        auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, placed, flew, mass, inverse_mass,
+               radius, restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
+               principal_inertia, principal_axes, center_of_mass, name, position, orientation, rotation, momentum,
+               angular_momentum, velocity, angular_velocity, inverse_inertia, gyration, push_velocity,
+               push_angular_velocity] = self;
         archive.rebuilt(type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius, restitution, friction,
                         drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
                         principal_axes, center_of_mass, name);
+        archive.scratch(placed);
         archive.keep(asleep, flying, jointed, flew, position, orientation, rotation, momentum, angular_momentum,
                      velocity, angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity);
     }

@@ -103,8 +103,13 @@ std::vector<Joint*> GroupFlights::joints_of(std::uint32_t group) const {
 TreeFlight::Outcome GroupFlights::fly_tree(std::uint32_t group, const JointIsland& island) {
     const std::vector<Joint*> joints = joints_of(group);
     if (!tree_laws(joints, *bodies_)) return TreeFlight::Outcome::declined;
-    return tree_flight_.advance({*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length},
-                                IntegratorKind::exact);
+    Flight& flight = flights_[group];
+    const TreeStep step{*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length};
+    TreeFlight::Outcome outcome = tree_flight_.advance(step, {IntegratorKind::exact, flight_order}, flight.substeps);
+    if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree()) return outcome;
+    outcome = tree_flight_.advance(step, {IntegratorKind::splitting, flight_order}, flight.substeps);
+    flight.swing = tree_flight_.swing();
+    return outcome == TreeFlight::Outcome::flown ? outcome : TreeFlight::Outcome::stopped;
 }
 
 bool GroupFlights::fly_rows(std::uint32_t group, const JointIsland& island) {

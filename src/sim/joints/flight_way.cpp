@@ -4,10 +4,10 @@
 
 namespace tumble {
 
-bool undriven(const Joint& joint, const std::vector<Body>& bodies) {
+bool undriven(const Joint& joint, const std::vector<Body>& bodies, bool holding) {
     if (joint.gear()) return false;
     for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
-        if (joint.axis(c).motor) return false;
+        if (joint.axis(c).motor && !(holding && holds_a_place(*joint.axis(c).motor))) return false;
     if (joint.soft && joint.description.friction_coefficient > 0.0) return false;
     for (const std::uint32_t i : {joint.a, joint.b})
         if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
@@ -30,11 +30,19 @@ bool has_springs(const Joint& joint) {
     return false;
 }
 
+bool holds_a_place(const JointMotor& motor) { return !motor.speed && motor.targets.size() == 1; }
+
+bool has_motors(const Joint& joint) {
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
+        if (joint.axis(c).motor) return true;
+    return false;
+}
+
 bool acts_along_coordinates(const Joint& joint) {
-    if (!has_springs(joint) && !has_friction(joint)) return true;
+    if (!has_springs(joint) && !has_friction(joint) && !has_motors(joint)) return true;
     int turns = 0;
     for (std::size_t c = 3; c < joint.count(); ++c) turns += !joint.locked(c);
-    return turns < 2;
+    return turns < 3;
 }
 
 bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies) {
@@ -42,11 +50,11 @@ bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies) 
         for (const std::uint32_t i : {joint->a, joint->b})
             if (i != Joint::world && bodies[i].dynamic() && bodies[i].integrator == IntegratorKind::explicit_euler)
                 return false;
-        return !joint->broken && undriven(*joint, bodies) && acts_along_coordinates(*joint);
+        return !joint->broken && undriven(*joint, bodies, true) && acts_along_coordinates(*joint);
     });
 }
 
-std::optional<IntegratorKind> tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {
+IntegratorKind joined_integrator(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {
     bool exact = false, splitting = false, runge_kutta = false;
     for (const std::uint32_t i : joined) {
         exact = exact || bodies[i].integrator == IntegratorKind::exact;
@@ -54,8 +62,8 @@ std::optional<IntegratorKind> tree_method(const std::vector<Body>& bodies, std::
         runge_kutta = runge_kutta || bodies[i].integrator == IntegratorKind::runge_kutta_4;
     }
     if (exact) return IntegratorKind::exact;
-    if (runge_kutta && !splitting) return IntegratorKind::runge_kutta_4;
-    return std::nullopt;
+    if (splitting) return IntegratorKind::splitting;
+    return runge_kutta ? IntegratorKind::runge_kutta_4 : IntegratorKind::symplectic_euler;
 }
 
 }  // namespace tumble

@@ -146,6 +146,11 @@ JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b
     return g;
 }
 
+double twist_of(const Joint& joint, const JointSide& a, const JointSide& b) {
+    const Quat q = nearer((a.orientation * joint.frame_a).conjugate() * (b.orientation * joint.frame_b));
+    return unwrapped(2.0 * atan2_stable(q.x(), q.w()), joint.value[3]);
+}
+
 bool beyond_limit(const Joint& joint, const JointGeometry& g) {
     if (!joint.soft) return false;
     if (joint.description.swing && g.swing.value > g.swing_limit) return true;

@@ -113,11 +113,9 @@ void add_way(const JointGroup& group, bool tree, const JointSet& joints, const s
     bool rattle = true;
     for (const std::uint32_t k : group.joints) {
         const Joint& joint = joints.joints()[k];
-        if (!undriven(joint, bodies)) return void(++report.by_rows);
-        tree = tree && !joint.distance() && acts_along_coordinates(joint);
+        tree = tree && !joint.distance() && undriven(joint, bodies, true) && acts_along_coordinates(joint);
         rattle = rattle && free_but_for_springs(joint, bodies);
     }
-    tree = tree && tree_method(bodies, group.bodies);
     ++(tree ? report.by_coordinates : rattle ? report.by_rattle : report.by_rows);
 }
 

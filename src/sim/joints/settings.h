@@ -74,8 +74,11 @@ inline constexpr double joint_flight_closed = 4e-16;
 inline constexpr double joint_flight_coarse = 20.0;
 
 /// Largest phase, rad, of a spring in a step of flight: the error of a kick is a 24th of its square. Stiffer springs are
-/// rows of the solver. Not fitted: a tenth of a swing.
+/// implicit. Not fitted: a tenth of a swing.
 inline constexpr double joint_flight_spring = 0.6;
+
+/// Largest rate of a damper times the step in a flight by Verlet's method: speeds that fall faster would change their sign.
+inline constexpr double joint_flight_damper = 2.0;
 
 /// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
 /// JointReference.AFourBarPassesItsSingularPosition.

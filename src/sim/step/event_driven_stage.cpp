@@ -47,7 +47,7 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
         // All bodies in contact move by the velocities of the solve, whatever their integrator.
         motion.velocity = body.velocity + body.push_velocity;
         motion.angular_velocity = body.angular_velocity;
-        if (body.dynamic()) motion.angular_velocity += gyration(body, step.h);
+        if (body.dynamic() && !body.placed) motion.angular_velocity += gyration(body, step.h);
         motion.angular_velocity += body.push_angular_velocity;
         return motion;
     });

@@ -36,7 +36,7 @@ BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const Step
     motion.velocity = (before ? old.velocity : body.velocity) + body.push_velocity;
     motion.angular_velocity = before ? old.angular_velocity : body.angular_velocity;
     if (!before && body.jointed) {
-        motion.angular_velocity += gyration(body, step.h);
+        if (!body.placed) motion.angular_velocity += gyration(body, step.h);
     } else if (!before && body.dynamic()) {
         const Vec3 mean = step.forces.touched(i, body)
                               ? mean_angular_velocity_in_contact(body, step.h, step.settings.rotation)

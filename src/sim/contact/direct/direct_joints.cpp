@@ -19,24 +19,6 @@ namespace tumble {
 
 using namespace contact_rows;
 
-namespace {
-
-std::vector<Joint*> joints_of(const JointIsland& island) {
-    JointSet& set = *island.problem.joints;
-    std::vector<Joint*> joints;
-    for (const std::uint32_t k : island.joints) joints.push_back(&set.joints()[set.active()[k]]);
-    return joints;
-}
-
-// Loops have more joints than bodies: they are no trees.
-bool flies_as_tree(const JointIsland& island, const std::vector<Joint*>& joints) {
-    const ContactProblem& problem = island.problem;
-    return problem.forces && joints.size() <= island.bodies.size() && tree_method(problem.bodies, island.bodies) &&
-           tree_laws(joints, problem.bodies);
-}
-
-}  // namespace
-
 // The state at the start of a substep: forces in equal parts, rows and contacts at the present poses.
 void DirectSolver::load_substep(const JointIsland& island, int substep, int substeps) {
     const ContactProblem& problem = island.problem;
@@ -238,23 +220,9 @@ void DirectSolver::set_back(const JointIsland& island) {
     }
 }
 
-// In joint coordinates, if the joints form a tree and the integrator is one for such coordinates.
-TreeFlight::Outcome DirectSolver::fly_tree(const JointIsland& island) {
-    const ContactProblem& problem = island.problem;
-    const std::vector<Joint*> joints = joints_of(island);
-    if (!flies_as_tree(island, joints)) return TreeFlight::Outcome::declined;
-    set_back(island);
-    return tree_flight_.advance(
-        {problem.bodies, island.bodies, joints, *problem.forces, island.from, problem.settings.h, island.length},
-        *tree_method(problem.bodies, island.bodies));
-}
-
-// The step of an island that touches nothing, in as many substeps as it needs; moves its bodies.
-bool DirectSolver::fly(const JointIsland& island, bool rows_fly, int& substeps) {
+// The step of joints that form loops and touch nothing, in as many substeps as it needs; moves the bodies.
+bool DirectSolver::fly(const JointIsland& island, int& substeps) {
     swing_ = 0.0;
-    if (const TreeFlight::Outcome outcome = fly_tree(island); outcome != TreeFlight::Outcome::declined)
-        return outcome == TreeFlight::Outcome::flown;
-    if (!rows_fly) return false;
     std::vector<StepForce> forces;
     for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
     while (substeps <= tuning::joint_swing_substeps) {
@@ -312,15 +280,17 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         for (std::size_t k = 0; k < island_joints.size(); ++k) {
             island_joints[k]->value = values[k];
             island_joints[k]->impulse = {};
+            island_joints[k]->flew = false;
             island_joints[k]->broken = false;
         }
         if (problem.totals)
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
     bool flown = false;
-    const bool rows_fly = manifolds.empty() && JointFlight::flies(island);
-    if (rows_fly || (manifolds.empty() && flies_as_tree(island, joints_of(island)))) {
-        flown = fly(island, rows_fly, substeps);
+    // A tree that fly_tree() has left behind is no flight.
+    if (manifolds.empty() && !(find_flying(problem, bodies, joints) && tree_flight_.is_tree()) &&
+        JointFlight::flies(island)) {
+        flown = fly(island, substeps);
         if (!flown) reset();
     }
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {

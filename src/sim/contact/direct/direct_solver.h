@@ -96,9 +96,14 @@ private:
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     void move_to_end(const JointIsland& island, bool moved);
-    bool fly(const JointIsland& island, bool rows_fly, int& substeps);
+    bool fly(const JointIsland& island, int& substeps);
     void set_back(const JointIsland& island);
-    TreeFlight::Outcome fly_tree(const JointIsland& island);
+    bool fly_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                  std::span<const std::uint32_t> joints);
+    bool find_flying(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                     std::span<const std::uint32_t> joints);
+    TreeFlight::Outcome advance_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                     int& substeps);
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
     bool moves_freely(const JointIsland& island);
@@ -139,6 +144,10 @@ private:
     JointRows joints_;
     JointFlight flight_;
     TreeFlight tree_flight_;
+    // Of its flight: joints, and their values and the states of the bodies at the start.
+    std::vector<Joint*> flying_;
+    std::vector<std::array<double, Joint::coordinates>> values_;
+    std::vector<RigidState> flown_from_;
     std::vector<JointSide> ends_;                   // poses at the end of the step
     struct Start {                                  // of a body in a jointed step
         Vec3 position, momentum, angular_momentum;  // after the forces

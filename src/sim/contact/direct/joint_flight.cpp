@@ -2,6 +2,7 @@
 
 #include "core/fetch_ahead.h"
 #include "sim/dynamics/integrator.h"
+#include "sim/dynamics/integrators/composition.h"
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
@@ -12,33 +13,6 @@
 #include <numeric>
 
 namespace tumble {
-namespace {
-
-// Symmetric compositions: of order 4 with five stages (Suzuki 1990), of order 6 with nine and of order 8 with seventeen
-// (Kahan and Li 1997, Math. Comp. 66). The first half and the middle stage.
-constexpr std::array<double, 3> suzuki_4{0.41449077179437573714, 0.41449077179437573714, -0.65796308717750294857};
-constexpr std::array<double, 5> kahan_li_6{0.39216144400731413927925056, 0.33259913678935943859974864,
-                                           -0.70624617255763935980996482, 0.08221359629355080023149045,
-                                           0.79854399093482996339895035};
-constexpr std::array<double, 9> kahan_li_8{
-    0.13020248308889008087881763, 0.56116298177510838456196441,  -0.38947496264484728640807860,
-    0.15884190655515560089621075, -0.39590389413323757733623154, 0.18453964097831570709183254,
-    0.25837438768632204729397911, 0.29501172360931029887096624,  -0.60550853383003451169892108};
-
-std::vector<double> stages_of(int order) {
-    std::span<const double> half;
-    constexpr std::array<double, 1> rattle{1.0};
-    if (order == 2) half = rattle;
-    if (order == 4) half = suzuki_4;
-    if (order == 6) half = kahan_li_6;
-    if (order == 8) half = kahan_li_8;
-    std::vector<double> stages(half.begin(), half.end());
-    for (std::size_t k = half.size() - 1; k-- > 0;) stages.push_back(half[k]);
-    return stages;
-}
-
-}  // namespace
-
 bool JointFlight::flies(const JointIsland& island) {
     const std::vector<Body>& bodies = island.problem.bodies;
     for (const std::uint32_t i : island.bodies)
@@ -64,45 +38,31 @@ int JointFlight::order(const JointIsland& island) {
 void JointFlight::analyze(const JointIsland& island) {
     if (locks_.load(island)) {
         pairs_.clear();
-        places_.clear();
         springs_ = false;
         for (FlightLocks::FlightJoint& j : locks_.joints()) {
             springs_ = springs_ || has_springs(locks_.joint(j));
             j.pair = std::uint32_t(pairs_.size());
             if (locks_.moves(j.a) && locks_.moves(j.b)) pairs_.push_back({j.a, j.b});
         }
-        if (locks_.tree()) {
-            tree_.analyze(locks_);
-            for (std::size_t i = 0; i < tree_.size(); ++i) places_.push_back(tree_.place(i));
-        } else {
-            matrix_.analyze(island.bodies.size(), pairs_);
-            for (std::uint32_t k = 0; k < island.bodies.size(); ++k) places_.push_back({k, LockTree::none});
-            for (std::uint32_t k = 0; k < locks_.joints().size(); ++k) places_.push_back({LockTree::none, k});
-        }
+        matrix_.analyze(island.bodies.size(), pairs_);
         change_.resize(6 * island.bodies.size());
     }
     swing_ = 0.0;
     loaded_ = false;
 }
 
-// Looks at all joints, for the equations of a tree too, and estimates their impulses of a stage of `h` s. Returns the
-// largest error, in sizes of the joint.
+// Looks at all joints, and estimates their impulses of a stage of `h` s. Returns the largest error, in sizes of the joint.
 double JointFlight::look(double h, std::optional<Rate> rate) {
     double worst = 0.0;
-    for (std::size_t i = 0; i < places_.size(); ++i) {
-        if (places_[i].joint != LockTree::none) {
-            FlightLocks::FlightJoint& j = locks_.joints()[places_[i].joint];
-            worst = std::max(worst, locks_.look(j));
-            if (rate) estimate(j, h, *rate);
-        }
-        if (locks_.tree()) tree_.take(locks_, i);
+    for (FlightLocks::FlightJoint& j : locks_.joints()) {
+        worst = std::max(worst, locks_.look(j));
+        if (rate) estimate(j, h, *rate);
     }
     return worst;
 }
 
 // The equations at the present poses, after look(), of a stage of `h` s. Returns false where they cannot be factored.
 bool JointFlight::load(double h) {
-    if (locks_.tree()) return true;  // factored where they are needed
     const double joints = double(locks_.joints().size()), bodies = double(locks_.bodies().size());
     // In a singular position the gap along the vanishing row is (h w)^2 / 2: without this compliance its correction
     // would be divided by zero.
@@ -113,9 +73,8 @@ bool JointFlight::load(double h) {
     return matrix_.factor();
 }
 
-// The least impulses that change J u as asked; with loops but for the compliance: M du = J^T f, f = (asked - J du) / R.
+// The least impulses that change J u as asked, but for the compliance: M du = J^T f, f = (asked - J du) / R.
 bool JointFlight::change() {
-    if (locks_.tree()) return tree_.solve(locks_);
     locks_.add_asked(compliance_, change_);
     matrix_.solve(change_);
     return locks_.take(change_, compliance_);
@@ -129,7 +88,7 @@ void JointFlight::kick(const Stage& stage, bool moved) {
         body.state.angular_momentum += 0.5 * stage.share * stage.forces[k].turn;
         if (moved) {
             body.derive_inertia();
-            if (!locks_.tree()) body.derive_velocities();  // for the fastest turn
+            body.derive_velocities();  // for the fastest turn
         }
         body.start = body.state;
     }
@@ -187,11 +146,8 @@ bool JointFlight::close(double h) {
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
         double error = 0.0;
-        for (const LockTree::Place& place : places_) {
-            if (place.body != LockTree::none) drift(locks_.body(place.body), h);
-            if (place.joint != LockTree::none)
-                error = std::max(error, locks_.ask_to_close(locks_.joints()[place.joint], h));
-        }
+        for (FlightBody& body : locks_.bodies()) drift(body, h);
+        for (const FlightLocks::FlightJoint& j : locks_.joints()) error = std::max(error, locks_.ask_to_close(j, h));
         if (!std::isfinite(error)) return false;
         if (error <= closed_ || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
         // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
@@ -214,7 +170,6 @@ void JointFlight::close_poses(const JointIsland& island) {
         last = error;
         locks_.clear_given();
         if (!load(island.problem.settings.h) || !change()) return;
-        if (locks_.tree()) tree_.changes(locks_, change_);
         std::span<FlightBody> bodies = locks_.bodies();
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             FlightBody& body = bodies[k];
@@ -236,14 +191,11 @@ bool JointFlight::fit() {
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
         double fastest = 0.0, worst = 0.0;
-        for (const LockTree::Place& place : places_) {
-            if (place.body != LockTree::none) {
-                FlightBody& body = locks_.body(place.body);
-                body.derive_velocities();
-                fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
-            }
-            if (place.joint != LockTree::none) worst = std::max(worst, locks_.ask_to_fit(locks_.joints()[place.joint]));
+        for (FlightBody& body : locks_.bodies()) {
+            body.derive_velocities();
+            fastest = std::max({fastest, body.velocity.squaredNorm(), (locks_.length() * body.spin).squaredNorm()});
         }
+        for (const FlightLocks::FlightJoint& j : locks_.joints()) worst = std::max(worst, locks_.ask_to_fit(j));
         if (!(worst > coarse_ * tuning::joint_flight_fits * std::sqrt(fastest)) || worst >= 0.5 * last)
             return std::isfinite(worst);
         last = worst;
@@ -289,7 +241,7 @@ bool JointFlight::advance(const JointIsland& island, std::span<const StepForce> 
     if (springs_)
         for (FlightLocks::FlightJoint& j : locks_.joints())
             j.springs = JointSet::potential(locks_.joint(j), island.problem.bodies);
-    const std::vector<double> stages = stages_of(order);
+    const std::vector<double> stages = composition_stages(order);
     coarse_ = stages.size() == 1 ? tuning::joint_flight_coarse : 1.0;
     for (int substep = 0; substep < substeps; ++substep)
         for (const double share : stages) {
@@ -349,6 +301,7 @@ bool JointFlight::end(const JointIsland& island) {
             joint.broken_at = island.to;
         }
         joint.impulse = {};
+        joint.flew = false;
         joint.curving = {};
         joint.point = j.point;
         std::span<const FlightLocks::LockForce> forces = locks_.forces(j);

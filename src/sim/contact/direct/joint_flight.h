@@ -1,4 +1,4 @@
-// Flight of joined bodies that touch nothing: RATTLE, to second order, and its symmetric compositions of order 4, 6, 8.
+// Flight of joined bodies that touch nothing and whose joints form loops, or are distance joints: RATTLE, to second order, and its symmetric compositions of order 4, 6, 8.
 //
 // With half a kick by the forces, the joints' impulses J^T f close all gaps at the end of a free drift; after the second
 // half kick, J^T g makes the velocities fit the joints (Andersen 1983, J. Comput. Phys. 52; symplectic: Leimkuhler and
@@ -8,7 +8,6 @@
 #pragma once
 
 #include "sim/contact/direct/flight_locks.h"
-#include "sim/contact/direct/lock_tree.h"
 #include "sim/math/block_cholesky.h"
 
 #include <optional>
@@ -67,15 +66,13 @@ private:
     bool end(const JointIsland& island);
 
     FlightLocks locks_;
-    LockTree tree_;         // of joints without loops
-    BlockCholesky matrix_;  // of joints with loops
+    BlockCholesky matrix_;
     std::vector<BlockCholesky::Pair> pairs_;
-    std::vector<LockTree::Place> places_;  // bodies and joints, each joint after its bodies; in a tree, by its nodes
-    std::vector<double> change_;           // du: six numbers per body
-    bool springs_ = false;                 // a joint has springs
-    bool loaded_ = false;                  // locks and equations are those of the present poses
-    double coarse_ = 1.0;                  // factor of the tolerances
-    double closed_ = 0.0;                  // largest error of closed joints, in sizes of the joint
+    std::vector<double> change_;  // du: six numbers per body
+    bool springs_ = false;        // a joint has springs
+    bool loaded_ = false;         // locks and equations are those of the present poses
+    double coarse_ = 1.0;         // factor of the tolerances
+    double closed_ = 0.0;         // largest error of closed joints, in sizes of the joint
     double swing_ = 0.0, compliance_ = 0.0;
 };
 

@@ -53,7 +53,9 @@ void JointRows::push_row(const Row& row) {
     const Block& block = blocks_.back();
     rows_.push_back(row);
     Row& added = rows_.back();
-    const double last = joint(block).impulse[row.coordinate][row.law];
+    const Joint& j = joint(block);
+    double last = j.impulse[row.coordinate][row.law];
+    if (j.flew && row.law == Joint::lock) last = h_ * row.direction.dot(row.turns() ? j.torque : j.force);
     if (!row.soft && (tree_ || row.law != Joint::lock))
         added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }

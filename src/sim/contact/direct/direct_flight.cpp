@@ -1,0 +1,87 @@
+// DirectSolver: the step of joined bodies that touch nothing and whose joints form a tree, in joint coordinates.
+#include "sim/contact/direct/direct_solver.h"
+#include "sim/joints/flight_way.h"
+#include "sim/joints/settings.h"
+#include "sim/math/keyframe_track.h"
+
+#include <algorithm>
+
+namespace tumble {
+
+// Where rounding stops a fine integrator, by compositions of Verlet's method.
+TreeFlight::Outcome DirectSolver::advance_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                               int& substeps) {
+    double length = 0.0;
+    for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
+    const TreeStep step{problem.bodies,     bodies, flying_, *problem.forces, problem.joints->from(),
+                        problem.settings.h, length};
+    const TreeMethod method = tree_method(problem.bodies, bodies);
+    const TreeFlight::Outcome outcome = tree_flight_.advance(step, method, substeps);
+    if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree() || method.verlet()) return outcome;
+    return tree_flight_.advance(step, {IntegratorKind::splitting, method.order}, substeps);
+}
+
+// Lists the joints, if their laws are those of trees in flight. Loops have more joints than bodies.
+bool DirectSolver::find_flying(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                               std::span<const std::uint32_t> joints) {
+    flying_.clear();
+    if (!problem.forces || joints.size() > bodies.size()) return false;
+    for (const std::uint32_t k : joints) flying_.push_back(&problem.joints->joints()[problem.joints->active()[k]]);
+    return tree_laws(flying_, problem.bodies);
+}
+
+// Returns false, with all as it was, where the bodies do not fly.
+bool DirectSolver::fly_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                            std::span<const std::uint32_t> joints) {
+    if (!find_flying(problem, bodies, joints)) return false;
+    const double h = problem.settings.h;
+    int substeps = 1;
+    values_.clear();
+    for (const Joint* joint : flying_) {
+        substeps = std::max(substeps, joint->substeps);
+        values_.push_back(joint->value);
+    }
+    flown_from_.clear();
+    for (const std::uint32_t i : bodies) {
+        Body& body = problem.bodies[i];
+        const BodyVelocity& before = problem.before[i];
+        flown_from_.push_back({body.position, body.orientation, body.momentum, body.angular_momentum});
+        // Without the forces of the step.
+        body.momentum -= body.mass * (body.velocity - before.velocity);
+        const Vec3 turned = body.angular_velocity - before.angular_velocity;
+        if (!turned.isZero(0.0))
+            body.angular_momentum -= body.rotation * (body.inertia_body * (body.rotation.transpose() * turned));
+        body.derive_velocities();
+    }
+    const TreeFlight::Outcome outcome = advance_tree(problem, bodies, substeps);
+    if (outcome != TreeFlight::Outcome::flown) {
+        for (std::size_t k = 0; k < bodies.size(); ++k) set_state(problem.bodies[bodies[k]], flown_from_[k]);
+        for (std::size_t k = 0; k < flying_.size(); ++k) {
+            Joint& joint = *flying_[k];
+            joint.value = values_[k];
+            joint.impulse = {};
+            joint.flew = joint.broken = false;
+        }
+        return false;
+    }
+    const double swing = tree_flight_.swing();
+    int next = swing < tuning::joint_easy_swing ? std::max(1, substeps / 2) : substeps;
+    // The phase of a swing is proportional to the substep.
+    while (next > 1 && 2.0 * swing * substeps < tuning::joint_easy_swing * next) next /= 2;
+    for (Joint* joint : flying_) joint->substeps = next;
+    for (std::size_t k = 0; k < bodies.size(); ++k) {
+        Body& body = problem.bodies[bodies[k]];
+        const RigidState& start = flown_from_[k];
+        // Back to the start: the step's velocities move the body to its end.
+        body.push_velocity = (body.position - start.position) / h - body.velocity;
+        body.push_angular_velocity =
+            rotation_vector(body.orientation * start.orientation.conjugate()) / h - body.angular_velocity;
+        body.position = start.position;
+        body.orientation = start.orientation;
+        body.rotation = start.orientation.toRotationMatrix();
+        body.placed = true;
+    }
+    return true;
+}
+
+}  // namespace tumble
