@@ -25,8 +25,9 @@ inline constexpr double tree_gap = 1e-9;
 inline constexpr double tree_misfit = 1e-9;
 
 /// Change of the speeds at the end of a stage of Verlet's method that ends its passes, as a share of the fastest one: of second
-/// order, and in compositions. Not fitted: far below the method's own error, and rounding.
-inline constexpr double verlet_tolerance = 1e-7;
+/// order, and in compositions. Related test:
+/// Verlet.OrdersWithBallsAndFreeTrees; and rounding.
+inline constexpr double verlet_tolerance = 1e-8;
 inline constexpr double verlet_rounding = 1e-15;
 
 /// Share of the last change above which a pass does not converge, and the change that is then rounding. Not fitted.

@@ -195,13 +195,9 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     load.moment = sign * behind.moment + carried_[k];
     joint.force = load.force / h;
     joint.torque = load.torque / h;
-    if (staged_) {
-        if (!joint.flew) {
-            joint.impulse = {};
-            joint.curving = {};
-            joint.constraint_rates = {};
-            joint.flew = true;
-        }
+    if (staged_) {  // the force stands for them
+        joint.impulse = {};
+        joint.curving = {};
     }
     // Else the caller has counted the way of the coordinate.
     if (!staged_ || joint.soft || !tree_.plain(index)) {
@@ -240,7 +236,6 @@ void TreeAccount::keep_impulses(Joint& joint, const JointGeometry& g, const Samp
     joint.impulse = {};
     joint.curving = {};
     joint.constraint_rates = {};
-    joint.flew = false;
     for (std::size_t c = 0; c < joint.count(); ++c) {
         if (!joint.locked(c)) continue;
         const double force = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);

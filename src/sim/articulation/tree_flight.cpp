@@ -410,7 +410,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
 TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, TreeMethod method, int& substeps) {
     for (;;) {
         const Outcome outcome = fly(step, method, substeps);
-        if (!coarse_) return outcome;
+        if (outcome != Outcome::declined || !coarse_) return outcome;
         if (2 * substeps > tuning::joint_swing_substeps) return Outcome::declined;
         const double phase = swing_ * substeps;
         do substeps *= 2;

@@ -1,8 +1,10 @@
 // TreeFlight: Verlet's method in joint coordinates, of second order and symmetric, and its compositions. With u the speeds
 // and exp the rotation of a ball or a free root,
 //   q' = q moved by h u/2,   u+ = u + h a(q', (u + u+)/2),   q+ = q' moved by h u+/2
+// The speed of a free root is held in its own frame: it moves along a screw, which is exact for a tree that turns as a whole.
 // The accelerations depend on the speeds by centrifugal and gyroscopic terms and dampers alone: passes that share the
 // inertias of the middle find u+.
+#include "core/deterministic_math.h"
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 #include "sim/joints/settings.h"
@@ -19,6 +21,29 @@ void turn_quaternion(double* q, const double* speed, double h) {
     for (int k = 0; k < 4; ++k) q[k] = turned.coeffs()[k];
 }
 
+// A screw of constant angular velocity and velocity in the turning frame, for h seconds: the way of its point is V v h with
+// V = 1 + B w* + C w* w* for the rotation vector w, B = (1 - cos |w|)/|w|^2 and C = (|w| - sin |w|)/|w|^3.
+Vec3 way_of_screw(const double* speed, double h) {
+    const Vec3 w = h * Vec3(speed[0], speed[1], speed[2]), v(speed[3], speed[4], speed[5]);
+    const double square = w.squaredNorm();
+    double b = 0.5 - square * (1.0 / 24.0 - square * (1.0 / 720.0 - square / 40320.0));
+    double c = 1.0 / 6.0 - square * (1.0 / 120.0 - square * (1.0 / 5040.0 - square / 362880.0));
+    if (square > 1e-3) {
+        const double angle = std::sqrt(square);
+        const auto [sine, cosine] = sincos(angle);
+        b = (1.0 - cosine) / square;
+        c = (angle - sine) / (square * angle);
+    }
+    const Vec3 across = w.cross(v);
+    return h * (v + b * across + c * w.cross(across));
+}
+
+// The velocity of a free root after such a screw, in the world.
+void turn_velocity(double* speed, double h) {
+    const Vec3 v = from_rotation_vector(h * Vec3(speed[0], speed[1], speed[2])) * Vec3(speed[3], speed[4], speed[5]);
+    for (int k = 0; k < 3; ++k) speed[3 + k] = v[k];
+}
+
 }  // namespace
 
 void TreeFlight::drift(double* coordinates, const double* speeds, double h) const {
@@ -28,7 +53,8 @@ void TreeFlight::drift(double* coordinates, const double* speeds, double h) cons
         if (node.kind == NodeKind::revolute || node.kind == NodeKind::prismatic) q[0] += h * u[0];
         if (node.kind == NodeKind::ball) turn_quaternion(q, u, h);
         if (node.kind != NodeKind::free) continue;
-        for (int k = 0; k < 3; ++k) q[k] += h * u[3 + k];
+        const Vec3 way = way_of_screw(u, h);
+        for (int k = 0; k < 3; ++k) q[k] += way[k];
         turn_quaternion(q + 3, u, h);
     }
 }
@@ -36,6 +62,10 @@ void TreeFlight::drift(double* coordinates, const double* speeds, double h) cons
 // Takes the rates of a pass over; returns the change of the speeds at the end, as a share of the fastest.
 double TreeFlight::take_pass(const double* speeds, double h) {
     double change = 0.0, fastest = 0.0;
+    if (tree_.is_free()) {  // in its own frame
+        const Vec3 turned = Vec3(mean_.segment<3>(0)).cross(Vec3(mean_.segment<3>(3)));
+        rates_.segment<3>(coordinates_ + 3) -= turned;
+    }
     for (const TreeNode& node : tree_.nodes())
         for (int k = 0; k < node.speeds(); ++k) {
             const Eigen::Index at = node.speed_at + k;
@@ -53,11 +83,12 @@ double TreeFlight::take_pass(const double* speeds, double h) {
 bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     const double tolerance = stages_.size() == 1 ? tuning::verlet_tolerance : tuning::verlet_rounding;
     const Vec3 base = tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity);
-    double* speeds = y.data() + coordinates_;
     middle_ = y;
+    double* speeds = middle_.data() + coordinates_;
     rates_.resize(y.size());
-    mean_ = after_ = y.segment(coordinates_, tree_.speeds());
     drift(middle_.data(), speeds, 0.5 * h);
+    if (tree_.is_free()) turn_velocity(speeds, 0.5 * h);
+    mean_ = after_ = middle_.segment(coordinates_, tree_.speeds());
     if (pushed_) middle_[extras_] += 0.5 * h;
     double last = infinity;
     for (int pass = 0;; ++pass) {
@@ -96,7 +127,8 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     if (pushed_) y.tail(y.size() - extras_) += h * rates_.tail(y.size() - extras_);
     y.head(coordinates_) = middle_.head(coordinates_);
     y.segment(coordinates_, tree_.speeds()) = after_;
-    drift(y.data(), speeds, 0.5 * h);
+    drift(y.data(), after_.data(), 0.5 * h);
+    if (tree_.is_free()) turn_velocity(y.data() + coordinates_, 0.5 * h);
     return true;
 }
 
@@ -111,6 +143,12 @@ bool TreeFlight::compose(Vector& y, double h, bool counts) {
 
 bool TreeFlight::integrate_verlet(double until, int substeps) {
     const double span = until - time_, begin = time_, longest = step_->h / substeps;
+    double fastest = 0.0;  // 1/s
+    for (const TreeNode& node : tree_.nodes())
+        for (int k = 0; k < node.speeds(); ++k)
+            fastest = std::max(
+                fastest, std::abs(y_[coordinates_ + node.speed_at + k]) / (node.is_length(k) ? step_->length : 1.0));
+    if (!(span * fastest <= tuning::tree_phase * tuning::tree_most_steps)) return false;
     for (double done = 0.0; done < span;) {
         const double rest = span - done;
         double size = rest / std::ceil(rest / longest * (1.0 - 1e-12));

@@ -66,8 +66,7 @@ struct Joint {
     int substeps = 1;    // of its island in the next step, a power of two
     bool active = true;  // holds in this step
     bool broken = false;
-    double broken_at = 0.0;  // s
-    bool flew = false;  // in the last step, in joint coordinates: `impulse` is 0, and `force` and `torque` stand for it
+    double broken_at = 0.0;                   // s
     std::array<double, coordinates> value{};  // m and rad, with whole turns counted; at the end of the last step
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
     std::array<double, coordinates>
@@ -95,12 +94,12 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks, substeps,
-               active, broken, broken_at, flew, value, impulse, curving, constraint_force, constraint_rates, force,
-               torque, point, account] = self;
+               active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force, torque,
+               point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
         archive.between(1, substeps, 2 * tuning::joint_swing_substeps);
-        archive.keep(active, broken, broken_at, flew, value, impulse, curving, constraint_force, constraint_rates,
-                     force, torque, point, account);
+        archive.keep(active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force,
+                     torque, point, account);
     }
 };
 

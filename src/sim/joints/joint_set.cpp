@@ -145,7 +145,6 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
             joint.account.work.stored += given;
             joint.account.work.motors += given;
             joint.impulse = {};
-            joint.flew = false;
             joint.force.setZero();
             joint.torque.setZero();
         }

@@ -60,7 +60,9 @@ bool DirectSolver::fly_tree(const ContactProblem& problem, std::span<const std::
             Joint& joint = *flying_[k];
             joint.value = values_[k];
             joint.impulse = {};
-            joint.flew = joint.broken = false;
+            joint.force.setZero();
+            joint.torque.setZero();
+            joint.broken = false;
         }
         return false;
     }

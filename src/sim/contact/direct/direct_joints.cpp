@@ -280,7 +280,8 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         for (std::size_t k = 0; k < island_joints.size(); ++k) {
             island_joints[k]->value = values[k];
             island_joints[k]->impulse = {};
-            island_joints[k]->flew = false;
+            island_joints[k]->force.setZero();
+            island_joints[k]->torque.setZero();
             island_joints[k]->broken = false;
         }
         if (problem.totals)

@@ -301,7 +301,6 @@ bool JointFlight::end(const JointIsland& island) {
             joint.broken_at = island.to;
         }
         joint.impulse = {};
-        joint.flew = false;
         joint.curving = {};
         joint.point = j.point;
         std::span<const FlightLocks::LockForce> forces = locks_.forces(j);

@@ -55,7 +55,8 @@ void JointRows::push_row(const Row& row) {
     Row& added = rows_.back();
     const Joint& j = joint(block);
     double last = j.impulse[row.coordinate][row.law];
-    if (j.flew && row.law == Joint::lock) last = h_ * row.direction.dot(row.turns() ? j.torque : j.force);
+    // A flight by Verlet's method leaves the force alone.
+    if (last == 0.0 && row.law == Joint::lock) last = h_ * row.direction.dot(row.turns() ? j.torque : j.force);
     if (!row.soft && (tree_ || row.law != Joint::lock))
         added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }

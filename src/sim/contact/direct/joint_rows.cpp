@@ -367,7 +367,6 @@ void JointRows::store(const JointIsland& island, bool apply) {
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
         j.impulse = {};
-        j.flew = false;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;

@@ -153,7 +153,6 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
                    extra = units_.mass * wide(row.vector(&Hold::carried_sum));
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
         j.impulse = {};
-        j.flew = false;
         j.curving = {};
         j.constraint_force = {};
         j.constraint_rates = {};
