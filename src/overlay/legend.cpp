@@ -23,13 +23,19 @@ struct Entry {
 };
 
 constexpr std::array<std::string_view, arrow_quantity_count> quantity_names{
-    "contact force", "impulse", "velocity", "angular velocity", "momentum", "angular momentum"};
-constexpr std::array<std::string_view, arrow_quantity_count> quantity_units{"N",     "N s",    "m/s",
-                                                                            "rad/s", "kg m/s", "kg m²/s"};
+    "contact force", "impulse", "velocity", "angular velocity", "momentum", "angular momentum", "torque of a joint"};
+constexpr std::array<std::string_view, arrow_quantity_count> quantity_units{"N",      "N s",     "m/s", "rad/s",
+                                                                            "kg m/s", "kg m²/s", "N m"};
 
 std::string scale_text(double scale, std::string_view unit) {
     if (scale <= 0.0) return "none in this clip";
     return fmt::format("1 m = {:g} {}", 1.0 / scale, unit);
+}
+
+std::string_view force_name(const OverlayDescription& overlay) {
+    const bool contacts = overlay.show.has(Overlay::forces);
+    if (!overlay.show.has(Overlay::joints)) return "contact force";
+    return contacts ? "force of a contact or joint" : "force of a joint";
 }
 
 using Row = std::vector<Entry>;
@@ -40,12 +46,14 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, cons
     for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
         const auto quantity = ArrowQuantity(q);
         if (!shows(overlay, quantity)) continue;
-        const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum;
+        const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum ||
+                           quantity == ArrowQuantity::torque;
         const std::string scale = scale_text(scales[q], quantity_units[q]);
         const bool force = quantity == ArrowQuantity::force;
-        if (!force || overlay.show.has(Overlay::forces))
+        const bool of_joints = overlay.show.has(Overlay::joints);
+        if (!force || overlay.show.has(Overlay::forces) || of_joints)
             rows.push_back({{axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
-                             fmt::format("{}, {}", quantity_names[q], scale)}});
+                             fmt::format("{}, {}", force ? force_name(overlay) : quantity_names[q], scale)}});
         if (force && overlay.show.has(Overlay::forces) && marks.friction)
             rows.push_back({{Entry::Symbol::arrow, friction_color, "its friction part"}});
         if (force && overlay.show.has(Overlay::loads))
@@ -53,6 +61,10 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, cons
     }
     if (overlay.show.has(Overlay::normals))
         rows.push_back({{Entry::Symbol::arrow, normal_color, "normal, from A to B"}});
+    if (overlay.show.has(Overlay::joints))
+        rows.push_back({{Entry::Symbol::marker, joint_color, "joint and axis"},
+                        {Entry::Symbol::patch, limit_color, "limits"},
+                        {Entry::Symbol::patch, at_limit_color, "at a limit"}});
     if (overlay.show.has(Overlay::axes))
         rows.push_back({{Entry::Symbol::arrow, axis_colors[0], "x"},
                         {Entry::Symbol::arrow, axis_colors[1], "y"},

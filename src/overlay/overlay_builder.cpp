@@ -17,9 +17,9 @@ constexpr double shortest_way = 2e-3;     // radii: a trail gets a point when th
 constexpr std::size_t most_ghosts = 400;  // of all bodies: more hide the picture, and each costs a drawing
 constexpr std::size_t longest_name = 40;  // characters of a label: a longer one hides the picture
 constexpr double normal_length = 0.35, axis_length = 1.2;  // radii of the body
-constexpr std::array<Color, arrow_quantity_count> colors{Color{255, 190, 30}, Color{255, 64, 112},
-                                                         Color{60, 196, 255}, Color{186, 140, 255},
-                                                         Color{170, 224, 50}, Color{255, 140, 212}};
+constexpr std::array<Color, arrow_quantity_count> colors{
+    Color{255, 190, 30}, Color{255, 64, 112},  Color{60, 196, 255}, Color{186, 140, 255},
+    Color{170, 224, 50}, Color{255, 140, 212}, Color{255, 120, 40}};
 /// Neighbors in this order differ for people with color blindness as well.
 constexpr std::array<Color, 8> island_colors{Color{0, 158, 255},   Color{255, 150, 0},   Color{0, 190, 120},
                                              Color{240, 110, 190}, Color{120, 220, 255}, Color{250, 220, 70},
@@ -34,12 +34,6 @@ Color mixed(Color a, Color b, double share) {
 
 Color trail_color(const SceneDescription& scene, std::size_t body) {
     return mixed(scene.bodies[body].appearance.color, {255, 255, 255}, 0.45);
-}
-
-double radius_about_origin(const Shape& shape) {
-    if (std::holds_alternative<PlaneShape>(shape)) return 0.0;
-    const BoundingSphere sphere = bounding_sphere(shape);
-    return sphere.center.norm() + sphere.radius;
 }
 
 /// The tight axis-aligned bounding box in the world.
@@ -94,6 +88,12 @@ private:
 
 }  // namespace
 
+double radius_about_origin(const Shape& shape) {
+    if (std::holds_alternative<PlaneShape>(shape)) return 0.0;
+    const BoundingSphere sphere = bounding_sphere(shape);
+    return sphere.center.norm() + sphere.radius;
+}
+
 Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity) {
     return overlay.color[std::size_t(quantity)].value_or(colors[std::size_t(quantity)]);
 }
@@ -132,6 +132,7 @@ MarkerShape contact_shape(ContactFeatures features) {
 OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScales& scales)
     : scene_(&scene), scales_(scales), shown_(shown_bodies(scene)) {
     for (const BodyDescription& body : scene.bodies) radii_.push_back(radius_about_origin(body.shape));
+    if (shows(Overlay::joints)) joints_ = sketch_joints(scene);
     if (!shows(Overlay::trails)) return;
     for (const TrailPoint& point : scene.overlay.trail_points)
         trails_.push_back({point.body, point.point, false, point.color.value_or(trail_color(scene, point.body)), {}});
@@ -152,6 +153,7 @@ const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const Contact
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
         if (shown_[i] != 0) add_body(i, snapshot.bodies[i]);
     if (records != nullptr) add_contacts(*records);
+    if (shows(Overlay::joints) && records != nullptr) add_joints(snapshot, *records);
     if (shows(Overlay::loads)) add_loads(snapshot);
     if (shows(Overlay::impulses)) add_impulses(snapshot.time);
     if (shows(Overlay::damage)) frame_.damage = snapshot.frame;
@@ -319,6 +321,27 @@ void OverlayBuilder::add_impulses(double time) {
     }
 }
 
+void OverlayBuilder::add_joints(const Snapshot& snapshot, const ContactRecords& records) {
+    for (const JointSketch& sketch : joints_) {
+        const JointState& state = records.joints[sketch.joint];
+        if (!state.active) continue;
+        const auto paint = [&](Color color) { return OverlayPaint{color, 1.0f, true, sketch.allowance}; };
+        for (const SketchLine& drawn : sketch.lines) {
+            OverlayLine line;
+            for (const SketchPoint& point : drawn.points) line.points.push_back(point.in_world(snapshot));
+            line.paint = paint(!drawn.limit ? joint_color : state.limit != 0 ? at_limit_color : limit_color);
+            line.width = drawn.limit ? limit_width : joint_width;
+            frame_.lines.push_back(std::move(line));
+        }
+        const Vec3 anchor = sketch.anchor.in_world(snapshot);
+        frame_.markers.push_back({anchor, paint(joint_color), sketch.marker, anchor_radius});
+        const std::size_t before = frame_.arrows.size();
+        arrow(ArrowQuantity::force, anchor, state.mean_force);
+        arrow(ArrowQuantity::torque, anchor, state.mean_torque);
+        for (std::size_t k = before; k < frame_.arrows.size(); ++k) frame_.arrows[k].paint.allowance = sketch.allowance;
+    }
+}
+
 // It starts inside of its own body, which must not hide it.
 void OverlayBuilder::body_arrow(ArrowQuantity quantity, std::size_t body, const BodyState& state, const Vec3& value) {
     const std::size_t before = frame_.arrows.size();
@@ -329,7 +352,8 @@ void OverlayBuilder::body_arrow(ArrowQuantity quantity, std::size_t body, const 
 void OverlayBuilder::arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity) {
     const Vec3 way = scales_[std::size_t(quantity)] * value;
     if (way == Vec3::Zero()) return;
-    const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum;
+    const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum ||
+                       quantity == ArrowQuantity::torque;
     frame_.arrows.push_back({from, from + way, {arrow_color(scene_->overlay, quantity), opacity, true}, 3.2f, axial});
 }
 

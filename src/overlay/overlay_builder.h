@@ -2,6 +2,7 @@
 // ghosts and visible impulses need, so frames are given in order and once each.
 #pragma once
 
+#include "overlay/joint_sketch.h"
 #include "overlay/overlay_frame.h"
 #include "overlay/overlay_scales.h"
 #include "scene/description/description.h"
@@ -27,8 +28,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [scene, scales, shown, radii, trails, ghosts, frames, impacts, frame] = self;
-        archive.rebuilt(scene, scales, shown, radii);
+        auto& [scene, scales, shown, radii, joints, trails, ghosts, frames, impacts, frame] = self;
+        archive.rebuilt(scene, scales, shown, radii, joints);
         archive.expect_bodies(radii.size());
         archive.keep(ghosts, impacts);
         archive.count(frames);
@@ -65,6 +66,7 @@ private:
     void add_trails();
     void add_contacts(const ContactRecords& records);
     void add_loads(const Snapshot& snapshot);
+    void add_joints(const Snapshot& snapshot, const ContactRecords& records);
     void add_impulses(double time);
     void add_body(std::size_t body, const BodyState& state);
     void add_box(std::size_t body, const BodyState& state);
@@ -78,6 +80,7 @@ private:
     OverlayScales scales_;
     std::vector<char> shown_;    // by body
     std::vector<double> radii_;  // m, of a ball about the origin that contains the body; 0 of planes
+    std::vector<JointSketch> joints_;
     std::vector<Trail> trails_;
     std::vector<Ghost> ghosts_;
     std::int64_t frames_ = 0;  // of the clip so far: with a shutter, the frames of snapshots are parts of these
@@ -85,6 +88,8 @@ private:
     OverlayFrame frame_;
 };
 
+/// Radius (m) of a ball about the body's origin that contains the shape; 0 of planes.
+double radius_about_origin(const Shape& shape);
 /// The color of the arrows of a quantity.
 Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity);
 /// Of the friction part of a contact force, of weights and forces at points, and of normals.

@@ -14,9 +14,9 @@ constexpr double least_friction = 0.02;  // of the normal force
 constexpr double noise = 1e-3;           // of the largest size: smaller ones are not counted
 constexpr double least_size = 1e-100;    // SI units: smaller ones are zero but for rounding, and have no finite scale
 
-constexpr std::array<Overlay, arrow_quantity_count> shown_by{Overlay::forces,   Overlay::impulses,
-                                                             Overlay::velocity, Overlay::omega,
-                                                             Overlay::momentum, Overlay::angular_momentum};
+constexpr std::array<Overlay, arrow_quantity_count> shown_by{
+    Overlay::forces,   Overlay::impulses,         Overlay::velocity, Overlay::omega,
+    Overlay::momentum, Overlay::angular_momentum, Overlay::joints};
 
 double visible_height(const CameraDescription& camera) {
     const SinCos half = sincos(0.5 * camera.vertical_fov * pi / 180.0);
@@ -45,6 +45,11 @@ double upper_end(int bin) {
     return std::ldexp(0.5 + (part + 1) / 16.0, (bin - part) / 8);
 }
 
+bool holds_shown(const JointDescription& joint, const std::vector<char>& shown) {
+    return joint.type != JointType::gear &&
+           ((joint.first && shown[*joint.first] != 0) || (joint.second && shown[*joint.second] != 0));
+}
+
 }  // namespace
 
 void OverlayMarks::add(const OverlayMarks& others) {
@@ -59,7 +64,8 @@ bool shows_friction(const Vec3& normal, const Vec3& tangential) {
 
 bool shows(const OverlayDescription& overlay, ArrowQuantity quantity) {
     return overlay.show.has(shown_by[std::size_t(quantity)]) ||
-           (quantity == ArrowQuantity::force && overlay.show.has(Overlay::loads));
+           (quantity == ArrowQuantity::force &&
+            (overlay.show.has(Overlay::loads) || overlay.show.has(Overlay::joints)));
 }
 
 bool draws_shapes(const OverlayDescription& overlay) {
@@ -77,9 +83,9 @@ bool needs_survey(const OverlayDescription& overlay) {
 }
 
 bool needs_records(const OverlayDescription& overlay) {
-    return std::ranges::any_of(
-        std::array{Overlay::contacts, Overlay::normals, Overlay::impulses, Overlay::forces, Overlay::islands},
-        [&](Overlay one) { return overlay.show.has(one); });
+    return std::ranges::any_of(std::array{Overlay::contacts, Overlay::normals, Overlay::impulses, Overlay::forces,
+                                          Overlay::islands, Overlay::joints},
+                               [&](Overlay one) { return overlay.show.has(one); });
 }
 
 std::vector<char> shown_bodies(const SceneDescription& scene) {
@@ -142,6 +148,12 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
         marks_.features |= 1u << unsigned(r.features);
         marks_.friction = marks_.friction || shows_friction(v.normal, v.tangential);
     }
+    if (overlay.show.has(Overlay::joints))
+        for (std::size_t k = 0; k < records->joints.size(); ++k) {
+            if (!records->joints[k].active || !holds_shown(scene_->joints[k], shown_)) continue;
+            add(ArrowQuantity::force, records->joints[k].mean_force.norm());
+            add(ArrowQuantity::torque, records->joints[k].mean_torque.norm());
+        }
     for (const ImpactRecord& r : records->impacts)
         if (const RecordVector v = vector_of(r, *scene_); shown_[v.body] != 0)
             add(ArrowQuantity::impulse, v.total().norm());

@@ -1,6 +1,7 @@
 #include "page/clip_data.h"
 
 #include "core/check.h"
+#include "page/joint_marks.h"
 #include "page/motion_data.h"
 #include "page/scene_data.h"
 #include "page/table_data.h"
@@ -60,6 +61,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
             {"contacts", make_contact_data(run, arrays)},
             {"all_contacts", run.all_contacts},
             {"loads", make_load_data(run, arrays)},
+            {"joint_marks", make_joint_marks(run, arrays)},
             {"overlays", make_overlays(run)}};
 }
 

@@ -68,6 +68,7 @@ struct PageRun {
     std::vector<std::vector<ContactRecord>> contacts;  // by frame; those with the largest forces, if there are too many
     std::int64_t all_contacts = 0;                     // of all frames
     std::vector<std::vector<ExternalLoad>> loads;      // by frame
+    std::vector<std::vector<JointState>> joint_states;  // by frame, then by joint
     OverlayScales scales{};
 };
 

@@ -173,8 +173,8 @@ Json make_camera(const PageRun& run, ArrayStore& arrays) {
 }
 
 Json make_overlays(const PageRun& run) {
-    constexpr std::array<const char*, arrow_quantity_count> quantities{"force", "impulse",  "velocity",
-                                                                       "omega", "momentum", "angular-momentum"};
+    constexpr std::array<const char*, arrow_quantity_count> quantities{
+        "force", "impulse", "velocity", "omega", "momentum", "angular-momentum", "torque"};
     const OverlayDescription& overlay = run.scene.overlay;
     Json show = Json::array(), bodies = Json::array(), scale, color, points = Json::array();
     for (const OverlayName& name : overlay_names)

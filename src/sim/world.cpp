@@ -134,6 +134,7 @@ struct World::State {
     template <class Use>
     void with_present_contacts(Use&& use) const;
     void finish_records(double duration);
+    std::vector<JointState> joint_states() const;
 };
 
 void World::State::run_stages(const StepContext& step) {
@@ -296,6 +297,7 @@ void World::State::finish_records(double duration) {
         records = log->finish_frame(set.bodies, forces.field(), found, duration);
     });
     if (joints.empty()) return;
+    records.joints = joint_states();
     const JointEnergies energy = joints.energies(set.bodies);
     records.energy.work += energy.motors + energy.carriers;
     records.energy.impact_loss += energy.impacts;
@@ -371,15 +373,16 @@ Snapshot World::snapshot() const {
     return snapshot;
 }
 
-std::vector<JointState> World::joint_states() const {
-    std::vector<JointState> states = state_->joints.states(state_->set.bodies);
-    const Vec3& origin = state_->set.origin;
+std::vector<JointState> World::State::joint_states() const {
+    std::vector<JointState> states = joints.states(set.bodies);
     for (JointState& joint : states) {
-        joint.point += origin;
-        joint.mean_moment += origin.cross(joint.mean_force);
+        joint.point += set.origin;
+        joint.mean_moment += set.origin.cross(joint.mean_force);
     }
     return states;
 }
+
+std::vector<JointState> World::joint_states() const { return state_->joint_states(); }
 
 JointReport World::joint_report() const {
     const SimulationSettings& settings = state_->settings;

@@ -8,6 +8,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <string>
 
 namespace tumble::overlay_builder_test {
@@ -326,6 +328,53 @@ TEST(OverlayBuilder, AnAabbContainsTheTurnedBodyTightly) {
     const double half = std::sqrt(0.5);
     EXPECT_LT((bounds.max - Vec3(half, 5 + half, 0.5)).norm(), 1e-12);
     EXPECT_LT((bounds.min - Vec3(-half, 5 - half, -0.5)).norm(), 1e-12);
+}
+
+constexpr const char* hanging_rod = R"(
+format = 1
+[simulation]
+duration = 1.0
+[[body]]
+name = "rod"
+shape = { type = "box", size = [0.1, 1, 0.1] }
+mass = 2
+position = [0, 1.5, 0]
+[[joint]]
+type = "hinge"
+bodies = ["world", "rod"]
+anchor = [0, 2, 0]
+axis = [0, 0, 1]
+limits = [-90, 45]
+[overlay]
+show = ["joints"]
+)";
+
+TEST(OverlayBuilder, AJointShowsItsForceAxisAndLimits) {
+    const SceneDescription scene = parse_scene(hanging_rod, "test.toml");
+    EXPECT_TRUE(needs_records(scene.overlay));
+    const OverlayFrame frame = frame_after(scene, 2);
+    ASSERT_EQ(frame.arrows.size(), 1u);  // no torque
+    EXPECT_LT((frame.arrows[0].from - Vec3(0, 2, 0)).norm(), 1e-9);
+    EXPECT_LT((frame.arrows[0].to - frame.arrows[0].from - Vec3(0, 2 * 9.81, 0)).norm(), 1e-6);
+    ASSERT_EQ(frame.markers.size(), 1u);
+    ASSERT_EQ(frame.lines.size(), 3u);
+    const Vec3 axis = frame.lines[0].points[1] - frame.lines[0].points[0];
+    EXPECT_LT(axis.cross(Vec3::UnitZ()).norm(), 1e-12);
+    // The arc spans 135 degrees, and the spoke lies 90 degrees from its lower end.
+    const auto direction = [&](const Vec3& p) { return Vec3(p - Vec3(0, 2, 0)).normalized(); };
+    const auto& arc = frame.lines[1].points;
+    const Vec3 lower = direction(arc[1]), upper = direction(arc[arc.size() - 2]),
+               now = direction(frame.lines[2].points[1]);
+    EXPECT_NEAR(lower.dot(upper), std::cos(0.75 * std::numbers::pi), 1e-9);
+    EXPECT_NEAR(lower.dot(now), 0.0, 1e-6);
+    EXPECT_NEAR(upper.dot(now), std::cos(0.25 * std::numbers::pi), 1e-6);
+}
+
+TEST(OverlayBuilder, ABrokenJointShowsNothing) {
+    std::string text = hanging_rod;
+    text.insert(text.find("limits ="), "break_force = 1\n");
+    const OverlayFrame frame = frame_after(parse_scene(text, "test.toml"), 2);
+    EXPECT_TRUE(frame.arrows.empty() && frame.lines.empty() && frame.markers.empty());
 }
 
 }  // namespace

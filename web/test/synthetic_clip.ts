@@ -217,10 +217,10 @@ function make_overlays(): OverlaySettings {
   return {
     show: ["contacts", "forces", "velocity"],
     bodies: [bodies_index.ball, bodies_index.box],
-    scale: { force: 0.02, impulse: 0.1, velocity: 0.1, omega: 0.3, momentum: 0.1, "angular-momentum": 2 },
+    scale: { force: 0.02, impulse: 0.1, velocity: 0.1, omega: 0.3, momentum: 0.1, "angular-momentum": 2, torque: 0.1 },
     color: {
       force: "#d62728", impulse: "#e377c2", velocity: "#1f77b4", omega: "#9467bd", momentum: "#2ca02c",
-      "angular-momentum": "#8c564b",
+      "angular-momentum": "#8c564b", torque: "#ff7f0e",
     },
     impulse_time: 0.25,
     trail_time: Infinity,
@@ -255,6 +255,7 @@ export function make_synthetic_run(restitution: number): Run {
     all_impacts: impacts.length,
     contacts,
     all_contacts: contacts.a.length,
+    joint_marks: [],
     loads: {
       force: (body) => [0, -mass_of(body) * gravity, 0],
       moment(body, frame) {

@@ -76,6 +76,7 @@ void RunObserver::see(const Snapshot& snapshot, const Survey& survey, const Cont
     add_impacts(*records);
     add_contacts(records->contacts);
     run_.loads.push_back(records->loads);
+    if (!records->joints.empty()) run_.joint_states.push_back(records->joints);
     scales_.add(snapshot, records);
     if (progress_) progress_(std::int64_t(run_.energy.size()));
 }

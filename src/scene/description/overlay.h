@@ -30,6 +30,7 @@ enum class Overlay : std::uint8_t {
     aabb,              // axis-aligned bounding boxes
     axes,              // the body's own axes
     com,               // centers of mass
+    joints,            // anchors, axes, limits, forces and torques of joints
     islands,           // bodies in contact with each other, by color
     sleep,             // sleeping bodies
     names,             // names of bodies
@@ -38,7 +39,7 @@ enum class Overlay : std::uint8_t {
     clock,             // the frame's time
     mode,              // integrator, impacts and step
 };
-inline constexpr std::size_t overlay_count = 21;
+inline constexpr std::size_t overlay_count = 22;
 
 struct OverlayName {
     std::string_view name;
@@ -51,8 +52,9 @@ inline constexpr std::array<OverlayName, overlay_count> overlay_names{{
     {"omega", Overlay::omega},       {"momentum", Overlay::momentum}, {"angular-momentum", Overlay::angular_momentum},
     {"trails", Overlay::trails},     {"ghosts", Overlay::ghosts},     {"aabb", Overlay::aabb},
     {"axes", Overlay::axes},         {"com", Overlay::com},           {"islands", Overlay::islands},
-    {"sleep", Overlay::sleep},       {"names", Overlay::names},       {"damage", Overlay::damage},
-    {"title", Overlay::title},       {"clock", Overlay::clock},       {"mode", Overlay::mode},
+    {"joints", Overlay::joints},     {"sleep", Overlay::sleep},       {"names", Overlay::names},
+    {"damage", Overlay::damage},     {"title", Overlay::title},       {"clock", Overlay::clock},
+    {"mode", Overlay::mode},
 }};
 
 class OverlaySet {
@@ -67,8 +69,8 @@ private:
 };
 
 /// The quantities that arrows show; each has a scale of its own.
-enum class ArrowQuantity : std::uint8_t { force, impulse, velocity, omega, momentum, angular_momentum };
-inline constexpr std::size_t arrow_quantity_count = 6;
+enum class ArrowQuantity : std::uint8_t { force, impulse, velocity, omega, momentum, angular_momentum, torque };
+inline constexpr std::size_t arrow_quantity_count = 7;
 
 /// A point of a body whose path is drawn.
 struct TrailPoint {

@@ -19,6 +19,7 @@ constexpr Choice<ArrowQuantity> arrow_quantities[] = {
     {"force", ArrowQuantity::force},       {"impulse", ArrowQuantity::impulse},
     {"velocity", ArrowQuantity::velocity}, {"omega", ArrowQuantity::omega},
     {"momentum", ArrowQuantity::momentum}, {"angular-momentum", ArrowQuantity::angular_momentum},
+    {"torque", ArrowQuantity::torque},
 };
 
 void add_overlay(std::string_view name, const SourcePosition& origin, OverlaySet& set) {
@@ -74,7 +75,7 @@ void read_by_quantity(const TomlTable& table, std::string_view key,
     auto by_quantity = table.find_table(key);
     if (!by_quantity) return;
     by_quantity->set_title(fmt::format("[overlay.{}]", key));
-    by_quantity->expect_keys({"force", "impulse", "velocity", "omega", "momentum", "angular-momentum"});
+    by_quantity->expect_keys({"force", "impulse", "velocity", "omega", "momentum", "angular-momentum", "torque"});
     for (const auto& quantity : arrow_quantities)
         if (const auto value = by_quantity->find(quantity.name)) values[std::size_t(quantity.value)] = read(*value);
 }

@@ -1,10 +1,11 @@
-// Impacts and contacts of a frame, external loads and energy losses, as plain values: the rows of the tables --impacts,
-// --contacts and --loads. A frame's records cover the time from the frame before it. Bodies are named by their index
+// Impacts and contacts of a frame, external loads, joints and energy losses, as plain values: the rows of the tables
+// --impacts, --contacts and --loads. A frame's records cover the time from the frame before it. Bodies are named by their index
 // in the scene, A before B; vectors are in the world frame; normals point from A to B, and impulses and forces act on B
 // (the opposite ones on A).
 #pragma once
 
 #include "core/vector.h"
+#include "sim/snapshot/joint_state.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -135,11 +136,12 @@ struct ContactRecords {
     std::vector<StruckBody> struck;       // one for each impact and body of it
     std::vector<ContactRecord> contacts;  // ascending by bodies
     std::vector<ExternalLoad> loads;      // of all dynamic bodies, ascending
+    std::vector<JointState> joints;       // at the end of the frame, in scene order
     EnergyLedger energy;
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [impacts, struck, contacts, loads, energy] = self;
-        archive.keep(impacts, struck, contacts, loads, energy);
+        auto& [impacts, struck, contacts, loads, joints, energy] = self;
+        archive.keep(impacts, struck, contacts, loads, joints, energy);
         archive.require([&] { return names_struck(self.impacts, self.struck.size()); });
     }
 };

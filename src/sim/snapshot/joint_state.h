@@ -20,6 +20,14 @@ struct JointState {
     int limit = 0;                    // -1 at a lower limit, 1 at an upper one or a cone
     bool active = true;               // holds
     std::optional<double> broken_at;  // s
+    template <class Archive, class Self>
+    static void visit(Archive& archive, Self& self) {
+        auto& [point, free, position, speed, force, torque, mean_force, mean_torque, mean_moment, gap, limit, active,
+               broken_at] = self;
+        archive.keep(point, free, position, speed, force, torque, mean_force, mean_torque, mean_moment, gap, active,
+                     broken_at);
+        archive.between(-1, limit, 1);
+    }
 };
 
 }  // namespace tumble

@@ -42,6 +42,8 @@ export interface Run {
   /** How many rows there were in all frames. */
   all_contacts: number;
   loads: LoadTable;
+  /** Empty where there are too many joints and frames. */
+  joint_marks: JointMarks[];
   overlays: OverlaySettings;
 }
 
@@ -239,8 +241,27 @@ export interface LoadTable {
 
 export type OverlayName =
   | "contacts" | "normals" | "impulses" | "forces" | "loads" | "velocity" | "omega" | "momentum" | "angular-momentum"
-  | "trails" | "ghosts" | "aabb" | "axes" | "com" | "islands" | "sleep" | "names";
-export type ArrowQuantity = "force" | "impulse" | "velocity" | "omega" | "momentum" | "angular-momentum";
+  | "trails" | "ghosts" | "aabb" | "axes" | "com" | "joints" | "islands" | "sleep" | "names";
+export type ArrowQuantity = "force" | "impulse" | "velocity" | "omega" | "momentum" | "angular-momentum" | "torque";
+
+/** A point of a body, from its origin in its frame, m; body -1: of the world. */
+export type SketchPoint = [body: number, x: number, y: number, z: number];
+
+/** What an overlay draws of a joint, and its state by frame. */
+export interface JointMarks {
+  name: string;
+  marker: "disc" | "ring" | "square";
+  anchor: SketchPoint;
+  /** Surfaces nearer by less do not hide it, m. */
+  allowance: number;
+  /** Axes, and limits in their own color. */
+  lines: { limit: boolean; points: SketchPoint[] }[];
+  /** By frame: 0 holds no more, 1 holds, 2 at a limit. */
+  states: ArrayLike<number>;
+  /** On the second body, means over the frame, N and N m. */
+  force(frame: number): Vec3;
+  torque(frame: number): Vec3;
+}
 
 export interface OverlaySettings {
   /** Shown at the start. */

@@ -1,6 +1,6 @@
 // The JSON header of the clip data, as src/page writes it.
 import type { ArrayReference, PredictedReference } from "./container.ts";
-import type { Body, Cord, Camera, EnergyTable, OverlaySettings, RunSettings, Vec3 } from "./clip.ts";
+import type { Body, Cord, Camera, EnergyTable, JointMarks, OverlaySettings, RunSettings, Vec3 } from "./clip.ts";
 
 export interface ClipHeader {
   format: number;
@@ -10,6 +10,9 @@ export interface ClipHeader {
   runs: RunHeader[];
   meshes: MeshHeader[];
 }
+
+/** Quantum, order of the differences, and array. */
+export type ColumnReference = [number, number, ArrayReference];
 
 export interface RunHeader {
   label: string;
@@ -27,8 +30,11 @@ export interface RunHeader {
   all_impacts: number;
   contacts: ContactsHeader;
   all_contacts: number;
-  /** Body, and quantum, order and array of each component. */
-  loads: [number, [number, number, ArrayReference][]][];
+  /** Body, and columns of each component. */
+  loads: [number, ColumnReference[]][];
+  joint_marks: (Omit<JointMarks, "states" | "force" | "torque"> & {
+    states: ArrayReference; force: ColumnReference[]; torque: ColumnReference[];
+  })[];
   overlays: Omit<OverlaySettings, "trail_time"> & { trail_time: number | null };
 }
 

@@ -1,7 +1,7 @@
 // Energy, joints, impacts, contacts and loads of a run (src/page/table_data.h).
-import { features, nobody, type ContactTable, type EnergyTable, type Impact, type LoadTable, type Vec3 } from "./clip.ts";
+import { features, nobody, type ContactTable, type EnergyTable, type Impact, type JointMarks, type LoadTable, type Vec3 } from "./clip.ts";
 import { sum_differences, type ArrayReference, type Container } from "./container.ts";
-import type { RunHeader } from "./header.ts";
+import type { ColumnReference, RunHeader } from "./header.ts";
 import type { DecodedMotion } from "./motion.ts";
 import type { BodyEvent } from "./track.ts";
 import { cross, difference, moved, scaled, sum } from "./vectors.ts";
@@ -141,15 +141,26 @@ export function read_contacts(run: RunHeader, reader: Reader): ContactTable {
   return table;
 }
 
+function read_column([quantum, order, array]: ColumnReference, reader: Reader): Float64Array {
+  const values = reader.integers(array);
+  sum_differences(values, order);
+  return values.map((value) => quantum * value);
+}
+
+export function read_joint_marks(run: RunHeader, reader: Reader): JointMarks[] {
+  return run.joint_marks.map((joint) => {
+    const vectors = (references: ColumnReference[]) => {
+      const columns = references.map((column) => read_column(column, reader));
+      return (frame: number): Vec3 => [columns[0][frame], columns[1][frame], columns[2][frame]];
+    };
+    return { ...joint, states: reader.integers(joint.states), force: vectors(joint.force), torque: vectors(joint.torque) };
+  });
+}
+
 /** Means over the frame that ends at a frame's time; of the first frame: the next one's, as nothing ends there. */
 export function read_loads(run: RunHeader, reader: Reader, motion: DecodedMotion): LoadTable {
   const given = new Map<number, Float64Array[]>();
-  for (const [body, columns] of run.loads)
-    given.set(body, columns.map(([quantum, order, array]) => {
-      const values = reader.integers(array);
-      sum_differences(values, order);
-      return values.map((value) => quantum * value);
-    }));
+  for (const [body, columns] of run.loads) given.set(body, columns.map((column) => read_column(column, reader)));
   const shown = (frame: number) => Math.min(Math.max(frame, 1), run.frames - 1);
   const part = (body: number, frame: number, first: number): Vec3 | null => {
     const columns = given.get(body), n = shown(frame);

@@ -1,5 +1,5 @@
 // Turns a run and a moment into the shapes of its overlays, with the rules of src/overlay/overlay_builder.cpp.
-import type { ArrowQuantity, Body, BodyState, Impact, OverlayName, Run, Vec3 } from "../data/clip.ts";
+import type { ArrowQuantity, Body, BodyState, Impact, OverlayName, Run, SketchPoint, Vec3 } from "../data/clip.ts";
 import { nobody } from "../data/clip.ts";
 import { world_box } from "./bounds.ts";
 import { from_text } from "./color.ts";
@@ -40,6 +40,7 @@ export class OverlayBuilder {
       this.add_body(to, body, state, frame, overlays);
     }
     this.add_contacts(to, frame, overlays);
+    if (overlays.has("joints")) this.add_joints(to, time, frame);
     if (overlays.has("impulses")) this.add_impulses(to, time);
     return to;
   }
@@ -48,7 +49,7 @@ export class OverlayBuilder {
   arrow(overlay: OverlayArrow["overlay"], quantity: ArrowQuantity, from: Vec3, value: Vec3, opacity = 1): OverlayArrow | null {
     const way = scaled(value, this.run.overlays.scale[quantity]);
     if (!(length(way) > 0)) return null;
-    const double_head = quantity === "omega" || quantity === "angular-momentum";
+    const double_head = quantity === "omega" || quantity === "angular-momentum" || quantity === "torque";
     return {
       overlay, from, to: add(from, way), color: this.colors[quantity], opacity, width: style.arrow_width, double_head, allowance: 0,
     };
@@ -106,6 +107,26 @@ export class OverlayBuilder {
           double_head: false, allowance: 2 * radius,
         });
     });
+  }
+
+  private add_joints(to: OverlayFrame, time: number, frame: number): void {
+    const place = ([body, ...at]: SketchPoint): Vec3 => {
+      if (body < 0) return at;
+      const state = this.run.motion.state(body, time);
+      return add(state.origin, rotate(state.rotation, at));
+    };
+    for (const joint of this.run.joint_marks) {
+      const state = joint.states[frame];
+      if (state === 0) continue;
+      for (const line of joint.lines) {
+        const color = !line.limit ? style.joint_color : state === 2 ? style.at_limit_color : style.limit_color;
+        to.lines.push({ points: line.points.map(place), color, opacity: 1, width: line.limit ? style.limit_width : style.joint_width });
+      }
+      const at = place(joint.anchor);
+      to.markers.push({ overlay: "joints", at, color: style.joint_color, form: joint.marker, radius: style.anchor_radius, always: true });
+      for (const made of [this.arrow("joints", "force", at, joint.force(frame)), this.arrow("joints", "torque", at, joint.torque(frame))])
+        if (made) to.arrows.push({ ...made, allowance: joint.allowance });
+    }
   }
 
   private add_contacts(to: OverlayFrame, frame: number, overlays: Set<OverlayName>): void {

@@ -25,6 +25,13 @@ export const sleep_opacity = 0.32;
 export const friction_color = bytes(255, 122, 60);
 export const normal_color = bytes(236, 240, 246);
 export const load_color = bytes(70, 120, 255);
+/** Of anchors and axes of joints, of limits, and of limits that are met. */
+export const joint_color = bytes(255, 226, 120);
+export const limit_color = bytes(120, 200, 190);
+export const at_limit_color = bytes(255, 84, 84);
+export const joint_width = 2;
+export const limit_width = 2.4;
+export const anchor_radius = 5;
 export const asleep_color = bytes(120, 140, 255);
 export const box_color = bytes(255, 222, 90);
 export const center_color = bytes(250, 250, 250);

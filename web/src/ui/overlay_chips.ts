@@ -36,13 +36,14 @@ const kinds: OverlayKind[] = [
   { name: "com", label: "Centers of mass", makes_sense: dynamic },
   { name: "axes", label: "Body axes", makes_sense: dynamic },
   { name: "aabb", label: "Bounding boxes", makes_sense: always },
+  { name: "joints", label: "Joints", makes_sense: (run) => run.joint_marks.length > 0 },
   { name: "islands", label: "Islands", makes_sense: has_contacts },
   { name: "sleep", label: "Sleep", makes_sense: sleeps },
   { name: "names", label: "Names", makes_sense: always },
 ];
 
 /** At first only these and the ones that are on; the others behind "More". */
-const common: OverlayName[] = ["velocity", "momentum", "angular-momentum", "omega", "impulses", "forces", "contacts", "trails"];
+const common: OverlayName[] = ["velocity", "momentum", "angular-momentum", "omega", "impulses", "forces", "joints", "contacts", "trails"];
 
 function overlays_of(clip: Clip): OverlayName[] {
   return kinds.filter((kind) => clip.runs.some((run) => kind.makes_sense(run))).map((kind) => kind.name);
