@@ -114,7 +114,8 @@ TEST(JointSymmetry, AFigureFallsAsItsMirrorImage) {
     const auto image = [](const Vec3& v) { return mirrored(v); };
     const auto index = [](std::size_t body) { return body; };
     EXPECT_LT(distance(world, other, scene.bodies.size(), image, index), 3e-8);  // rounding grows in contact
-    EXPECT_LT(largest_gap(world), 1e-11);
+    // In contact a joint counts as closed from 1e-8 of the smaller body on, once the impulses have settled.
+    EXPECT_LT(largest_gap(world), 1e-9);
     EXPECT_GT(world.snapshot().bodies[1].origin.y(), 0.0);  // the floor has stopped its fall
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
 namespace tumble {
@@ -28,6 +29,16 @@ double turning(double arm, const BodyVelocity& motion) {
 double thin(double depth_a, double depth_b) {
     const double least = std::min(depth_a, depth_b), most = std::max(depth_a, depth_b);
     return std::min(tuning::fast_share * (std::isinf(most) ? least : depth_a + depth_b), tuning::fast_deepest * least);
+}
+
+std::span<const Manifold> manifolds_of(const std::vector<Manifold>& manifolds, std::uint32_t a, std::uint32_t b) {
+    const auto before = [](const Manifold& m, const std::pair<std::uint32_t, std::uint32_t>& pair) {
+        return std::tie(m.a, m.b) < std::tie(pair.first, pair.second);
+    };
+    const auto first = std::lower_bound(manifolds.begin(), manifolds.end(), std::pair(a, b), before);
+    auto last = first;
+    while (last != manifolds.end() && last->a == a && last->b == b) ++last;
+    return {first, last};
 }
 
 }  // namespace
@@ -79,17 +90,20 @@ CcdFraction& CcdClamp::shorten(std::uint32_t body) {
 
 TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies) {
     return [&](std::uint32_t a, std::uint32_t b) -> std::optional<double> {
-        const auto before = [](const Manifold& m, const std::pair<std::uint32_t, std::uint32_t>& pair) {
-            return std::tie(m.a, m.b) < std::tie(pair.first, pair.second);
-        };
         std::optional<double> deepest;
         const double touch = touch_distance(bodies[a].radius, bodies[b].radius);
-        for (auto m = std::lower_bound(manifolds.begin(), manifolds.end(), std::pair(a, b), before);
-             m != manifolds.end() && m->a == a && m->b == b; ++m)
-            for (int i = 0; i < m->count; ++i)
-                if (const double gap = m->points[std::size_t(i)].separation; gap <= touch)
+        for (const Manifold& m : manifolds_of(manifolds, a, b))
+            for (int i = 0; i < m.count; ++i)
+                if (const double gap = m.points[std::size_t(i)].separation; gap <= touch)
                     deepest = std::max(deepest.value_or(0.0), -gap);
         return deepest;
+    };
+}
+
+KnownApart known_apart(const std::vector<Manifold>& manifolds) {
+    return [&](std::uint32_t a, std::uint32_t b) {
+        const auto found = manifolds_of(manifolds, a, b);
+        return !found.empty() && found.front().solved_by == SolvedBy::flight;
     };
 }
 
@@ -113,6 +127,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const CcdStep& step, const Find
         // A half-space has no other side: only visible overlap counts.
         const bool half_space = std::isinf(a.radius) || std::isinf(b.radius);
         if (gone <= (half_space ? tuning::fast_deepest * least : thin(depth_a, depth_b))) continue;
+        if (step.known_apart && step.known_apart(pair.a, pair.b)) continue;
         FastPair fast{pair.a, pair.b, 0.0, h * touch_distance(a.radius, b.radius) / gone, tuning::fast_overlap * least};
         if (const auto deepest = touch_depth(pair.a, pair.b)) {
             // The impact just resolved may have rotated a corner towards the other body: it is searched for like a

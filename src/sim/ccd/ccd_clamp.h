@@ -33,6 +33,12 @@ using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
 /// Whether a body rotates in free rotation, not by its motion's angular velocity; none: no body does.
 using TurnsFreely = std::function<bool(std::uint32_t body)>;
 
+/// Whether a pair has been found to stay apart in the step, on the paths of its flight; none: no pair has.
+using KnownApart = std::function<bool(std::uint32_t a, std::uint32_t b)>;
+
+/// Preconditions: as for touch_depth().
+KnownApart known_apart(const std::vector<Manifold>& manifolds);
+
 /// Bodies and their motions in a step.
 struct CcdStep {
     const std::vector<Body>& bodies;
@@ -40,6 +46,7 @@ struct CcdStep {
     double h;                                  // s
     bool any_fast;                             // whether any motion is fast
     TurnsFreely turns_freely = nullptr;
+    KnownApart known_apart = nullptr;
 };
 
 /// The forces have done work on a body in contact as if it had moved for the whole step, by an impulse (N s) and an

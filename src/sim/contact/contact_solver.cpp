@@ -228,7 +228,6 @@ void ContactSolver::solve(const ContactProblem& step, const ContactIslands& isla
     for (const std::size_t k : softly_) memory_[islands.bodies(k)[0]].direct = false;
     for (std::size_t k = 0; k < direct_.size(); ++k) {
         Memory& memory = memory_[islands.bodies(direct_[k])[0]];
-        for (const std::uint32_t m : islands.manifolds(direct_[k])) problem.manifolds[m].solved_directly = true;
         // The first solve after a landing may be expensive. An island that is expensive again, or always, is left to
         // the soft solver.
         const bool hard = memory.work * std::size_t(1 + memory.factorizations) > 2 * tuning::direct_budget;

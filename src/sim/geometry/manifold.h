@@ -55,6 +55,9 @@ PointGeometry swapped(const PointGeometry& geometry);
 
 enum class GeometryKind : std::uint8_t { none, ball_of_a, ball_of_b, curved_gap, crossing_edges };
 
+/// How the last step treated a manifold. flight: joined bodies flew, and do not meet on their way.
+enum class SolvedBy : std::uint8_t { sweeps, direct, flight };
+
 /// Up to four points that share a normal. The normal points away from A's surface, towards B (notes section 4).
 struct Manifold {
     static constexpr int capacity = 4;  // spans most flat contact areas; a second manifold holds further points
@@ -62,8 +65,8 @@ struct Manifold {
     std::uint32_t a = 0, b = 0;  // body indices
     std::uint32_t part = 0;      // of compounds and meshes: identifies the parts and the triangle that meet, else 0
     std::int16_t count = 0;
-    bool more = false;             // those of the same two faces' points that the first manifold has no room for
-    bool solved_directly = false;  // whether the direct solver solved it in the last step
+    bool more = false;  // those of the same two faces' points that the first manifold has no room for
+    SolvedBy solved_by = SolvedBy::sweeps;
     Corners corners = Corners::neither;
     GeometryKind kind = GeometryKind::none;
     std::uint16_t reduced = 0;  // number of its candidates in CollisionScratch::reduced, for a manifold just found
@@ -107,14 +110,15 @@ struct Manifold {
     bool on_b() const { return (points[0].feature >> 63) != 0; }
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [a, b, part, count, more, solved_directly, corners, kind, reduced, first_reduced, normal, points, share,
-               spread, area, tangent, friction, torsion] = self;
+        auto& [a, b, part, count, more, solved_by, corners, kind, reduced, first_reduced, normal, points, share, spread,
+               area, tangent, friction, torsion] = self;
         archive.body(a, b);
         archive.between(0, count, capacity);
         archive.enumeration(corners, Corners::of_b);
+        archive.enumeration(solved_by, SolvedBy::flight);
         archive.enumeration(kind, GeometryKind::crossing_edges);
         archive.any(part);
-        archive.keep(more, solved_directly, normal, points, share, spread, area, tangent, friction, torsion);
+        archive.keep(more, normal, points, share, spread, area, tangent, friction, torsion);
         archive.scratch(reduced, first_reduced);
     }
 };

@@ -127,7 +127,7 @@ void match_impulses(const Manifold& old, double reach, Manifold& m) {
     m.tangent = old.tangent;
     std::copy_n(old.friction, 2, m.friction);
     m.torsion = old.torsion;
-    m.solved_directly = old.solved_directly;
+    m.solved_by = old.solved_by;
     bool taken[Manifold::capacity] = {}, found[Manifold::capacity] = {};
     for (int i = 0; i < m.count; ++i) {
         ContactPoint& point = m.points[std::size_t(i)];

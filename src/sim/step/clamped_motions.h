@@ -37,8 +37,10 @@ public:
     /// Limits by body. Precondition: find().
     const std::vector<CcdFraction>& limits(const StepContext& step, ContactDetection& detection,
                                            const FindPairs& find_pairs, const TurnsFreely& turns_freely = nullptr) {
-        const auto& limits = clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely},
-                                           find_pairs, touch_depth(detection.manifolds(), step.set.bodies));
+        const std::vector<Manifold>& manifolds = detection.manifolds();
+        const auto& limits =
+            clamp_.limits({step.set.bodies, step.set.motions, step.h, any_fast_, turns_freely, known_apart(manifolds)},
+                          find_pairs, touch_depth(manifolds, step.set.bodies));
         clamped_islands_.clear();
         return any_fast_ && detection.islands().any_joints() ? joined(limits, detection.islands()) : limits;
     }

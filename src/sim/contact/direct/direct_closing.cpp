@@ -166,7 +166,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     near_rest_ = comes_to_rest(island);
     start();
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
-    const double noise = joints_.rounding(fastest_);  // N s
+    double noise = joints_.rounding(fastest_);  // N s
     const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
     const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
     consistent_ = true;
@@ -178,6 +178,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
     const int most_rounds = near_rest_ ? tuning::joint_rounds : tuning::direct_rounds;
     double last = infinity;
     int slow = 0;  // passes in a row that do not contract
+    bool stiffened = false;
     bool found = false;
     kept_ = velocity_;
     for (int round = 0; round < tuning::joint_rounds; ++round) {
@@ -223,6 +224,14 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         if (!constraints_.empty() && round + 1 >= most_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;
         slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
+        if (slow == 2 && constraints_.empty() && !stiffened) {
+            // A pass leaves R / (R + s^2) of an error, where s^2 is small for heavy bodies on long arms.
+            joints_.stiffen(tuning::joint_stiffer);
+            noise = joints_.rounding(fastest_);
+            factored_ = base_kept_ = false;
+            stiffened = true;
+            slow = 0;
+        }
         if (slow >= 3) {
             if (constraints_.empty() || limits_held_) return Closing::open;
             limits_held_ = true;

@@ -9,31 +9,33 @@
 namespace tumble {
 
 // Where rounding stops a fine integrator, by compositions of Verlet's method.
-TreeFlight::Outcome DirectSolver::advance_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                                               int& substeps) {
-    double length = 0.0;
-    for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
-    const TreeStep step{problem.bodies,     bodies, flying_, *problem.forces, problem.joints->from(),
-                        problem.settings.h, length};
-    const TreeMethod method = tree_method(problem.bodies, bodies);
+TreeFlight::Outcome DirectSolver::advance_tree(const JointIsland& island, int& substeps) {
+    const ContactProblem& problem = island.problem;
+    const TreeStep step{problem.bodies, island.bodies,      flying_,      *problem.forces,
+                        island.from,    problem.settings.h, island.length};
+    const TreeMethod method = tree_method(problem.bodies, island.bodies);
     const TreeFlight::Outcome outcome = tree_flight_.advance(step, method, substeps);
     if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree() || method.verlet()) return outcome;
     return tree_flight_.advance(step, {IntegratorKind::splitting, method.order}, substeps);
 }
 
 // Lists the joints, if their laws are those of trees in flight. Loops have more joints than bodies.
-bool DirectSolver::find_flying(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                               std::span<const std::uint32_t> joints) {
+bool DirectSolver::find_flying(const JointIsland& island) {
+    const ContactProblem& problem = island.problem;
     flying_.clear();
-    if (!problem.forces || joints.size() > bodies.size()) return false;
-    for (const std::uint32_t k : joints) flying_.push_back(&problem.joints->joints()[problem.joints->active()[k]]);
+    if (!problem.forces || island.joints.size() > island.bodies.size()) return false;
+    for (const std::uint32_t k : island.joints)
+        flying_.push_back(&problem.joints->joints()[problem.joints->active()[k]]);
     return tree_laws(flying_, problem.bodies);
 }
 
 // Returns false, with all as it was, where the bodies do not fly.
 bool DirectSolver::fly_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                             std::span<const std::uint32_t> joints) {
-    if (!find_flying(problem, bodies, joints)) return false;
+    double length = 0.0;
+    for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
+    const JointIsland island{problem, bodies, joints, length, problem.joints->from(), problem.joints->to()};
+    if (!find_flying(island)) return false;
     const double h = problem.settings.h;
     int substeps = 1;
     values_.clear();
@@ -53,7 +55,7 @@ bool DirectSolver::fly_tree(const ContactProblem& problem, std::span<const std::
             body.angular_momentum -= body.rotation * (body.inertia_body * (body.rotation.transpose() * turned));
         body.derive_velocities();
     }
-    const TreeFlight::Outcome outcome = advance_tree(problem, bodies, substeps);
+    const TreeFlight::Outcome outcome = advance_tree(island, substeps);
     if (outcome != TreeFlight::Outcome::flown) {
         for (std::size_t k = 0; k < bodies.size(); ++k) set_state(problem.bodies[bodies[k]], flown_from_[k]);
         for (std::size_t k = 0; k < flying_.size(); ++k) {
@@ -66,11 +68,8 @@ bool DirectSolver::fly_tree(const ContactProblem& problem, std::span<const std::
         }
         return false;
     }
-    const double swing = tree_flight_.swing();
-    int next = swing < tuning::joint_easy_swing ? std::max(1, substeps / 2) : substeps;
-    // The phase of a swing is proportional to the substep.
-    while (next > 1 && 2.0 * swing * substeps < tuning::joint_easy_swing * next) next /= 2;
-    for (Joint* joint : flying_) joint->substeps = next;
+    swing_ = tree_flight_.swing();
+    for (Joint* joint : flying_) joint->substeps = next_substeps(true, substeps);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
         const RigidState& start = flown_from_[k];

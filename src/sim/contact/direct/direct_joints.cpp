@@ -239,6 +239,16 @@ bool DirectSolver::fly(const JointIsland& island, int& substeps) {
     return false;
 }
 
+// Substeps of the next step, by those of this one.
+int DirectSolver::next_substeps(bool flown, int substeps) const {
+    const bool easy =
+        swing_ < tuning::joint_easy_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
+    int next = easy ? std::max(1, substeps / 2) : substeps;
+    if (flown)  // the phase of a swing is proportional to the substep
+        while (next > 1 && 2.0 * swing_ * substeps < tuning::joint_easy_swing * next) next /= 2;
+    return next;
+}
+
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
@@ -288,30 +298,30 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
     bool flown = false;
-    // A tree that fly_tree() has left behind is no flight.
-    if (manifolds.empty() && !(find_flying(problem, bodies, joints) && tree_flight_.is_tree()) &&
-        JointFlight::flies(island)) {
+    if (!manifolds.empty()) {
+        flown = none_touch(problem, manifolds) && flies_past(island, manifolds);
+        if (!flown) reset();
+    } else if (!(find_flying(island) && tree_flight_.is_tree()) && JointFlight::flies(island)) {
+        // A tree that fly_tree() has left behind is no flight.
         flown = fly(island, substeps);
         if (!flown) reset();
     }
+    const bool past = flown && !manifolds.empty();
     while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
         substeps *= 2;
         reset();
     }
-    const bool easy =
-        swing_ < tuning::joint_easy_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
-    int next = easy ? std::max(1, substeps / 2) : substeps;
-    if (flown)  // the phase of a swing is proportional to the substep
-        while (next > 1 && 2.0 * swing_ * substeps < tuning::joint_easy_swing * next) next /= 2;
-    for (Joint* joint : island_joints) joint->substeps = next;
-    if (!flown) push_joined(island, substeps > 1);
-    store_contacts(problem);
+    if (!past)
+        for (Joint* joint : island_joints) joint->substeps = next_substeps(flown, substeps);
     if (!flown) {
+        push_joined(island, substeps > 1);
+        store_contacts(problem);
         move_to_end(island, substeps > 1);
         fit_velocities(island, JointRows::Booking::fit);
     }
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
+        if (past && !body.jointed) continue;
         // Back to the start: the step's velocities move the body to its end.
         const Vec3 moved = body.position - starts_[k].position;
         const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());

@@ -220,6 +220,12 @@ bool JointRows::any_friction() const {
     return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) { return row.law == Joint::friction; });
 }
 
+void JointRows::stiffen(double factor) {
+    for (Row& row : rows_)
+        if (row.compliance == compliance_) row.compliance *= factor;
+    compliance_ *= factor;
+}
+
 void JointRows::soften_friction(double factor) {
     for (Row& row : rows_)
         if (row.law == Joint::friction) row.compliance = factor * compliance_;

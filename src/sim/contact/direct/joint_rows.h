@@ -128,6 +128,8 @@ public:
     /// error, in sizes of the joint.
     double close(const JointIsland& island, std::span<const JointSide> ends);
 
+    /// Multiplies the compliance of the rigid rows.
+    void stiffen(double factor);
     /// Rounding of the impulses (N s) at speeds up to `fastest` (m/s), over the compliance.
     double rounding(double fastest) const;
     /// Rounding of the coordinates, in sizes of the joint.

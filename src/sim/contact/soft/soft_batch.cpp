@@ -28,8 +28,9 @@ void put_all(float* row, const std::array<double, 8>& values) {
 // An impulse that the direct solver holds between masses of 1 : 1e6 would be a violent kick in soft contacts: the warm
 // start is limited to a few times the weight of the lighter body.
 void limit_warm_start(Manifold& m, const ContactProblem& problem) {
-    if (!m.solved_directly) return;
-    m.solved_directly = false;
+    const bool directly = m.solved_by == SolvedBy::direct;
+    m.solved_by = SolvedBy::sweeps;
+    if (!directly) return;
     double mass = std::numeric_limits<double>::infinity(), speed = 0.0;
     for (const std::uint32_t i : {m.a, m.b}) {
         const Body& body = problem.bodies[i];
