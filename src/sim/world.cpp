@@ -126,7 +126,7 @@ struct World::State {
     void begin_joints(const StepContext& step);
     void apply_forces(const StepContext& step);
     void solve_contacts(const StepContext& step);
-    void close_clamped_joints(const StepContext& step);
+    void close_joints(const StepContext& step);
     void list_asleep();
     void log_skipped(std::int64_t skipped);
     void fall_asleep();
@@ -149,7 +149,7 @@ void World::State::run_stages(const StepContext& step) {
     joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
     detection.out_of_date();
-    close_clamped_joints(step);
+    close_joints(step);
     joints.take_events();
 }
 
@@ -252,13 +252,13 @@ void World::State::solve_contacts(const StepContext& step) {
     impacts.limit_warm_start(step, detection);
 }
 
-// Where CCD stops joined bodies within the step, their joints are open to second order in the step.
-void World::State::close_clamped_joints(const StepContext& step) {
-    const std::span<const std::size_t> clamped = motion->clamped_islands();
-    if (clamped.empty()) return;
+// Joints are open where CCD has stopped joined bodies within the step, to second order in it, and after sweeps.
+void World::State::close_joints(const StepContext& step) {
+    if (joints.empty()) return;
     const ContactProblem problem{set.bodies, detection.manifolds(), set.old_velocities, {step.h, 0.0}, nullptr,
                                  &joints};
-    for (const std::size_t k : clamped) contact_solver.close_joints(problem, detection.islands(), k);
+    for (const std::size_t k : motion->clamped_islands()) contact_solver.close_clamped(problem, detection.islands(), k);
+    contact_solver.close_swept(problem, detection.islands(), pool);
 }
 
 void World::State::fall_asleep() {

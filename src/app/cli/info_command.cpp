@@ -169,8 +169,12 @@ void print_joints(const SceneDescription& scene, const World& world) {
         put("  solved    in sweeps\n");
     else
         put("  solved    by rows beside contacts; in flight {}\n", flight_text(report));
+    if (report.crowd > 0)
+        put("  figures   {} joined bodies: in sweeps while {} or more of them touch something; with\n"
+            "            contact_solver = \"direct\" by rows, which takes longer\n",
+            report.figures, report.crowd);
     if (report.by_sweeps > 0)
-        put("  nets      {} in sweeps: joints open by millimeters under load; less with more steps_per_frame,\n"
+        put("  nets      {} in sweeps: loops open by millimeters under load; less with more steps_per_frame,\n"
             "            not at all with contact_solver = \"direct\", which takes longer\n",
             count_text(report.by_sweeps, "group", "groups"));
 }

@@ -8,6 +8,19 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+// Clears the results of the last solve.
+void forget(Joint& joint) {
+    joint.impulse = {};
+    joint.curving = {};
+    joint.force.setZero();
+    joint.torque.setZero();
+    joint.account.step = {};
+}
+
+}  // namespace
+
 ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
     : choice_(choice),
       effort_(effort),
@@ -58,21 +71,35 @@ LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIsl
     return memory.load;
 }
 
-// Whether an island with joints is solved softly: a net, with all that it touches. Where a net touches joined bodies that
-// sweeps do not know, it stays with the direct solver for a while after they have parted.
+// Whether an island with joints is solved in sweeps, with all that it touches. Where a net touches joined bodies that sweeps
+// do not know, it stays with the direct solver for a while after they have parted.
 bool ContactSolver::in_sweeps(const ContactIslands& islands, std::size_t island) {
-    if (choice_ == Choice::direct || effort_ == Effort::precisely) return false;
+    if (!nets_swept()) return false;
     const auto bodies = islands.bodies(island);
-    const Nets::Way way = nets_.way(bodies);
+    const NetWay way = choose_way(nets_.groups(bodies), !islands.manifolds(island).empty(), crowd_.swept());
     int& wait = memory_[bodies[0]].wait;
-    if (way == Nets::Way::mixed) wait = tuning::net_wait;
-    if (way != Nets::Way::sweeps) return false;
+    if (way == NetWay::mixed) wait = tuning::net_wait;
+    if (way != NetWay::sweeps) return false;
     return wait == 0 || --wait == 0;
 }
 
+void ContactSolver::count_figures(const ContactIslands& islands) {
+    std::size_t bodies = 0;
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (islands.joints(k).empty() || islands.manifolds(k).empty()) continue;
+        const IslandGroups groups = nets_.groups(islands.bodies(k));
+        if (choose_way(groups, true, true) == NetWay::sweeps) bodies += groups.figures;
+    }
+    crowd_.count(bodies);
+}
+
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
-    if (problem.joints)
+    swept_.assign(islands.size(), Swept::no);
+    if (problem.joints && nets_swept()) {
         nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft ? NetRule::all : NetRule::dear);
+        projection_.find(*problem.joints, problem.bodies);
+        count_figures(islands);
+    }
     direct_.clear();
     softly_.clear();
     candidates_.clear();
@@ -93,7 +120,8 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         const auto manifolds = islands.manifolds(k);
         const bool precise = effort_ == Effort::precisely && bodies.size() <= tuning::direct_most_bodies;
         if (!islands.joints(k).empty()) {
-            (in_sweeps(islands, k) ? softly_ : direct_).push_back(k);
+            if (in_sweeps(islands, k)) swept_[k] = projection_.closes(bodies) ? Swept::closed : Swept::open;
+            (swept_[k] != Swept::no ? softly_ : direct_).push_back(k);
             continue;
         }
         if (choice_ != Choice::by_island || precise) {
@@ -155,8 +183,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 // their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
                                       std::size_t island) {
-    if (nets_.way(islands.bodies(island)) == Nets::Way::sweeps)
-        return nets_.entangled(islands.bodies(island)) ? tuning::net_substeps : 1;
+    if (swept_[island] != Swept::no) return nets_.groups(islands.bodies(island)).entangled ? tuning::net_substeps : 1;
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
@@ -172,21 +199,22 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
     std::sort(softly_.begin(), softly_.end());
     substep_multipliers_.clear();
     for (const std::size_t k : softly_) substep_multipliers_.push_back(substep_multiplier(problem, islands, k));
-    BatchInput now{islands.changes(), softly_, substep_multipliers_};
+    BatchInput now{islands.changes(), softly_, substep_multipliers_, swept_};
     if (now == batched_) return true;
     batched_ = std::move(now);
     batches_used_ = 0;
     for (const int wanted : {1, 2, 4}) {
-        std::size_t open[2] = {SIZE_MAX,
-                               SIZE_MAX};  // batches of islands without joints, and of nets, whose sweeps differ
+        // Batches of islands without joints, of nets, and of trees, whose sweeps differ.
+        std::size_t open[] = {SIZE_MAX, SIZE_MAX, SIZE_MAX};
         for (std::size_t s = 0; s < softly_.size(); ++s) {
             if (substep_multipliers_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);
             const auto manifolds = islands.manifolds(softly_[s]);
             // Of islands with other joints the direct solver has failed.
-            const bool net = nets_.way(bodies) == Nets::Way::sweeps;
+            const Swept kind = swept_[softly_[s]];
+            const bool net = kind != Swept::no;
             const auto joints = net ? islands.joints(softly_[s]) : std::span<const std::uint32_t>{};
-            std::size_t& current = open[net];
+            std::size_t& current = open[std::size_t(kind)];
             const std::size_t most = net ? tuning::soft_batch_of_nets : tuning::soft_batch_manifolds;
             const auto size = [](const SoftSolver::Batch& b) { return b.manifolds.size() + b.joints.size(); };
             if (current == SIZE_MAX || size(batches_[current]) + manifolds.size() + joints.size() > most) {
@@ -199,6 +227,7 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
                 batch->island_ends.clear();
                 batch->joints.clear();
                 batch->substep_multiplier = wanted;
+                batch->closes = kind == Swept::closed;
             }
             SoftSolver::Batch* batch = &batches_[current];
             batch->bodies.insert(batch->bodies.end(), bodies.begin(), bodies.end());
@@ -255,28 +284,85 @@ void ContactSolver::solve(const ContactProblem& step, const ContactIslands& isla
             batch.lost.assign(batch.joints.empty() ? 0 : batch.island_ends.size(), 0.0);
             each_net(batch, [](double& lost, double kept) { lost = kept; });
         }
+        keep_starts(problem, islands);
         soft_.solve(problem, batches, same, pool);
         for (SoftSolver::Batch& batch : batches) each_net(batch, [](double lost, double& kept) { kept = lost; });
+        leave_sweeps(problem, islands);
+    } else {
+        batched_ = {};
     }
     for (std::size_t k = 0; k < islands.size(); ++k)
         if (islands.is_free(k) && islands.bodies(k).size() > 1 && islands.joints(k).empty())
             keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h);
     for (const std::size_t k : softly_) {
-        if (islands.joints(k).empty() || !islands.is_free(k) || nets_.way(islands.bodies(k)) != Nets::Way::sweeps)
-            continue;
+        if (swept_[k] == Swept::no || !islands.is_free(k)) continue;
         Vec3 carried = Vec3::Zero();
         for (const std::uint32_t j : islands.joints(k)) carried += soft_.carried(problem.joints->active()[j]);
         keep_angular_momentum(islands.bodies(k), problem.bodies, problem.settings.h, carried);
     }
 }
 
-void ContactSolver::close_joints(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
-    // The gaps of nets close in the next sweeps.
-    if (std::binary_search(softly_.begin(), softly_.end(), island)) return;
+void ContactSolver::keep_starts(const ContactProblem& problem, const ContactIslands& islands) {
+    starts_.clear();
+    for (const std::size_t k : softly_)
+        if (swept_[k] != Swept::no)
+            for (const std::uint32_t i : islands.bodies(k))
+                starts_.push_back({problem.bodies[i].momentum, problem.bodies[i].angular_momentum});
+}
+
+// Islands whose sweeps have overflowed in single precision are solved directly, for a while.
+void ContactSolver::leave_sweeps(const ContactProblem& problem, const ContactIslands& islands) {
+    const auto finite = [&](std::uint32_t i) {
+        const Body& body = problem.bodies[i];
+        return body.momentum.allFinite() && body.angular_momentum.allFinite() && body.push_velocity.allFinite() &&
+               body.push_angular_velocity.allFinite();
+    };
+    const Momenta* start = starts_.data();
+    for (const std::size_t k : softly_) {
+        if (swept_[k] == Swept::no) continue;
+        const auto bodies = islands.bodies(k);
+        const Momenta* first = start;
+        start += bodies.size();
+        if (std::all_of(bodies.begin(), bodies.end(), finite)) continue;
+        for (const std::uint32_t i : bodies) {
+            Body& body = problem.bodies[i];
+            body.momentum = first->linear;
+            body.angular_momentum = first++->angular;
+            body.push_velocity.setZero();
+            body.push_angular_velocity.setZero();
+            body.derive_velocities();
+        }
+        for (const std::uint32_t m : islands.manifolds(k)) {
+            release(problem.manifolds[m]);
+            problem.manifolds[m].solved_by = SolvedBy::direct;
+            if (problem.totals) (*problem.totals)[m] = {};
+        }
+        for (const std::uint32_t j : islands.joints(k)) forget(problem.joints->joints()[problem.joints->active()[j]]);
+        Memory& memory = memory_[bodies[0]];
+        memory.lost = 0.0;
+        memory.wait = tuning::net_wait;
+        swept_[k] = Swept::no;
+        if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
+        memory.solver->solve(problem, bodies, islands.manifolds(k), islands.joints(k));
+    }
+}
+
+void ContactSolver::close_clamped(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
+    if (swept_[island] != Swept::no) return;  // closed as all that are swept
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];
     if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
     memory.solver->close_poses(problem, bodies, islands.joints(island));
+}
+
+void ContactSolver::close_swept(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
+    if (std::all_of(swept_.begin(), swept_.end(), [](Swept swept) { return swept == Swept::no; })) return;
+    projection_.prepare(std::size_t(pool.size()));
+    pool.for_each(islands.size(), tuning::direct_parallel_grain, [&](std::size_t k, std::size_t thread) {
+        if (swept_[k] == Swept::no) return;
+        const Vec3 gained = projection_.close(islands.bodies(k), problem.bodies, problem.settings.h, thread);
+        if (islands.is_free(k)) keep_angular_momentum(islands.bodies(k), problem.bodies, 0.0, gained);
+    });
 }
 
 }  // namespace tumble

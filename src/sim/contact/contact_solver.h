@@ -1,7 +1,7 @@
 // Resting contact of all islands: selects a solver for each island, by rules that depend on the scene alone.
 //
 // The direct solver (direct_solver.h) takes
-// - islands with joints, except nets,
+// - islands with joints, except nets and crowds of figures (net_way.h),
 // - single bodies,
 // - all islands of a small scene,
 // - islands that touch nothing fixed,
@@ -14,6 +14,7 @@
 #include "sim/contact/model/contact_areas.h"
 #include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/load_estimate.h"
+#include "sim/contact/projection/projection.h"
 #include "sim/contact/settings.h"
 #include "sim/contact/soft/soft_solver.h"
 #include "sim/joints/net_way.h"
@@ -34,18 +35,21 @@ public:
 
     void solve(const ContactProblem& step, const ContactIslands& islands, ThreadPool& pool);
 
-    /// Closes the joints of an island at the present poses: see JointFlight::close_poses().
-    void close_joints(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
+    /// At the end of a step: closes the joints of an island that CCD has stopped, see JointFlight::close_poses(), and those
+    /// of all islands that were solved in sweeps.
+    void close_clamped(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
+    void close_swept(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [choice, effort, memory, gains, turns_fast, loads, soft, nets, candidates, few, direct, softly, failed,
-               substep_multipliers, batched, batches, batches_used, areas] = self;
-        archive.rebuilt(choice, effort, soft, nets, batched, batches, batches_used);
+        auto& [choice, effort, memory, gains, turns_fast, loads, soft, nets, crowd, projection, starts, candidates, few,
+               direct, softly, swept, failed, substep_multipliers, batched, batches, batches_used, areas] = self;
+        archive.rebuilt(choice, effort, soft, nets, projection, batched, batches, batches_used);
         archive.by_body(memory);
-        archive.keep(few);
-        archive.scratch(gains, turns_fast, loads, candidates, direct, softly, failed, substep_multipliers, areas);
+        archive.keep(crowd, few);
+        archive.scratch(starts, swept, gains, turns_fast, loads, candidates, direct, softly, failed,
+                        substep_multipliers, areas);
     }
 
 private:
@@ -80,7 +84,11 @@ private:
     LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                       double enough);
     int substep_multiplier(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
+    bool nets_swept() const { return choice_ != Choice::direct && effort_ != Effort::precisely; }
     bool in_sweeps(const ContactIslands& islands, std::size_t island);
+    void count_figures(const ContactIslands& islands);
+    void keep_starts(const ContactProblem& problem, const ContactIslands& islands);
+    void leave_sweeps(const ContactProblem& problem, const ContactIslands& islands);
     bool make_batches(const ContactIslands& islands, const ContactProblem& problem);
 
     Choice choice_;
@@ -93,15 +101,25 @@ private:
     LoadEstimates loads_;
     SoftSolver soft_;
     Nets nets_;
+    FigureCrowd crowd_;
+    Projection projection_;
+    struct Momenta {
+        Vec3 linear, angular;
+    };
+    std::vector<Momenta> starts_;  // before the sweeps, of the bodies of swept islands in the order of softly_
     std::vector<Candidate> candidates_;
     bool few_ = false;                          // few pairs in all: every island may be solved directly
     std::vector<std::size_t> direct_, softly_;  // indices of islands
-    std::vector<char> failed_;                  // by entry of direct_
-    std::vector<int> substep_multipliers_;      // substep multiplier, by entry of softly_
+    // With its joints; closed: the projection closes all of them.
+    enum class Swept : std::uint8_t { no, open, closed };
+    std::vector<Swept> swept_;              // by island
+    std::vector<char> failed_;              // by entry of direct_
+    std::vector<int> substep_multipliers_;  // substep multiplier, by entry of softly_
     struct BatchInput {
         std::uint64_t islands = 0;  // ContactIslands::changes() of the batches
         std::vector<std::size_t> softly;
         std::vector<int> substep_multipliers;
+        std::vector<Swept> swept;
         bool operator==(const BatchInput&) const = default;
     };
     BatchInput batched_;  // inputs from which the batches were made

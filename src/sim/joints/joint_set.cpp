@@ -1,6 +1,7 @@
 #include "sim/joints/joint_set.h"
 
 #include "core/deterministic_math.h"
+#include "core/fetch_ahead.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/settings.h"
 
@@ -153,7 +154,13 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
             if (i != Joint::world && bodies[i].asleep) woken.push_back(i);
     };
     bool gears = false;  // a gear holds while its joints hold
-    for (Joint& joint : joints_) {
+    for (std::size_t k = 0; k < joints_.size(); ++k) {
+        if (k + elements_ahead < joints_.size()) {
+            const Joint& later = joints_[k + elements_ahead];
+            fetch_ahead(&later.a, &later.b + 1);
+            fetch_ahead(&later.steady, &later.value);
+        }
+        Joint& joint = joints_[k];
         if (joint.gear())
             gears = true;
         else

@@ -5,6 +5,7 @@
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
 #include "sim/joints/net_way.h"
+#include "sim/joints/settings.h"
 
 #include <Eigen/QR>
 
@@ -139,8 +140,10 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
             ++report.by_sweeps;
         else
             add_way(group, loops == 0, joints, bodies, report);
+        if (is_figure(group, joints, bodies, nets)) report.figures += group.bodies.size();
         report.counted = report.counted && small;
     }
+    if (report.figures >= tuning::figures_swept) report.crowd = tuning::figures_swept;
     find_extremes(joints, bodies, report);
     return report;
 }

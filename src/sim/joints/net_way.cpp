@@ -12,14 +12,44 @@ namespace {
 
 bool integrator_known(const Body& body) { return body.integrator == IntegratorKind::symplectic_euler; }
 
+// Largest share by which the body's turns add to the compliance at the anchor of a joint: m tr([r] I^-1 [r]^T).
+double leverage(const Body& body, const Vec3& r) {
+    const Mat3& w = body.inverse_inertia_body;
+    return body.mass * (r.squaredNorm() * w.trace() - r.dot(w * r));
+}
+
+// Whether single precision has the digits for the compliances of the joint.
+bool holds_digits(const Joint& joint, const std::vector<Body>& bodies) {
+    bool turns = false;
+    for (std::size_t k = 3; k < joint.count(); ++k)
+        turns = turns || joint.axis(k).motion != JointAxis::Motion::free || joint.description.swing;
+    const double most = turns ? tuning::turn_leverage : tuning::point_leverage;
+    const auto holds = [&](std::uint32_t i, const Vec3& anchor) {
+        return i == Joint::world || !bodies[i].dynamic() || leverage(bodies[i], anchor) <= most;
+    };
+    return holds(joint.a, joint.anchor_a) && holds(joint.b, joint.anchor_b);
+}
+
 bool all_known(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
     return std::all_of(group.bodies.begin(), group.bodies.end(),
                        [&](std::uint32_t i) { return integrator_known(bodies[i]); }) &&
-           std::all_of(group.joints.begin(), group.joints.end(),
-                       [&](std::uint32_t k) { return known_to_sweeps(joints.joints()[k]); });
+           std::all_of(group.joints.begin(), group.joints.end(), [&](std::uint32_t k) {
+               const Joint& joint = joints.joints()[k];
+               return known_to_sweeps(joint) && holds_digits(joint, bodies);
+           });
 }
 
 bool has_more_joints(const JointGroup& group) { return group.joints.size() > group.bodies.size(); }
+
+bool masses_are_alike(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
+    const auto dynamic = [&](std::uint32_t i) { return i != Joint::world && bodies[i].dynamic(); };
+    return std::all_of(group.joints.begin(), group.joints.end(), [&](std::uint32_t k) {
+        const Joint& joint = joints.joints()[k];
+        if (!dynamic(joint.a) || !dynamic(joint.b)) return true;
+        const double a = bodies[joint.a].mass, b = bodies[joint.b].mass;
+        return std::max(a, b) <= tuning::net_mass_ratio * std::min(a, b);
+    });
+}
 
 }  // namespace
 
@@ -70,40 +100,62 @@ bool is_net(const JointGroup& group, const JointSet& joints, const std::vector<B
     for (const std::uint32_t k : group.joints) {
         const Joint& joint = joints.joints()[k];
         ropes = ropes || (joint.distance() && !joint.locked(0));
-        const auto dynamic = [&](std::uint32_t i) { return i != Joint::world && bodies[i].dynamic(); };
-        if (!dynamic(joint.a) || !dynamic(joint.b)) continue;
-        const double a = bodies[joint.a].mass, b = bodies[joint.b].mass;
-        if (std::max(a, b) > tuning::net_mass_ratio * std::min(a, b)) return false;
     }
+    if (!masses_are_alike(group, joints, bodies)) return false;
     if (ropes && group.bodies.size() >= tuning::net_bodies_of_ropes) return true;
     return group.bodies.size() >= tuning::net_bodies && factor_work(group, joints) > tuning::net_work;
+}
+
+bool is_figure(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies, NetRule rule) {
+    if (rule != NetRule::dear || group.anchored || group.bodies.size() > tuning::figure_most ||
+        group.joints.size() + 1 != group.bodies.size())
+        return false;
+    return all_known(group, joints, bodies) && masses_are_alike(group, joints, bodies) &&
+           std::none_of(group.joints.begin(), group.joints.end(),
+                        [&](std::uint32_t k) { return joints.joints()[k].distance(); });
+}
+
+NetWay choose_way(const IslandGroups& groups, bool touches, bool crowd) {
+    if (groups.unknown) return groups.net ? NetWay::mixed : NetWay::direct;
+    if (groups.net) return NetWay::sweeps;
+    return touches && crowd && groups.figures > 0 && !groups.other ? NetWay::sweeps : NetWay::direct;
+}
+
+void FigureCrowd::count(std::size_t bodies) {
+    if (bodies >= (swept() ? tuning::figures_kept : tuning::figures_swept))
+        left_ = tuning::figure_wait;
+    else
+        left_ -= swept();
 }
 
 void Nets::find(const JointSet& joints, const std::vector<Body>& bodies, NetRule rule) {
     if (found_ == joints.changes()) return;
     found_ = joints.changes();
-    role_.assign(bodies.size(), Role::plain);
+    role_.assign(bodies.size(), Role::none);
     for (const JointGroup& group : find_joint_groups(joints, bodies)) {
-        const Role role = !all_known(group, joints, bodies)      ? Role::unknown
-                          : !is_net(group, joints, bodies, rule) ? Role::plain
-                          : has_more_joints(group)               ? Role::entangled
-                                                                 : Role::loose;
+        Role role = Role::other;
+        if (!all_known(group, joints, bodies))
+            role = Role::unknown;
+        else if (is_net(group, joints, bodies, rule))
+            role = has_more_joints(group) ? Role::entangled : Role::loose;
+        else if (is_figure(group, joints, bodies, rule))
+            role = Role::figure;
         for (const std::uint32_t i : group.bodies) role_[i] = role;
     }
 }
 
-Nets::Way Nets::way(std::span<const std::uint32_t> bodies) const {
-    bool net = false, unknown = false;
-    if (role_.empty()) return Way::direct;
-    for (const std::uint32_t i : bodies) {
-        net = net || role_[i] == Role::loose || role_[i] == Role::entangled;
-        unknown = unknown || role_[i] == Role::unknown;
+IslandGroups Nets::groups(std::span<const std::uint32_t> island) const {
+    IslandGroups groups;
+    if (role_.empty()) return groups;
+    for (const std::uint32_t i : island) {
+        const Role role = role_[i];
+        groups.net = groups.net || role == Role::loose || role == Role::entangled;
+        groups.entangled = groups.entangled || role == Role::entangled;
+        groups.figures += role == Role::figure;
+        groups.other = groups.other || role == Role::other;
+        groups.unknown = groups.unknown || role == Role::unknown;
     }
-    return !net ? Way::direct : unknown ? Way::mixed : Way::sweeps;
-}
-
-bool Nets::entangled(std::span<const std::uint32_t> bodies) const {
-    return std::any_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) { return role_[i] == Role::entangled; });
+    return groups;
 }
 
 }  // namespace tumble

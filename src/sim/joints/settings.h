@@ -140,7 +140,22 @@ inline constexpr std::size_t net_bodies = 256;
 inline constexpr double net_work = 100.0;
 inline constexpr std::size_t net_bodies_of_ropes = 64;
 
-/// Largest ratio of the masses that a joint of a net connects: sweeps stretch joints that hold a heavy body by light
+/// Bodies of figures that touch something from which on all of them are solved in sweeps, the number down to which that
+/// stays so, and the steps after which it ends. Limits the cost: three ragdolls of 15 bodies are solved by rows.
+inline constexpr std::size_t figures_swept = 48;
+inline constexpr std::size_t figures_kept = 36;
+inline constexpr int figure_wait = 30;
+
+/// Largest number of bodies of a figure. Not fitted: sweeps carry a blow along a few joints in a substep, not along a chain
+/// of a hundred.
+inline constexpr std::size_t figure_most = 64;
+
+/// Largest compliance at an anchor by a body's turns over that by its mass, for joints that lock or limit turns and for others:
+/// sweeps lose its square, and itself, of the digits of single precision. Not fitted: a hundredth of the digits is left.
+inline constexpr double turn_leverage = 300.0;
+inline constexpr double point_leverage = 1e4;
+
+/// Largest ratio of the masses that a joint of a net or figure connects: sweeps stretch joints that hold a heavy body by light
 /// ones. Not fitted: far from such loads.
 inline constexpr double net_mass_ratio = 16.0;
 

@@ -16,6 +16,8 @@ struct JointReport {
     std::size_t redundant = 0;           // rows that follow from others
     // Groups by the way in which they fly: trees in joint coordinates, RATTLE, or the rows of the solver of contacts.
     std::size_t by_coordinates = 0, by_rattle = 0, by_rows = 0;
+    // Bodies of figures. Beside contacts they are solved in sweeps while `crowd` of them touch something; 0: never.
+    std::size_t figures = 0, crowd = 0;
     std::size_t by_sweeps = 0;  // nets, solved in sweeps, in flight and in contact; in none of the above
     bool counted = true;        // false: a group is so large that all of its rows count as independent
     double mass_ratio = 1.0;    // largest of two dynamic bodies of a joint

@@ -82,7 +82,8 @@ inline constexpr std::size_t soft_shared_groups = 24;
 
 /// Share of a joint's gap that is closed in a substep, and share of its impulse that a push gives up. Impulses add up from
 /// substep to substep: without the second, slow waves of a net grow by a quarter of the first in a substep; with it, a
-/// joint under the tension T is left open by about leak / rate T d^2 / m. Related test: Nets.HangsAsTheDirectSolverDoes.
+/// joint under the tension T is left open by about leak / rate T d^2 / m. Trees, whose gaps are closed at the end of each step,
+/// have no leak. Related test: Nets.HangsAsTheDirectSolverDoes.
 inline constexpr double soft_joint_rate = 0.05;
 inline constexpr double soft_joint_leak = 0.01;
 

@@ -73,7 +73,7 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
 }
 
 void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
-                        const std::vector<std::uint32_t>& slot, double mass_unit) {
+                        const std::vector<std::uint32_t>& slot, double mass_unit, bool again) {
     layout_ = &layout;
     mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.settings.h) * batch.substep_multiplier;
@@ -83,7 +83,7 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
                 softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_),
                 float(tuning::soft_joint_rate / d_),
-                float(tuning::soft_joint_leak)};
+                batch.closes ? 0.0f : float(tuning::soft_joint_leak)};
     energies_.open(layout, problem.bodies);
     const std::size_t dynamic = 1 + layout.blocks().order().size();  // number of slots
     packed_.resize(dynamic);
@@ -97,7 +97,7 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
     lane_moved_.resize(2 * groups);
     lane_points_.resize(groups);
     sources_.resize(groups * lanes);
-    joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit, d_});
+    joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit, d_}, again);
     areas_.open(problem, batch, layout, slot,
                 {lanes, rows_.data(), lane_bodies_.data(), lane_moved_.data(), substeps_ * mass_unit, mass_unit});
 }

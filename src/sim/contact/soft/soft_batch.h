@@ -28,8 +28,9 @@ public:
     /// - slot: as in the layout.
     /// - `batch`: gives the factor of the number of substeps, and the joints.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
+    /// - `again`: the batch is that of the last step.
     void prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
-                 const std::vector<std::uint32_t>& slot, double mass_unit);
+                 const std::vector<std::uint32_t>& slot, double mass_unit, bool again);
     /// `batch`: gets the lost energy of a net. `carried`: by joint, gets the moments of soft_joints.h.
     void run(const ContactProblem& problem, IslandBatch& batch, const std::vector<std::uint32_t>& slot,
              std::vector<Vec3>& carried, std::size_t thread, std::size_t team, SpinBarrier& barrier);

@@ -1,5 +1,6 @@
 #include "sim/contact/soft/soft_joints.h"
 
+#include "core/fetch_ahead.h"
 #include "sim/contact/soft/soft_turns.h"
 #include "sim/joints/joint_set.h"
 
@@ -55,8 +56,9 @@ Joint& SoftJoints::joint(const ContactProblem& problem, std::uint32_t place) con
     return problem.joints->joints()[joints_[place]];
 }
 
-void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units) {
+void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units, bool again) {
     units_ = units;
+    again_ = again;
     bodies_ = &layout;
     layout_ = &layout.joints();
     joints_ = joints;
@@ -67,6 +69,19 @@ void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> j
     turn_rows_.resize(layout_->turning_groups() * soft::turn_rows * units.lanes);
     lane_bodies_.resize(2 * groups * units.lanes);
     lane_moved_.resize(2 * groups);
+}
+
+// The parts of the next group of joints that are packed and unpacked.
+void SoftJoints::fetch_next(const ContactProblem& problem, std::size_t group) const {
+    if (group + 1 == layout_->groups()) return;
+    for (std::size_t l = 0; l < units_.lanes; ++l) {
+        const std::uint32_t place = layout_->joint((group + 1) * units_.lanes + l);
+        if (place == JointLayout::none) continue;
+        const Joint& next = joint(problem, place);
+        fetch_ahead(&next.anchor_a, &next.springs);
+        fetch_ahead(&next.value, &next.curving);
+        fetch_ahead(&next.force, &next.account.frame);
+    }
 }
 
 template <class Visit>
@@ -87,6 +102,7 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
     const double share = 1.0 / (units_.substeps * units_.mass);
+    fetch_next(problem, group);
     each_lane(group, [&](std::size_t l, std::uint32_t place) {
         Joint& j = joint(problem, place);
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
@@ -145,6 +161,7 @@ void SoftJoints::unpack_torque(std::size_t group, std::size_t l, std::uint32_t p
 void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::vector<std::uint8_t>& reached,
                         std::vector<Vec3>& carried) {
     const double h = problem.settings.h, whole = units_.substeps * units_.mass;
+    fetch_next(problem, group);
     each_lane(group, [&](std::size_t l, std::uint32_t place) {
         Joint& j = joint(problem, place);
         const soft::JointLane row = lane(group, l);
@@ -153,9 +170,11 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
                    extra = units_.mass * wide(row.vector(&Hold::carried_sum));
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
         j.impulse = {};
-        j.curving = {};
-        j.constraint_force = {};
-        j.constraint_rates = {};
+        if (!again_) {
+            j.curving = {};
+            j.constraint_force = {};
+            j.constraint_rates = {};
+        }
         unpack_torque(group, l, place, j);
         const Place& kept = places_[place];
         const Vec3 last = whole * wide(row.vector(&Hold::impulse));

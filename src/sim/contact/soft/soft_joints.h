@@ -28,8 +28,9 @@ public:
         double mass = 1.0;     // kg, of the kernel's numbers
         double substep = 0.0;  // s
     };
-    /// `joints`: of the batch, indices into JointSet::joints(). Layout and joints must outlive the other calls.
-    void open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units);
+    /// `joints`: of the batch, indices into JointSet::joints(). Layout and joints must outlive the other calls. `again`: they
+    /// were swept in the last step too, and have no state of flights left.
+    void open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units, bool again);
     std::size_t size() const { return joints_.size(); }
     soft::JointGroups groups() {
         return {rows_.data(),     lane_bodies_.data(), lane_moved_.data(),
@@ -53,6 +54,7 @@ private:
     }
     TurnUnits turn_units() const { return {1.0 / (units_.substeps * units_.mass), units_.substep, units_.mass}; }
     void unpack_torque(std::size_t group, std::size_t l, std::uint32_t place, Joint& joint);
+    void fetch_next(const ContactProblem& problem, std::size_t group) const;
     template <class Visit>
     void each_lane(std::size_t group, Visit&& visit) const;
     Joint& joint(const ContactProblem& problem, std::uint32_t place) const;
@@ -65,6 +67,7 @@ private:
     };
 
     Units units_;
+    bool again_ = false;
     const SoftLayout* bodies_ = nullptr;
     const JointLayout* layout_ = nullptr;
     std::span<const std::uint32_t> joints_;

@@ -54,6 +54,7 @@ struct IslandBatch {
     std::vector<std::uint32_t> joints;     // of nets: indices into JointSet::joints(), net by net
     std::vector<double> lost;    // J, of each net: IslandEnergies::hold(); updated by the solve. Empty without joints
     int substep_multiplier = 1;  // substep multiplier
+    bool closes = false;         // gaps of joints are closed at the end of each step
 };
 
 struct Joint;

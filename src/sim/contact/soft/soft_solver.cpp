@@ -85,7 +85,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
             barrier.wait();
             if (thread == 0) {
                 close(layout, batch);
-                workers_[0]->prepare(problem, batch, layout, slot_, mass_unit_);
+                workers_[0]->prepare(problem, batch, layout, slot_, mass_unit_, same);
             }
             barrier.wait();
             workers_[0]->run(problem, batch, slot_, carried_, thread, threads, barrier);
@@ -105,7 +105,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
                 close(layout, batches[k]);
             }
             SpinBarrier alone(1);
-            workers_[thread]->prepare(problem, batches[k], layout, slot_, mass_unit_);
+            workers_[thread]->prepare(problem, batches[k], layout, slot_, mass_unit_, same);
             workers_[thread]->run(problem, batches[k], slot_, carried_, 0, 1, alone);
         });
     };
