@@ -140,7 +140,7 @@ trail_time = 4
 trail_points = [{ body = "table", point = [0, 0, 3], color = "#ffd040" }]
 ghost_every = 11
 legend = false
-scale = { force = 1, impulse = 2, velocity = 3, omega = 4, momentum = 5, angular-momentum = 6 }
+scale = { force = 1, impulse = 2, velocity = 3, omega = 4, momentum = 5, angular-momentum = 6, torque = 7 }
 color = { force = "#000001" }
 plot = ["kinetic_energy"]
 plot_place = "beside"
@@ -309,7 +309,8 @@ const std::vector<std::vector<Change>> own_tables = {
      {"velocity", "[overlay]", "velocity = 3", "velocity = 9", false},
      {"omega", "[overlay]", "omega = 4", "omega = 9", false},
      {"momentum", "[overlay]", "momentum = 5", "momentum = 9", false},
-     {"angular-momentum", "[overlay]", "angular-momentum = 6", "angular-momentum = 9", false}},
+     {"angular-momentum", "[overlay]", "angular-momentum = 6", "angular-momentum = 9", false},
+     {"torque", "[overlay]", "torque = 7", "torque = 9", false}},
     {{"text", "[[caption]]", "Hello", "Good bye", false},
      {"start", "[[caption]]", "start = 0.2", "start = 0.25", false},
      {"end", "[[caption]]", "end = 0.3", "", false}},
