@@ -102,6 +102,7 @@ void ForwardDynamics::speed_node(const TreeNode& node, Link& link, const double*
 // I_i of a rigid body about its joint.
 void ForwardDynamics::load_inertia(const TreeNode& node, Link& link) {
     link.added = 0.0;
+    link.about.setZero();
     if (node.body == TreeNode::no_body) {
         link.turning = {};
         link.inertia = {};
@@ -124,6 +125,7 @@ void ForwardDynamics::load_inertia(const TreeNode& node, Link& link) {
 // b_i = (w x I w; m w x (w x c)).
 void ForwardDynamics::load_effort(const TreeNode& node, Link& link) {
     link.drive = 0.0;
+    link.twist.setZero();
     if (node.body == TreeNode::no_body) {
         link.effort = {};
         return;
@@ -173,6 +175,25 @@ void ForwardDynamics::push(int node, const Wrench& wrench) {
     link.effort.force -= wrench.force;
 }
 
+// Held about n: with a = D^-1 n and g = 1 / (n . a), C = D^-1 - g a a^T, U = (D; mixed^T) and w' = C (u - U^T A) + g b a for
+// the acceleration A without that of the joint. So I - U C U^T passes, which has the turning part g n n^T.
+SpatialForce ForwardDynamics::pass_on_ball(Link& link, SpatialInertia& passed) {
+    const SpatialInertia& inertia = link.inertia;
+    const Vec3 &n = link.about, a = link.inverse * n;
+    const double g = 1.0 / n.dot(a);
+    link.given = g * link.wanted * a;
+    link.inverse.add_outer(-g, a);
+    const Vec3 k = link.inverse * link.column.moment + link.given;
+    SpatialForce p = link.effort;
+    p.moment += inertia.turning * k;
+    p.force += inertia.mixed.transpose() * k;
+    passed.turning.add_outer(g, n);
+    passed.mixed = g * n * (inertia.mixed.transpose() * a).transpose();
+    passed.moving = behind_ball(inertia, link.inverse);
+    p += passed * link.bias;
+    return p;
+}
+
 // Articulated inertias and efforts from the leaves to the root (Featherstone 2008, equations 7.37 to 7.43, second loop of
 // Table 7.1); or efforts alone, with the inertias of the last sweep.
 template <bool factor>
@@ -187,11 +208,19 @@ void ForwardDynamics::sweep_in() {
         const Vec3& s = link.axis;
         const SpatialMotion& c = link.bias;
         if (node.kind == NodeKind::ball) {
-            // Passes forces at its point alone.
+            // Passes forces at its point alone, but for a torque of the parent.
             if (factor) link.inverse = inertia.turning.inverse();
-            link.column.moment = -p.moment;  // u
-            p.force -= inertia.mixed.transpose() * (link.inverse * p.moment);
-            p.moment.setZero();
+            const Vec3& u = link.column.moment = link.twist - p.moment;
+            if (!link.about.isZero(0.0)) {
+                SpatialInertia passed;
+                const SpatialForce effort = pass_on_ball(link, passed);
+                if (node.parent == TreeNode::ground) continue;
+                links_[std::size_t(node.parent)].effort += shifted(effort, link.arm);
+                links_[std::size_t(node.parent)].inertia.add_shifted(passed, link.arm);
+                continue;
+            }
+            p.force += inertia.mixed.transpose() * (link.inverse * u);
+            p.moment = link.twist;
             if (factor) inertia.moving = behind_ball(inertia, link.inverse);
             p.force += inertia.moving * c.move;
         } else if (node.kind != NodeKind::fixed) {
@@ -244,7 +273,11 @@ void ForwardDynamics::sweep_out(const Vec3& base, double* rates) {
         const SpatialMotion& parent = above(node).acceleration;
         SpatialMotion a{parent.turn + link.bias.turn, parent.move + parent.turn.cross(link.arm) + link.bias.move};
         if (node.kind == NodeKind::ball) {
-            const Vec3 turn = link.inverse * (link.column.moment - link.inertia.mixed * a.move) - a.turn;
+            Vec3 turn = link.column.moment - link.inertia.mixed * a.move;
+            if (link.about.isZero(0.0))
+                turn = link.inverse * turn - a.turn;
+            else
+                turn = link.inverse * (turn - link.inertia.turning * a.turn) + link.given;
             const Vec3 own = above(node).rotation.transpose() * turn;
             for (int k = 0; k < 3; ++k) rate[k] = own[k];
             a.turn += turn;

@@ -28,15 +28,19 @@ public:
 
     private:
         friend class ForwardDynamics;
-        SpatialMotion bias;      // c: of the acceleration, by the velocities
-        Sym3 turning;            // kg m^2, of the body about its joint
-        SpatialInertia inertia;  // I^A; then I^a, which its joint passes on
-        SpatialForce effort;     // p^A; then p^a
-        SpatialForce column;     // U = I^A S
-        double pivot = 0.0;      // 1 / D, D = S^T U + added
-        double added = 0.0;      // to D: infinite where its coordinate does not accelerate
-        double drive = 0.0;      // u = tau - S^T p^A
-        Sym3 inverse;            // of a ball: D^-1
+        SpatialMotion bias;         // c: of the acceleration, by the velocities
+        Sym3 turning;               // kg m^2, of the body about its joint
+        SpatialInertia inertia;     // I^A; then I^a, which its joint passes on; of a held ball I^A
+        SpatialForce effort;        // p^A; then p^a
+        SpatialForce column;        // U = I^A S; of a ball: u
+        double pivot = 0.0;         // 1 / D, D = S^T U + added
+        double added = 0.0;         // to D: infinite where its coordinate does not accelerate
+        double drive = 0.0;         // u = tau - S^T p^A
+        Sym3 inverse;               // of a ball: D^-1; C where it is held
+        Vec3 twist = Vec3::Zero();  // of a ball: N m, of the parent
+        Vec3 about = Vec3::Zero();  // of a ball: the axis n about which it is held
+        double wanted = 0.0;        // of a ball: n . its acceleration
+        Vec3 given = Vec3::Zero();  // of a ball: acceleration that this takes
     };
 
     explicit ForwardDynamics(const JointTree& tree) : tree_(tree) {}
@@ -52,10 +56,24 @@ public:
     /// between move() or set_speeds() and accelerate() or respond().
     void push(int node, const Wrench& wrench);
     void drive(int node, double effort) { links_[std::size_t(node)].drive += effort; }
+    /// A torque (N m) of the parent on a ball node, between the same; components in the parent's frame.
+    void twist(int node, const Vec3& torque) { links_[std::size_t(node)].twist += frame_of(node) * torque; }
     /// Between move() and accelerate(): the coordinate of a revolute or prismatic node does not accelerate; or has a further
     /// inertia (kg m^2, kg), as that of an implicit damper.
     void hold(int node) { links_[std::size_t(node)].added = infinity; }
     void add_inertia(int node, double amount) { links_[std::size_t(node)].added += amount; }
+    /// Between the same: n . (rates of a ball's speeds) is as given; n has components in the parent's frame. Not for
+    /// respond() and joint_force().
+    void hold_about(int node, const Vec3& n, double acceleration) {
+        links_[std::size_t(node)].about = frame_of(node) * n;
+        links_[std::size_t(node)].wanted = acceleration;
+    }
+    /// Torque (N m) in units of n that holds the ball, after accelerate().
+    double holding_torque(int node) const {
+        const Link& held = links_[std::size_t(node)];
+        const Vec3 sum = held.inertia.turning * held.acceleration.turn + held.inertia.mixed * held.acceleration.move;
+        return held.about.dot(sum - held.column.moment) / held.about.squaredNorm();
+    }
     /// Effort (N m, N) that accelerates the coordinate of a held node if it is let go, after accelerate().
     double net_effort(int node) const {
         const Link& held = links_[std::size_t(node)];
@@ -94,6 +112,8 @@ private:
     const Link& above(const TreeNode& node) const {
         return node.parent == TreeNode::ground ? ground_ : links_[std::size_t(node.parent)];
     }
+    const Mat3& frame_of(int node) const { return above(tree_.nodes()[std::size_t(node)]).rotation; }
+    static SpatialForce pass_on_ball(Link& link, SpatialInertia& passed);
     template <bool factor>
     void sweep_in();
     void sweep_out(const Vec3& base, double* rates);

@@ -17,6 +17,7 @@ inline constexpr double tree_phase = 0.5;
 /// Largest number of such steps in a span, and the number of parts of one in which the error must be reached: else the
 /// rows advance the bodies. Not fitted: bounds of the cost.
 inline constexpr int tree_most_steps = 1024;
+inline constexpr int tree_few_steps = 8;  // of a step with the default integrator
 inline constexpr int tree_shortest = 16;
 
 /// Gaps up to this share of the smaller body are closed at the start of a step, and speeds that miss the joints by this
@@ -49,6 +50,11 @@ inline constexpr double friction_let_go = 1e-10;
 inline constexpr double tree_event_located = 1e-14;
 inline constexpr int tree_most_events = 64;
 inline constexpr int tree_most_trials = 60;
+
+/// Angle, rad, that a ball may be beyond its limit; and the turn, rad, over which the rate of the limit's direction is found.
+/// Not fitted: rounding of the angles, and of their differences.
+inline constexpr double limit_of_ball = 1e-12;
+inline constexpr double limit_difference = 1e-3;
 
 /// Load over strength of a joint at both ends of a part of a step, above which its largest load between them is looked for.
 /// Not fitted: a part is half a radian of the motion.

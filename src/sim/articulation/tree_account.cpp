@@ -84,12 +84,12 @@ void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const
     }
 }
 
-void TreeAccount::start(const ForwardDynamics& dynamics, std::span<const Wrench> impulses) {
+void TreeAccount::strike(const ForwardDynamics& dynamics, double t, std::span<const Wrench> impulses) {
     dynamics.joint_forces(impulses, forces_);
     for (std::size_t k = 0; k < samples_.size(); ++k) {
-        const Sample s = joint_sample(dynamics, int(k), 0.0);
+        const Sample s = joint_sample(dynamics, int(k), t);
         moments_[k] += s.point.cross(s.force);
-        carried_[k] += frame_.origin.cross(s.force);
+        carried_[k] += frame_.place(t).cross(s.force);
         torques_[k] += s.torque;
     }
 }
@@ -204,7 +204,7 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
         const JointGeometry g = measure(joint, side_of(step_->bodies, joint.a), side_of(step_->bodies, joint.b));
         for (std::size_t c = 0; c < joint.count(); ++c)
             if (!joint.locked(c)) joint.value[c] = g.coordinates[c].value;
-        if (beyond_limit(joint, g)) return false;
+        if (beyond_limit(joint, g, staged_ ? 0.0 : tuning::joint_rounding)) return false;
         joint.point = g.point;
         if (!staged_) keep_impulses(joint, g, samples_[k]);
     } else {

@@ -25,8 +25,8 @@ public:
     /// From the present states of the bodies on.
     void begin(const TreeStep& step);
 
-    /// Impulses at the start, as the forces of sample(); before it.
-    void start(const ForwardDynamics& dynamics, std::span<const Wrench> impulses);
+    /// Impulses at time t (s, in the step), as the forces of sample(): before its first call, and between two at this time.
+    void strike(const ForwardDynamics& dynamics, double t, std::span<const Wrench> impulses);
     /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places of
     /// the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again at the same time
     /// where the forces change.

@@ -1,4 +1,4 @@
-// TreeFlight: the moments in a step in which the friction of a joint changes, or a joint breaks. The motion is smooth
+// TreeFlight: the moments in a step in which a limit is met or left, the friction of a joint changes, or a joint breaks. The motion is smooth
 // between them, so that the integrator keeps its order.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-bool TreeFlight::begin_friction() {
+bool TreeFlight::begin_laws() {
     double fastest = 0.0;
     for (const std::uint32_t i : step_->island) {
         const Body& body = step_->bodies[i];
@@ -18,19 +18,55 @@ bool TreeFlight::begin_friction() {
     }
     changes_ = 0;
     friction_.begin(y_.data() + coordinates_, fastest, step_->length);
-    return settle_friction();
+    limits_.begin(dynamics_, y_.data() + coordinates_, fastest, step_->length);
+    return strike_all() && settle();
 }
 
 // Which of the coordinates at rest are held, and where the others go: a linear complementarity problem, by pivoting all
 // that are wrong, then the first of them alone (Murty 1974).
-bool TreeFlight::settle_friction() {
-    const int together = 10, most = together + 4 * int(friction_.count());
+bool TreeFlight::settle() {
+    const int together = 10, most = together + 4 * int(first_weak());
+    const double* speeds = y_.data() + coordinates_;
     for (int round = 0; round < most; ++round) {
         const Vector first = rate(y_);
-        if (!friction_.revise(dynamics_, y_.data() + coordinates_, first.data() + coordinates_, round >= together))
-            return true;
+        const double* rates = first.data() + coordinates_;
+        const bool one = round >= together;
+        bool any = friction_.revise(dynamics_, speeds, rates, one);
+        if (!any || !one)
+            any = limits_.revise(dynamics_, y_.data(), speeds, rates, std::size_t(tree_.speeds()), one) || any;
+        if (!any) return !limits_.holds_twice();
     }
     return false;
+}
+
+// The impact of a coordinate on its limit. Returns false where it does not approach it.
+bool TreeFlight::strike(std::size_t limit) {
+    rate(y_);
+    sample();
+    Vector first;
+    const auto rates = [&] {
+        first = rate(y_);
+        return static_cast<const double*>(first.data() + coordinates_);
+    };
+    double* speeds = y_.data() + coordinates_;
+    const double whole = step_->whole > 0.0 ? step_->whole : step_->h;
+    const TreeLimits::Impact impact =
+        limits_.strike(limit, dynamics_, y_.data(), speeds, std::size_t(tree_.speeds()), whole, rates);
+    if (!(impact.approach > 0.0)) return false;
+    account_->strike(dynamics_, time_, {});
+    friction_.strike(y_.data(), speeds);
+    return true;
+}
+
+// An impact may send other coordinates at their limits beyond.
+bool TreeFlight::strike_all() {
+    for (std::size_t k = 0; k < limits_.count(); ++k) {
+        if (k == 0) dynamics_.move(y_.data(), y_.data() + coordinates_);
+        if (!limits_.strikes(k, dynamics_, y_.data(), y_.data() + coordinates_)) continue;
+        if (++changes_ > tuning::tree_most_events || !strike(k)) return false;
+        k = std::size_t(-1);
+    }
+    return true;
 }
 
 // Joints that carry more at the start of the step break by their mean load, at its end.
@@ -47,7 +83,8 @@ void TreeFlight::find_weak() {
 // After rate(y).
 double TreeFlight::excess(std::size_t event, const Vector& y) {
     if (event < friction_.count()) return friction_.excess(event, dynamics_, y.data() + coordinates_);
-    return account_->load_of(dynamics_, weak_[event - friction_.count()], pushes_) - 1.0;
+    if (event < first_weak()) return limits_.excess(event - friction_.count(), dynamics_, y.data());
+    return account_->load_of(dynamics_, weak_[event - first_weak()], pushes_) - 1.0;
 }
 
 double TreeFlight::excess_at(std::size_t event, const Vector& y) {
@@ -56,7 +93,8 @@ double TreeFlight::excess_at(std::size_t event, const Vector& y) {
 }
 
 double TreeFlight::unit_of(std::size_t event) const {
-    return event < friction_.count() ? friction_.unit(event, y_.data() + coordinates_) : 1.0;
+    if (event < friction_.count()) return friction_.unit(event, y_.data() + coordinates_);
+    return event < first_weak() ? limits_.unit(event - friction_.count()) : 1.0;
 }
 
 // The change of y over s seconds.
@@ -89,7 +127,11 @@ std::size_t TreeFlight::event_within(const Part& part, const Vector& end, const 
                                                      end.data() + speeds, end_rate.data() + speeds, size);
         if (share > 0.0 && happens(k, share)) return k;
     }
-    for (std::size_t k = friction_.count(); k < events(); ++k) {
+    for (std::size_t k = 0; k < limits_.count(); ++k) {
+        const double share = limits_.passes_at(k, y_.data(), y_.data() + speeds, end.data(), end.data() + speeds, size);
+        if (share > 0.0 && happens(friction_.count() + k, share)) return friction_.count() + k;
+    }
+    for (std::size_t k = first_weak(); k < events(); ++k) {
         const double near = tuning::tree_near_break - 1.0, before = excess_at(k, y_), after = excess_at(k, end);
         if (before < near || after < near) continue;
         const double middle = excess_at(k, y_ + go(part, 0.5 * size));
@@ -102,7 +144,9 @@ std::size_t TreeFlight::event_within(const Part& part, const Vector& end, const 
 
 // The first in the list that has happened at the end of the part, or before.
 std::size_t TreeFlight::first_event(const Part& part, double& size, Vector& change) {
-    const Vector end = y_ + change, end_rate = rate(end);
+    const Vector end = y_ + change;
+    Vector end_rate;
+    if (!friction_.empty() || !weak_.empty() || limits_.needs_rates()) end_rate = rate(end);
     for (std::size_t k = 0; k < events(); ++k)
         if (k != event_ && excess(k, end) > 0.0) return k;
     return event_ == none ? event_within(part, end, end_rate, size, change) : none;
@@ -167,13 +211,22 @@ bool TreeFlight::shorten_to_event(const Part& part, double& size, Vector& change
 }
 
 // After the part that ends with it.
-bool TreeFlight::change_friction() {
+bool TreeFlight::change_law() {
     if (++changes_ > tuning::tree_most_events) return false;
-    rate(y_);
-    sample();
-    friction_.change(event_, y_.data(), y_.data() + coordinates_, needed_);
+    const std::size_t event = event_, limit = event - friction_.count();
     event_ = none;
-    return settle_friction();
+    if (event < friction_.count()) {
+        rate(y_);
+        sample();
+        friction_.change(event, y_.data(), y_.data() + coordinates_, needed_);
+    } else if (limits_.held(limit)) {
+        rate(y_);
+        sample();
+        limits_.let_go(limit);
+    } else if (!strike(limit) || !strike_all()) {
+        return false;
+    }
+    return settle();
 }
 
 }  // namespace tumble

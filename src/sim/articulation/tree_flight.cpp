@@ -47,13 +47,16 @@ bool TreeFlight::start(double stage) {
     if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
     if (!springs_.find(tree_, step, stage)) return false;
     friction_.find(tree_, step);
+    limits_.clear();
+    if (stage == 0.0 && !limits_.find(tree_, step)) return false;
     pushed_ = false;
     for (const std::uint32_t i : step.island)
         pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
     const int n = int(step.island.size());
     coordinates_ = tree_.coordinates();
     heats_ = coordinates_ + tree_.speeds();
-    extras_ = heats_ + springs_.dampers();
+    works_ = heats_ + springs_.dampers();
+    extras_ = works_ + friction_.motors();
     y_.setZero(extras_ + (pushed_ ? 1 + pushed_numbers * n + 6 : 0));
     pushes_.assign(pushed_ ? step.island.size() : 0, {});
     time_ = 0.0;
@@ -76,7 +79,7 @@ bool TreeFlight::start(double stage) {
     lost_ = 0.0;
     if (!y_.allFinite()) return false;
     if (!fits()) fit();
-    return y_.allFinite() && (friction_.empty() || begin_friction());
+    return y_.allFinite() && ((friction_.empty() && limits_.empty()) || begin_laws());
 }
 
 // The tree's speeds at the bodies' momenta: the nearest in the metric of their masses. Impulses in the joints make the change.
@@ -90,7 +93,7 @@ void TreeFlight::fit() {
         dynamics_.push(tree_.node_of_body()[i], momenta.back());
     }
     dynamics_.accelerate(Vec3::Zero(), y_.data() + coordinates_);
-    account_->start(dynamics_, momenta);
+    account_->strike(dynamics_, 0.0, momenta);
     dynamics_.move(y_.data(), y_.data() + coordinates_);
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
         const Body& body = step_->bodies[step_->island[i]];
@@ -120,8 +123,10 @@ TreeFlight::Vector TreeFlight::rate(const Vector& y) {
     dynamics_.move(q, speeds);
     springs_.drive(dynamics_, q, speeds, dy.data() + heats_);
     friction_.drive(dynamics_);
+    limits_.drive(dynamics_, speeds);
     if (pushed_) add_pushes(y, dy);
     dynamics_.accelerate(tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity), dy.data() + coordinates_);
+    friction_.find_powers(dynamics_, speeds, dy.data() + works_);
     dynamics_.coordinate_rates(q, speeds, dy.data());
     ++evaluations_;
     return dy;
@@ -243,7 +248,7 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
         const Vector first = rate(y_);
         sample();
         const double scale = std::max(fastest(y_, first), account_->swing_rate());
-        if (span * scale > tuning::tree_phase * tuning::tree_most_steps) return false;
+        if (span * scale > tuning::tree_phase * step_->most_steps) return false;
         const double least = tuning::tree_phase / (scale * tuning::tree_shortest);
         if (fresh || !exact) size = span / std::max(1.0, std::ceil(span * scale / tuning::tree_phase));
         // Equal steps over the rest.
@@ -272,8 +277,8 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
         time_ = begin + done;
         size = std::min(2.0 * tried, span);
         if (event_ == none) continue;
-        if (event_ >= friction_.count()) return true;
-        if (!change_friction()) return false;
+        if (event_ >= first_weak()) return true;
+        if (!change_law()) return false;
     }
     time_ = until;
     return true;
@@ -402,7 +407,8 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
     if (lost_ > 0.0) step_->joints[0]->account.step.work.impacts += lost_;
     springs_.account(*own_, y_.data(), y_.data() + heats_);
-    friction_.account(*own_, dynamics_, y_.data());
+    friction_.account(*own_, dynamics_, y_.data(), y_.data() + works_);
+    limits_.account(*own_, dynamics_);
     return Outcome::flown;
 }
 

@@ -8,6 +8,7 @@
 
 #include "sim/articulation/tree_account.h"
 #include "sim/articulation/tree_friction.h"
+#include "sim/articulation/tree_limits.h"
 #include "sim/articulation/tree_springs.h"
 #include "sim/joints/flight_way.h"
 
@@ -41,15 +42,17 @@ public:
     enum class Outcome {
         flown,
         declined,  // no tree, its joints have come apart, or a spring or friction along no coordinate
-        stopped,   // a limit is met, or a joint loaded beyond its strength: a step for the solver of contacts
+        stopped,   // a limit is violated, or a joint loaded beyond its strength: a step for the solver of contacts
     };
     /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
     /// and joints, and leaves them in any state where they have not flown.
     ///
-    /// Parts of the step end where the friction of a joint changes, and where a joint breaks: the pieces then fly on.
+    /// Parts of the step end where a limit is met or left, where the friction of a joint changes, and where a joint breaks:
+    /// the pieces then fly on.
     ///
     /// Verlet's method and its compositions (tree_verlet.cpp) take `substeps`, a power of two, and more where links under
-    /// tension swing fast or the velocities do not settle; `substeps` is then the number for the next step.
+    /// tension swing fast or the velocities do not settle; `substeps` is then the number for the next step. They stop where
+    /// a limit is violated at the end.
     Outcome advance(const TreeStep& step, TreeMethod method, int& substeps);
     Outcome advance(const TreeStep& step, IntegratorKind method) {
         int substeps = 1;
@@ -77,7 +80,7 @@ private:
         double scale;
         IntegratorKind method;
     };
-    // Changes that end a part of the step: first those of friction, by coordinate, then the breaks, by joint.
+    // Changes that end a part of the step: those of friction, by coordinate, then the limits, then the breaks, by joint.
     static constexpr std::size_t none = std::size_t(-1);
 
     bool start(double stage);
@@ -96,13 +99,16 @@ private:
     void drift(double* coordinates, const double* speeds, double h) const;
     double take_pass(const double* speeds, double h);
     double extrapolate(const Vector& first, double h, double scale, Vector& change);
-    bool begin_friction();
-    bool settle_friction();
-    bool change_friction();
+    bool begin_laws();
+    bool settle();
+    bool change_law();
+    bool strike(std::size_t limit);
+    bool strike_all();
     bool shorten_to_event(const Part& part, double& size, Vector& change);
-    bool events_possible() const { return !friction_.empty() || !weak_.empty(); }
+    bool events_possible() const { return events() > 0; }
+    std::size_t first_weak() const { return friction_.count() + limits_.count(); }
     void find_weak();
-    std::size_t events() const { return friction_.count() + weak_.size(); }
+    std::size_t events() const { return first_weak() + weak_.size(); }
     double excess(std::size_t event, const Vector& y);
     double excess_at(std::size_t event, const Vector& y);
     double unit_of(std::size_t event) const;
@@ -124,17 +130,18 @@ private:
     ForwardDynamics dynamics_{tree_};
     TreeSprings springs_;
     TreeFriction friction_;
+    TreeLimits limits_;
     std::vector<int> weak_;     // joints that can break, and carry less than their strength at the start
     std::size_t event_ = none;  // at the end of this part
     double needed_ = 0.0;       // N m, N: net effort of a held coordinate there
-    int changes_ = 0;           // of friction in this step
+    int changes_ = 0;           // of friction and limits in this step
     FallingFrame frame_;
     Totals start_;
     std::optional<TreeAccount> account_;
-    // Coordinates, speeds, heats of dampers; where other forces than gravity act also the time, by body their impulse, moment and work, and
+    // Coordinates, speeds, heats of dampers, works of motors; where other forces than gravity act also the time, by body their impulse, moment and work, and
     // the moment about the center of mass and the displacement of the whole.
     Vector y_;
-    int coordinates_ = 0, heats_ = 0, extras_ = 0;  // number of coordinates; places in y
+    int coordinates_ = 0, heats_ = 0, works_ = 0, extras_ = 0;  // number of coordinates; places in y
     bool pushed_ = false;
     double lost_ = 0.0;                   // J, where the velocities did not fit the joints at the start
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up

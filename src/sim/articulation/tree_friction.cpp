@@ -9,12 +9,25 @@ namespace tumble {
 
 void TreeFriction::find(const JointTree& tree, const TreeStep& step) {
     list_.clear();
+    motors_ = 0;
     for (int k = 0; k < int(tree.nodes().size()); ++k) {
         const TreeNode& node = tree.nodes()[std::size_t(k)];
         if (node.kind != NodeKind::revolute && node.kind != NodeKind::prismatic) continue;
-        const double bound = step.joints[std::size_t(node.joint)]->axis(node.coordinate).friction;
-        if (bound > 0.0)
-            list_.push_back({k, node.joint, node.at, node.speed_at, node.coordinate, node.sign, bound, 0.0, 0.0, 0.0});
+        const JointAxis& axis = step.joints[std::size_t(node.joint)]->axis(node.coordinate);
+        Friction f;
+        f.node = k;
+        f.joint = node.joint;
+        f.at = node.at;
+        f.speed_at = node.speed_at;
+        f.coordinate = node.coordinate;
+        f.sign = node.sign;
+        f.bound = axis.friction;
+        if (axis.motor && axis.motor->speed) {
+            f.bound = axis.motor->max_force;
+            f.speed = node.sign * *axis.motor->speed;
+            f.work = motors_++;
+        }
+        if (f.bound > 0.0) list_.push_back(f);
     }
 }
 
@@ -22,8 +35,8 @@ void TreeFriction::begin(double* speeds, double fastest, double length) {
     for (Friction& f : list_) {
         double& speed = speeds[f.speed_at];
         // Angles in m/s of the mean radius; a displacement is not smaller.
-        if (std::abs(speed) * length <= tuning::friction_rest * fastest) speed = 0.0;
-        f.way = speed > 0.0 ? 1.0 : speed < 0.0 ? -1.0 : 0.0;
+        if (std::abs(speed - f.speed) * length <= tuning::friction_rest * fastest) speed = f.speed;
+        f.way = speed > f.speed ? 1.0 : speed < f.speed ? -1.0 : 0.0;
     }
 }
 
@@ -38,20 +51,20 @@ void TreeFriction::drive(ForwardDynamics& dynamics) const {
 
 double TreeFriction::excess(std::size_t k, const ForwardDynamics& dynamics, const double* speeds) const {
     const Friction& f = list_[k];
-    if (f.way != 0.0) return -f.way * speeds[f.speed_at];
+    if (f.way != 0.0) return -f.way * (speeds[f.speed_at] - f.speed);
     return std::abs(dynamics.net_effort(f.node)) - (1.0 + tuning::friction_let_go) * f.bound;
 }
 
 double TreeFriction::unit(std::size_t k, const double* speeds) const {
     const Friction& f = list_[k];
-    return f.way != 0.0 ? std::abs(speeds[f.speed_at]) : f.bound;
+    return f.way != 0.0 ? std::abs(speeds[f.speed_at] - f.speed) : f.bound;
 }
 
 double TreeFriction::turns_back_at(std::size_t k, const double* speeds, const double* rates, const double* end_speeds,
                                    const double* end_rates, double h) const {
     const Friction& f = list_[k];
     const auto i = std::size_t(f.speed_at);
-    const double v0 = f.way * speeds[i], v1 = f.way * end_speeds[i], a0 = f.way * rates[i] * h,
+    const double v0 = f.way * (speeds[i] - f.speed), v1 = f.way * (end_speeds[i] - f.speed), a0 = f.way * rates[i] * h,
                  a1 = f.way * end_rates[i] * h;
     if (f.way == 0.0 || !(a0 < 0.0) || !(a1 > 0.0)) return 0.0;
     // v0 + a0 t + b t^2 + c t^3, whose rate a0 + 2 b t + 3 c t^2 changes its sign once.
@@ -68,14 +81,22 @@ void TreeFriction::change(std::size_t k, const double* q, double* speeds, double
     Friction& f = list_[k];
     f.heat += f.bound * std::abs(q[f.at] - f.since);
     f.since = q[f.at];
-    speeds[f.speed_at] = 0.0;
+    speeds[f.speed_at] = f.speed;
     f.way = f.way != 0.0 ? 0.0 : net > 0.0 ? 1.0 : -1.0;
+}
+
+void TreeFriction::strike(const double* q, const double* speeds) {
+    for (Friction& f : list_) {
+        f.heat += f.bound * std::abs(q[f.at] - f.since);
+        f.since = q[f.at];
+        if (const double speed = speeds[f.speed_at]; speed != f.speed) f.way = speed > f.speed ? 1.0 : -1.0;
+    }
 }
 
 bool TreeFriction::revise(const ForwardDynamics& dynamics, const double* speeds, const double* rates, bool one) {
     bool any = false;
     for (Friction& f : list_) {
-        if (speeds[f.speed_at] != 0.0) continue;
+        if (speeds[f.speed_at] != f.speed) continue;
         const double before = f.way;
         if (f.way == 0.0) {
             const double needed = dynamics.net_effort(f.node);
@@ -90,14 +111,25 @@ bool TreeFriction::revise(const ForwardDynamics& dynamics, const double* speeds,
     return any;
 }
 
+void TreeFriction::find_powers(const ForwardDynamics& dynamics, const double* speeds, double* powers) const {
+    for (const Friction& f : list_)
+        if (f.work >= 0) powers[f.work] = effort(f, dynamics) * speeds[f.speed_at];
+}
+
+// Along the node's coordinate.
+double TreeFriction::effort(const Friction& f, const ForwardDynamics& dynamics) {
+    return f.way != 0.0 ? -f.way * f.bound : -dynamics.net_effort(f.node);
+}
+
 // A joint that begins to hold has counted its whole work as an impact's.
-void TreeFriction::account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q) {
+void TreeFriction::account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q,
+                           const double* works) {
     for (Friction& f : list_) {
         Joint& joint = *step.joints[std::size_t(f.joint)];
+        const bool motor = f.work >= 0;
         f.heat += f.bound * std::abs(q[f.at] - f.since);
-        joint.account.step.work.heat += f.heat;
-        const double effort = f.way != 0.0 ? -f.way * f.bound : -dynamics.net_effort(f.node);
-        joint.impulse[f.coordinate][Joint::friction] = f.sign * effort * step.h;
+        (motor ? joint.account.step.work.motors : joint.account.step.work.heat) += motor ? works[f.work] : f.heat;
+        joint.impulse[f.coordinate][motor ? Joint::motor : Joint::friction] = f.sign * effort(f, dynamics) * step.h;
     }
 }
 

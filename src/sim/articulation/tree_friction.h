@@ -1,6 +1,6 @@
 // Dry friction of a tree's joints, of a constant bound: an effort against the motion of a coordinate, or a coordinate at
 // rest that is held while the effort which that takes is within the bound. Both are smooth between the moments in which
-// a coordinate comes to rest or is let go.
+// a coordinate comes to rest or is let go. A motor with a speed is friction against the motion relative to that speed.
 #pragma once
 
 #include "sim/articulation/forward_dynamics.h"
@@ -14,10 +14,14 @@ namespace tumble {
 class TreeFriction {
 public:
     void find(const JointTree& tree, const TreeStep& step);
+    /// Number of motors: each has a work, a coordinate of the motion.
+    int motors() const { return motors_; }
     bool empty() const { return list_.empty(); }
 
     /// Directions of motion at the start. Speeds (rad/s, m/s) that are rounding beside the fastest body (m/s) become 0.
     void begin(double* speeds, double fastest, double length);
+    /// After ForwardDynamics::accelerate(): rates of the works of motors, W.
+    void find_powers(const ForwardDynamics& dynamics, const double* speeds, double* powers) const;
     /// After ForwardDynamics::move(): efforts against the motion, and holds.
     void drive(ForwardDynamics& dynamics) const;
 
@@ -37,12 +41,14 @@ public:
     /// Of coordinates at rest, after accelerate() with drive(): holds those that would move against their direction, and
     /// lets those go that need more than their bound; of one alone or of all. Returns whether there were any.
     bool revise(const ForwardDynamics& dynamics, const double* speeds, const double* rates, bool one);
+    /// After an impact at coordinates q: the directions of motion anew.
+    void strike(const double* q, const double* speeds);
     double net(std::size_t k, const ForwardDynamics& dynamics) const { return dynamics.net_effort(list_[k].node); }
     std::size_t count() const { return list_.size(); }
 
-    /// Adds the heat of the step to the joints' accounts, and gives the joints the impulses of friction, at the last
-    /// coordinates; after accelerate().
-    void account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q);
+    /// Adds the heat and the works (J, of motors) of the step to the joints' accounts, and gives the joints the impulses of
+    /// friction and motors, at the last coordinates; after accelerate().
+    void account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q, const double* works);
 
 private:
     struct Friction {
@@ -51,11 +57,16 @@ private:
         std::uint8_t coordinate = 0;
         double sign = 1.0;   // of the joint's coordinate along the node's own
         double bound = 0.0;  // N m, N
-        double way = 0.0;    // direction of motion along the node's coordinate; 0: held
+        double speed = 0.0;  // rad/s, m/s, along the node's coordinate: of a motor
+        int work = -1;       // place of a motor's work; friction: -1
+        double way = 0.0;    // direction of the relative motion along the node's coordinate; 0: held
         double since = 0.0;  // coordinate at the last change
         double heat = 0.0;   // J, up to the last change
     };
+    static double effort(const Friction& f, const ForwardDynamics& dynamics);
+
     std::vector<Friction> list_;
+    int motors_ = 0;
 };
 
 }  // namespace tumble

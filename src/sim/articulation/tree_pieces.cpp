@@ -46,7 +46,7 @@ std::vector<Piece> pieces_of(const TreeStep& step) {
 TreeFlight::Outcome TreeFlight::advance(const TreeStep& step, TreeMethod method, int& substeps) {
     const Outcome outcome = advance_tree(step, method, substeps);
     if (outcome != Outcome::flown || event_ == none) return outcome;
-    return advance_pieces(step, method, substeps, weak_[event_ - friction_.count()]);
+    return advance_pieces(step, method, substeps, weak_[event_ - first_weak()]);
 }
 
 // After the part up to the break.
@@ -61,7 +61,8 @@ TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, TreeMethod 
     int evaluations = evaluations_;
     for (const Piece& piece : pieces_of(step)) {
         const TreeStep rest{step.bodies,     piece.bodies, piece.joints, step.forces,
-                            step.from + now, step.h - now, step.length};
+                            step.from + now, step.h - now, step.length,  step.whole > 0.0 ? step.whole : step.h,
+                            step.most_steps};
         if (advance(rest, method, substeps) != Outcome::flown) return Outcome::stopped;
         evaluations += evaluations_;
     }

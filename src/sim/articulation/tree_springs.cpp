@@ -24,7 +24,8 @@ bool TreeSprings::find(const JointTree& tree, const TreeStep& step, double stage
         if (node.kind != NodeKind::revolute && node.kind != NodeKind::prismatic) continue;
         const Joint& joint = *step.joints[std::size_t(node.joint)];
         const JointAxis& axis = joint.axis(node.coordinate);
-        if (!axis.spring && !axis.motor) continue;
+        const bool drives = axis.motor && !axis.motor->speed;
+        if (!axis.spring && !drives) continue;
         const JointGeometry g = measure(joint, side_of(step.bodies, joint.a), side_of(step.bodies, joint.b));
         const double value = g.coordinates[node.coordinate].value;
         const double gives = compliance_along(step.bodies, joint, g, node.coordinate);
@@ -49,7 +50,7 @@ bool TreeSprings::find(const JointTree& tree, const TreeStep& step, double stage
             const JointSpring& spring = joint.springs[node.coordinate];
             add(spring.stiffness, spring.damping, spring.rest, infinity, false);
         }
-        if (axis.motor)
+        if (drives)
             add(axis.motor->stiffness, axis.motor->damping, axis.motor->targets[0].value, axis.motor->max_force, true);
     }
     return true;

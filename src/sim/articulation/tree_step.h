@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "sim/articulation/settings.h"
 #include "sim/dynamics/body.h"
 #include "sim/dynamics/forces.h"
 #include "sim/joints/joint.h"
@@ -17,8 +18,10 @@ struct TreeStep {
     std::span<const std::uint32_t> island;  // indices of the tree's bodies, ascending
     std::span<Joint* const> joints;
     const ForceField& forces;
-    double from, h;  // s: start and length
-    double length;   // m, mean radius of the bodies
+    double from, h;                            // s: start and length
+    double length;                             // m, mean radius of the bodies
+    double whole = 0.0;                        // s: of the step that this one is a part of; 0: itself
+    int most_steps = tuning::tree_most_steps;  // of half a radian each
 };
 
 /// A frame that falls freely, with the center of mass of a free tree: there uniform gravity does not act.

@@ -123,7 +123,11 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
         account_->add_stage(dynamics_, time + 0.5 * h, h);
         swing_ = std::max(swing_, std::abs(h) * account_->swing_rate());
     }
-    if (heats_ < extras_) springs_.heat_stage(y.data(), speeds, middle_.data(), after_.data(), h, y.data() + heats_);
+    if (heats_ < works_) springs_.heat_stage(y.data(), speeds, middle_.data(), after_.data(), h, y.data() + heats_);
+    if (works_ < extras_) {
+        friction_.find_powers(dynamics_, mean_.data(), rates_.data() + works_);
+        y.segment(works_, extras_ - works_) += h * rates_.segment(works_, extras_ - works_);
+    }
     if (pushed_) y.tail(y.size() - extras_) += h * rates_.tail(y.size() - extras_);
     y.head(coordinates_) = middle_.head(coordinates_);
     y.segment(coordinates_, tree_.speeds()) = after_;
@@ -166,8 +170,8 @@ bool TreeFlight::integrate_verlet(double until, int substeps) {
         done = size >= rest * (1.0 - 1e-12) ? span : done + size;
         time_ = begin + done;
         if (event_ == none) continue;
-        if (event_ >= friction_.count()) return true;
-        if (!change_friction()) return false;
+        if (event_ >= first_weak()) return true;
+        if (!change_law()) return false;
     }
     time_ = until;
     return true;

@@ -104,7 +104,7 @@ TreeFlight::Outcome GroupFlights::fly_tree(std::uint32_t group, const JointIslan
     const std::vector<Joint*> joints = joints_of(group);
     if (!tree_laws(joints, *bodies_)) return TreeFlight::Outcome::declined;
     Flight& flight = flights_[group];
-    const TreeStep step{*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length};
+    const TreeStep step{*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length, flight.span};
     TreeFlight::Outcome outcome = tree_flight_.advance(step, {IntegratorKind::exact, flight_order}, flight.substeps);
     if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree()) return outcome;
     outcome = tree_flight_.advance(step, {IntegratorKind::splitting, flight_order}, flight.substeps);

@@ -190,7 +190,7 @@ void JoinedGroups::load_joint(Group& group, std::size_t index, const std::vector
         if (value >= axis.upper - near) add_limit(-direction, turns, axis.restitution);
     }
     if (joint.description.swing && g.swing.value >= g.swing_limit - tuning::joint_rounding)
-        add_limit(-g.swing.direction, true, 0.0);
+        add_limit(-g.swing.direction, true, joint.axis(4).restitution);
 }
 
 void JoinedGroups::factor(Group& group) {

@@ -4,14 +4,31 @@
 
 namespace tumble {
 
-bool undriven(const Joint& joint, const std::vector<Body>& bodies, bool holding) {
-    if (joint.gear()) return false;
-    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
-        if (joint.axis(c).motor && !(holding && holds_a_place(*joint.axis(c).motor))) return false;
-    if (joint.soft && joint.description.friction_coefficient > 0.0) return false;
+namespace {
+
+bool on_moving_carrier(const Joint& joint, const std::vector<Body>& bodies) {
     for (const std::uint32_t i : {joint.a, joint.b})
-        if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return false;
+        if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return true;
+    return false;
+}
+
+bool motors_fly(const Joint& joint) {
+    for (std::size_t c = 0; joint.soft && c < joint.count(); ++c) {
+        const JointAxis& axis = joint.axis(c);
+        if (!axis.motor) continue;
+        const bool steady = axis.motor->speed ? axis.motor->max_force < infinity && axis.friction == 0.0
+                                              : axis.motor->targets.size() == 1;
+        if (!steady) return false;
+    }
     return true;
+}
+
+}  // namespace
+
+bool undriven(const Joint& joint, const std::vector<Body>& bodies) {
+    if (joint.gear() || has_motors(joint)) return false;
+    if (joint.soft && joint.description.friction_coefficient > 0.0) return false;
+    return !on_moving_carrier(joint, bodies);
 }
 
 bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
@@ -30,8 +47,6 @@ bool has_springs(const Joint& joint) {
     return false;
 }
 
-bool holds_a_place(const JointMotor& motor) { return !motor.speed && motor.targets.size() == 1; }
-
 bool has_motors(const Joint& joint) {
     for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
         if (joint.axis(c).motor) return true;
@@ -45,12 +60,14 @@ bool acts_along_coordinates(const Joint& joint) {
     return turns < 3;
 }
 
-bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies) {
+bool tree_laws(std::span<const Joint* const> joints, const std::vector<Body>& bodies) {
     return std::all_of(joints.begin(), joints.end(), [&](const Joint* joint) {
         for (const std::uint32_t i : {joint->a, joint->b})
             if (i != Joint::world && bodies[i].dynamic() && bodies[i].integrator == IntegratorKind::explicit_euler)
                 return false;
-        return !joint->broken && undriven(*joint, bodies, true) && acts_along_coordinates(*joint);
+        return !joint->broken && !joint->gear() && !on_moving_carrier(*joint, bodies) &&
+               !(joint->soft && joint->description.friction_coefficient > 0.0) && acts_along_coordinates(*joint) &&
+               motors_fly(*joint);
     });
 }
 

@@ -11,20 +11,17 @@ namespace tumble {
 
 /// Whether the joint does nothing but lock coordinates, limit or spring them, or brake them by a constant force, between
 /// bodies whose motion is not prescribed.
-/// With `holding`, or drive them by motors whose target is one place.
-bool undriven(const Joint& joint, const std::vector<Body>& bodies, bool holding = false);
+bool undriven(const Joint& joint, const std::vector<Body>& bodies);
 /// The same without friction.
 bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies);
 bool has_springs(const Joint& joint);
 bool has_motors(const Joint& joint);
-/// Whether the motor has a single target, as a spring and a damper.
-bool holds_a_place(const JointMotor& motor);
 bool has_friction(const Joint& joint);  // of a constant bound
 /// Whether each spring, motor and friction of the joint acts along one coordinate of a tree: not those of balls.
 bool acts_along_coordinates(const Joint& joint);
-/// Whether the laws of these joints are those of trees in flight: locks, limits, springs, dampers, motors with one target,
-/// and friction.
-bool tree_laws(std::span<Joint* const> joints, const std::vector<Body>& bodies);
+/// Whether the laws of these joints are those of trees in flight: locks, limits, springs, dampers, friction, and motors with
+/// one target or with a speed and a bound.
+bool tree_laws(std::span<const Joint* const> joints, const std::vector<Body>& bodies);
 
 /// The integrator of bodies that are joined: the finest of theirs, and splitting before that of Runge and Kutta.
 IntegratorKind joined_integrator(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined);

@@ -151,13 +151,34 @@ double twist_of(const Joint& joint, const JointSide& a, const JointSide& b) {
     return unwrapped(2.0 * atan2_stable(q.x(), q.w()), joint.value[3]);
 }
 
-bool beyond_limit(const Joint& joint, const JointGeometry& g) {
+bool limited(const Joint& joint) {
+    if (!joint.soft || joint.gear()) return false;
+    if (joint.description.swing) return true;
+    for (std::size_t k = 0; k < joint.count(); ++k)
+        if (joint.axis(k).motion == JointAxis::Motion::limited) return true;
+    return false;
+}
+
+bool at_limit(const Joint& joint) {
     if (!joint.soft) return false;
-    if (joint.description.swing && g.swing.value > g.swing_limit) return true;
+    for (std::size_t k = 0; k < joint.count(); ++k) {
+        const JointAxis& axis = joint.axis(k);
+        const double near = tuning::joint_rounding * (k < 3 ? joint.size : 1.0);
+        if (axis.motion == JointAxis::Motion::limited &&
+            (joint.value[k] <= axis.lower + near || joint.value[k] >= axis.upper - near))
+            return true;
+    }
+    return false;
+}
+
+bool beyond_limit(const Joint& joint, const JointGeometry& g, double tolerance) {
+    if (!joint.soft) return false;
+    if (joint.description.swing && g.swing.value > g.swing_limit + tolerance) return true;
     for (std::size_t k = 0; k < joint.count(); ++k) {
         const JointAxis& axis = joint.axis(k);
         if (axis.motion != JointAxis::Motion::limited) continue;
-        if (g.coordinates[k].value < axis.lower || g.coordinates[k].value > axis.upper) return true;
+        const double value = g.coordinates[k].value, off = tolerance * (k < 3 ? joint.size : 1.0);
+        if (value < axis.lower - off || value > axis.upper + off) return true;
     }
     return false;
 }

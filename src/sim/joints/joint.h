@@ -143,7 +143,10 @@ JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b
 /// Of a ball: its coordinate 3.
 double twist_of(const Joint& joint, const JointSide& a, const JointSide& b);
 
-/// Whether a limit is violated.
-bool beyond_limit(const Joint& joint, const JointGeometry& g);
+/// Whether any coordinate or swing has limits; whether a coordinate was at one at the end of the last step.
+bool limited(const Joint& joint);
+bool at_limit(const Joint& joint);
+/// Whether a limit is violated by more than `tolerance`, in rad and sizes of the joint.
+bool beyond_limit(const Joint& joint, const JointGeometry& g, double tolerance = 0.0);
 
 }  // namespace tumble

@@ -109,14 +109,17 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
 
 void add_way(const JointGroup& group, bool tree, const JointSet& joints, const std::vector<Body>& bodies,
              JointReport& report) {
-    for (const std::uint32_t i : group.bodies)
-        if (bodies[i].integrator == IntegratorKind::explicit_euler) return void(++report.by_rows);
+    std::vector<const Joint*> members;
     bool rattle = true;
+    for (const std::uint32_t i : group.bodies)
+        rattle = rattle && bodies[i].integrator != IntegratorKind::explicit_euler;
     for (const std::uint32_t k : group.joints) {
         const Joint& joint = joints.joints()[k];
-        tree = tree && !joint.distance() && undriven(joint, bodies, true) && acts_along_coordinates(joint);
+        members.push_back(&joint);
+        tree = tree && !joint.distance();
         rattle = rattle && free_but_for_springs(joint, bodies);
     }
+    tree = tree && tree_laws(members, bodies);
     ++(tree ? report.by_coordinates : rattle ? report.by_rattle : report.by_rows);
 }
 

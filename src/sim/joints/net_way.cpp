@@ -61,7 +61,8 @@ bool known_to_sweeps(const Joint& joint) {
     for (std::size_t c = 0; c < joint.count(); ++c) {
         const JointAxis& axis = joint.axis(c);
         const bool turns = c >= 3, limited = axis.motion == JointAxis::Motion::limited;
-        if (axis.motor || (limited && axis.restitution > 0.0)) return false;
+        const bool stops = limited || (turns && description.swing);
+        if (axis.motor || (stops && axis.restitution > 0.0)) return false;
         // Dampers and friction of turns alone; no springs.
         if ((axis.spring || axis.friction > 0.0) && !turns) return false;
         if (axis.spring && (joint.springs[c].stiffness > 0.0 || axis.spring->frequency > 0.0)) return false;

@@ -70,6 +70,16 @@ inline constexpr double joint_fits = 1e-14;
 /// friction follows the loads, and the impulse of a slipping joint is not quite at it. Not fitted.
 inline constexpr double joint_fit_below = 0.999;
 
+/// Share of a step within which a rebound from a limit must not end: such a coordinate is held at its limit. Not fitted: it
+/// ends a series of bounces by 0.1 / (1 - e) steps too early.
+inline constexpr double limit_hop = 0.1;
+
+/// Speed at a limit that is rounding, as a share of the fastest body's; times of impacts on limits that are one, as a share of
+/// the step; and impacts in a step by rows, after which limits have no restitution. Not fitted: rounding; a bound of the cost.
+inline constexpr double limit_rest = 1e-12;
+inline constexpr double limit_together = 1e-9;
+inline constexpr int limit_cuts = 16;
+
 /// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
 inline constexpr double joint_flight_closed = 4e-16;
 

@@ -96,7 +96,7 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         body.derive();
         if (freely)
             turn_freely(body, orientation, share * h);
-        else if (in_contact && spin_grew(body, spin_before))
+        else if (in_contact && !body.jointed && spin_grew(body, spin_before))  // joints have changed it within the step
             limit_spin(body, spin_before);
         if (in_contact && share < 1.0) forces.lose_time(i, body, share, true);
     }

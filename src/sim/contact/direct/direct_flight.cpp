@@ -5,18 +5,48 @@
 #include "sim/math/keyframe_track.h"
 
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace tumble {
 
-// Where rounding stops a fine integrator, by compositions of Verlet's method.
+// Fine integrators find the limits; where rounding stops them, compositions of Verlet's method fly. By that method a step
+// that meets a limit is flown again by the method of Runge and Kutta.
 TreeFlight::Outcome DirectSolver::advance_tree(const JointIsland& island, int& substeps) {
+    using Outcome = TreeFlight::Outcome;
     const ContactProblem& problem = island.problem;
-    const TreeStep step{problem.bodies, island.bodies,      flying_,      *problem.forces,
-                        island.from,    problem.settings.h, island.length};
+    TreeStep step{problem.bodies, island.bodies,      flying_,       *problem.forces,
+                  island.from,    problem.settings.h, island.length, problem.joints->to() - problem.joints->from()};
     const TreeMethod method = tree_method(problem.bodies, island.bodies);
-    const TreeFlight::Outcome outcome = tree_flight_.advance(step, method, substeps);
-    if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree() || method.verlet()) return outcome;
-    return tree_flight_.advance(step, {IntegratorKind::splitting, method.order}, substeps);
+    Outcome outcome = Outcome::declined;
+    if (!method.verlet()) {
+        outcome = tree_flight_.advance(step, method, substeps);
+        if (outcome != Outcome::declined || !tree_flight_.is_tree()) return outcome;
+        return tree_flight_.advance(step, {IntegratorKind::splitting, method.order}, substeps);
+    }
+    const auto any = [&](bool (*is)(const Joint&)) {
+        return std::any_of(flying_.begin(), flying_.end(), [&](const Joint* joint) { return is(*joint); });
+    };
+    const auto fly_to_limits = [&] {
+        step.most_steps = tuning::tree_few_steps;
+        return tree_flight_.advance(step, {IntegratorKind::runge_kutta_4, method.order}, substeps);
+    };
+    const bool rests = any(at_limit), may_meet = !rests && any(limited);
+    if (rests && (outcome = fly_to_limits()) != Outcome::declined) return outcome;
+    std::vector<RigidState> states;
+    std::vector<std::array<double, Joint::coordinates>> values;
+    if (may_meet) {
+        for (const std::uint32_t i : island.bodies) states.push_back(state_of(problem.bodies[i]));
+        for (const Joint* joint : flying_) values.push_back(joint->value);
+    }
+    outcome = tree_flight_.advance(step, method, substeps);
+    if (!may_meet || outcome == Outcome::flown || !tree_flight_.is_tree()) return outcome;
+    for (std::size_t k = 0; k < states.size(); ++k) set_state(problem.bodies[island.bodies[k]], states[k]);
+    for (std::size_t k = 0; k < values.size(); ++k) {
+        flying_[k]->value = values[k];
+        flying_[k]->broken = false;
+    }
+    return fly_to_limits();
 }
 
 // Lists the joints, if their laws are those of trees in flight. Loops have more joints than bodies.

@@ -19,15 +19,15 @@ namespace tumble {
 
 using namespace contact_rows;
 
-// The state at the start of a substep: forces in equal parts, rows and contacts at the present poses.
-void DirectSolver::load_substep(const JointIsland& island, int substep, int substeps) {
+// The state at the start of a part of the step: forces in equal parts, rows and contacts at the present poses.
+void DirectSolver::load_part(const JointIsland& island, bool first) {
     const ContactProblem& problem = island.problem;
-    const double d = problem.settings.h;
+    const double d = problem.settings.h, share = force_share(island);
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = problem.bodies[island.bodies[k]];
-        if (substeps > 1) {
-            body.momentum += starts_[k].push / substeps;
-            body.angular_momentum += starts_[k].turn / substeps;
+        if (in_parts_) {
+            body.momentum += share * starts_[k].push;
+            body.angular_momentum += share * starts_[k].turn;
             body.derive();
             find_gyration(body, d);
             masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
@@ -39,13 +39,16 @@ void DirectSolver::load_substep(const JointIsland& island, int substep, int subs
     factored_ = base_kept_ = false;
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
-    if (substeps == 1) return;
+    if (!in_parts_) return;
+    const double longer = d / estimated_for_;
+    estimated_for_ = d;
     for (ConstraintRows& constraint : constraints_) {
-        if (substep > 0) move_contact(constraint, problem);
+        if (!first) move_contact(constraint, problem);
+        each_row(constraint, [&](Row& row) { row.estimate *= longer; });
         for (int i = 0; i < constraint.count; ++i) {
             Row& row = constraint.normal[i];
             row.target = std::min(0.0, constraint.overlap[i] / d);
-            if (substep > 0) constraint.rebound[i] = 0.0;
+            if (!first) constraint.rebound[i] = 0.0;
             if (constraint.rebound[i] > 0.0) row.target = constraint.rebound[i];
         }
     }
@@ -143,65 +146,143 @@ void DirectSolver::move_to_end(const JointIsland& island, bool moved) {
     }
 }
 
-// Changes momenta and, in several substeps, poses. Returns false where substeps are too long.
+// Of the step's forces, those of a part that act at its start. Without contacts half of them act at its end, as in flight.
+double DirectSolver::force_share(const JointIsland& part) const {
+    const double share = part.problem.settings.h / (part.problem.joints->to() - part.problem.joints->from());
+    return kicks() ? 0.5 * share : share;
+}
+
+// Changes momenta and, in several parts, poses. Returns false where substeps are too long, and where a limit is met.
 bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds,
                                       int substeps) {
     const ContactProblem& step = island.problem;
-    ConstraintSettings settings = step.settings;
-    settings.h /= substeps;
-    const ContactProblem part{step.bodies, step.manifolds, step.before, settings, step.totals, step.joints};
+    const double h = step.settings.h, d = h / substeps;
     load_bodies(step, island.bodies);
     load_constraints(step, island.bodies, manifolds);
     driven_ = true;
     factored_ = false;
     compliance_ = tuning::direct_compliance / total_mass_;
-    if (substeps > 1) {
-        for (ConstraintRows& constraint : constraints_)
-            each_row(constraint, [&](Row& row) { row.estimate /= substeps; });
+    in_parts_ = substeps > 1 || cut_;
+    kicked_ = false;
+    estimated_for_ = h;
+    // Contacts tremble: there a rebound has to last as long as that of a contact.
+    const double hop = constraints_.empty() ? 0.0 : step.settings.rebound_share;
+    joints_.start_step(h, true, std::max(hop, 0.5 * tuning::limit_hop));
+    for (const std::uint32_t k : island.joints) step.joints->joints()[step.joints->active()[k]].account.step = {};
+    if (in_parts_)
         for (std::size_t k = 0; k < island.bodies.size(); ++k) {
             Body& body = step.bodies[island.bodies[k]];
             body.momentum -= starts_[k].push;
             body.angular_momentum -= starts_[k].turn;
+            if (cut_) body.derive_velocities();
         }
-    }
     std::vector<double> sums;
     swing_ = 0.0;
     rounds_ = 0;
-    for (int substep = 0; substep < substeps; ++substep) {
-        const double from = island.from + substep * part.settings.h;
-        const JointIsland now{part, island.bodies, island.joints, length_, from, from + part.settings.h};
-        joints_.keep_velocities(now, substep == 0);
-        load_substep(now, substep, substeps);
-        structure(step, island.bodies, manifolds);
-        if (!moves_freely(now)) {
-            do {
-                base_kept_ = false;  // joints that gave way are bounded
-                const Closing closing = close_joints(now);
-                // Shorter steps help the joints, seldom the contacts.
-                const bool alone = closing == Closing::open && constraints_.empty();
-                const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
-                if (closing != Closing::closed && substeps < most) return false;
-            } while (joints_.give_way());
-            swing_ = std::max(swing_, joints_.swing_rate(now) * part.settings.h);
-            if (swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps) return false;
+    int cuts = 0;
+    bool first = true;
+    for (int substep = 0; substep < substeps; ++substep)
+        for (double done = 0.0; done < d;) {
+            const double from = island.from + substep * d + done;
+            ConstraintSettings settings = step.settings;
+            settings.h = d - done;
+            const ContactProblem problem{step.bodies, step.manifolds, step.before, settings, step.totals, step.joints};
+            const JointIsland rest{problem, island.bodies, island.joints, length_, from, from + settings.h};
+            if (!solve_part(rest, manifolds, substeps, first)) return false;
+            if (joints_.find_strikes(rest, ends_, kicks())) {
+                if (!cut_) {
+                    cut_ = true;
+                    return false;
+                }
+                settings.h = joints_.strikes().front().time;
+                if (++cuts >= tuning::limit_cuts) joints_.stop_bounces();
+                if (settings.h < d - done) give_back_part(rest);
+                if (settings.h <= tuning::limit_together * h) {
+                    strike(rest, from - island.from, Fitting::rebounds);
+                    continue;
+                }
+            }
+            const double length = settings.h;
+            const ContactProblem problem_of_part{step.bodies, step.manifolds, step.before,
+                                                 settings,    step.totals,    step.joints};
+            const JointIsland part{problem_of_part, island.bodies, island.joints, length_, from, from + length};
+            if (length < d - done && !solve_part(part, manifolds, substeps, first)) return false;
+            apply_solution(part);
+            joints_.account(part);
+            if (!in_parts_) return true;
+            move(part);
+            std::size_t next = 0;
+            for (ConstraintRows& constraint : constraints_)
+                each_row(constraint, [&](Row& row) {
+                    if (first) sums.push_back(0.0);
+                    sums[next++] += row.impulse;
+                    row.estimate = row.impulse;
+                });
+            first = false;
+            done = length < d - done ? done + length : d;
+            if (kicks()) kick(part);
+            if (cut_ && !(substep + 1 == substeps && done == d))
+                strike(part, part.to - island.from, consistent_ ? Fitting::solved : Fitting::unsolved);
         }
-        apply_solution(now);
-        joints_.account(now);
-        if (substeps == 1) break;
-        move(now);
-        std::size_t next = 0;
-        for (ConstraintRows& constraint : constraints_)
-            each_row(constraint, [&](Row& row) {
-                if (substep == 0) sums.push_back(0.0);
-                sums[next++] += row.impulse;
-                row.estimate = row.impulse;
-            });
-    }
     std::size_t next = 0;
-    if (substeps > 1)
-        for (ConstraintRows& constraint : constraints_)
-            each_row(constraint, [&](Row& row) { row.impulse = sums[next++]; });
+    for (ConstraintRows& constraint : constraints_) each_row(constraint, [&](Row& row) { row.impulse = sums[next++]; });
     return true;
+}
+
+// Finds velocities and impulses of a part of the step. Returns false where substeps are too long.
+bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, int substeps,
+                              bool first) {
+    joints_.keep_velocities(part, first && !cut_);
+    part_starts_.clear();
+    for (const std::uint32_t i : part.bodies)
+        part_starts_.push_back({part.problem.bodies[i].momentum, part.problem.bodies[i].angular_momentum});
+    load_part(part, first);
+    structure(part.problem, part.bodies, manifolds);
+    if (moves_freely(part)) return true;
+    do {
+        base_kept_ = false;  // joints that gave way are bounded
+        const Closing closing = close_joints(part);
+        // Shorter steps help the joints, seldom the contacts.
+        const bool alone = closing == Closing::open && constraints_.empty();
+        const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
+        if (closing != Closing::closed && substeps < most) return false;
+    } while (joints_.give_way());
+    swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
+    return !(swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps);
+}
+
+// The state before solve_part().
+void DirectSolver::give_back_part(const JointIsland& part) {
+    for (std::size_t k = 0; k < part.bodies.size(); ++k) {
+        Body& body = part.problem.bodies[part.bodies[k]];
+        body.momentum = part_starts_[k].linear;
+        body.angular_momentum = part_starts_[k].angular;
+        body.derive_velocities();
+    }
+}
+
+// The forces at the end of a part.
+void DirectSolver::kick(const JointIsland& part) {
+    const double share = force_share(part);
+    joints_.keep_velocities(part, false);
+    kicked_ = true;
+    for (std::size_t k = 0; k < part.bodies.size(); ++k) {
+        Body& body = part.problem.bodies[part.bodies[k]];
+        body.momentum += share * starts_[k].push;
+        body.angular_momentum += share * starts_[k].turn;
+        body.derive_velocities();
+    }
+}
+
+// Between two parts: the velocities fit the joints, and limits that are met give their rebound. Contacts take no part: where
+// they are pressed, the next part stops them.
+void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting) {
+    std::vector<ConstraintRows> contacts;
+    contacts.swap(constraints_);
+    const double scale = speed_scale_;
+    fit_velocities(part, JointRows::Booking::fit, ahead, fitting);
+    speed_scale_ = scale;
+    constraints_.swap(contacts);
 }
 
 // The bodies at the start of the step, before its forces.
@@ -307,17 +388,19 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         if (!flown) reset();
     }
     const bool past = flown && !manifolds.empty();
-    while (!flown && !solve_jointed_step(island, manifolds, substeps)) {
-        substeps *= 2;
+    // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces too.
+    cut_ = manifolds.empty() && !tree_method(problem.bodies, bodies).verlet();
+    for (bool cut = cut_; !flown && !solve_jointed_step(island, manifolds, substeps); cut = cut_) {
+        if (cut == cut_) substeps *= 2;
         reset();
     }
     if (!past)
         for (Joint* joint : island_joints) joint->substeps = next_substeps(flown, substeps);
     if (!flown) {
-        push_joined(island, substeps > 1);
+        push_joined(island, in_parts_);
         store_contacts(problem);
-        move_to_end(island, substeps > 1);
-        fit_velocities(island, JointRows::Booking::fit);
+        move_to_end(island, in_parts_);
+        fit_velocities(island, JointRows::Booking::fit, h, consistent_ ? Fitting::solved : Fitting::unsolved);
     }
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
@@ -345,11 +428,13 @@ void DirectSolver::close_poses(const ContactProblem& problem, std::span<const st
     const JointIsland island{problem, bodies, joints, length, problem.joints->from(), problem.joints->to()};
     flight_.close_poses(island);
     load_bodies(problem, bodies);
+    joints_.start_step(problem.settings.h, false);
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
     joints_.keep_estimates();  // the impulses of the step
     consistent_ = true;
     structure(problem, bodies, {});
-    fit_velocities(island, JointRows::Booking::stop);
+    kicked_ = false;
+    fit_velocities(island, JointRows::Booking::stop, problem.settings.h, Fitting::solved);
 }
 
 }  // namespace tumble

@@ -88,7 +88,14 @@ private:
     bool solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                            std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints);
     bool solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds, int substeps);
-    void load_substep(const JointIsland& island, int substep, int substeps);
+    enum class Fitting { solved, unsolved, rebounds };  // with the rows' impulses or without; rebounds alone
+    bool solve_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, int substeps, bool first);
+    void load_part(const JointIsland& part, bool first);
+    void give_back_part(const JointIsland& part);
+    bool kicks() const { return cut_ && constraints_.empty(); }
+    double force_share(const JointIsland& part) const;
+    void kick(const JointIsland& part);
+    void strike(const JointIsland& part, double ahead, Fitting fitting);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island);
     double close_contacts(const JointIsland& island);
@@ -127,7 +134,8 @@ private:
     void store_contacts(const ContactProblem& problem);
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
     bool push_joined(const JointIsland& island, bool moved);
-    void fit_velocities(const JointIsland& island, JointRows::Booking booking);
+    void fit_velocities(const JointIsland& island, JointRows::Booking booking, double ahead, Fitting fitting);
+    void fit_rows(const JointIsland& island, JointRows::Booking booking, double ahead, bool solved, bool struck);
 
     struct Mass {
         double mass = 0.0;                                            // kg
@@ -161,6 +169,11 @@ private:
         Vec3 push, turn;  // N s, N m s: by the forces of the step
     };
     std::vector<Start> starts_;
+    std::vector<Impulse> part_starts_;     // momenta
+    bool cut_ = false;                     // the step is cut where limits with restitution are met
+    bool in_parts_ = false;                // it is solved in substeps, or cut
+    bool kicked_ = false;                  // forces have acted since the rows have kept the velocities
+    double estimated_for_ = 0.0;           // s: of the estimates of contacts
     double swing_ = 0.0;                   // rad, largest phase of a swing in a substep
     int rounds_ = 0;                       // most passes of a substep
     bool consistent_ = true;               // the impulses fit the velocities

@@ -21,9 +21,11 @@ JointSide JointRows::side_at(const JointIsland& island, std::uint32_t body) cons
     return side;
 }
 
-void JointRows::start_fit(const JointIsland& island, double ahead, bool solved) {
+void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, bool struck) {
     ahead_ = ahead;
     weights_changed_ = true;
+    if (!solved)
+        for (Row& row : rows_) row.impulse = 0.0;
     for (Block& block : blocks_) {
         const Joint& j = joint(block);
         JointGeometry g;
@@ -51,8 +53,9 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved) 
             // A limit that is met or bounces holds no speed; nor does friction that slips, or a motor at its bound. Along the
             // rim of a cone the swing itself changes.
             const bool rigid = row.law == Joint::lock;
+            const Strike* strike = struck && is_limit(row) ? strike_of(block.joint, row) : nullptr;
             const bool limits =
-                is_limit(row) && row.law != Joint::cone && row.rests && row.closes && row.impulse != 0.0;
+                is_limit(row) && row.law != Joint::cone && row.rests && row.closes && (row.impulse != 0.0 || struck);
             const bool drives = solved && !row.soft && (row.law == Joint::motor || row.law == Joint::friction) &&
                                 size < tuning::joint_fit_below * row.most;
             if (!block.gear) {
@@ -64,16 +67,20 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved) 
                 row.compliance = compliance_;
             }
             row.soft = false;
-            if (block.breaks || !(rigid || limits || drives)) {
+            if (block.breaks || !(rigid || limits || drives || strike)) {
                 row.least = row.most = 0.0;
+            } else if (strike) {
+                row.least = row.law == Joint::lower ? 0.0 : -infinity;
+                row.most = row.law == Joint::lower ? infinity : 0.0;
             } else if (drives) {
                 row.most -= size;
                 row.least = -row.most;
             } else if (limits) {
-                row.least -= row.impulse;
-                row.most -= row.impulse;
+                row.least = row.law == Joint::lower ? -row.impulse : -infinity;
+                row.most = row.law == Joint::lower ? infinity : -row.impulse;
             }
             if (row.law != Joint::motor) row.target = 0.0;
+            if (strike) row.target = (row.turns() ? length_ : 1.0) * strike->rebound;
             row.estimate = row.impulse = 0.0;
             row.starts_ball = false;
             row.bound = 2;
@@ -83,8 +90,12 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved) 
 
 double JointRows::misfit() const {
     double most = 0.0;
-    for (const Row& row : rows_)
-        if (row.impulse > row.least && row.impulse < row.most) most = std::max(most, std::abs(row.target - row.speed));
+    for (const Row& row : rows_) {
+        const double missing = row.target - row.speed;
+        if (row.least < row.most && (row.impulse > row.least || missing > 0.0) &&
+            (row.impulse < row.most || missing < 0.0))
+            most = std::max(most, std::abs(missing));
+    }
     return most;
 }
 
@@ -101,8 +112,18 @@ void JointRows::break_under_loads(const JointIsland& island) {
     }
 }
 
-// At the present poses. The step's contacts are no longer needed.
-void DirectSolver::fit_velocities(const JointIsland& island, JointRows::Booking booking) {
+// Then the limits that are met give their rebound; motors and friction have no part in that.
+void DirectSolver::fit_velocities(const JointIsland& island, JointRows::Booking booking, double ahead,
+                                  Fitting fitting) {
+    if (fitting != Fitting::rebounds) fit_rows(island, booking, ahead, fitting == Fitting::solved, false);
+    if (!joints_.strikes().empty()) fit_rows(island, booking, ahead, false, true);
+    joints_.forget_strikes();
+}
+
+// At the present poses, `ahead` s after those of the carriers. The contacts are no longer needed. `solved`: the rows have the
+// impulses of the solve.
+void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking booking, double ahead, bool solved,
+                            bool struck) {
     const ContactProblem& problem = island.problem;
     constraints_.clear();
     load_bodies(problem, island.bodies);
@@ -110,8 +131,10 @@ void DirectSolver::fit_velocities(const JointIsland& island, JointRows::Booking 
         const Body& body = problem.bodies[island.bodies[k]];
         contact_rows::put(&free_[6 * k], body.velocity, length_ * body.angular_velocity);
     }
-    joints_.keep_velocities(island, false);
-    joints_.start_fit(island, problem.settings.h, consistent_);
+    // The fit belongs to the forces at the end of a part.
+    if (!kicked_) joints_.keep_velocities(island, false);
+    kicked_ = false;
+    joints_.start_fit(island, ahead, solved, struck);
     joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
     velocity_ = free_;
     joints_.evaluate_speeds(velocity_);

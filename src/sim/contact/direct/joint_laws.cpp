@@ -70,8 +70,9 @@ JointRows::LimitRates JointRows::limit_rates(const JointIsland& island, const Ro
         if (body == Joint::world) continue;
         const Body& b = island.problem.bodies[body];
         if (!b.moves()) continue;
-        const BodyVelocity& before = island.problem.before[body];
-        const Vec3 arm = point - b.position;
+        const int place = contact_rows::place_of(island.bodies, body);
+        const BodyVelocity& before = place == none ? island.problem.before[body] : before_[std::size_t(place)];
+        const Vec3 arm = point - side_at(island, body).position;
         const auto rate = [&, sign = sign](const Vec3& velocity, const Vec3& turn) {
             return sign * row.direction.dot(row.turns() ? turn : Vec3(velocity + turn.cross(arm)));
         };
@@ -81,6 +82,7 @@ JointRows::LimitRates JointRows::limit_rates(const JointIsland& island, const Ro
         rates.by_forces += b.dynamic() ? now - start : 0.0;
         // The velocity of a kinematic body is the mean of the step: half of the change.
         rates.gained += (b.dynamic() ? 1.0 : 2.0) * (now - start);
+        if (!b.dynamic()) rates.by_carriers += 2.0 * std::abs(now - start);
         if (!b.dynamic()) continue;
         const Vec3 moment = row.turns() ? row.direction : Vec3(arm.cross(row.direction));
         rates.mobility += (row.turns() ? 0.0 : b.inverse_mass) + moment.dot(b.inverse_inertia * moment);
@@ -102,19 +104,22 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     r.reference = room < -tolerance ? value : limit;
     r.goal = limit;
     r.target = unit * (r.reference - value) / h_;
-    const double e = law == Joint::cone ? 0.0 : j.axis(row.coordinate).restitution;
-    const ConstraintSettings& settings = island.problem.settings;
-    if (e > 0.0 && settings.bounce_threshold < infinity) {
+    const double e = j.axis(row.coordinate).restitution;
+    if (e > 0.0 && bounce_ && room >= -tolerance && !strike_of(blocks_.back().joint, r)) {
         const LimitRates rates = limit_rates(island, row, blocks_.back().point);
-        const double speed = rates.speed, sign = above ? -1.0 : 1.0, approach = sign * speed;
-        const double load = std::max(sign * rates.gained, rates.mobility * std::abs(j.impulse[row.coordinate][law]));
-        const double threshold =
-            std::max(settings.bounce_threshold / (row.turns() ? j.size : 1.0), settings.threshold_share * load);
-        const double rebound = e * sign * rates.at_start;
-        if (approach > threshold && approach * h_ > room && rebound > settings.rebound_share * load) {
-            // The step's forces act after the rebound: before it, each would add to the bounce, and hops would never end.
-            r.target = unit * (rates.by_forces - sign * rebound);
-            r.closes = false;
+        const double sign = above ? -1.0 : 1.0;
+        const double load =
+            std::max(sign * rates.gained / h_, rates.mobility * std::abs(j.impulse[row.coordinate][law]) / part_);
+        const double hop = least_hop_ * step_ * load;  // a rebound of this speed is back at once
+        const double rounding = tuning::limit_rest * fastest_ / (row.turns() ? length_ : 1.0);
+        r.approach = sign * rates.at_start;
+        r.room = r.rests ? 0.0 : room;
+        // The velocities of carriers jump from step to step.
+        const double least = std::max(rounding, island.problem.settings.threshold_share * rates.by_carriers);
+        r.bounces = !r.rests || r.approach > std::max(hop / e, least) || -r.approach > std::max(hop, least);
+        if (r.bounces) {
+            r.least = r.most = 0.0;
+            r.closes = r.rests = false;
         }
     }
     push_row(r);
@@ -206,7 +211,7 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
 
 void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double compliance) {
     Joint& j = (*joints_)[index];
-    const JointGeometry g = measure(j, side_of(island.problem.bodies, j.a), side_of(island.problem.bodies, j.b));
+    const JointGeometry g = measure(j, side_at(island, j.a), side_at(island, j.b));
     Block& block = blocks_.emplace_back();
     block.joint = index;
     block.a = contact_rows::place_of(island.bodies, j.a);
@@ -244,8 +249,11 @@ void JointRows::load(const JointIsland& island, double compliance) {
     h_ = island.problem.settings.h;
     from_ = island.from;
     to_ = island.to;
-    ahead_ = 0.0;
+    ahead_ = from_ - set.from();
     length_ = island.length;
+    fastest_ = 0.0;
+    for (const BodyVelocity& body : before_)
+        fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     total_mass_ = 0.0;
     for (const std::uint32_t i : island.bodies) total_mass_ += island.problem.bodies[i].mass;
     weights_changed_ = true;

@@ -242,9 +242,10 @@ JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int p
     if (body == Joint::world) return {};
     if (place != none) return ends[std::size_t(place)];
     const Body& b = island.problem.bodies[body];
-    JointSide side{b.position + h_ * b.velocity, b.orientation};
+    const double time = ahead_ + h_;
+    JointSide side{b.position + time * b.velocity, b.orientation};
     if (!b.angular_velocity.isZero(0.0))
-        side.orientation = (from_rotation_vector(h_ * b.angular_velocity) * b.orientation).normalized();
+        side.orientation = (from_rotation_vector(time * b.angular_velocity) * b.orientation).normalized();
     return side;
 }
 
@@ -370,6 +371,7 @@ double JointRows::close_push(const JointIsland& island, std::span<const JointSid
 void JointRows::store(const JointIsland& island, bool apply) {
     if (!apply)
         for (Row& row : rows_) row.impulse = 0.0;
+    part_ = h_;
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
         j.impulse = {};

@@ -53,9 +53,11 @@ public:
         std::int8_t bound = 2;  // of f: -1 least, 0 none, 1 most; 2 not known
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lock;
-        bool closes = false;       // takes part in close()
-        bool rests = false;        // a limit that the coordinate is at from the start
-        bool soft = false;         // its estimate stays 0: a spring; in a push, a row whose error is moved out
+        bool closes = false;   // takes part in close()
+        bool rests = false;    // a limit that the coordinate is at from the start
+        bool bounces = false;  // a limit with restitution that the coordinate is to meet with its whole speed: open
+        double room = 0.0, approach = 0.0;  // m or rad, and m/s or rad/s: of such a limit, at the start
+        bool soft = false;                  // its estimate stays 0: a spring; in a push, a row whose error is moved out
         bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
@@ -83,6 +85,15 @@ public:
         Gear* gear = nullptr;
     };
 
+    /// The impact of a coordinate on its limit, at the end of a part of the step.
+    struct Strike {
+        std::uint32_t joint = 0;
+        std::uint8_t coordinate = 0;
+        Joint::Law law = Joint::lower;
+        double time = 0.0;     // s, from the start of the part
+        double rebound = 0.0;  // m/s or rad/s
+    };
+
     bool empty() const { return blocks_.empty(); }
     std::span<Row> rows() { return rows_; }
     std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
@@ -95,6 +106,21 @@ public:
         gears_.clear();
         rows_.clear();
     }
+
+    /// Begins a step of `h` s. Limits with restitution are open until they are met: find_strikes(). Without `bounce` they are
+    /// as those without. Rebounds that `least_hop` steps of their load would stop do not happen.
+    void start_step(double h, bool bounce, double least_hop = 0.5 * tuning::limit_hop) {
+        step_ = part_ = h;
+        bounce_ = bounce;
+        least_hop_ = least_hop;
+        strikes_.clear();
+    }
+    void stop_bounces() { bounce_ = false; }
+    /// Keeps those of the open limits that are met first until `ends`, the poses at the end of the part that was solved. The
+    /// next load() closes them. `kicks`: the rest of the forces acts at the end. Returns whether there are any.
+    bool find_strikes(const JointIsland& island, std::span<const JointSide> ends, bool kicks);
+    std::span<const Strike> strikes() const { return strikes_; }
+    void forget_strikes() { strikes_.clear(); }
 
     /// Rows for the present poses. `compliance` (1/kg) of the rigid rows.
     void load(const JointIsland& island, double compliance);
@@ -167,7 +193,8 @@ public:
     /// Prepares the rows for the fit at the present poses. Locks, and motors, friction and limits that held their speed in
     /// the solve, hold it again, within the rest of their bounds; the other rows get no impulse. `ahead` (s): time by which
     /// carriers are placed ahead of their present poses. `solved`: the rows have the impulses of the solve.
-    void start_fit(const JointIsland& island, double ahead, bool solved);
+    /// `struck`: limits that are met give their rebound.
+    void start_fit(const JointIsland& island, double ahead, bool solved, bool struck);
     /// Fastest speed (m/s) that misses a row of the fit; after evaluate_speeds().
     double misfit() const;
     /// Joints that break under the loads of the solve and the fit together.
@@ -193,10 +220,12 @@ private:
     void add_laws(const JointIsland& island, const JointGeometry& g, std::size_t coordinate, const Row& row);
     struct LimitRates {
         double speed = 0.0, at_start = 0.0, by_forces = 0.0, gained = 0.0;  // m/s or rad/s
-        double mobility = 0.0;                                              // 1/kg or 1/(kg m^2)
+        double by_carriers = 0.0;  // m/s or rad/s: largest change by the motion of carriers
+        double mobility = 0.0;     // 1/kg or 1/(kg m^2)
     };
     LimitRates limit_rates(const JointIsland& island, const Row& row, const Vec3& point) const;
     void add_limit(const JointIsland& island, const Row& row, double value, double limit, Joint::Law law);
+    const Strike* strike_of(std::uint32_t joint, const Row& row) const;
     void add_ball_laws(const JointIsland& island, const JointGeometry& g, const Block& block);
     void follow_load(const Block& block);
     JointSide end_of(const JointIsland& island, std::uint32_t body, int place, std::span<const JointSide> ends) const;
@@ -235,6 +264,11 @@ private:
     std::vector<double> swing_;         // 1/s^2, by body of the island
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
     double ahead_ = 0.0;  // s, of the carriers
+    std::vector<Strike> strikes_;
+    double step_ = 0.0, part_ = 0.0;  // s: the step; the part of the impulses that the joints keep
+    double least_hop_ = 0.0;
+    double fastest_ = 0.0;  // m/s, of the bodies at the start of the part
+    bool bounce_ = false;
     bool weights_changed_ = true, tree_ = true;
 };
 

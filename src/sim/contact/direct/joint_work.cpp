@@ -57,12 +57,10 @@ BodyVelocity JointRows::mean_velocity(const JointIsland& island, std::uint32_t b
 }
 
 void JointRows::account(const JointIsland& island, Booking booking) {
-    const bool first = booking == Booking::solve && from_ == island.problem.joints->from();
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
         JointAccount::Span& step = booking == Booking::stop ? j.account.events : j.account.step;
         const bool catches = booking == Booking::stop || !j.account.holds;
-        if (first) step = {};
         if (block.gear) {
             account_gear(island, block, catches, step);
             continue;
