@@ -32,7 +32,7 @@ public:
                 add({first(-half_axis * axis), first(half_axis * axis)}, false);
             // A ball turns about all axes: only its cone has a direction.
             if (joint_.type == JointType::ball || joint_.turn[k].motion == JointAxis::Motion::locked) continue;
-            // The first axis is that of the first body, the others are those of the second one.
+            // x is fixed in the first body, y and z are fixed in the second one.
             const auto side = [&](const Vec3& p) { return k == 0 ? first(p) : second(p); };
             add({side(-half_axis * axis), side(half_axis * axis)}, false);
         }

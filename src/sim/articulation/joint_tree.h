@@ -54,7 +54,7 @@ struct TreeNode {
         constexpr int counts[] = {0, 1, 1, 3, 6};
         return counts[int(kind)];
     }
-    /// Whether speed k is one of a displacement.
+    /// True if speed k is in m/s, false if it is in rad/s.
     bool is_length(int k) const { return kind == Kind::prismatic || (kind == Kind::free && k >= 3); }
 };
 
@@ -84,7 +84,7 @@ public:
     /// Compliance against turns about the principal axes of a joint's child (0) or parent (1), times the lever of a force
     /// across each: the largest, 1/(kg m).
     double lever_of(int joint, int side) const { return hangs_[std::size_t(joint)].levers[std::size_t(side)]; }
-    /// Whether the joint is a single node.
+    /// True if the joint is a single node.
     bool plain(int joint) const { return hangs_[std::size_t(joint)].plain; }
 
     /// Where the root hangs: the side of its joint that does not move, or the center of mass of a free tree.
@@ -107,8 +107,8 @@ private:
         bool direct = false;       // one node that locks all displacements
         bool plain = false;
         double levers[2] = {0.0, 0.0};
-        // Of a direct joint: the orientations of the child in the parent's frame, as unit quaternions, that the joint allows
-        // (one if it is fixed, the first two of a hinge), and the others square to them.
+        // Four unit quaternions, square to each other. A fixed joint allows the first as the child's orientation in the
+        // parent's frame; a hinge allows combinations of the first two.
         Quat basis[4];
     };
     bool same(std::span<const std::uint32_t> island, std::span<Joint* const> joints) const;

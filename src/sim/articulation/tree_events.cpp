@@ -1,5 +1,5 @@
-// TreeFlight: the moments in a step in which a limit is met or left, the friction of a joint changes, or a joint breaks. The motion is smooth
-// between them, so that the integrator keeps its order.
+// TreeFlight: the moments in a step in which a limit is met or left, the friction of a joint changes, or a joint breaks.
+// The motion is smooth between them, so that the integrator keeps its order.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
