@@ -20,6 +20,7 @@
 #include "sim/step/force_stage.h"
 #include "sim/step/hit_stage.h"
 #include "sim/step/impact_stage.h"
+#include "sim/step/joined_motion.h"
 #include "sim/step/step_context.h"
 #include "sim/step/stepped_motion.h"
 #include "sim/threads/thread_pool.h"
@@ -51,6 +52,7 @@ struct World::State {
     static constexpr std::int64_t most_steps = std::int64_t(1) << 53;  // that a double counts
     BodySet set;
     JointSet joints;
+    JoinedMotion joined;
     std::vector<std::uint32_t> woken;  // by joints, in this step
     ForceStage forces;
     ContactDetection detection;
@@ -76,6 +78,7 @@ struct World::State {
           clock{timing.fps, timing.steps_per_frame},
           set(scene),
           joints(scene, set.bodies, set.scene_index, set.origin),
+          joined(sweep_rule(settings)),
           forces(scene, set),
           detection(scene.bodies.size(), threads,
                     exact_impacts(scene) ? NarrowPhase::Memory::off : NarrowPhase::Memory::on),
@@ -101,18 +104,19 @@ struct World::State {
                 .index = steps,
                 .h = clock.seconds(1),
                 .log = log.get(),
-                .joints = joints};
+                .joints = joints,
+                .joined = joined};
     }
 
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, woken, forces, detection, impacts, hits, contact_solver, motion,
-               sleep, check, log, totals, records, notes, asleep, pool] = self;
+        auto& [settings, clock, steps, set, joints, joined, woken, forces, detection, impacts, hits, contact_solver,
+               motion, sleep, check, log, totals, records, notes, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
         archive.between(0, steps, most_steps);
-        archive.keep(set, joints, forces, detection, impacts, hits, contact_solver, sleep, check);
+        archive.keep(set, joints, joined, forces, detection, impacts, hits, contact_solver, sleep, check);
         archive.require([&] { return self.sleep.sound(self.set.bodies); });
         if (notes) archive.keep(*notes);
         archive.scratch(woken, motion, log, totals, records, asleep, pool);
@@ -144,6 +148,7 @@ void World::State::run_stages(const StepContext& step) {
     if (sleep.changes() + joints.changes() != changes) detection.out_of_date();
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
+    joined.decide(step, detection);    // joined bodies: their way in this step; those that touch nothing move
     apply_forces(step);                // F and tau at t_n change P and L
     solve_contacts(step);              // non-penetration, friction and joints
     joints.end_step();
@@ -243,9 +248,10 @@ void World::State::solve_contacts(const StepContext& step) {
                                   tuning::restitution_threshold, rebound, settings.impacts == ImpactMode::stepped},
                                  log ? &totals : nullptr,
                                  joints.empty() ? nullptr : &joints,
-                                 &forces.field()};
+                                 joined.ways()};
     if (log) totals.assign(problem.manifolds.size(), {});
     contact_solver.solve(problem, detection.islands(), pool);
+    joined.give_momenta(step);
     if (log)
         for (std::size_t k = 0; k < detection.islands().size(); ++k)
             log->add_contacts(detection.islands().manifolds(k), problem, totals);
@@ -385,11 +391,7 @@ std::vector<JointState> World::State::joint_states() const {
 std::vector<JointState> World::joint_states() const { return state_->joint_states(); }
 
 JointReport World::joint_report() const {
-    const SimulationSettings& settings = state_->settings;
-    NetRule nets = settings.contact_solver == ContactSolverChoice::soft ? NetRule::all : NetRule::dear;
-    if (settings.contact_solver == ContactSolverChoice::direct || settings.impacts != ImpactMode::stepped)
-        nets = NetRule::none;
-    return describe_joints(state_->joints, state_->set.bodies, nets);
+    return describe_joints(state_->joints, state_->set.bodies, sweep_rule(state_->settings));
 }
 
 Measurement World::measure() const {

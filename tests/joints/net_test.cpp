@@ -248,7 +248,7 @@ TEST(Nets, FollowsAKinematicBody) {
 TEST(Nets, AreFoundByTheirJoints) {
     const auto sweeps = [](SceneDescription scene) {
         scene.simulation.contact_solver = ContactSolverChoice::by_island;
-        return World(scene).joint_report().by_sweeps;
+        return World(scene).joint_report().swept();
     };
     EXPECT_EQ(sweeps(net_scene(8, Links::balls)), 0u);
     EXPECT_EQ(sweeps(net_scene(30, Links::balls)), 1u);

@@ -42,7 +42,7 @@ TEST(SweptTurns, ARodSwingsOnAHinge) {
     }
     EXPECT_NEAR(low, quarter, 3e-3);
     EXPECT_LT(gap, 1e-4);
-    EXPECT_GT(world.joint_report().by_sweeps, 0u);  // else it was solved directly
+    EXPECT_GT(world.joint_report().swept(), 0u);  // else it was solved directly
     EXPECT_LT(std::abs(world.snapshot().bodies[0].center_of_mass.z()), 1e-4);
 }
 
@@ -73,7 +73,7 @@ TEST(SweptTurns, AHingeChainSwingsAsWithTheDirectSolver) {
     }
     EXPECT_LT(off, 0.1);  // of 4 m
     EXPECT_LT(gap, 4e-3);
-    EXPECT_GT(sweeps.joint_report().by_sweeps, 0u);
+    EXPECT_GT(sweeps.joint_report().swept(), 0u);
     EXPECT_LT(across, 1e-2);
 }
 
@@ -92,7 +92,7 @@ TEST(SweptTurns, AWeldedBeamCarriesItsWeight) {
     EXPECT_NEAR(joint.force.y(), 4.0 * g, 0.02 * 4.0 * g);
     EXPECT_NEAR(joint.torque.z(), 4.0 * g, 0.02 * 4.0 * g);
     EXPECT_LT(largest_gap(world), 1e-4);
-    EXPECT_GT(world.joint_report().by_sweeps, 0u);
+    EXPECT_GT(world.joint_report().swept(), 0u);
     EXPECT_LT(std::abs(world.snapshot().bodies[3].center_of_mass.y()), 1e-3);
     run(world, scene, 1.0);
     EXPECT_TRUE(world.snapshot().bodies[3].asleep);
@@ -164,7 +164,7 @@ TEST(SweptTurns, AUniversalJointTurnsAboutBothAxes) {
         gap = std::max(gap, largest_gap(world));
     }
     EXPECT_LT(gap, 1e-3);
-    EXPECT_GT(world.joint_report().by_sweeps, 0u);
+    EXPECT_GT(world.joint_report().swept(), 0u);
     const JointState joint = world.joint_states()[0];
     EXPECT_GT(std::abs(joint.position[3]), 1.0);
     EXPECT_GT(std::abs(joint.position[4]), 1.0);
@@ -221,7 +221,7 @@ TEST(SweptTurns, FollowAKinematicBody) {
         gap = std::max(gap, largest_gap(world));
     }
     EXPECT_LT(gap, 5e-3);
-    EXPECT_GT(world.joint_report().by_sweeps, 0u);
+    EXPECT_GT(world.joint_report().swept(), 0u);
     const Vec3 vane = world.snapshot().bodies[2].center_of_mass;
     EXPECT_LT((vane - Vec3(0.3 - 0.4 * std::cos(1.5), 0.2, 0.4 * std::sin(1.5))).norm(), 5e-3);
 }

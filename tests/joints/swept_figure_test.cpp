@@ -35,7 +35,7 @@ TEST(SweptFigures, AFreeFigureKeepsItsMomentaAndGainsNoEnergy) {
         EXPECT_LT((end.second - start.second).norm(), 1e-11);
         EXPECT_GT(energy, 0.5 * first);
         EXPECT_LT(largest_gap(world), 1e-5);
-        EXPECT_EQ(world.joint_report().by_sweeps, 1u);
+        EXPECT_EQ(world.joint_report().swept(), 1u);
     }
 }
 
@@ -77,7 +77,7 @@ TEST(SweptFigures, AHeapOfFiguresFallsAsleep) {
     const auto awake = [](const BodyState& body) { return body.mass > 0.0 && !body.asleep; };
     EXPECT_EQ(std::count_if(s.bodies.begin(), s.bodies.end(), awake), 0);
     EXPECT_LT(gap, 1e-5);
-    EXPECT_EQ(world.joint_report().by_sweeps, 4u);
+    EXPECT_EQ(world.joint_report().swept(), 4u);
 }
 
 // Fast spins, unlike masses and few steps: finite, and without energy from nothing.
@@ -139,7 +139,7 @@ TEST(SweptFigures, LeaveOtherJointsToTheDirectSolver) {
     const auto by_sweeps = [](auto&& change) {
         SceneDescription scene = swept(figure_scene(4));
         change(scene);
-        return World(scene).joint_report().by_sweeps;
+        return World(scene).joint_report().swept();
     };
     EXPECT_EQ(by_sweeps([](SceneDescription&) {}), 1u);
     EXPECT_EQ(by_sweeps([](SceneDescription& s) { s.joints[0].turn[0].friction = 0.1; }), 1u);

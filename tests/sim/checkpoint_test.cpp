@@ -175,7 +175,7 @@ TEST(Checkpoint, ANetGoesOn) {
         if (i % side > 0) tie(i - 1, i);
         if (i >= side) tie(i - side, i);
     }
-    ASSERT_EQ(World(scene).joint_report().by_sweeps, 1u);
+    ASSERT_EQ(World(scene).joint_report().swept(), 1u);
     expect_goes_on(scene, {.frames = 48, .saves = {6, 20, 35}, .records = true});
 }
 

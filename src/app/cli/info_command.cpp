@@ -14,8 +14,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <map>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -132,16 +134,14 @@ std::string count_text(std::size_t count, const char* one, const char* several) 
 }
 
 /// The way of all groups, or the number of groups for each.
-std::string flight_text(const JointReport& report) {
-    const std::pair<std::size_t, const char*> ways[] = {{report.by_coordinates, "by the articulated-body algorithm"},
-                                                        {report.by_rattle, "by RATTLE"},
-                                                        {report.by_rows, "by the same rows"},
-                                                        {report.by_sweeps, "in sweeps"}};
+std::string ways_text(const std::array<std::size_t, 3>& ways) {
+    constexpr const char* names[] = {"in joint coordinates", "by rows", "in sweeps"};  // in the order of JointWay
     std::string text;
-    for (const auto& [count, way] : ways) {
-        if (count == report.groups) return way;
-        if (count > 0)
-            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count_text(count, "group", "groups"), way);
+    for (std::size_t way = 0; way < ways.size(); ++way) {
+        if (ways[way] == 0) continue;
+        const bool all = ways[way] == std::accumulate(ways.begin(), ways.end(), std::size_t(0));
+        if (all) return names[way];
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count_text(ways[way], "group", "groups"), names[way]);
     }
     return text;
 }
@@ -165,18 +165,15 @@ void print_joints(const SceneDescription& scene, const World& world) {
         put("  masses    {:.4g} : 1 at the most, at joint '{}'\n", report.mass_ratio, name(*report.heaviest));
     put("  gap       {:.3g} m at the start{}\n", report.gap,
         report.widest ? fmt::format(", at joint '{}'", name(*report.widest)) : "");
-    if (report.by_sweeps == report.groups)
-        put("  solved    in sweeps\n");
-    else
-        put("  solved    by rows beside contacts; in flight {}\n", flight_text(report));
+    put("  solved    {} in flight; {} beside contacts\n", ways_text(report.in_flight), ways_text(report.in_contact));
     if (report.crowd > 0)
         put("  figures   {} joined bodies: in sweeps while {} or more of them touch something; with\n"
             "            contact_solver = \"direct\" by rows, which takes longer\n",
             report.figures, report.crowd);
-    if (report.by_sweeps > 0)
+    if (report.swept() > 0)
         put("  nets      {} in sweeps: loops open by millimeters under load; less with more steps_per_frame,\n"
             "            not at all with contact_solver = \"direct\", which takes longer\n",
-            count_text(report.by_sweeps, "group", "groups"));
+            count_text(report.swept(), "group", "groups"));
 }
 
 void print_cost(const SceneDescription& scene, World& world) {

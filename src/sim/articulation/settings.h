@@ -31,6 +31,10 @@ inline constexpr double tree_misfit = 1e-9;
 inline constexpr double verlet_tolerance = 1e-8;
 inline constexpr double verlet_rounding = 1e-15;
 
+/// Error of the energy in a step of Verlet's method, as a share of the kinetic energy, above which the substeps are halved.
+/// Related test: Verlet.FastFreeTreesKeepTheirEnergy.
+inline constexpr double verlet_energy = 1e-4;
+
 /// Share of the last change above which a pass does not converge, and the change that is then rounding. Not fitted.
 inline constexpr double verlet_contraction = 0.5;
 inline constexpr double verlet_stall = 1e-11;
@@ -62,5 +66,12 @@ inline constexpr double tree_near_break = 0.8;
 
 /// Rest of a step after a break, as a share of the step, that is left out. Not fitted: rounding of the places.
 inline constexpr double tree_least_rest = 1e-12;
+
+/// Rotation, rad, of the fastest body in a part of a flight past other bodies; the most parts of a step; and searches in
+/// a part after which the bodies count as met. Not fitted: the paths between the parts are cubic, with an error of
+/// 2e-4 of the body's radius in half a radian; the others are bounds of the cost.
+inline constexpr double flight_turn = 0.5;
+inline constexpr double flight_most_parts = 64.0;
+inline constexpr int flight_searches = 8;
 
 }  // namespace tumble::tuning

@@ -79,6 +79,7 @@ bool TreeFlight::start(double stage) {
     lost_ = 0.0;
     if (!y_.allFinite()) return false;
     if (!fits()) fit();
+    if (stage > 0.0 && tree_.is_free()) energy_ = kinetic_energy();
     return y_.allFinite() && ((friction_.empty() && limits_.empty()) || begin_laws());
 }
 
@@ -115,6 +116,32 @@ bool TreeFlight::fits() const {
                         step_->length * (link.velocity.turn - body.angular_velocity).norm()});
     }
     return off <= tuning::tree_misfit * fastest;
+}
+
+// J, in the falling frame; after move() or place().
+double TreeFlight::kinetic_energy() const {
+    double sum = 0.0;
+    for (const TreeNode& node : tree_.nodes()) {
+        if (node.body == TreeNode::no_body) continue;
+        const ForwardDynamics::Link& link = dynamics_.link(int(&node - tree_.nodes().data()));
+        const Vec3 turn = link.rotation.transpose() * link.velocity.turn;
+        sum += 0.5 * (node.mass * link.center_velocity().squaredNorm() + turn.dot(node.inertia * turn));
+    }
+    return sum;
+}
+
+// Whether Verlet's method has kept the energy of a free tree, or half as many substeps have kept it as well: then the error is
+// rounding.
+bool TreeFlight::keeps_energy() {
+    if (!tree_.is_free() || pushed_ || !springs_.empty()) return true;
+    const double now = kinetic_energy(), fall = step_->h * frame_.gravity.norm();
+    const double work = friction_.work(y_.data(), y_.data() + works_);
+    const double scale = std::max({energy_, now, 0.5 * start_.mass * fall * fall});
+    const double error = std::abs(now - energy_ - work), last = last_error_;
+    last_error_ = error;
+    strains_energy_ = error > 0.1 * tuning::verlet_energy * scale;
+    coarse_ = error > tuning::verlet_energy * scale && error < 0.5 * last;
+    return !coarse_;
 }
 
 TreeFlight::Vector TreeFlight::rate(const Vector& y) {
@@ -371,7 +398,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     own_.emplace(step);
     step_ = &*own_;
     event_ = none;
-    coarse_ = false;
+    coarse_ = strains_energy_ = false;
     swing_ = 0.0;
     if (!start(method.verlet() ? step.h / substeps : 0.0)) return Outcome::declined;
     if (method.order != order_ && method.verlet()) {
@@ -401,6 +428,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
         rate(y_);
     else
         dynamics_.place(y_.data(), y_.data() + coordinates_);
+    if (method.verlet() && substeps < tuning::joint_swing_substeps && !keeps_energy()) return Outcome::declined;
     if (!method.verlet()) sample();
     place();
     count_turns();
@@ -414,6 +442,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
 
 // In more and more substeps, while they are too long.
 TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, TreeMethod method, int& substeps) {
+    last_error_ = infinity;
     for (;;) {
         const Outcome outcome = fly(step, method, substeps);
         if (outcome != Outcome::declined || !coarse_) return outcome;

@@ -24,7 +24,7 @@ struct TreeMethod {
     IntegratorKind kind = IntegratorKind::symplectic_euler;
     int order = 2;
 
-    bool verlet() const { return kind != IntegratorKind::exact && kind != IntegratorKind::runge_kutta_4; }
+    bool verlet() const { return !fine_integrator(kind); }
 };
 
 /// Of bodies that are joined.
@@ -66,6 +66,8 @@ public:
     /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next one should
     /// have no fewer.
     double swing() const { return swing_; }
+    /// Whether half the substeps would not have kept the energy of the last step.
+    bool strains_energy() const { return strains_energy_; }
 
 private:
     using Vector = Eigen::VectorXd;
@@ -90,6 +92,8 @@ private:
     bool fits() const;
     void fit();
     Totals totals() const;
+    double kinetic_energy() const;
+    bool keeps_energy();
     Vector rate(const Vector& y);
     void add_pushes(const Vector& y, Vector& dy, double ahead = 0.0);
     bool integrate(double until, IntegratorKind method);
@@ -137,6 +141,8 @@ private:
     int changes_ = 0;           // of friction and limits in this step
     FallingFrame frame_;
     Totals start_;
+    double energy_ = 0.0;      // J, kinetic, at the start
+    double last_error_ = 0.0;  // J, with half the substeps
     std::optional<TreeAccount> account_;
     // Coordinates, speeds, heats of dampers, works of motors; where other forces than gravity act also the time, by body their impulse, moment and work, and
     // the moment about the center of mass and the displacement of the whole.
@@ -153,7 +159,7 @@ private:
     int order_ = 0;
     Vector middle_, rates_, after_, mean_;
     double swing_ = 0.0;
-    bool coarse_ = false;
+    bool coarse_ = false, strains_energy_ = false;
     std::vector<SpatialMotion> velocities_;  // by body
     std::vector<Sym3> inertias_;             // kg m^2, by body
 };

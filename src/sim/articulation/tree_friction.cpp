@@ -79,7 +79,7 @@ double TreeFriction::turns_back_at(std::size_t k, const double* speeds, const do
 
 void TreeFriction::change(std::size_t k, const double* q, double* speeds, double net) {
     Friction& f = list_[k];
-    f.heat += f.bound * std::abs(q[f.at] - f.since);
+    f.heat = heat(f, q);
     f.since = q[f.at];
     speeds[f.speed_at] = f.speed;
     f.way = f.way != 0.0 ? 0.0 : net > 0.0 ? 1.0 : -1.0;
@@ -87,7 +87,7 @@ void TreeFriction::change(std::size_t k, const double* q, double* speeds, double
 
 void TreeFriction::strike(const double* q, const double* speeds) {
     for (Friction& f : list_) {
-        f.heat += f.bound * std::abs(q[f.at] - f.since);
+        f.heat = heat(f, q);
         f.since = q[f.at];
         if (const double speed = speeds[f.speed_at]; speed != f.speed) f.way = speed > f.speed ? 1.0 : -1.0;
     }
@@ -121,14 +121,19 @@ double TreeFriction::effort(const Friction& f, const ForwardDynamics& dynamics) 
     return f.way != 0.0 ? -f.way * f.bound : -dynamics.net_effort(f.node);
 }
 
+double TreeFriction::work(const double* q, const double* works) const {
+    double sum = 0.0;
+    for (const Friction& f : list_) sum += f.work >= 0 ? works[f.work] : -heat(f, q);
+    return sum;
+}
+
 // A joint that begins to hold has counted its whole work as an impact's.
 void TreeFriction::account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q,
-                           const double* works) {
-    for (Friction& f : list_) {
+                           const double* works) const {
+    for (const Friction& f : list_) {
         Joint& joint = *step.joints[std::size_t(f.joint)];
         const bool motor = f.work >= 0;
-        f.heat += f.bound * std::abs(q[f.at] - f.since);
-        (motor ? joint.account.step.work.motors : joint.account.step.work.heat) += motor ? works[f.work] : f.heat;
+        (motor ? joint.account.step.work.motors : joint.account.step.work.heat) += motor ? works[f.work] : heat(f, q);
         joint.impulse[f.coordinate][motor ? Joint::motor : Joint::friction] = f.sign * effort(f, dynamics) * step.h;
     }
 }

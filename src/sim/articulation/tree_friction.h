@@ -6,6 +6,7 @@
 #include "sim/articulation/forward_dynamics.h"
 #include "sim/articulation/tree_step.h"
 
+#include <cmath>
 #include <cstddef>
 #include <vector>
 
@@ -46,9 +47,11 @@ public:
     double net(std::size_t k, const ForwardDynamics& dynamics) const { return dynamics.net_effort(list_[k].node); }
     std::size_t count() const { return list_.size(); }
 
+    /// J: works of motors less the heat, up to the coordinates and works.
+    double work(const double* q, const double* works) const;
     /// Adds the heat and the works (J, of motors) of the step to the joints' accounts, and gives the joints the impulses of
     /// friction and motors, at the last coordinates; after accelerate().
-    void account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q, const double* works);
+    void account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q, const double* works) const;
 
 private:
     struct Friction {
@@ -64,6 +67,7 @@ private:
         double heat = 0.0;   // J, up to the last change
     };
     static double effort(const Friction& f, const ForwardDynamics& dynamics);
+    static double heat(const Friction& f, const double* q) { return f.heat + f.bound * std::abs(q[f.at] - f.since); }
 
     std::vector<Friction> list_;
     int motors_ = 0;

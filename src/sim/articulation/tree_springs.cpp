@@ -98,14 +98,7 @@ void TreeSprings::heat_stage(const double* start, const double* speeds, const do
 void TreeSprings::account(const TreeStep& step, const double* q, const double* heats) const {
     for (const Spring& spring : list_) {
         JointWork& work = step.joints[std::size_t(spring.joint)]->account.step.work;
-        if (spring.motor) {
-            work.motors += heats[spring.heat];
-            continue;
-        }
-        const double moved = q[spring.at];
-        double done = spring.stiffness * moved * (spring.pull - 0.5 * moved);
-        if (spring.heat >= 0) done -= heats[spring.heat];
-        work.springs += done;
+        (spring.motor ? work.motors : work.springs) += spring.work(q, heats);
     }
 }
 

@@ -49,6 +49,13 @@ private:
             return stiffness * (pull - q[at]) - damping * speeds[speed_at];
         }
 
+        // J; heats of motors are their work.
+        double work(const double* q, const double* heats) const {
+            if (motor) return heats[heat];
+            const double moved = q[at];
+            return stiffness * moved * (pull - 0.5 * moved) - (heat >= 0 ? heats[heat] : 0.0);
+        }
+
         double inertia(double h) const { return stiff ? h * (damping + h * stiffness) : 0.5 * h * damping; }
         // In a stage of Verlet's method, at unchanged speed; less inertia times acceleration.
         double effort(const double* start, const double* speeds, const double* middle, double h) const {

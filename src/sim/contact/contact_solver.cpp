@@ -71,35 +71,23 @@ LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIsl
     return memory.load;
 }
 
-// Whether an island with joints is solved in sweeps, with all that it touches. Where a net touches joined bodies that sweeps
-// do not know, it stays with the direct solver for a while after they have parted.
-bool ContactSolver::in_sweeps(const ContactIslands& islands, std::size_t island) {
-    if (!nets_swept()) return false;
-    const auto bodies = islands.bodies(island);
-    const NetWay way = choose_way(nets_.groups(bodies), !islands.manifolds(island).empty(), crowd_.swept());
-    int& wait = memory_[bodies[0]].wait;
-    if (way == NetWay::mixed) wait = tuning::net_wait;
-    if (way != NetWay::sweeps) return false;
-    return wait == 0 || --wait == 0;
-}
-
-void ContactSolver::count_figures(const ContactIslands& islands) {
-    std::size_t bodies = 0;
-    for (std::size_t k = 0; k < islands.size(); ++k) {
-        if (islands.joints(k).empty() || islands.manifolds(k).empty()) continue;
-        const IslandGroups groups = nets_.groups(islands.bodies(k));
-        if (choose_way(groups, true, true) == NetWay::sweeps) bodies += groups.figures;
-    }
-    crowd_.count(bodies);
+// The way of an island with joints. Where a net touches joined bodies that sweeps do not know, or its sweeps have overflowed,
+// it stays with the direct solver for a while.
+JointWay ContactSolver::way_of(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
+    if (problem.ways.empty()) return JointWay::direct;
+    const IslandWay& way = problem.ways[island];
+    if (way.way == JointWay::free) return way.way;
+    int& wait = memory_[islands.bodies(island)[0]].wait;
+    if (way.net && way.way == JointWay::direct) wait = tuning::net_wait;
+    if (way.way != JointWay::sweeps || wait == 0 || --wait == 0) return way.way;
+    return JointWay::direct;
 }
 
 void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& islands) {
     swept_.assign(islands.size(), Swept::no);
-    if (problem.joints && nets_swept()) {
-        nets_.find(*problem.joints, problem.bodies, choice_ == Choice::soft ? NetRule::all : NetRule::dear);
+    if (std::any_of(problem.ways.begin(), problem.ways.end(),
+                    [](const IslandWay& island) { return island.way == JointWay::sweeps; }))
         projection_.find(*problem.joints, problem.bodies);
-        count_figures(islands);
-    }
     direct_.clear();
     softly_.clear();
     candidates_.clear();
@@ -120,8 +108,9 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
         const auto manifolds = islands.manifolds(k);
         const bool precise = effort_ == Effort::precisely && bodies.size() <= tuning::direct_most_bodies;
         if (!islands.joints(k).empty()) {
-            if (in_sweeps(islands, k)) swept_[k] = projection_.closes(bodies) ? Swept::closed : Swept::open;
-            (swept_[k] != Swept::no ? softly_ : direct_).push_back(k);
+            const JointWay way = way_of(problem, islands, k);
+            if (way == JointWay::sweeps) swept_[k] = projection_.closes(bodies) ? Swept::closed : Swept::open;
+            if (way != JointWay::free) (way == JointWay::sweeps ? softly_ : direct_).push_back(k);
             continue;
         }
         if (choice_ != Choice::by_island || precise) {
@@ -183,7 +172,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 // their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
                                       std::size_t island) {
-    if (swept_[island] != Swept::no) return nets_.groups(islands.bodies(island)).entangled ? tuning::net_substeps : 1;
+    if (swept_[island] != Swept::no) return problem.ways[island].entangled ? tuning::net_substeps : 1;
     const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
     const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step

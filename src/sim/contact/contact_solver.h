@@ -1,7 +1,7 @@
 // Resting contact of all islands: selects a solver for each island, by rules that depend on the scene alone.
 //
 // The direct solver (direct_solver.h) takes
-// - islands with joints, except nets and crowds of figures (net_way.h),
+// - islands with joints whose way is direct (joint_way.h),
 // - single bodies,
 // - all islands of a small scene,
 // - islands that touch nothing fixed,
@@ -17,7 +17,7 @@
 #include "sim/contact/projection/projection.h"
 #include "sim/contact/settings.h"
 #include "sim/contact/soft/soft_solver.h"
-#include "sim/joints/net_way.h"
+#include "sim/joints/joint_way.h"
 
 #include <memory>
 #include <vector>
@@ -43,11 +43,11 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [choice, effort, memory, gains, turns_fast, loads, soft, nets, crowd, projection, starts, candidates, few,
-               direct, softly, swept, failed, substep_multipliers, batched, batches, batches_used, areas] = self;
-        archive.rebuilt(choice, effort, soft, nets, projection, batched, batches, batches_used);
+        auto& [choice, effort, memory, gains, turns_fast, loads, soft, projection, starts, candidates, few, direct,
+               softly, swept, failed, substep_multipliers, batched, batches, batches_used, areas] = self;
+        archive.rebuilt(choice, effort, soft, projection, batched, batches, batches_used);
         archive.by_body(memory);
-        archive.keep(crowd, few);
+        archive.keep(few);
         archive.scratch(starts, swept, gains, turns_fast, loads, candidates, direct, softly, failed,
                         substep_multipliers, areas);
     }
@@ -84,9 +84,7 @@ private:
     LoadEstimate load(const ContactProblem& problem, const ContactIslands& islands, std::size_t island, int holds,
                       double enough);
     int substep_multiplier(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
-    bool nets_swept() const { return choice_ != Choice::direct && effort_ != Effort::precisely; }
-    bool in_sweeps(const ContactIslands& islands, std::size_t island);
-    void count_figures(const ContactIslands& islands);
+    JointWay way_of(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     void keep_starts(const ContactProblem& problem, const ContactIslands& islands);
     void leave_sweeps(const ContactProblem& problem, const ContactIslands& islands);
     bool make_batches(const ContactIslands& islands, const ContactProblem& problem);
@@ -100,8 +98,6 @@ private:
     std::vector<char> turns_fast_;
     LoadEstimates loads_;
     SoftSolver soft_;
-    Nets nets_;
-    FigureCrowd crowd_;
     Projection projection_;
     struct Momenta {
         Vec3 linear, angular;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "sim/joints/joint.h"
+#include "sim/joints/joint_groups.h"
 
 #include <cstdint>
 #include <span>
@@ -23,7 +24,14 @@ bool acts_along_coordinates(const Joint& joint);
 /// one target or with a speed and a bound.
 bool tree_laws(std::span<const Joint* const> joints, const std::vector<Body>& bodies);
 
+/// Whether the group moves in flight where it touches nothing: a tree in joint coordinates, others by RATTLE.
+bool flies(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies);
+
 /// The integrator of bodies that are joined: the finest of theirs, and splitting before that of Runge and Kutta.
 IntegratorKind joined_integrator(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined);
+/// Whether its steps end at the times of events.
+inline bool fine_integrator(IntegratorKind kind) {
+    return kind == IntegratorKind::exact || kind == IntegratorKind::runge_kutta_4;
+}
 
 }  // namespace tumble

@@ -1,10 +1,8 @@
 #include "sim/joints/joint_structure.h"
 
 #include "core/disjoint_sets.h"
-#include "sim/joints/flight_way.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
-#include "sim/joints/net_way.h"
 #include "sim/joints/settings.h"
 
 #include <Eigen/QR>
@@ -107,25 +105,9 @@ void find_extremes(const JointSet& joints, const std::vector<Body>& bodies, Join
     }
 }
 
-void add_way(const JointGroup& group, bool tree, const JointSet& joints, const std::vector<Body>& bodies,
-             JointReport& report) {
-    std::vector<const Joint*> members;
-    bool rattle = true;
-    for (const std::uint32_t i : group.bodies)
-        rattle = rattle && bodies[i].integrator != IntegratorKind::explicit_euler;
-    for (const std::uint32_t k : group.joints) {
-        const Joint& joint = joints.joints()[k];
-        members.push_back(&joint);
-        tree = tree && !joint.distance();
-        rattle = rattle && free_but_for_springs(joint, bodies);
-    }
-    tree = tree && tree_laws(members, bodies);
-    ++(tree ? report.by_coordinates : rattle ? report.by_rattle : report.by_rows);
-}
-
 }  // namespace
 
-JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, NetRule nets) {
+JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bodies, SweepRule rule) {
     JointReport report;
     for (const JointGroup& group : find_joint_groups(joints, bodies)) {
         const std::size_t rows = locked_rows(group, joints), loops = loops_of(group, joints, bodies);
@@ -139,11 +121,10 @@ JointReport describe_joints(const JointSet& joints, const std::vector<Body>& bod
         report.loops += loops;
         report.rows += rows;
         report.redundant += rows - rank;
-        if (is_net(group, joints, bodies, nets))
-            ++report.by_sweeps;
-        else
-            add_way(group, loops == 0, joints, bodies, report);
-        if (is_figure(group, joints, bodies, nets)) report.figures += group.bodies.size();
+        const MechanismFacts facts = facts_of(group, joints, bodies, rule);
+        ++report.in_flight[std::size_t(choose_way(facts, {}))];
+        ++report.in_contact[std::size_t(choose_way(facts, {.within_reach = true, .touching = true}))];
+        report.figures += facts.figures;
         report.counted = report.counted && small;
     }
     if (report.figures >= tuning::figures_swept) report.crowd = tuning::figures_swept;

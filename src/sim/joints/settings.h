@@ -33,6 +33,10 @@ inline constexpr double joint_swing = 0.7;
 /// Phase, rad, below which the next step is tried with half the substeps. Not fitted: half the substeps double it.
 inline constexpr double joint_easy_swing = 0.4 * joint_swing;
 
+/// Steps for which the number of substeps stays that the energy of a flight has asked for. Not fitted: longer than a swing,
+/// within which the error changes its sign; equal substeps keep the energy in the mean.
+inline constexpr int joint_wait = 30;
+
 /// Largest number of substeps: for that phase; where passes do not converge; and where contacts do not. Not fitted:
 /// bounds of the cost.
 inline constexpr int joint_swing_substeps = 1024;

@@ -2,10 +2,15 @@
 // world, fixed and kinematic bodies connect none.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 
 namespace tumble {
+
+/// The way in which an island of joined bodies moves in a step: see sim/joints/joint_way.h.
+enum class JointWay : std::uint8_t { free, direct, sweeps };
 
 struct JointReport {
     std::size_t bodies = 0;              // dynamic ones with joints
@@ -14,14 +19,14 @@ struct JointReport {
     std::size_t loops = 0;               // joints beyond those of a tree from the world
     std::size_t rows = 0;                // locked coordinates
     std::size_t redundant = 0;           // rows that follow from others
-    // Groups by the way in which they fly: trees in joint coordinates, RATTLE, or the rows of the solver of contacts.
-    std::size_t by_coordinates = 0, by_rattle = 0, by_rows = 0;
+    // Groups by JointWay, where they touch nothing, and where they touch something.
+    std::array<std::size_t, 3> in_flight{}, in_contact{};
+    std::size_t swept() const { return in_contact[std::size_t(JointWay::sweeps)]; }
     // Bodies of figures. Beside contacts they are solved in sweeps while `crowd` of them touch something; 0: never.
     std::size_t figures = 0, crowd = 0;
-    std::size_t by_sweeps = 0;  // nets, solved in sweeps, in flight and in contact; in none of the above
-    bool counted = true;        // false: a group is so large that all of its rows count as independent
-    double mass_ratio = 1.0;    // largest of two dynamic bodies of a joint
-    double gap = 0.0;           // m, largest
+    bool counted = true;      // false: a group is so large that all of its rows count as independent
+    double mass_ratio = 1.0;  // largest of two dynamic bodies of a joint
+    double gap = 0.0;         // m, largest
     std::optional<std::size_t> heaviest, widest;  // joints with these; in the order of the scene
 };
 

@@ -2,6 +2,7 @@
 
 #include "sim/checkpoint/archive.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
+#include "sim/step/joined_motion.h"
 
 namespace tumble {
 
@@ -41,13 +42,14 @@ std::span<const std::uint32_t> EventDrivenStage::choose_stepped(const StepContex
 
 void EventDrivenStage::advance(const StepContext& step, ContactDetection& detection) {
     BodySet& set = step.set;
-    motions_.find(step, [&](std::uint32_t, const Body& body) {
+    motions_.find(step, [&](std::uint32_t i, const Body& body) {
         BodyVelocity motion;
         if (body.flying) return motion;
+        if (body.placed) return step.joined.motion(i, set, step.h);
         // All bodies in contact move by the velocities of the solve, whatever their integrator.
         motion.velocity = body.velocity + body.push_velocity;
         motion.angular_velocity = body.angular_velocity;
-        if (body.dynamic() && !body.placed) motion.angular_velocity += gyration(body, step.h);
+        if (body.dynamic()) motion.angular_velocity += gyration(body, step.h);
         motion.angular_velocity += body.push_angular_velocity;
         return motion;
     });

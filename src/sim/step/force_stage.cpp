@@ -53,7 +53,6 @@ void ForceStage::apply(const StepContext& step, OutOfDate derived) {
         effects_[i].after.angular_momentum = body.angular_momentum;
         body.derive_velocities();
         if (step.log) log_forces(step, i, wrench);
-        if (body.placed) body.placed = false;
         if (body.integrator != IntegratorKind::explicit_euler) find_gyration(body, h);
     });
     if (!step.log) return;

@@ -15,6 +15,7 @@
 namespace tumble {
 
 class ContactLog;
+class JoinedMotion;
 class JointSet;
 
 struct StepContext {
@@ -29,6 +30,7 @@ struct StepContext {
     double h;            // s, length of the step
     ContactLog* log;     // null: not asked for
     JointSet& joints;
+    const JoinedMotion& joined;
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s

@@ -7,6 +7,7 @@
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/impact/settings.h"
 #include "sim/log/contact_log.h"
+#include "sim/step/joined_motion.h"
 #include "sim/threads/settings.h"
 
 namespace tumble {
@@ -30,13 +31,14 @@ double SteppedMotion::rebound_share() const { return tuning::restitution_rebound
 // Explicit Euler moves a pose by the velocities of the step's start, all others by those of its end; the rotation by
 // their mean.
 BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const StepContext& step) const {
+    if (body.placed) return step.joined.motion(i, step.set, step.h);
     const bool before = body.dynamic() && !body.jointed && body.integrator == IntegratorKind::explicit_euler;
     const BodyVelocity& old = step.set.old_velocities[i];
     BodyVelocity motion;
     motion.velocity = (before ? old.velocity : body.velocity) + body.push_velocity;
     motion.angular_velocity = before ? old.angular_velocity : body.angular_velocity;
     if (!before && body.jointed) {
-        if (!body.placed) motion.angular_velocity += gyration(body, step.h);
+        motion.angular_velocity += gyration(body, step.h);
     } else if (!before && body.dynamic()) {
         const Vec3 mean = step.forces.touched(i, body)
                               ? mean_angular_velocity_in_contact(body, step.h, step.settings.rotation)
@@ -86,7 +88,9 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         const double spin_before = spin(body);
         const Quat orientation = body.orientation;
         const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i, step);
-        if (body.jointed)
+        if (body.placed && share == 1.0) {
+            set_state(body, step.joined.end(i));
+        } else if (body.jointed)
             turn_exactly(body, motion.velocity, motion.angular_velocity, share * h);
         else
             advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);

@@ -285,49 +285,11 @@ void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting
     constraints_.swap(contacts);
 }
 
-// The bodies at the start of the step, before its forces.
-void DirectSolver::set_back(const JointIsland& island) {
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) {
-        Body& body = island.problem.bodies[island.bodies[k]];
-        const Start& start = starts_[k];
-        const Vec3 momentum = start.momentum - start.push, angular_momentum = start.angular_momentum - start.turn;
-        if (body.position == start.position && body.orientation.coeffs() == start.orientation.coeffs()) {
-            body.momentum = momentum;
-            body.angular_momentum = angular_momentum;
-            body.derive_velocities();
-        } else {
-            set_state(body, {start.position, start.orientation, momentum, angular_momentum});
-        }
-    }
-}
-
-// The step of joints that form loops and touch nothing, in as many substeps as it needs; moves the bodies.
-bool DirectSolver::fly(const JointIsland& island, int& substeps) {
-    swing_ = 0.0;
-    std::vector<StepForce> forces;
-    for (std::size_t k = 0; k < island.bodies.size(); ++k) forces.push_back({starts_[k].push, starts_[k].turn});
-    while (substeps <= tuning::joint_swing_substeps) {
-        set_back(island);
-        if (flight_.advance(island, forces, JointFlight::order(island), substeps)) {
-            swing_ = flight_.swing();
-            return true;
-        }
-        if (!(flight_.swing() > tuning::joint_swing)) return false;
-        const double phase = flight_.swing() * substeps;
-        do substeps *= 2;
-        while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
-    }
-    return false;
-}
-
 // Substeps of the next step, by those of this one.
-int DirectSolver::next_substeps(bool flown, int substeps) const {
+int DirectSolver::next_substeps(int substeps) const {
     const bool easy =
-        swing_ < tuning::joint_easy_swing && (flown || !constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
-    int next = easy ? std::max(1, substeps / 2) : substeps;
-    if (flown)  // the phase of a swing is proportional to the substep
-        while (next > 1 && 2.0 * swing_ * substeps < tuning::joint_easy_swing * next) next /= 2;
-    return next;
+        swing_ < tuning::joint_easy_swing && (!constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
+    return easy ? std::max(1, substeps / 2) : substeps;
 }
 
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
@@ -378,33 +340,19 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         if (problem.totals)
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
-    bool flown = false;
-    if (!manifolds.empty()) {
-        flown = none_touch(problem, manifolds) && flies_past(island, manifolds);
-        if (!flown) reset();
-    } else if (!(find_flying(island) && tree_flight_.is_tree()) && JointFlight::flies(island)) {
-        // A tree that fly_tree() has left behind is no flight.
-        flown = fly(island, substeps);
-        if (!flown) reset();
-    }
-    const bool past = flown && !manifolds.empty();
     // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces too.
-    cut_ = manifolds.empty() && !tree_method(problem.bodies, bodies).verlet();
-    for (bool cut = cut_; !flown && !solve_jointed_step(island, manifolds, substeps); cut = cut_) {
+    cut_ = manifolds.empty() && fine_integrator(joined_integrator(problem.bodies, bodies));
+    for (bool cut = cut_; !solve_jointed_step(island, manifolds, substeps); cut = cut_) {
         if (cut == cut_) substeps *= 2;
         reset();
     }
-    if (!past)
-        for (Joint* joint : island_joints) joint->substeps = next_substeps(flown, substeps);
-    if (!flown) {
-        push_joined(island, in_parts_);
-        store_contacts(problem);
-        move_to_end(island, in_parts_);
-        fit_velocities(island, JointRows::Booking::fit, h, consistent_ ? Fitting::solved : Fitting::unsolved);
-    }
+    for (Joint* joint : island_joints) joint->substeps = next_substeps(substeps);
+    push_joined(island, in_parts_);
+    store_contacts(problem);
+    move_to_end(island, in_parts_);
+    fit_velocities(island, JointRows::Booking::fit, h, consistent_ ? Fitting::solved : Fitting::unsolved);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
         Body& body = problem.bodies[bodies[k]];
-        if (past && !body.jointed) continue;
         // Back to the start: the step's velocities move the body to its end.
         const Vec3 moved = body.position - starts_[k].position;
         const Vec3 turned = rotation_vector(body.orientation * starts_[k].orientation.conjugate());

@@ -314,7 +314,6 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     factorizations_ = 0;
     displacement_.clear();
     for (const std::uint32_t k : manifolds) problem.manifolds[k].solved_by = SolvedBy::direct;
-    if (!joints.empty() && manifolds.empty() && fly_tree(problem, bodies, joints)) return true;
     load_bodies(problem, bodies);
     load_constraints(problem, bodies, manifolds);
     joints_.clear();

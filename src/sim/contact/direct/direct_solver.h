@@ -18,9 +18,7 @@
 // Lengths are measured in the island's mean radius, so that rotation and translation have equal weight.
 #pragma once
 
-#include "sim/articulation/tree_flight.h"
 #include "sim/contact/direct/contact_rows.h"
-#include "sim/contact/direct/flight_paths.h"
 #include "sim/contact/direct/joint_flight.h"
 #include "sim/contact/direct/joint_rows.h"
 #include "sim/math/block_cholesky.h"
@@ -104,17 +102,7 @@ private:
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     void move_to_end(const JointIsland& island, bool moved);
-    bool fly(const JointIsland& island, int& substeps);
-    void set_back(const JointIsland& island);
-    bool fly_tree(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                  std::span<const std::uint32_t> joints);
-    bool find_flying(const JointIsland& island);
-    TreeFlight::Outcome advance_tree(const JointIsland& island, int& substeps);
-    static bool none_touch(const ContactProblem& problem, std::span<const std::uint32_t> manifolds);
-    bool flies_past(const JointIsland& island, std::span<const std::uint32_t> manifolds);
-    bool fly_parts(const JointIsland& group, std::span<const std::size_t> places, int parts, int& substeps);
-    bool fly_part(const JointIsland& group, int& substeps);
-    int next_substeps(bool flown, int substeps) const;
+    int next_substeps(int substeps) const;
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
     bool moves_freely(const JointIsland& island);
@@ -155,12 +143,6 @@ private:
     std::vector<Weights> weights_;  // by constraint, of the last factorization
     JointRows joints_;
     JointFlight flight_;
-    TreeFlight tree_flight_;
-    FlightPaths paths_;
-    // Of its flight: joints, and their values and the states of the bodies at the start.
-    std::vector<Joint*> flying_;
-    std::vector<std::array<double, Joint::coordinates>> values_;
-    std::vector<RigidState> flown_from_;
     std::vector<JointSide> ends_;                   // poses at the end of the step
     struct Start {                                  // of a body in a jointed step
         Vec3 position, momentum, angular_momentum;  // after the forces

@@ -58,13 +58,6 @@ inline constexpr double direct_closing = 1e-3;
 /// fitted: below any visible size. Tests: those of landing (tests/sim/landing_test.cpp).
 inline constexpr double direct_slop = 1e-6;
 
-/// Rotation, rad, of the fastest body in a part of a flight past other bodies; the most parts of a step; and searches in
-/// a part after which the bodies count as met. Not fitted: the paths between the parts are cubic, with an error of
-/// 2e-4 of the body's radius in half a radian; the others are bounds of the cost.
-inline constexpr double flight_turn = 0.5;
-inline constexpr double flight_most_parts = 64.0;
-inline constexpr int flight_searches = 8;
-
 /// Compliance of position correction, over the island's mass, and the share of that stiffness across the normals.
 /// No case is known that guards it.
 inline constexpr double direct_push_compliance = 1e-2;

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -61,7 +62,7 @@ struct ManifoldImpulse {
 /// velocities, and sets the push velocities such that h (velocity + push), with the gyroscopic correction, is the
 /// body's displacement in the step. Bodies that no impulse has reached stay unchanged.
 class ContactAreas;
-class ForceField;
+struct IslandWay;
 class JointSet;
 
 struct ContactProblem {
@@ -71,7 +72,7 @@ struct ContactProblem {
     ConstraintSettings settings;
     std::vector<ManifoldImpulse>* totals = nullptr;  // by manifold, set by the solvers; null: not asked for
     JointSet* joints = nullptr;                      // null: a scene without joints
-    const ForceField* forces = nullptr;              // of the scene, for flights of joined bodies; null: none of those
+    std::span<const IslandWay> ways = {};            // by island with joints; empty: all are solved directly
     const ContactAreas* areas = nullptr;             // of several manifolds; set by ContactSolver, null: none
 };
 

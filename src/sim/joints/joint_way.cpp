@@ -1,5 +1,7 @@
-#include "sim/joints/net_way.h"
+#include "sim/joints/joint_way.h"
 
+#include "core/sort_unique.h"
+#include "sim/joints/flight_way.h"
 #include "sim/joints/joint_groups.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
@@ -93,33 +95,62 @@ double factor_work(const JointGroup& group, const JointSet& joints) {
     return double(matrix.work()) / double(group.bodies.size());
 }
 
-bool is_net(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies, NetRule rule) {
-    if (rule == NetRule::none || !all_known(group, joints, bodies)) return false;
-    if (rule == NetRule::all) return true;
-    if (!has_more_joints(group)) return false;
-    bool ropes = false;
-    for (const std::uint32_t k : group.joints) {
+namespace {
+
+bool is_net(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies, SweepRule rule) {
+    if (rule == SweepRule::all) return true;
+    if (!has_more_joints(group) || !masses_are_alike(group, joints, bodies)) return false;
+    const bool ropes = std::any_of(group.joints.begin(), group.joints.end(), [&](std::uint32_t k) {
         const Joint& joint = joints.joints()[k];
-        ropes = ropes || (joint.distance() && !joint.locked(0));
-    }
-    if (!masses_are_alike(group, joints, bodies)) return false;
+        return joint.distance() && !joint.locked(0);
+    });
     if (ropes && group.bodies.size() >= tuning::net_bodies_of_ropes) return true;
     return group.bodies.size() >= tuning::net_bodies && factor_work(group, joints) > tuning::net_work;
 }
 
-bool is_figure(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies, NetRule rule) {
-    if (rule != NetRule::dear || group.anchored || group.bodies.size() > tuning::figure_most ||
-        group.joints.size() + 1 != group.bodies.size())
-        return false;
-    return all_known(group, joints, bodies) && masses_are_alike(group, joints, bodies) &&
+// A tree without an anchor, of joints that hold anchors together, between masses that are not too unlike.
+bool is_figure(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
+    return !group.anchored && group.bodies.size() <= tuning::figure_most &&
+           group.joints.size() + 1 == group.bodies.size() && masses_are_alike(group, joints, bodies) &&
            std::none_of(group.joints.begin(), group.joints.end(),
                         [&](std::uint32_t k) { return joints.joints()[k].distance(); });
 }
 
-NetWay choose_way(const IslandGroups& groups, bool touches, bool crowd) {
-    if (groups.unknown) return groups.net ? NetWay::mixed : NetWay::direct;
-    if (groups.net) return NetWay::sweeps;
-    return touches && crowd && groups.figures > 0 && !groups.other ? NetWay::sweeps : NetWay::direct;
+void add(MechanismFacts& sum, const MechanismFacts& group) {
+    sum.flies = sum.flies && group.flies;
+    sum.known_to_sweeps = sum.known_to_sweeps && group.known_to_sweeps;
+    sum.net = sum.net || group.net;
+    sum.entangled = sum.entangled || group.entangled;
+    sum.other = sum.other || group.other;
+    sum.figures += group.figures;
+}
+
+}  // namespace
+
+SweepRule sweep_rule(const SimulationSettings& settings) {
+    if (settings.contact_solver == ContactSolverChoice::direct || settings.impacts != ImpactMode::stepped)
+        return SweepRule::none;
+    return settings.contact_solver == ContactSolverChoice::soft ? SweepRule::all : SweepRule::dear;
+}
+
+MechanismFacts facts_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies,
+                        SweepRule rule) {
+    MechanismFacts facts;
+    facts.flies = flies(group, joints, bodies);
+    facts.known_to_sweeps = rule != SweepRule::none && all_known(group, joints, bodies);
+    facts.net = facts.known_to_sweeps && is_net(group, joints, bodies, rule);
+    facts.entangled = facts.net && has_more_joints(group);
+    if (facts.known_to_sweeps && !facts.net && rule == SweepRule::dear && is_figure(group, joints, bodies))
+        facts.figures = group.bodies.size();
+    facts.other = !facts.net && facts.figures == 0;
+    return facts;
+}
+
+JointWay choose_way(const MechanismFacts& mechanism, const ContactFacts& contacts) {
+    if (mechanism.net) return mechanism.known_to_sweeps ? JointWay::sweeps : JointWay::direct;
+    const bool figures = mechanism.known_to_sweeps && mechanism.figures > 0 && !mechanism.other;
+    if (figures && contacts.within_reach && contacts.crowd) return JointWay::sweeps;
+    return mechanism.flies && !contacts.touching ? JointWay::free : JointWay::direct;
 }
 
 void FigureCrowd::count(std::size_t bodies) {
@@ -129,34 +160,26 @@ void FigureCrowd::count(std::size_t bodies) {
         left_ -= swept();
 }
 
-void Nets::find(const JointSet& joints, const std::vector<Body>& bodies, NetRule rule) {
+void Mechanisms::find(const JointSet& joints, const std::vector<Body>& bodies, SweepRule rule) {
     if (found_ == joints.changes()) return;
     found_ = joints.changes();
-    role_.assign(bodies.size(), Role::none);
-    for (const JointGroup& group : find_joint_groups(joints, bodies)) {
-        Role role = Role::other;
-        if (!all_known(group, joints, bodies))
-            role = Role::unknown;
-        else if (is_net(group, joints, bodies, rule))
-            role = has_more_joints(group) ? Role::entangled : Role::loose;
-        else if (is_figure(group, joints, bodies, rule))
-            role = Role::figure;
-        for (const std::uint32_t i : group.bodies) role_[i] = role;
+    const std::vector<JointGroup> found = find_joint_groups(joints, bodies);
+    groups_.clear();
+    group_.assign(bodies.size(), UINT32_MAX);
+    for (const JointGroup& group : found) {
+        for (const std::uint32_t i : group.bodies) group_[i] = std::uint32_t(groups_.size());
+        groups_.push_back(facts_of(group, joints, bodies, rule));
     }
 }
 
-IslandGroups Nets::groups(std::span<const std::uint32_t> island) const {
-    IslandGroups groups;
-    if (role_.empty()) return groups;
-    for (const std::uint32_t i : island) {
-        const Role role = role_[i];
-        groups.net = groups.net || role == Role::loose || role == Role::entangled;
-        groups.entangled = groups.entangled || role == Role::entangled;
-        groups.figures += role == Role::figure;
-        groups.other = groups.other || role == Role::other;
-        groups.unknown = groups.unknown || role == Role::unknown;
-    }
-    return groups;
+MechanismFacts Mechanisms::facts(std::span<const std::uint32_t> island) const {
+    MechanismFacts sum;
+    std::vector<std::uint32_t> groups;
+    for (const std::uint32_t i : island)
+        if (group_[i] != UINT32_MAX && (groups.empty() || groups.back() != group_[i])) groups.push_back(group_[i]);
+    sort_unique(groups);
+    for (const std::uint32_t g : groups) add(sum, groups_[g]);
+    return sum;
 }
 
 }  // namespace tumble

@@ -1,8 +1,9 @@
-#include "sim/contact/direct/flight_paths.h"
+#include "sim/articulation/flight_paths.h"
 
+#include "sim/articulation/settings.h"
 #include "sim/ccd/time_of_impact.h"
-#include "sim/contact/direct/contact_rows.h"
-#include "sim/contact/direct/settings.h"
+
+#include <algorithm>
 
 namespace tumble {
 namespace {
@@ -57,11 +58,11 @@ bool FlightPaths::any_meet(const std::vector<Body>& all, const std::vector<Manif
             const Trajectory* path[2];
             const std::uint32_t pair[2] = {m.a, m.b};
             for (int side = 0; side < 2; ++side) {
-                const int place = contact_rows::place_of(bodies_, pair[side]);
-                if (place == contact_rows::none) outside[side] = straight(all[pair[side]], part * span_);
-                path[side] = place == contact_rows::none
-                                 ? &outside[side]
-                                 : &paths_[std::size_t(place) * std::size_t(parts_) + std::size_t(part)];
+                const auto found = std::lower_bound(bodies_.begin(), bodies_.end(), pair[side]);
+                const bool inside = found != bodies_.end() && *found == pair[side];
+                if (!inside) outside[side] = straight(all[pair[side]], part * span_);
+                const std::size_t place = std::size_t(found - bodies_.begin());
+                path[side] = inside ? &paths_[place * std::size_t(parts_) + std::size_t(part)] : &outside[side];
             }
             if (meet(all[m.a], *path[0], all[m.b], *path[1])) return true;
         }
