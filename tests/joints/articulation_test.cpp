@@ -191,29 +191,40 @@ TEST(Articulation, JointForcesDoNoWork) {
     }
 }
 
-bool finds(const SceneDescription& scene) {
+/// Number of joints that are cut, or -1.
+int cuts_of(const SceneDescription& scene) {
     TreeScene parts(scene);
     JointTree tree;
-    return tree.find(parts.set.bodies, parts.island, parts.list);
+    if (!tree.find(parts.set.bodies, parts.island, parts.list, parts.joints.joints())) return -1;
+    return int(tree.cut().size());
 }
 
-TEST(Articulation, FindsTreesAndLeavesLoops) {
-    EXPECT_TRUE(finds(double_pendulum_scene(1)));
-    EXPECT_TRUE(finds(free_chain_scene()));
+TEST(Articulation, FindsSpanningTrees) {
+    EXPECT_EQ(cuts_of(double_pendulum_scene(1)), 0);
+    EXPECT_EQ(cuts_of(free_chain_scene()), 0);
     SceneDescription door = double_pendulum_scene(1);
     add_joint(door, JointType::hinge, std::nullopt, 0, {0.0, 0.0, 0.3}, Vec3::UnitZ());
-    EXPECT_FALSE(finds(door));
+    EXPECT_EQ(cuts_of(door), 1);
+    door.joints[0].turn[0].friction = 1.0;
+    EXPECT_EQ(cuts_of(door), 1);
+    door.joints[2].turn[0].friction = 1.0;  // of two laws one would be of a joint that is cut
+    EXPECT_EQ(cuts_of(door), -1);
     SceneDescription anchored = free_chain_scene();
     add_joint(anchored, JointType::ball, std::nullopt, 0, {-0.5, 0.0, 0.0});
-    EXPECT_TRUE(finds(anchored));
+    EXPECT_EQ(cuts_of(anchored), 0);
     add_joint(anchored, JointType::ball, std::nullopt, 7, {7.5, 0.0, 0.0});
-    EXPECT_FALSE(finds(anchored));
+    EXPECT_EQ(cuts_of(anchored), 1);
     SceneDescription ring = free_chain_scene();
     add_joint(ring, JointType::ball, 7, 0, {3.5, 0.0, 0.0}).anchor_second = Vec3(-0.5, 0.0, 0.0);
-    EXPECT_FALSE(finds(ring));
+    EXPECT_EQ(cuts_of(ring), 1);
     SceneDescription rod = double_pendulum_scene(1);
     rod.joints[1].type = JointType::distance;
-    EXPECT_FALSE(finds(rod));
+    EXPECT_EQ(cuts_of(rod), 1);
+    SceneDescription net = free_chain_scene(12);
+    for (std::size_t i = 0; i + 2 < 12; ++i) add_joint(net, JointType::fixed, i, i + 2, {double(i), 0.0, 0.0});
+    EXPECT_EQ(cuts_of(net), 10);
+    for (std::size_t i = 0; i + 3 < 12; ++i) add_joint(net, JointType::fixed, i, i + 3, {double(i), 0.0, 0.0});
+    EXPECT_EQ(cuts_of(net), -1);  // too many rows
 }
 
 }  // namespace

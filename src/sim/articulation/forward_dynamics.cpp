@@ -266,7 +266,7 @@ void ForwardDynamics::sweep_out(const Vec3& base, double* rates) {
             link.acceleration = free_acceleration(link.inertia, link.effort);
             for (int k = 0; k < 3; ++k) {
                 rate[k] = link.acceleration.turn[k];
-                rate[3 + k] = link.acceleration.move[k];
+                rate[3 + k] = link.acceleration.move[k] - base[k];
             }
             continue;
         }
@@ -298,6 +298,41 @@ void ForwardDynamics::accelerate(const Vec3& base, double* rates) {
 void ForwardDynamics::respond(const Vec3& base, double* rates) {
     sweep_in<false>();
     sweep_out(base, rates);
+}
+
+void ForwardDynamics::keep_efforts() {
+    efforts_.resize(links_.size());
+    for (std::size_t i = 0; i < links_.size(); ++i) efforts_[i] = {links_[i].effort, links_[i].drive, links_[i].twist};
+}
+
+void ForwardDynamics::restore_efforts() {
+    for (std::size_t i = 0; i < links_.size(); ++i) {
+        links_[i].effort = efforts_[i].effort;
+        links_[i].drive = efforts_[i].drive;
+        links_[i].twist = efforts_[i].twist;
+    }
+}
+
+void ForwardDynamics::set_aside() {
+    aside_ = links_;
+    ground_aside_ = ground_.acceleration;
+    for (Link& link : links_) link.bias = {};
+}
+
+void ForwardDynamics::respond_to(const double* efforts, double* rates) {
+    const std::vector<TreeNode>& nodes = tree_.nodes();
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const TreeNode& node = nodes[i];
+        const double* own = efforts + node.speed_at;
+        Link& link = links_[i];
+        link.effort = {};
+        link.drive = 0.0;
+        link.twist.setZero();
+        if (node.kind == NodeKind::free) link.effort = {-vector_at(own), -vector_at(own + 3)};
+        if (node.kind == NodeKind::ball) link.twist = frame_of(int(i)) * vector_at(own);
+        if (node.kind == NodeKind::revolute || node.kind == NodeKind::prismatic) link.drive = own[0];
+    }
+    respond(Vec3::Zero(), rates);
 }
 
 SpatialForce ForwardDynamics::joint_force(int node) const {

@@ -84,6 +84,16 @@ public:
     void accelerate(const Vec3& base, double* rates);
     /// The same with the inertias of the last accelerate(): for other efforts and speeds at the same places.
     void respond(const Vec3& base, double* rates);
+    /// Before accelerate(): keeps the efforts, for a second solve with further ones.
+    void keep_efforts();
+    void restore_efforts();
+    /// After accelerate(): `efforts` along all speeds alone act at rest; give_back() ends that. Columns of M^-1.
+    void set_aside();
+    void respond_to(const double* efforts, double* rates);
+    void give_back() {
+        links_.swap(aside_);
+        ground_.acceleration = ground_aside_;
+    }
     /// Rates of the coordinates, after move().
     void coordinate_rates(const double* coordinates, const double* speeds, double* rates) const;
 
@@ -101,7 +111,7 @@ public:
     /// the recursive Newton-Euler algorithm (Featherstone 2008, Table 5.1), after accelerate().
     void joint_forces(std::span<const Wrench> pushes, std::vector<SpatialForce>& forces) const;
 
-    const Link& link(int node) const { return links_[std::size_t(node)]; }
+    const Link& link(int node) const { return node == TreeNode::ground ? ground_ : links_[std::size_t(node)]; }
 
 private:
     void start();
@@ -119,7 +129,14 @@ private:
     void sweep_out(const Vec3& base, double* rates);
 
     const JointTree& tree_;
-    std::vector<Link> links_;
+    struct Efforts {
+        SpatialForce effort;
+        double drive = 0.0;
+        Vec3 twist = Vec3::Zero();
+    };
+    std::vector<Link> links_, aside_;
+    std::vector<Efforts> efforts_;
+    SpatialMotion ground_aside_;
     Link ground_;
 };
 

@@ -53,54 +53,27 @@ void IslandFlight::find_groups(const FlightStep& step) {
     std::erase_if(groups_, [](const Group& group) { return group.held.empty(); });
 }
 
-bool IslandFlight::fly_loops(const FlightStep& step, const Group& group, double from, double to, int& substeps) {
-    std::vector<BodyVelocity> none;
-    std::vector<Manifold> no_manifolds;
-    const ContactProblem problem{step.bodies, no_manifolds, none, {to - from, infinity, 0.0}, nullptr, &step.joints};
-    const JointIsland island{problem, group.bodies, group.held, group.length(step), from, to};
-    if (!JointFlight::flies(island)) return false;
-    std::vector<RigidState> starts;
-    std::vector<StepForce> forces;
-    for (const std::uint32_t i : group.bodies) {
-        const Body& body = step.bodies[i];
-        starts.push_back(state_of(body));
-        const Wrench wrench = step.forces.throughout(i, body, from, to);
-        const Impulse brief = step.forces.changes(i, from, to) ? step.forces.brief(i, body, from, to) : Impulse{};
-        forces.push_back({(to - from) * wrench.force + brief.linear, (to - from) * wrench.torque + brief.angular});
-    }
-    while (substeps <= tuning::joint_swing_substeps) {
-        for (std::size_t k = 0; k < starts.size(); ++k) set_state(step.bodies[group.bodies[k]], starts[k]);
-        const bool flown = loops_.advance(island, forces, JointFlight::order(island), substeps);
-        swing_ = loops_.swing();
-        if (flown) return true;
-        if (!(swing_ > tuning::joint_swing)) return false;
-        const double phase = swing_ * substeps;
-        do substeps *= 2;
-        while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
-    }
-    return false;
-}
-
 // Fine integrators find the limits; where rounding stops them, compositions of Verlet's method fly. By that method a step
 // that meets a limit is flown again by the method of Runge and Kutta.
-TreeFlight::Outcome IslandFlight::fly_tree(const FlightStep& step, const Group& group, double from, double to,
+TreeFlight::Outcome IslandFlight::fly_part(const FlightStep& step, const Group& group, double from, double to,
                                            int& substeps) {
     using Outcome = TreeFlight::Outcome;
     TreeStep part{step.bodies, group.bodies, group.joints,       step.forces,
                   from,        to - from,    group.length(step), step.to - step.from};
+    part.all = step.joints.joints();
     const TreeMethod method = tree_method(step.bodies, group.bodies);
     Outcome outcome = Outcome::declined;
     if (!method.verlet()) {
-        outcome = trees_.advance(part, method, substeps);
-        if (outcome != Outcome::declined || !trees_.is_tree()) return outcome;
-        return trees_.advance(part, {IntegratorKind::splitting, method.order}, substeps);
+        outcome = tree_.advance(part, method, substeps);
+        if (outcome != Outcome::declined || !tree_.is_tree()) return outcome;
+        return tree_.advance(part, {IntegratorKind::splitting, method.order}, substeps);
     }
     const auto any = [&](bool (*is)(const Joint&)) {
         return std::any_of(group.joints.begin(), group.joints.end(), [&](const Joint* joint) { return is(*joint); });
     };
     const auto fly_to_limits = [&] {
         part.most_steps = tuning::tree_few_steps;
-        return trees_.advance(part, {IntegratorKind::runge_kutta_4, method.order}, substeps);
+        return tree_.advance(part, {IntegratorKind::runge_kutta_4, method.order}, substeps);
     };
     const bool rests = any(at_limit), may_meet = !rests && any(limited);
     if (rests && (outcome = fly_to_limits()) != Outcome::declined) return outcome;
@@ -110,24 +83,14 @@ TreeFlight::Outcome IslandFlight::fly_tree(const FlightStep& step, const Group& 
         for (const std::uint32_t i : group.bodies) states.push_back(state_of(step.bodies[i]));
         for (const Joint* joint : group.joints) values.push_back(joint->value);
     }
-    outcome = trees_.advance(part, method, substeps);
-    if (!may_meet || outcome == Outcome::flown || !trees_.is_tree()) return outcome;
+    outcome = tree_.advance(part, method, substeps);
+    if (!may_meet || outcome == Outcome::flown || !tree_.is_tree()) return outcome;
     for (std::size_t k = 0; k < states.size(); ++k) set_state(step.bodies[group.bodies[k]], states[k]);
     for (std::size_t k = 0; k < values.size(); ++k) {
         group.joints[k]->value = values[k];
         group.joints[k]->broken = false;
     }
     return fly_to_limits();
-}
-
-bool IslandFlight::fly_part(const FlightStep& step, const Group& group, double from, double to, int& substeps) {
-    const std::vector<const Joint*> joints(group.joints.begin(), group.joints.end());
-    if (group.joints.size() > group.bodies.size() || !tree_laws(joints, step.bodies))
-        return fly_loops(step, group, from, to, substeps);
-    const TreeFlight::Outcome outcome = fly_tree(step, group, from, to, substeps);
-    swing_ = trees_.swing();
-    if (outcome == TreeFlight::Outcome::flown) return true;
-    return !trees_.is_tree() && fly_loops(step, group, from, to, substeps);
 }
 
 // Moves the bodies of one group through all parts, and adds up the accounts of its joints.
@@ -142,7 +105,7 @@ bool IslandFlight::fly(const FlightStep& step, const Group& group, int parts) {
         before.clear();
         if (!step.near.empty())
             for (const std::uint32_t i : group.bodies) before.push_back(step.bodies[i]);
-        if (!fly_part(step, group, from, to, substeps)) return false;
+        if (fly_part(step, group, from, to, substeps) != TreeFlight::Outcome::flown) return false;
         for (std::size_t k = 0; k < before.size(); ++k)
             paths_.add(group.places[k], part, before[k], step.bodies[group.bodies[k]]);
         for (std::size_t k = 0; k < sums.size(); ++k) {
@@ -162,10 +125,11 @@ bool IslandFlight::fly(const FlightStep& step, const Group& group, int parts) {
 
 // Of the next step, by those of this one. The phase of a swing is proportional to the substep.
 void IslandFlight::set_substeps(const Group& group, int substeps) const {
-    const int wait = trees_.strains_energy() ? tuning::joint_wait : std::max(0, group.joints[0]->wait - 1);
-    if (wait == 0 && swing_ < tuning::joint_easy_swing && substeps > 1) {
+    const int wait = tree_.strains_energy() ? tuning::joint_wait : std::max(0, group.joints[0]->wait - 1);
+    if (wait == 0 && tree_.swing() < tuning::joint_easy_swing && substeps > 1) {
         substeps /= 2;
-        for (double swing = 4.0 * swing_; substeps > 1 && swing < tuning::joint_easy_swing; swing *= 2.0) substeps /= 2;
+        for (double swing = 4.0 * tree_.swing(); substeps > 1 && swing < tuning::joint_easy_swing; swing *= 2.0)
+            substeps /= 2;
     }
     for (Joint* joint : group.joints) {
         joint->substeps = substeps;

@@ -1,11 +1,10 @@
-// The free motion of an island of joined bodies in one step: each group flies as if it were alone, in joint coordinates where
-// its joints form a tree (tree_flight.h). Where other bodies are within reach, the flight is a trial in parts: it stands if no
+// The free motion of an island of joined bodies in one step: each group flies as if it were alone, in joint coordinates
+// (tree_flight.h). Where other bodies are within reach, the flight is a trial in parts: it stands if no
 // pair meets on its way.
 #pragma once
 
 #include "sim/articulation/flight_paths.h"
 #include "sim/articulation/tree_flight.h"
-#include "sim/contact/direct/joint_flight.h"
 #include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/joints/joint_set.h"
 
@@ -47,19 +46,15 @@ private:
     };
     void find_groups(const FlightStep& step);
     bool fly(const FlightStep& step, const Group& group, int parts);
-    bool fly_part(const FlightStep& step, const Group& group, double from, double to, int& substeps);
-    TreeFlight::Outcome fly_tree(const FlightStep& step, const Group& group, double from, double to, int& substeps);
-    bool fly_loops(const FlightStep& step, const Group& group, double from, double to, int& substeps);
+    TreeFlight::Outcome fly_part(const FlightStep& step, const Group& group, double from, double to, int& substeps);
     void set_substeps(const Group& group, int substeps) const;
 
     std::vector<Group> groups_;
     std::vector<std::uint32_t> found_for_, found_held_;  // of the groups: bodies and joints
     std::vector<RigidState> starts_, ends_;
     std::vector<std::array<double, Joint::coordinates>> values_;  // by joint, at the start
-    TreeFlight trees_;
-    JointFlight loops_;
+    TreeFlight tree_;
     FlightPaths paths_;
-    double swing_ = 0.0;  // rad, largest phase of a swing in a substep
 };
 
 }  // namespace tumble

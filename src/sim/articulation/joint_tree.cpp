@@ -2,6 +2,7 @@
 
 #include "core/deterministic_math.h"
 #include "sim/joints/joint_set.h"
+#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -112,65 +113,60 @@ double worst_error(const Joint& joint, const JointGeometry& shape) {
     return worst;
 }
 
-int place_in(std::span<const std::uint32_t> island, std::uint32_t body) {
-    const auto found = std::lower_bound(island.begin(), island.end(), body);
-    return found != island.end() && *found == body ? int(found - island.begin()) : TreeNode::no_body;
-}
-
 }  // namespace
 
-// From the root on, breadth first. The heaviest body is the root of a free tree.
-bool JointTree::order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
-                             std::span<Joint* const> joints) {
-    const std::size_t n = island.size(), m = joints.size();
+int JointTree::place_of(const Joint* joint) const {
+    const auto found = std::find(joints_.begin(), joints_.end(), joint);
+    return found != joints_.end() ? int(found - joints_.begin()) : TreeNode::no_joint;
+}
+
+// From the roots on, breadth first. The heaviest body is the root of a free tree.
+void JointTree::order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island) {
+    const std::size_t n = island.size(), m = spanning_.kept.size();
     first_.assign(n + 1, 0);
     next_.resize(2 * m);
-    ends_.resize(2 * m);
     child_.assign(m, TreeNode::no_body);
     parent_.assign(m, TreeNode::no_body);
     order_.clear();
-    int hung = TreeNode::no_joint;
-    for (std::size_t k = 0; k < m; ++k) {
-        const Joint& joint = *joints[k];
-        if (joint.broken || joint.distance()) return false;
-        ends_[2 * k] = joint.a == Joint::world ? TreeNode::no_body : place_in(island, joint.a);
-        ends_[2 * k + 1] = joint.b == Joint::world ? TreeNode::no_body : place_in(island, joint.b);
-        for (const int end : {ends_[2 * k], ends_[2 * k + 1]}) {
-            if (end != TreeNode::no_body) {
-                ++first_[std::size_t(end) + 1];
-            } else {
-                if (hung != TreeNode::no_joint) return false;
-                hung = int(k);
-            }
-        }
-    }
-    if (m + 1 != n + (hung != TreeNode::no_joint)) return false;
+    hung_ = TreeNode::no_joint;
+    for (std::size_t e = 0; e < 2 * m; ++e)
+        if (spanning_.kept[e / 2] && spanning_.ends[e] != TreeNode::no_body) ++first_[std::size_t(spanning_.ends[e]) + 1];
     for (std::size_t k = 0; k < n; ++k) first_[k + 1] += first_[k];
     std::vector<int> filled(first_.begin(), first_.end() - 1);
     for (std::size_t e = 0; e < 2 * m; ++e)
-        if (ends_[e] != TreeNode::no_body) next_[std::size_t(filled[std::size_t(ends_[e])]++)] = int(e);
-    Link root{0, hung};
-    if (hung != TreeNode::no_joint) {
-        const std::size_t k = std::size_t(hung);
-        root.body = std::max(ends_[2 * k], ends_[2 * k + 1]);
-        child_[k] = root.body;
-    } else {
-        for (std::size_t k = 1; k < n; ++k)
-            if (bodies[island[k]].mass > bodies[island[std::size_t(root.body)]].mass) root.body = int(k);
+        if (spanning_.kept[e / 2] && spanning_.ends[e] != TreeNode::no_body)
+            next_[std::size_t(filled[std::size_t(spanning_.ends[e])]++)] = int(e);
+    for (std::size_t k = 0; k < m; ++k) {
+        if (!spanning_.kept[k] || (spanning_.ends[2 * k] != TreeNode::no_body && spanning_.ends[2 * k + 1] != TreeNode::no_body)) continue;
+        if (hung_ == TreeNode::no_joint) hung_ = int(k);
+        child_[k] = std::max(spanning_.ends[2 * k], spanning_.ends[2 * k + 1]);
+        order_.push_back({child_[k], int(k)});
+        grow(order_.size() - 1);
     }
-    order_.push_back(root);
-    for (std::size_t at = 0; at < order_.size(); ++at) {
+    std::vector<char> reached(n, 0);
+    while (order_.size() < n) {
+        for (const Link& link : order_) reached[std::size_t(link.body)] = 1;
+        int root = TreeNode::no_body;
+        for (std::size_t k = 0; k < n; ++k)
+            if (!reached[k] &&
+                (root == TreeNode::no_body || bodies[island[k]].mass > bodies[island[std::size_t(root)]].mass))
+                root = int(k);
+        order_.push_back({root, TreeNode::no_joint});
+        grow(order_.size() - 1);
+    }
+}
+
+void JointTree::grow(std::size_t at) {
+    for (; at < order_.size(); ++at) {
         const Link link = order_[at];
         for (int e = first_[std::size_t(link.body)]; e < first_[std::size_t(link.body) + 1]; ++e) {
-            const int end = next_[std::size_t(e)], joint = end / 2, other = ends_[std::size_t(end ^ 1)];
+            const int end = next_[std::size_t(e)], joint = end / 2, other = spanning_.ends[std::size_t(end ^ 1)];
             if (joint == link.joint) continue;
-            if (order_.size() == n) return false;  // a loop
             child_[std::size_t(joint)] = other;
             parent_[std::size_t(joint)] = link.body;
             order_.push_back({other, joint});
         }
     }
-    return order_.size() == n;
 }
 
 // The two sides of a joint, as the tree sees them.
@@ -205,16 +201,20 @@ void JointTree::add_joint(const std::vector<Body>& bodies, std::span<const std::
                           const Link& link) {
     Hang& hang = hangs_[std::size_t(link.joint)];
     hang = {};
-    hang.forward = ends_[2 * std::size_t(link.joint) + 1] == link.body;
+    hang.forward = spanning_.ends[2 * std::size_t(link.joint) + 1] == link.body;
+    const int parent_body = parent_of(link.joint);
+    if (parent_body == TreeNode::no_body && link.joint != hung_) {
+        hang.anchor = int(nodes_.size());
+        nodes_.emplace_back().joint = link.joint;
+    }
     hang.first = int(nodes_.size());
     const TreeSides sides(joint, bodies, hang.forward);
     sequence_.clear();
     Sequence{joint, hang.forward, sides.frame_parent, sides.frame_child, Quat::Identity(), {}, sequence_}.fill();
-    const int parent_body = parent_of(link.joint);
     for (std::size_t k = 0; k < sequence_.size(); ++k) {
         TreeNode& node = nodes_.emplace_back(sequence_[k]);
         node.parent = k > 0                              ? int(nodes_.size()) - 2
-                      : parent_body == TreeNode::no_body ? TreeNode::ground
+                      : parent_body == TreeNode::no_body ? hang.anchor
                                                          : node_of_[std::size_t(parent_body)];
         node.joint = link.joint;
     }
@@ -254,7 +254,7 @@ bool JointTree::same(std::span<const std::uint32_t> island, std::span<Joint* con
 void JointTree::build(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
                       std::span<Joint* const> joints) {
     nodes_.clear();
-    nodes_.reserve(6 * island.size());
+    nodes_.reserve(7 * island.size());
     node_of_.assign(island.size(), 0);
     hangs_.resize(joints.size());
     for (const Link& link : order_) {
@@ -276,20 +276,36 @@ void JointTree::build(const std::vector<Body>& bodies, std::span<const std::uint
 }
 
 // A free tree: from the center of mass.
-void JointTree::load_root(const std::vector<Body>& bodies, std::span<const std::uint32_t> island) {
-    double mass = 0.0;
-    Vec3 sum = Vec3::Zero();
+void JointTree::find_origin(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                            std::span<Joint* const> joints) {
     const Vec3 near = bodies[island[0]].position;
-    for (const std::uint32_t i : island) {
-        mass += bodies[i].mass;
-        sum += bodies[i].mass * (bodies[i].position - near);
-    }
-    origin_ = near + sum / mass;
+    origin_ = near;
     ground_ = Quat::Identity();
-    TreeNode& root = nodes_.front();
-    const Body& body = bodies[island[std::size_t(root.body)]];
-    root.arm = body.position - origin_;
-    root.turned = body.orientation;
+    if (spanning_.free) {
+        double mass = 0.0;
+        Vec3 sum = Vec3::Zero();
+        for (const std::uint32_t i : island) {
+            mass += bodies[i].mass;
+            sum += bodies[i].mass * (bodies[i].position - near);
+        }
+        origin_ = near + sum / mass;
+    } else if (hung_ != TreeNode::no_joint) {
+        const Joint& joint = *joints[std::size_t(hung_)];
+        const bool forward = hangs_[std::size_t(hung_)].forward;
+        const JointSide side = side_of(bodies, forward ? joint.a : joint.b);
+        ground_ = side.orientation;
+        origin_ = side.position + side.orientation * (forward ? joint.anchor_a : joint.anchor_b);
+    }
+}
+
+// The part of the ground that a further joint hangs on.
+void JointTree::load_anchor(const std::vector<Body>& bodies, const Joint& joint, const Hang& hang) {
+    if (hang.anchor == TreeNode::ground) return;
+    const JointSide side = side_of(bodies, hang.forward ? joint.a : joint.b);
+    TreeNode& node = nodes_[std::size_t(hang.anchor)];
+    node.arm = ground_.conjugate() *
+               (side.position + side.orientation * (hang.forward ? joint.anchor_a : joint.anchor_b) - origin_);
+    node.turned = (ground_.conjugate() * side.orientation).normalized();
 }
 
 // A joint without displacements that is a single node.
@@ -309,9 +325,7 @@ void JointTree::load_direct(const std::vector<Body>& bodies, std::span<const std
         relative = parent.orientation.conjugate() * child.orientation;
     } else {
         const JointSide side = side_of(bodies, hang.forward ? joint.a : joint.b);
-        ground_ = side.orientation;
-        origin_ = side.position + side.orientation * anchor_parent;
-        apart -= origin_;
+        apart -= side.position + side.orientation * anchor_parent;
         relative = side.orientation.conjugate() * child.orientation;
     }
     double worst = apart.norm() / joint.size;
@@ -338,12 +352,8 @@ void JointTree::load_joint(const std::vector<Body>& bodies, const Joint& joint, 
     const TreeSides sides(joint, bodies, hang.forward);
     TreeNode& first = nodes_[std::size_t(hang.first)];
     Vec3 arm = Vec3::Zero();
-    if (parent_of(link.joint) == TreeNode::no_body) {
-        ground_ = sides.parent.orientation;
-        origin_ = sides.parent.position + sides.parent.orientation * sides.anchor_parent;
-    } else {
+    if (parent_of(link.joint) != TreeNode::no_body)
         arm = nodes_[std::size_t(first.parent)].center + sides.anchor_parent;
-    }
     const JointSide &a = hang.forward ? sides.parent : sides.child, &b = hang.forward ? sides.child : sides.parent;
     const JointGeometry shape = measure(joint, a, b);
     gap_ = std::max(gap_, worst_error(joint, shape));
@@ -362,22 +372,34 @@ void JointTree::load_joint(const std::vector<Body>& bodies, const Joint& joint, 
 }
 
 bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
-                     std::span<Joint* const> joints) {
+                     std::span<Joint* const> joints, std::span<const Joint> all) {
     if (!same(island, joints)) {
         island_.assign(island.begin(), island.end());
         joints_.assign(joints.begin(), joints.end());
-        is_tree_ = order_bodies(bodies, island, joints);
-        if (is_tree_) build(bodies, island, joints);
+        is_tree_ = span_joints(island, joints, all, spanning_) && spanning_.rows <= tuning::tree_most_closures;
+        if (is_tree_) {
+            order_bodies(bodies, island);
+            build(bodies, island, joints);
+        }
     }
     if (!is_tree_) return false;
     gap_ = 0.0;
+    find_origin(bodies, island, joints);
     for (const Link& link : order_) {
-        if (link.joint == TreeNode::no_joint)
-            load_root(bodies, island);
-        else if (hangs_[std::size_t(link.joint)].direct)
-            load_direct(bodies, island, *joints[std::size_t(link.joint)], link);
+        if (link.joint == TreeNode::no_joint) {
+            TreeNode& root = nodes_[std::size_t(node_of_[std::size_t(link.body)])];
+            const Body& body = bodies[island[std::size_t(link.body)]];
+            root.arm = body.position - origin_;
+            root.turned = body.orientation;
+            continue;
+        }
+        const Joint& joint = *joints[std::size_t(link.joint)];
+        const Hang& hang = hangs_[std::size_t(link.joint)];
+        load_anchor(bodies, joint, hang);
+        if (hang.direct)
+            load_direct(bodies, island, joint, link);
         else
-            load_joint(bodies, *joints[std::size_t(link.joint)], link);
+            load_joint(bodies, joint, link);
     }
     return true;
 }

@@ -1,4 +1,5 @@
-// The tree of an island of joined bodies, found from its joints, as a list of nodes from the root to the leaves.
+// A spanning tree of an island of joined bodies, found from its joints, as a list of nodes from the roots to the leaves.
+// Joints that would close a loop are cut; so are distance joints and gears. Each tree hangs on the ground or has a free root.
 //
 // A node is a body, or a massless part between two coordinates of one joint, and moves relative to its parent by one
 // primitive joint: a universal joint is two revolute ones, a planar joint two prismatic ones and a revolute one.
@@ -8,7 +9,7 @@
 #include "core/vector.h"
 #include "sim/articulation/spatial.h"
 #include "sim/dynamics/body.h"
-#include "sim/joints/joint.h"
+#include "sim/joints/spanning_joints.h"
 
 #include <cstdint>
 #include <span>
@@ -62,14 +63,25 @@ using NodeKind = TreeNode::Kind;
 
 class JointTree {
 public:
-    /// Whether the joints form a tree of these bodies (indices, ascending), which hangs on at most one joint to the world,
-    /// a fixed or a kinematic body, and all are of types that nodes describe. Then nodes() are those of the present poses.
-    /// The structure is kept from call to call while bodies and joints stay the same.
-    bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints);
+    /// Whether the joints connect these bodies (indices, ascending), joints with laws close no loop, and the others close few.
+    /// Then nodes() are those of the present poses. The structure is kept from call to call while bodies and joints stay the
+    /// same. `all`: the joints that gears refer to.
+    bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints,
+              std::span<const Joint> all = {});
 
     bool found() const { return is_tree_; }
     const std::vector<TreeNode>& nodes() const { return nodes_; }
-    bool is_free() const { return nodes_.front().kind == NodeKind::free; }
+    /// True if no joint holds the island to the ground.
+    bool is_free() const { return spanning_.free; }
+    /// Joints (indices among the island's) that are cut.
+    std::span<const int> cut() const { return spanning_.cut; }
+    bool hangs(int joint) const { return child_[std::size_t(joint)] != TreeNode::no_body; }
+    /// Index among the island's joints.
+    int place_of(const Joint* joint) const;
+    /// Node at the anchor of a joint to the ground, or TreeNode::ground at the origin.
+    int anchor_node(int joint) const { return hangs_[std::size_t(joint)].anchor; }
+    /// Single node of a joint that hangs.
+    int node_of(int joint) const { return hangs_[std::size_t(joint)].first; }
     /// Node of each body of the island.
     std::span<const int> node_of_body() const { return node_of_; }
     /// Body at the side of the joint (index among the island's joints) that is farther from the root.
@@ -87,7 +99,7 @@ public:
     /// True if the joint is a single node.
     bool plain(int joint) const { return hangs_[std::size_t(joint)].plain; }
 
-    /// Where the root hangs: the side of its joint that does not move, or the center of mass of a free tree.
+    /// Where the first root hangs: the side of its joint that does not move, or the center of mass of a free tree.
     const Vec3& origin() const { return origin_; }
     const Quat& ground() const { return ground_; }
 
@@ -99,10 +111,11 @@ public:
     double gap() const { return gap_; }
 
 private:
-    bool order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
-                      std::span<Joint* const> joints);
+    void order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island);
+    void grow(std::size_t at);
     struct Hang {                  // the joint that a body hangs on
         int first = 0, count = 0;  // its nodes
+        int anchor = TreeNode::ground;
         bool forward = true;       // the parent is the joint's first body
         bool direct = false;       // one node that locks all displacements
         bool plain = false;
@@ -116,7 +129,9 @@ private:
     void add_joint(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, Joint& joint,
                    const Link& link);
     void find_basis(Hang& hang, const Joint& joint) const;
-    void load_root(const std::vector<Body>& bodies, std::span<const std::uint32_t> island);
+    void find_origin(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                     std::span<Joint* const> joints);
+    void load_anchor(const std::vector<Body>& bodies, const Joint& joint, const Hang& hang);
     void load_direct(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const Joint& joint,
                      const Link& link);
     void load_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link);
@@ -128,7 +143,9 @@ private:
     std::vector<std::uint32_t> island_;
     std::vector<Joint*> joints_;
     bool is_tree_ = false;
-    std::vector<int> node_of_, child_, parent_, first_, next_, ends_;
+    SpanningJoints spanning_;
+    int hung_ = TreeNode::no_joint;  // first joint to the ground that hangs
+    std::vector<int> node_of_, child_, parent_, first_, next_;
     Vec3 origin_ = Vec3::Zero();
     Quat ground_ = Quat::Identity();
     double gap_ = 0.0;

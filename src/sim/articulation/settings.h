@@ -55,6 +55,19 @@ inline constexpr double tree_event_located = 1e-14;
 inline constexpr int tree_most_events = 64;
 inline constexpr int tree_most_trials = 60;
 
+/// Share of its compliance below which a row is redundant; and compliance added to all, as a share of the largest, whose
+/// error refinement removes. Not fitted: between rounding and the ratio of masses.
+inline constexpr double closure_redundant = 1e-10;
+inline constexpr double closure_compliance = 1e-12;
+
+/// Gap, in sizes of the joint, at which cut joints are closed; and passes in which that is reached. Not fitted: rounding; a
+/// bound of the cost.
+inline constexpr double closure_closed = 8e-15;
+inline constexpr int closure_passes = 40;
+
+/// Substeps beyond which passes that do not close the joints leave the step to the rows. Not fitted: a bound of the cost.
+inline constexpr int closure_substeps = 64;
+
 /// Angle, rad, that a ball may be beyond its limit; and the turn, rad, over which the rate of the limit's direction is found.
 /// Not fitted: rounding of the angles, and of their differences.
 inline constexpr double limit_of_ball = 1e-12;

@@ -20,6 +20,7 @@ void TreeAccount::begin(const TreeStep& step) {
     moments_.assign(m, Vec3::Zero());
     carried_.assign(m, Vec3::Zero());
     torques_.assign(m, Vec3::Zero());
+    struck_.clear();
     momenta_.resize(n);
     pushes_.assign(n, Vec3::Zero());
     forces_.resize(tree_.nodes().size());
@@ -38,7 +39,7 @@ TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, i
     if (second) {
         s = {on_child.force, on_child.moment, link.point, link.velocity.move};
     } else {
-        s.point.setZero();  // the ground's anchor is the origin
+        s.point = dynamics.link(tree_.anchor_node(index)).point;
         s.rate.setZero();
         if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
             const int at = tree_.node_of_body()[std::size_t(above)];
@@ -87,7 +88,9 @@ void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const
 void TreeAccount::strike(const ForwardDynamics& dynamics, double t, std::span<const Wrench> impulses) {
     dynamics.joint_forces(impulses, forces_);
     for (std::size_t k = 0; k < samples_.size(); ++k) {
+        if (!tree_.hangs(int(k))) continue;
         const Sample s = joint_sample(dynamics, int(k), t);
+        if (!struck_.empty()) struck_[k] += s.force;
         moments_[k] += s.point.cross(s.force);
         carried_[k] += frame_.place(t).cross(s.force);
         torques_[k] += s.torque;
@@ -97,6 +100,7 @@ void TreeAccount::strike(const ForwardDynamics& dynamics, double t, std::span<co
 void TreeAccount::add_stage(const ForwardDynamics& dynamics, double t, double h) {
     const Vec3 place = frame_.place(t);
     for (std::size_t k = 0; k < samples_.size(); ++k) {
+        if (!tree_.hangs(int(k))) continue;
         const std::size_t node = std::size_t(tree_.node_of_body()[std::size_t(tree_.child_of(int(k)))]);
         forces_[node] = dynamics.joint_force(int(node));
         samples_[k] = joint_sample(dynamics, int(k), t);
@@ -110,7 +114,8 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
                          std::span<const PushedImpulse> pushed) {
     dynamics.joint_forces(pushes, forces_);
     std::vector<Sample> now(samples_.size());
-    for (std::size_t k = 0; k < now.size(); ++k) now[k] = joint_sample(dynamics, int(k), t);
+    for (std::size_t k = 0; k < now.size(); ++k)
+        if (tree_.hangs(int(k))) now[k] = joint_sample(dynamics, int(k), t);
     std::vector<Vec3> momenta(starts_.size()), given(starts_.size(), Vec3::Zero());
     for (std::size_t i = 0; i < momenta.size(); ++i) {
         const int node = tree_.node_of_body()[i];
@@ -135,10 +140,16 @@ double TreeAccount::load_of(const ForwardDynamics& dynamics, int joint, std::spa
 }
 
 // As for the rows of the direct solver (JointRows::swing_rate): sqrt(4 T / (m l)) for a rod of length l.
+double TreeAccount::swing_rate(double h) {
+    for (std::size_t k = 0; k < samples_.size(); ++k) samples_[k].force += struck_[k] / h;
+    return swing_rate();
+}
+
 double TreeAccount::swing_rate() {
     double most = 0.0;
     sums_.assign(starts_.size(), 0.0);
     for (std::size_t k = 0; k < samples_.size(); ++k) {
+        if (!tree_.hangs(int(k))) continue;
         const double load = samples_[k].force.norm() / 3.0;
         for (const int side : {0, 1}) {
             const int place = side == 0 ? tree_.child_of(int(k)) : tree_.parent_of(int(k));
@@ -235,11 +246,9 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
 void TreeAccount::keep_impulses(Joint& joint, const JointGeometry& g, const Sample& end) const {
     joint.impulse = {};
     joint.curving = {};
-    joint.constraint_rates = {};
     for (std::size_t c = 0; c < joint.count(); ++c) {
         if (!joint.locked(c)) continue;
         const double force = g.coordinates[c].direction.dot(c < 3 ? end.force : end.torque);
-        joint.constraint_force[c] = 0.5 * force;
         joint.impulse[c][Joint::lock] = force * step_->h;
     }
 }

@@ -39,6 +39,9 @@ public:
     double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes);
     /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
     double swing_rate();
+    /// The same in a stage of `h` s, with the impulses at both of its ends.
+    void begin_stage() { struck_.assign(samples_.size(), Vec3::Zero()); }
+    double swing_rate(double h);
 
     /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false where
     /// a limit is violated or a joint is loaded well beyond its strength.
@@ -75,6 +78,7 @@ private:
     std::vector<Vec3> moments_,
         carried_;                       // N m s, by joint: integrals of point x force, and of the frame's place x force
     std::vector<Vec3> torques_;         // N m s, by joint: of stages
+    std::vector<Vec3> struck_;          // N s, by joint: at both ends of a stage
     std::vector<Behind> behind_;        // by body
     std::vector<double> sums_;          // by body
     std::vector<SpatialForce> forces_;  // by node

@@ -53,7 +53,13 @@ bool TreeFlight::strike(std::size_t limit) {
     const TreeLimits::Impact impact =
         limits_.strike(limit, dynamics_, y_.data(), speeds, std::size_t(tree_.speeds()), whole, rates);
     if (!(impact.approach > 0.0)) return false;
-    account_->strike(dynamics_, time_, {});
+    std::vector<Wrench> wrenches;
+    if (!closures_.empty()) {
+        wrenches.resize(step_->island.size());
+        closures_.add_to(dynamics_, wrenches);
+        closures_.add_sums(dynamics_, frame_, time_, 1.0, y_.data() + closed_ + 1);
+    }
+    account_->strike(dynamics_, time_, wrenches);
     friction_.strike(y_.data(), speeds);
     return true;
 }
@@ -76,15 +82,20 @@ void TreeFlight::find_weak() {
         const JointDescription& strength = step_->joints[k]->description;
         if (strength.break_force == infinity && strength.break_torque == infinity) continue;
         if (weak_.empty()) rate(y_);
-        if (account_->load_of(dynamics_, int(k), pushes_) < 1.0) weak_.push_back(int(k));
+        if (load_of(int(k)) < 1.0) weak_.push_back(int(k));
     }
+}
+
+// Over its strength, after rate().
+double TreeFlight::load_of(int joint) {
+    return tree_.hangs(joint) ? account_->load_of(dynamics_, joint, pushes_) : closures_.load_of(joint);
 }
 
 // After rate(y).
 double TreeFlight::excess(std::size_t event, const Vector& y) {
     if (event < friction_.count()) return friction_.excess(event, dynamics_, y.data() + coordinates_);
     if (event < first_weak()) return limits_.excess(event - friction_.count(), dynamics_, y.data());
-    return account_->load_of(dynamics_, weak_[event - first_weak()], pushes_) - 1.0;
+    return load_of(weak_[event - first_weak()]) - 1.0;
 }
 
 double TreeFlight::excess_at(std::size_t event, const Vector& y) {

@@ -44,11 +44,12 @@ TreeFlight::Totals TreeFlight::totals() const {
 // `stage`: length of a stage of Verlet's method, s; 0: of another method.
 bool TreeFlight::start(double stage) {
     const TreeStep& step = *step_;
-    if (!tree_.find(step.bodies, step.island, step.joints) || tree_.gap() > tuning::tree_gap) return false;
+    if (!tree_.find(step.bodies, step.island, step.joints, step.all) || tree_.gap() > tuning::tree_gap) return false;
+    if (!closures_.find(tree_, step, stage)) return false;
     if (!springs_.find(tree_, step, stage)) return false;
     friction_.find(tree_, step);
     limits_.clear();
-    if (stage == 0.0 && !limits_.find(tree_, step)) return false;
+    if (stage == 0.0 && !limits_.find(tree_, step, closures_)) return false;
     pushed_ = false;
     for (const std::uint32_t i : step.island)
         pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
@@ -56,9 +57,10 @@ bool TreeFlight::start(double stage) {
     coordinates_ = tree_.coordinates();
     heats_ = coordinates_ + tree_.speeds();
     works_ = heats_ + springs_.dampers();
-    extras_ = works_ + friction_.motors();
+    closed_ = works_ + friction_.motors();
+    extras_ = closed_ + (closures_.empty() ? 0 : 1 + TreeClosures::sums * int(closures_.parts()));
     y_.setZero(extras_ + (pushed_ ? 1 + pushed_numbers * n + 6 : 0));
-    pushes_.assign(pushed_ ? step.island.size() : 0, {});
+    pushes_.assign(pushed_ || !closures_.empty() ? step.island.size() : 0, {});
     time_ = 0.0;
     evaluations_ = 0;
     frame_ = {tree_.origin(), Vec3::Zero(), step.forces.gravity()};
@@ -93,9 +95,11 @@ void TreeFlight::fit() {
         momenta.push_back({body.momentum - body.mass * frame_.velocity, body.angular_momentum});
         dynamics_.push(tree_.node_of_body()[i], momenta.back());
     }
-    dynamics_.accelerate(Vec3::Zero(), y_.data() + coordinates_);
+    closures_.accelerate(dynamics_, Vec3::Zero(), y_.data(), y_.data() + coordinates_);
+    if (!closures_.empty()) closures_.add_to(dynamics_, momenta);
     account_->strike(dynamics_, 0.0, momenta);
     dynamics_.move(y_.data(), y_.data() + coordinates_);
+    if (!closures_.empty()) closures_.add_sums(dynamics_, frame_, 0.0, 1.0, y_.data() + closed_ + 1);
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
         const Body& body = step_->bodies[step_->island[i]];
         const ForwardDynamics::Link& link = dynamics_.link(tree_.node_of_body()[i]);
@@ -106,7 +110,7 @@ void TreeFlight::fit() {
 }
 
 // Whether the bodies' velocities are those of the tree.
-bool TreeFlight::fits() const {
+bool TreeFlight::fits() {
     double fastest = 0.0, off = 0.0;
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
         const Body& body = step_->bodies[step_->island[i]];
@@ -115,6 +119,8 @@ bool TreeFlight::fits() const {
         off = std::max({off, (link.center_velocity() + frame_.velocity - body.velocity).norm(),
                         step_->length * (link.velocity.turn - body.angular_velocity).norm()});
     }
+    closures_.look_at_forms(dynamics_, y_.data());
+    for (const double rate : closures_.speeds_of(y_.data() + coordinates_)) off = std::max(off, std::abs(rate));
     return off <= tuning::tree_misfit * fastest;
 }
 
@@ -133,7 +139,7 @@ double TreeFlight::kinetic_energy() const {
 // Whether Verlet's method has kept the energy of a free tree, or half as many substeps have kept it as well: then the error is
 // rounding.
 bool TreeFlight::keeps_energy() {
-    if (!tree_.is_free() || pushed_ || !springs_.empty()) return true;
+    if (!tree_.is_free() || pushed_ || !springs_.empty() || !closures_.empty()) return true;
     const double now = kinetic_energy(), fall = step_->h * frame_.gravity.norm();
     const double work = friction_.work(y_.data(), y_.data() + works_);
     const double scale = std::max({energy_, now, 0.5 * start_.mass * fall * fall});
@@ -152,7 +158,16 @@ TreeFlight::Vector TreeFlight::rate(const Vector& y) {
     friction_.drive(dynamics_);
     limits_.drive(dynamics_, speeds);
     if (pushed_) add_pushes(y, dy);
-    dynamics_.accelerate(tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity), dy.data() + coordinates_);
+    closures_.drive(dynamics_);
+    closures_.accelerate(dynamics_, tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity), q,
+                         dy.data() + coordinates_);
+    if (!closures_.empty()) {
+        if (!pushed_) std::fill(pushes_.begin(), pushes_.end(), Wrench{});
+        closures_.add_to(dynamics_, pushes_);
+        dy.segment(closed_, extras_ - closed_).setZero();
+        dy[closed_] = 1.0;
+        closures_.add_sums(dynamics_, frame_, y[closed_], 1.0, dy.data() + closed_ + 1);
+    }
     friction_.find_powers(dynamics_, speeds, dy.data() + works_);
     dynamics_.coordinate_rates(q, speeds, dy.data());
     ++evaluations_;
@@ -210,7 +225,7 @@ double TreeFlight::error_of(const Vector& difference, double scale) const {
 
 // Rate of change of the motion, 1/s: speeds, and roots of accelerations.
 double TreeFlight::fastest(const Vector& y, const Vector& dy) const {
-    double worst = springs_.fastest();
+    double worst = std::max(springs_.fastest(), closures_.fastest());
     for (const TreeNode& node : tree_.nodes())
         for (int k = 0; k < node.speeds(); ++k) {
             const double unit = is_length(node, k, true) ? step_->length : 1.0;
@@ -256,11 +271,12 @@ void TreeFlight::normalize() {
 
 std::vector<PushedImpulse> TreeFlight::pushed_impulses() const {
     std::vector<PushedImpulse> list;
-    if (!pushed_) return list;
-    for (std::size_t i = 0; i < step_->island.size(); ++i) {
+    if (pushed_ || !closures_.empty()) list.resize(step_->island.size());
+    for (std::size_t i = 0; pushed_ && i < step_->island.size(); ++i) {
         const Eigen::Index at = extras_ + 1 + pushed_numbers * Eigen::Index(i);
-        list.push_back({y_.segment<3>(at), y_.segment<3>(at + 3), y_[at + 6]});
+        list[i] = {y_.segment<3>(at), y_.segment<3>(at + 3), y_[at + 6]};
     }
+    if (!closures_.empty()) closures_.add_impulses(y_.data() + closed_ + 1, list);
     return list;
 }
 
@@ -302,6 +318,7 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
         const bool last = size >= rest * (1.0 - 1e-12);
         done = last ? span : done + size;
         time_ = begin + done;
+        if (!close(time_)) return false;
         size = std::min(2.0 * tried, span);
         if (event_ == none) continue;
         if (event_ >= first_weak()) return true;
@@ -346,7 +363,8 @@ void TreeFlight::place() {
             inertia.zz += square;
         }
         if (pushed_) {
-            for (const PushedImpulse& given : pushed_impulses()) wanted += given.push;
+            for (std::size_t i = 0; i < n; ++i)
+                wanted += y_.segment<3>(extras_ + 1 + pushed_numbers * Eigen::Index(i));
             moment += y_.segment<3>(y_.size() - 6);
             place += y_.tail<3>();
         }
@@ -433,6 +451,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     place();
     count_turns();
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
+    if (!closures_.finish(*own_, y_.data() + closed_ + 1)) return Outcome::stopped;
     if (lost_ > 0.0) step_->joints[0]->account.step.work.impacts += lost_;
     springs_.account(*own_, y_.data(), y_.data() + heats_);
     friction_.account(*own_, dynamics_, y_.data(), y_.data() + works_);
@@ -446,7 +465,8 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, TreeMethod me
     for (;;) {
         const Outcome outcome = fly(step, method, substeps);
         if (outcome != Outcome::declined || !coarse_) return outcome;
-        if (2 * substeps > tuning::joint_swing_substeps) return Outcome::declined;
+        if (2 * substeps > (closures_.empty() ? tuning::joint_swing_substeps : tuning::closure_substeps))
+            return Outcome::declined;
         const double phase = swing_ * substeps;
         do substeps *= 2;
         while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "sim/articulation/tree_account.h"
+#include "sim/articulation/tree_closures.h"
 #include "sim/articulation/tree_friction.h"
 #include "sim/articulation/tree_limits.h"
 #include "sim/articulation/tree_springs.h"
@@ -89,7 +90,7 @@ private:
     Outcome advance_tree(const TreeStep& step, TreeMethod method, int& substeps);
     Outcome fly(const TreeStep& step, TreeMethod method, int substeps);
     Outcome advance_pieces(const TreeStep& step, TreeMethod method, int& substeps, int broken);
-    bool fits() const;
+    bool fits();
     void fit();
     Totals totals() const;
     double kinetic_energy() const;
@@ -100,6 +101,13 @@ private:
     bool integrate_verlet(double until, int substeps);
     bool compose(Vector& y, double h, bool counts);
     bool stage(Vector& y, double h, double time, bool counts);
+    bool closed_stage(Vector& y, double h, double time, bool counts);
+    void move_still(const Vector& y);
+    void give_impulses(const Vector& before, Vector& after, const std::vector<double>& impulses, double time);
+    void load_closures(const Vector& y);
+    void fit_closures(Vector& y, double time, bool counts);
+    bool close(double time);
+    double fastest_turn(const Vector& y) const;
     void drift(double* coordinates, const double* speeds, double h) const;
     double take_pass(const double* speeds, double h);
     double extrapolate(const Vector& first, double h, double scale, Vector& change);
@@ -113,6 +121,7 @@ private:
     std::size_t first_weak() const { return friction_.count() + limits_.count(); }
     void find_weak();
     std::size_t events() const { return first_weak() + weak_.size(); }
+    double load_of(int joint);
     double excess(std::size_t event, const Vector& y);
     double excess_at(std::size_t event, const Vector& y);
     double unit_of(std::size_t event) const;
@@ -135,6 +144,7 @@ private:
     TreeSprings springs_;
     TreeFriction friction_;
     TreeLimits limits_;
+    TreeClosures closures_, at_start_;  // now, and at the start of a stage of Verlet's method
     std::vector<int> weak_;     // joints that can break, and carry less than their strength at the start
     std::size_t event_ = none;  // at the end of this part
     double needed_ = 0.0;       // N m, N: net effort of a held coordinate there
@@ -144,10 +154,10 @@ private:
     double energy_ = 0.0;      // J, kinetic, at the start
     double last_error_ = 0.0;  // J, with half the substeps
     std::optional<TreeAccount> account_;
-    // Coordinates, speeds, heats of dampers, works of motors; where other forces than gravity act also the time, by body their impulse, moment and work, and
+    // Coordinates, speeds, heats of dampers, works of motors, the time and sums of closures; where other forces than gravity act also the time, by body their impulse, moment and work, and
     // the moment about the center of mass and the displacement of the whole.
     Vector y_;
-    int coordinates_ = 0, heats_ = 0, works_ = 0, extras_ = 0;  // number of coordinates; places in y
+    int coordinates_ = 0, heats_ = 0, works_ = 0, closed_ = 0, extras_ = 0;  // number of coordinates; places in y
     bool pushed_ = false;
     double lost_ = 0.0;                   // J, where the velocities did not fit the joints at the start
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up

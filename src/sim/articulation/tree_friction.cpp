@@ -49,6 +49,11 @@ void TreeFriction::drive(ForwardDynamics& dynamics) const {
     }
 }
 
+void TreeFriction::hold(ForwardDynamics& dynamics) const {
+    for (const Friction& f : list_)
+        if (f.way == 0.0) dynamics.hold(f.node);
+}
+
 double TreeFriction::excess(std::size_t k, const ForwardDynamics& dynamics, const double* speeds) const {
     const Friction& f = list_[k];
     if (f.way != 0.0) return -f.way * (speeds[f.speed_at] - f.speed);

@@ -25,6 +25,8 @@ public:
     void find_powers(const ForwardDynamics& dynamics, const double* speeds, double* powers) const;
     /// After ForwardDynamics::move(): efforts against the motion, and holds.
     void drive(ForwardDynamics& dynamics) const;
+    /// Holds alone, for impulses.
+    void hold(ForwardDynamics& dynamics) const;
 
     /// How far a coordinate is beyond its next change, after ForwardDynamics::accelerate(): its speed against its
     /// direction, or the effort above its bound. Negative before the change.

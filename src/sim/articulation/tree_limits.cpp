@@ -10,17 +10,19 @@
 
 namespace tumble {
 
-bool TreeLimits::find(const JointTree& tree, const TreeStep& step) {
+bool TreeLimits::find(const JointTree& tree, const TreeStep& step, TreeClosures& closures) {
     list_.clear();
     tree_ = &tree;
+    closures_ = &closures;
     step_ = &step;
     balls_ = false;
     for (int k = 0; k < int(tree.nodes().size()); ++k) {
         const TreeNode& node = tree.nodes()[std::size_t(k)];
         if (node.joint != TreeNode::no_joint && step.joints[std::size_t(node.joint)]->soft) add_joint(tree, k, step);
     }
-    return std::none_of(list_.begin(), list_.end(),
-                        [](const Limit& limit) { return limit.room < -tuning::tree_gap * limit.size; });
+    return !(balls_ && closures.any_rows()) && std::none_of(list_.begin(), list_.end(), [](const Limit& limit) {
+        return limit.room < -tuning::tree_gap * limit.size;
+    });
 }
 
 // The limits of a node's coordinates.
@@ -214,7 +216,7 @@ void TreeLimits::respond(std::size_t k, Impact& impact, ForwardDynamics& dynamic
             dynamics.twist(limit.node, impulse * inward);
         else
             dynamics.drive(limit.node, impulse * limit.side);
-        dynamics.accelerate(Vec3::Zero(), change.data());
+        closures_->accelerate(dynamics, Vec3::Zero(), q, change.data());
     };
     for (bool all = false; !all;) {
         push(1.0);

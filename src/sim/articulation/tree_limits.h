@@ -3,8 +3,7 @@
 // and the twist of a ball have no coordinate: their rates are forms n . w of its speeds w, in the parent's frame.
 #pragma once
 
-#include "sim/articulation/forward_dynamics.h"
-#include "sim/articulation/tree_step.h"
+#include "sim/articulation/tree_closures.h"
 
 #include <cstddef>
 #include <functional>
@@ -14,8 +13,9 @@ namespace tumble {
 
 class TreeLimits {
 public:
-    /// Of the present poses. Returns false where a limit is violated.
-    bool find(const JointTree& tree, const TreeStep& step);
+    /// Of the present poses. Returns false where a limit is violated, or a ball in a loop has one. Impulses act with the
+    /// closures.
+    bool find(const JointTree& tree, const TreeStep& step, TreeClosures& closures);
     void clear() { list_.clear(); }
     bool empty() const { return list_.empty(); }
     std::size_t count() const { return list_.size(); }
@@ -97,6 +97,7 @@ private:
     std::vector<Limit> list_;
     const JointTree* tree_ = nullptr;
     const TreeStep* step_ = nullptr;
+    TreeClosures* closures_ = nullptr;
     bool balls_ = false;
 };
 

@@ -1,6 +1,7 @@
 // TreeFlight: the rest of a step in which a joint breaks.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
+#include "sim/joints/gear.h"
 
 #include <algorithm>
 
@@ -25,9 +26,12 @@ std::vector<Piece> pieces_of(const TreeStep& step) {
         const auto at = std::lower_bound(step.island.begin(), step.island.end(), body);
         return at != step.island.end() && *at == body ? std::size_t(at - step.island.begin()) : n;
     };
+    const auto holds = [&](const Joint& joint) {
+        return !joint.broken && (!joint.gear() || gear_holds(joint, step.all));
+    };
     for (const Joint* joint : step.joints) {
         const std::size_t a = place_of(joint->a), b = place_of(joint->b);
-        if (joint->broken || a == n || b == n) continue;
+        if (!holds(*joint) || a == n || b == n) continue;
         const std::size_t first = find(a), second = find(b);
         root[std::max(first, second)] = std::min(first, second);
     }
@@ -35,7 +39,7 @@ std::vector<Piece> pieces_of(const TreeStep& step) {
     for (std::size_t i = 0; i < n; ++i) pieces[find(i)].bodies.push_back(step.island[i]);
     for (Joint* joint : step.joints) {
         const std::size_t a = place_of(joint->a);
-        if (!joint->broken) pieces[find(a == n ? place_of(joint->b) : a)].joints.push_back(joint);
+        if (holds(*joint)) pieces[find(a == n ? place_of(joint->b) : a)].joints.push_back(joint);
     }
     std::erase_if(pieces, [](const Piece& piece) { return piece.bodies.empty(); });
     return pieces;
@@ -62,7 +66,7 @@ TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, TreeMethod 
     for (const Piece& piece : pieces_of(step)) {
         const TreeStep rest{step.bodies,     piece.bodies, piece.joints, step.forces,
                             step.from + now, step.h - now, step.length,  step.whole > 0.0 ? step.whole : step.h,
-                            step.most_steps};
+                            step.most_steps, step.all};
         if (advance(rest, method, substeps) != Outcome::flown) return Outcome::stopped;
         evaluations += evaluations_;
     }

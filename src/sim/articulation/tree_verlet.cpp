@@ -38,6 +38,13 @@ Vec3 way_of_screw(const double* speed, double h) {
     return h * (v + b * across + c * w.cross(across));
 }
 
+// Visits the first speed of each free root.
+template <class Visit>
+void each_free_root(const JointTree& tree, const Visit& visit) {
+    for (const TreeNode& node : tree.nodes())
+        if (node.kind == NodeKind::free) visit(node.speed_at);
+}
+
 // The velocity of a free root after such a screw, in the world.
 void turn_velocity(double* speed, double h) {
     const Vec3 v = from_rotation_vector(h * Vec3(speed[0], speed[1], speed[2])) * Vec3(speed[3], speed[4], speed[5]);
@@ -62,10 +69,10 @@ void TreeFlight::drift(double* coordinates, const double* speeds, double h) cons
 // Takes the rates of a pass over; returns the change of the speeds at the end, as a share of the fastest.
 double TreeFlight::take_pass(const double* speeds, double h) {
     double change = 0.0, fastest = 0.0;
-    if (tree_.is_free()) {  // in its own frame
-        const Vec3 turned = Vec3(mean_.segment<3>(0)).cross(Vec3(mean_.segment<3>(3)));
-        rates_.segment<3>(coordinates_ + 3) -= turned;
-    }
+    each_free_root(tree_, [&](int at) {  // in its own frame
+        const Vec3 turned = Vec3(mean_.segment<3>(at)).cross(Vec3(mean_.segment<3>(at + 3)));
+        rates_.segment<3>(coordinates_ + at + 3) -= turned;
+    });
     for (const TreeNode& node : tree_.nodes())
         for (int k = 0; k < node.speeds(); ++k) {
             const Eigen::Index at = node.speed_at + k;
@@ -87,7 +94,7 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     double* speeds = middle_.data() + coordinates_;
     rates_.resize(y.size());
     drift(middle_.data(), speeds, 0.5 * h);
-    if (tree_.is_free()) turn_velocity(speeds, 0.5 * h);
+    each_free_root(tree_, [&](int at) { turn_velocity(speeds + at, 0.5 * h); });
     mean_ = after_ = middle_.segment(coordinates_, tree_.speeds());
     if (pushed_) middle_[extras_] += 0.5 * h;
     double last = infinity;
@@ -98,11 +105,9 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
             dynamics_.set_speeds(mean_.data());
         springs_.drive_stage(dynamics_, y.data(), speeds, middle_.data(), h, pass == 0);
         friction_.drive(dynamics_);
+        closures_.drive(dynamics_);
         if (pushed_) add_pushes(middle_, rates_, 0.5 * h);
-        if (pass == 0)
-            dynamics_.accelerate(base, rates_.data() + coordinates_);
-        else
-            dynamics_.respond(base, rates_.data() + coordinates_);
+        closures_.accelerate(dynamics_, base, middle_.data(), rates_.data() + coordinates_, pass > 0);
         ++evaluations_;
         const double change = take_pass(speeds, h);
         if (!std::isfinite(change)) return false;
@@ -121,25 +126,29 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     }
     if (counts) {
         account_->add_stage(dynamics_, time + 0.5 * h, h);
-        swing_ = std::max(swing_, std::abs(h) * account_->swing_rate());
+        if (!closures_.any_rows()) swing_ = std::max(swing_, std::abs(h) * account_->swing_rate());
+    }
+    if (!closures_.empty()) {
+        y[closed_] += h;
+        closures_.add_sums(dynamics_, frame_, time + 0.5 * h, h, y.data() + closed_ + 1);
     }
     if (heats_ < works_) springs_.heat_stage(y.data(), speeds, middle_.data(), after_.data(), h, y.data() + heats_);
-    if (works_ < extras_) {
+    if (works_ < closed_) {
         friction_.find_powers(dynamics_, mean_.data(), rates_.data() + works_);
-        y.segment(works_, extras_ - works_) += h * rates_.segment(works_, extras_ - works_);
+        y.segment(works_, closed_ - works_) += h * rates_.segment(works_, closed_ - works_);
     }
     if (pushed_) y.tail(y.size() - extras_) += h * rates_.tail(y.size() - extras_);
     y.head(coordinates_) = middle_.head(coordinates_);
     y.segment(coordinates_, tree_.speeds()) = after_;
     drift(y.data(), after_.data(), 0.5 * h);
-    if (tree_.is_free()) turn_velocity(y.data() + coordinates_, 0.5 * h);
+    each_free_root(tree_, [&](int at) { turn_velocity(y.data() + coordinates_ + at, 0.5 * h); });
     return true;
 }
 
 bool TreeFlight::compose(Vector& y, double h, bool counts) {
     double time = time_;
     for (const double share : stages_) {
-        if (!stage(y, share * h, time, counts)) return false;
+        if (!closed_stage(y, share * h, time, counts)) return false;
         time += share * h;
     }
     return true;

@@ -71,7 +71,7 @@ void EventDrivenMotion::take_off_groups(std::vector<Body>& bodies, const ForceFi
             return velocity.norm() + body.radius * turn.norm() > rest;
         };
         land_group(g, bodies);
-        if (!groups_.can_fly(g, forces, h_)) continue;
+        if (!groups_.can_fly(g, forces)) continue;
         const bool moved =
             any([&](std::uint32_t k) { return moves(bodies[k], bodies[k].velocity, bodies[k].angular_velocity); });
         changed_.clear();
@@ -147,7 +147,7 @@ void EventDrivenMotion::release_groups(std::vector<Body>& bodies, const ForceFie
     for (const std::uint32_t g : released) {
         const std::vector<std::uint32_t>& members = groups_.groups()[g].bodies;
         const auto stays = [&](std::uint32_t k) { return !supports_[k].none() || bodies[k].asleep; };
-        if (!groups_.can_fly(g, forces, h_) || std::any_of(members.begin(), members.end(), stays)) continue;
+        if (!groups_.can_fly(g, forces) || std::any_of(members.begin(), members.end(), stays)) continue;
         for (const std::uint32_t k : members) {
             Body& body = bodies[k];
             body.flying = true;

@@ -48,19 +48,17 @@ void GroupFlights::find() {
     }
 }
 
-bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces, double span) {
+bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces) {
     for (const std::uint32_t k : groups_[group].bodies)
         if (!forces.only_gravity(k) || (*bodies_)[k].asleep) return false;
-    if (tree_laws(joints_of(group), *bodies_)) return true;  // else a flight by rows
-    const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {span, infinity, 0.0}, nullptr, joints_};
-    return JointFlight::flies({problem, groups_[group].bodies, active_[group], 1.0, 0.0, span});
+    return tree_laws(joints_of(group), *bodies_);
 }
 
 std::vector<GroupFlights::JointMemory> GroupFlights::memory_of(std::uint32_t group) const {
     std::vector<JointMemory> memory;
     for (const std::uint32_t k : groups_[group].joints) {
         const Joint& j = joints_->joints()[k];
-        memory.push_back({j.value, j.curving, j.constraint_force, j.constraint_rates, j.impulse, j.point});
+        memory.push_back({j.value, j.curving, j.impulse, j.point});
     }
     return memory;
 }
@@ -78,8 +76,6 @@ void GroupFlights::set_joints(std::uint32_t group, const std::vector<JointMemory
         const JointMemory& m = memory[i];
         j.value = m.value;
         j.curving = m.curving;
-        j.constraint_force = m.constraint_force;
-        j.constraint_rates = m.constraint_rates;
         j.impulse = m.impulse;
         j.point = m.point;
     }
@@ -104,27 +100,13 @@ TreeFlight::Outcome GroupFlights::fly_tree(std::uint32_t group, const JointIslan
     const std::vector<Joint*> joints = joints_of(group);
     if (!tree_laws(joints, *bodies_)) return TreeFlight::Outcome::declined;
     Flight& flight = flights_[group];
-    const TreeStep step{*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length, flight.span};
+    TreeStep step{*bodies_, island.bodies, joints, *forces_, 0.0, island.to, island.length, flight.span};
+    step.all = island.problem.joints->joints();
     TreeFlight::Outcome outcome = tree_flight_.advance(step, {IntegratorKind::exact, flight_order}, flight.substeps);
     if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree()) return outcome;
     outcome = tree_flight_.advance(step, {IntegratorKind::splitting, flight_order}, flight.substeps);
     flight.swing = tree_flight_.swing();
     return outcome == TreeFlight::Outcome::flown ? outcome : TreeFlight::Outcome::stopped;
-}
-
-bool GroupFlights::fly_rows(std::uint32_t group, const JointIsland& island) {
-    if (!JointFlight::flies(island)) return false;
-    Flight& flight = flights_[group];
-    std::vector<StepForce> forces;
-    for (const std::uint32_t k : island.bodies)
-        forces.push_back({island.to * (*bodies_)[k].mass * forces_->gravity(), Vec3::Zero()});
-    for (;; flight.substeps *= 2) {
-        restore(group);
-        const bool flown = flight_.advance(island, forces, flight_order, flight.substeps);
-        flight.swing = flight_.swing();
-        if (flown) return true;
-        if (!(flight.swing > tuning::joint_swing) || 2 * flight.substeps > tuning::joint_swing_substeps) return false;
-    }
 }
 
 // From the start of the flight; leaves the bodies there.
@@ -137,9 +119,7 @@ bool GroupFlights::fly(std::uint32_t group, double time) {
         for (const std::uint32_t k : members.bodies) length += (*bodies_)[k].radius / double(members.bodies.size());
         const ContactProblem problem{*bodies_, no_manifolds_, no_velocities_, {time, infinity, 0.0}, nullptr, joints_};
         const JointIsland island{problem, members.bodies, active_[group], length, 0.0, time};
-        const TreeFlight::Outcome outcome = fly_tree(group, island);
-        if (outcome == TreeFlight::Outcome::stopped) return false;
-        if (outcome == TreeFlight::Outcome::declined && !fly_rows(group, island)) return false;
+        if (fly_tree(group, island) != TreeFlight::Outcome::flown) return false;
         for (const std::uint32_t k : members.joints)
             if (joints_->joints()[k].broken) return false;
     }

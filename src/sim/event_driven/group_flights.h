@@ -8,7 +8,7 @@
 
 #include "sim/articulation/tree_flight.h"
 #include "sim/ccd/trajectory.h"
-#include "sim/contact/direct/joint_flight.h"
+#include "sim/contact/direct/joint_rows.h"
 #include "sim/dynamics/forces.h"
 #include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/joints/joint_groups.h"
@@ -33,8 +33,8 @@ public:
     JointSet& joints() const { return *joints_; }
     bool empty() const { return groups_.empty(); }
 
-    /// Whether the group's motion in `span` s is free but for its joints and gravity.
-    bool can_fly(std::uint32_t group, const ForceField& forces, double span);
+    /// Whether the group's motion is free but for its joints and gravity.
+    bool can_fly(std::uint32_t group, const ForceField& forces);
     /// Flies the group for `span` s from its present state, and leaves it there. Returns false where a joint comes to a
     /// limit, breaks or has no solution in that time.
     bool start(std::uint32_t group, double span);
@@ -61,8 +61,7 @@ public:
 private:
     /// The state of a joint that a flight changes.
     struct JointMemory {
-        std::array<double, Joint::coordinates> value{}, curving{}, constraint_force{};
-        std::array<ConstraintRates, Joint::coordinates> constraint_rates{};
+        std::array<double, Joint::coordinates> value{}, curving{};
         std::array<std::array<double, Joint::laws>, Joint::coordinates> impulse{};
         Vec3 point;
     };
@@ -83,7 +82,6 @@ private:
     };
     bool fly(std::uint32_t group, double time);
     TreeFlight::Outcome fly_tree(std::uint32_t group, const JointIsland& island);
-    bool fly_rows(std::uint32_t group, const JointIsland& island);
     const Reached& reach(std::uint32_t group, double time);
     const RigidState& at(std::uint32_t body, double time);
     std::vector<Joint*> joints_of(std::uint32_t group) const;
@@ -100,7 +98,6 @@ private:
     std::vector<std::vector<std::uint32_t>> active_;  // by group: its joints in the set's list of active ones
     std::vector<std::uint32_t> group_of_, place_;     // by body; place in the group
     std::vector<Flight> flights_;                     // by group
-    JointFlight flight_;
     TreeFlight tree_flight_;
     std::vector<Manifold> no_manifolds_;
     std::vector<BodyVelocity> no_velocities_;

@@ -25,16 +25,6 @@ bool motors_fly(const Joint& joint) {
 
 }  // namespace
 
-bool undriven(const Joint& joint, const std::vector<Body>& bodies) {
-    if (joint.gear() || has_motors(joint)) return false;
-    if (joint.soft && joint.description.friction_coefficient > 0.0) return false;
-    return !on_moving_carrier(joint, bodies);
-}
-
-bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies) {
-    return undriven(joint, bodies) && !has_friction(joint);
-}
-
 bool has_friction(const Joint& joint) {
     for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
         if (joint.axis(c).friction > 0.0) return true;
@@ -65,31 +55,11 @@ bool tree_laws(std::span<const Joint* const> joints, const std::vector<Body>& bo
         for (const std::uint32_t i : {joint->a, joint->b})
             if (i != Joint::world && bodies[i].dynamic() && bodies[i].integrator == IntegratorKind::explicit_euler)
                 return false;
-        return !joint->broken && !joint->gear() && !on_moving_carrier(*joint, bodies) &&
+        if (joint->distance() && (has_motors(*joint) || has_friction(*joint))) return false;
+        return !joint->broken && !on_moving_carrier(*joint, bodies) &&
                !(joint->soft && joint->description.friction_coefficient > 0.0) && acts_along_coordinates(*joint) &&
                motors_fly(*joint);
     });
-}
-
-bool flies(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
-    std::vector<const Joint*> members;
-    std::size_t on_ground = 0;
-    bool distances = false;
-    for (const std::uint32_t k : group.joints) {
-        const Joint& joint = joints.joints()[k];
-        members.push_back(&joint);
-        distances = distances || joint.distance();
-        for (const std::uint32_t i : {joint.a, joint.b}) on_ground += i == Joint::world || !bodies[i].dynamic();
-    }
-    const bool tree = on_ground <= 1 && group.joints.size() + 1 == group.bodies.size() + on_ground;
-    if (tree && !distances) return tree_laws(members, bodies);
-    return std::none_of(group.bodies.begin(), group.bodies.end(),
-                        [&](std::uint32_t i) { return bodies[i].integrator == IntegratorKind::explicit_euler; }) &&
-           std::all_of(members.begin(), members.end(), [&](const Joint* joint) {
-               for (std::size_t c = 0; joint->soft && c < joint->count(); ++c)
-                   if (joint->axis(c).spring && (joint->springs[c].damping > 0.0 || joint->turns_alike())) return false;
-               return free_but_for_springs(*joint, bodies);
-           });
 }
 
 IntegratorKind joined_integrator(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "sim/joints/joint.h"
-#include "sim/joints/joint_groups.h"
 
 #include <cstdint>
 #include <span>
@@ -10,11 +9,6 @@
 
 namespace tumble {
 
-/// Whether the joint does nothing but lock coordinates, limit or spring them, or brake them by a constant force, between
-/// bodies whose motion is not prescribed.
-bool undriven(const Joint& joint, const std::vector<Body>& bodies);
-/// The same without friction.
-bool free_but_for_springs(const Joint& joint, const std::vector<Body>& bodies);
 bool has_springs(const Joint& joint);
 bool has_motors(const Joint& joint);
 bool has_friction(const Joint& joint);  // of a constant bound
@@ -23,9 +17,6 @@ bool acts_along_coordinates(const Joint& joint);
 /// Whether the laws of these joints are those of trees in flight: locks, limits, springs, dampers, friction, and motors with
 /// one target or with a speed and a bound.
 bool tree_laws(std::span<const Joint* const> joints, const std::vector<Body>& bodies);
-
-/// Whether the group moves in flight where it touches nothing: a tree in joint coordinates, others by RATTLE.
-bool flies(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies);
 
 /// The integrator of bodies that are joined: the finest of theirs, and splitting before that of Runge and Kutta.
 IntegratorKind joined_integrator(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined);

@@ -14,26 +14,6 @@
 
 namespace tumble {
 
-/// Rate of change (N/s or N m/s) of the force of a locked coordinate in flight, in the last two stages.
-struct ConstraintRate {
-    double now = 0.0, before = 0.0;
-    template <class Archive, class Self>
-    static void visit(Archive& archive, Self& self) {
-        auto& [now, before] = self;
-        archive.keep(now, before);
-    }
-};
-
-/// From the velocities' fit to the drift that follows, and from the drift to the next fit: first estimates follow from them.
-struct ConstraintRates {
-    ConstraintRate closing, fitting;
-    template <class Archive, class Self>
-    static void visit(Archive& archive, Self& self) {
-        auto& [closing, fitting] = self;
-        archive.keep(closing, fitting);
-    }
-};
-
 /// The coordinates that are locked.
 struct JointLocks {
     std::uint8_t coordinates = 0;  // bit k: coordinate k
@@ -72,9 +52,6 @@ struct Joint {
     std::array<std::array<double, laws>, coordinates> impulse{};  // N s and N m s, by law, of the last step
     std::array<double, coordinates>
         curving{};  // m/s^2 and rad/s^2: speed that closed a locked coordinate, over the step
-    // Half of the forces (N and N m) of the locked coordinates at the end of the last flight.
-    std::array<double, coordinates> constraint_force{};
-    std::array<ConstraintRates, coordinates> constraint_rates{};
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N and N m, on B at `point`, mean over the last step
     Vec3 point = Vec3::Zero();                         // m, world: where the force acts
     JointAccount account;
@@ -95,13 +72,11 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks, substeps,
-               wait, active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force,
-               torque, point, account] = self;
+               wait, active, broken, broken_at, value, impulse, curving, force, torque, point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
         archive.between(1, substeps, 2 * tuning::joint_swing_substeps);
         archive.between(0, wait, tuning::joint_wait);
-        archive.keep(active, broken, broken_at, value, impulse, curving, constraint_force, constraint_rates, force,
-                     torque, point, account);
+        archive.keep(active, broken, broken_at, value, impulse, curving, force, torque, point, account);
     }
 };
 

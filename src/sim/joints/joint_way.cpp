@@ -5,6 +5,7 @@
 #include "sim/joints/joint_groups.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
+#include "sim/joints/spanning_joints.h"
 #include "sim/math/block_cholesky.h"
 
 #include <algorithm>
@@ -96,6 +97,13 @@ double factor_work(const JointGroup& group, const JointSet& joints) {
 }
 
 namespace {
+
+// Whether flight knows the joints of the group.
+bool flies(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
+    std::vector<const Joint*> members;
+    for (const std::uint32_t k : group.joints) members.push_back(&joints.joints()[k]);
+    return tree_laws(members, bodies) && has_few_loops(group.bodies, members, joints.joints());
+}
 
 bool is_net(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies, SweepRule rule) {
     if (rule == SweepRule::all) return true;

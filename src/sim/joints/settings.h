@@ -64,10 +64,7 @@ inline constexpr double joint_push_small = 1e-6;
 /// JointLaws.AMotorOpensADoorToItsLimit.
 inline constexpr double joint_round_tolerance = 1e-8;
 
-/// The velocities fit the joints at this share of the fastest one. Not fitted: rounding.
-inline constexpr double joint_flight_fits = 1e-15;
-
-/// The same at the end of a step by rows. Not fitted: rounding.
+/// The velocities fit the joints to this share of the fastest one at the end of a step by rows. Not fitted: rounding.
 inline constexpr double joint_fits = 1e-14;
 
 /// Share of its bound up to which a motor or dry friction counts as holding its speed at the end of a step: the bound of
@@ -84,19 +81,15 @@ inline constexpr double limit_rest = 1e-12;
 inline constexpr double limit_together = 1e-9;
 inline constexpr int limit_cuts = 16;
 
-/// Passes of a flight end at this error, in sizes of the joint. Not fitted: rounding.
-inline constexpr double joint_flight_closed = 4e-16;
-
-/// Factor of these two tolerances for flights of second order, whose own error is larger by orders of magnitude. Saves a
-/// pass in most steps. Not fitted: rounding, still.
-inline constexpr double joint_flight_coarse = 20.0;
-
 /// Largest phase, rad, of a spring in a step of flight: the error of a kick is a 24th of its square. Stiffer springs are
 /// implicit. Not fitted: a tenth of a swing.
 inline constexpr double joint_flight_spring = 0.6;
 
 /// Largest rate of a damper times the step in a flight by Verlet's method: speeds that fall faster would change their sign.
 inline constexpr double joint_flight_damper = 2.0;
+
+/// Most closure rows of a group: their matrix is dense, and each is a sweep over the tree. Limits the cost.
+inline constexpr int tree_most_closures = 64;
 
 /// Largest error of a flight, in sizes of the joint: of a mechanism that passes a singular position. Related test:
 /// JointReference.AFourBarPassesItsSingularPosition.
@@ -105,6 +98,9 @@ inline constexpr double joint_flight_open = 1e-5;
 /// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
 /// that turn by a radian in a step open their joints by less.
 inline constexpr double joint_clamped_open = 0.1;
+
+/// Rounds of a solve for these displacements. Not fitted: two more passes would do the same.
+inline constexpr int joint_close_rounds = 3;
 
 /// Share of its strength that a joint may carry in the step of a flight in which it breaks. Above, the step is solved such
 /// that it carries no more than its strength. Not fitted: the load of a free motion changes little in a step.

@@ -9,6 +9,7 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/joints/flight_way.h"
 #include "sim/joints/settings.h"
+#include "sim/joints/spanning_joints.h"
 #include "sim/math/keyframe_track.h"
 
 #include <algorithm>
@@ -292,6 +293,18 @@ int DirectSolver::next_substeps(int substeps) const {
     return easy ? std::max(1, substeps / 2) : substeps;
 }
 
+namespace {
+
+// Joints that flight knows, but for the number of their loops.
+bool has_many_loops(const JointIsland& island) {
+    const JointSet& set = *island.problem.joints;
+    std::vector<const Joint*> joints;
+    for (const std::uint32_t k : island.joints) joints.push_back(&set.joints()[set.active()[k]]);
+    return tree_laws(joints, island.problem.bodies) && !has_few_loops(island.bodies, joints, set.joints());
+}
+
+}  // namespace
+
 bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                      std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints) {
     const double h = problem.settings.h;
@@ -341,7 +354,8 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
     // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces too.
-    cut_ = manifolds.empty() && fine_integrator(joined_integrator(problem.bodies, bodies));
+    // So are those of many loops: with half of the forces at both ends and fitted velocities they are RATTLE's.
+    cut_ = manifolds.empty() && (fine_integrator(joined_integrator(problem.bodies, bodies)) || has_many_loops(island));
     for (bool cut = cut_; !solve_jointed_step(island, manifolds, substeps); cut = cut_) {
         if (cut == cut_) substeps *= 2;
         reset();
@@ -367,22 +381,6 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
         return problem.bodies[i].momentum.allFinite() && problem.bodies[i].angular_momentum.allFinite();
     });
-}
-
-void DirectSolver::close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                               std::span<const std::uint32_t> joints) {
-    double length = 0.0;
-    for (const std::uint32_t i : bodies) length += problem.bodies[i].radius / double(bodies.size());
-    const JointIsland island{problem, bodies, joints, length, problem.joints->from(), problem.joints->to()};
-    flight_.close_poses(island);
-    load_bodies(problem, bodies);
-    joints_.start_step(problem.settings.h, false);
-    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
-    joints_.keep_estimates();  // the impulses of the step
-    consistent_ = true;
-    structure(problem, bodies, {});
-    kicked_ = false;
-    fit_velocities(island, JointRows::Booking::stop, problem.settings.h, Fitting::solved);
 }
 
 }  // namespace tumble

@@ -19,8 +19,8 @@
 #pragma once
 
 #include "sim/contact/direct/contact_rows.h"
-#include "sim/contact/direct/joint_flight.h"
 #include "sim/contact/direct/joint_rows.h"
+#include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/math/block_cholesky.h"
 
 #include <cstdint>
@@ -38,7 +38,9 @@ public:
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints = {});
 
-    /// Closes the joints at the present poses, see JointFlight::close_poses(), and makes the velocities fit them.
+    /// Closes the joints at the present poses by the least displacements in the metric of the masses, and makes the velocities
+    /// fit them. Momenta stay, and so does the center of mass of a free island. Joints that are wide open, as those whose
+    /// anchors were placed apart, stay so.
     void close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                      std::span<const std::uint32_t> joints);
 
@@ -102,6 +104,7 @@ private:
     void move_contact(ConstraintRows& constraint, const ContactProblem& problem);
     void move(const JointIsland& island);
     void move_to_end(const JointIsland& island, bool moved);
+    double aim_at_gaps(const JointIsland& island);
     int next_substeps(int substeps) const;
     void apply_solution(const JointIsland& island);
     void set_friction_compliance(double compliance);
@@ -142,7 +145,6 @@ private:
     std::vector<int> area_firsts_;  // indices of the first constraints of shared areas
     std::vector<Weights> weights_;  // by constraint, of the last factorization
     JointRows joints_;
-    JointFlight flight_;
     std::vector<JointSide> ends_;                   // poses at the end of the step
     struct Start {                                  // of a body in a jointed step
         Vec3 position, momentum, angular_momentum;  // after the forces

@@ -3,6 +3,8 @@
 #include "core/deterministic_math.h"
 #include "sim/contact/direct/direct_solver.h"
 #include "sim/contact/direct/settings.h"
+#include "sim/dynamics/integrator.h"
+#include "sim/joints/gear.h"
 #include "sim/joints/settings.h"
 #include "sim/math/keyframe_track.h"
 
@@ -88,6 +90,28 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
     }
 }
 
+// After start_fit(): the locks ask for the displacements that close them. Returns the largest gap, in sizes of the joint.
+double JointRows::ask_to_close(const JointIsland& island) {
+    double worst = 0.0;
+    for (const Block& block : blocks_) {
+        const Joint& j = joint(block);
+        JointGeometry g;
+        double geared = 0.0;
+        if (block.gear)
+            geared = measure_gear(j, *joints_, [&](std::uint32_t body) { return side_at(island, body); }).error;
+        else
+            g = measure(j, side_at(island, j.a), side_at(island, j.b));
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            if (row.law != Joint::lock || block.breaks) continue;
+            const double error = block.gear ? geared : g.coordinates[row.coordinate].value;
+            row.target = -(row.turns() ? length_ : 1.0) * error;
+            worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : j.size));
+        }
+    }
+    return worst;
+}
+
 double JointRows::misfit() const {
     double most = 0.0;
     for (const Row& row : rows_) {
@@ -157,6 +181,47 @@ void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking bookin
     for (const std::uint32_t i : island.bodies) problem.bodies[i].derive_velocities();
     joints_.account(island, booking);
     joints_.break_under_loads(island);
+}
+
+// Displacements are velocities over a second here. Limits, motors and friction take no part.
+double DirectSolver::aim_at_gaps(const JointIsland& island) {
+    load_bodies(island.problem, island.bodies);
+    std::fill(free_.begin(), free_.end(), 0.0);
+    joints_.start_fit(island, island.problem.settings.h, false, false);
+    joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
+    const double widest = joints_.ask_to_close(island);
+    velocity_ = free_;
+    joints_.evaluate_speeds(velocity_);
+    return widest;
+}
+
+void DirectSolver::close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                               std::span<const std::uint32_t> joints) {
+    constraints_.clear();
+    load_bodies(problem, bodies);
+    const JointIsland island{problem, bodies, joints, length_, problem.joints->from(), problem.joints->to()};
+    joints_.start_step(problem.settings.h, false);
+    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
+    joints_.keep_estimates();  // the impulses of the step
+    structure(problem, bodies, {});
+    double last = infinity;
+    for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
+        const double error = aim_at_gaps(island);
+        if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) break;
+        last = error;
+        for (int round = 0; round < tuning::joint_close_rounds && step_linear(); ++round) joints_.next_round(false);
+        for (std::size_t k = 0; k < bodies.size(); ++k) {
+            Body& body = problem.bodies[bodies[k]];
+            turn_exactly(body, contact_rows::three(velocity_, 6 * k),
+                         contact_rows::three(velocity_, 6 * k + 3) / length_, 1.0);
+            body.derive();
+        }
+    }
+    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
+    joints_.keep_estimates();
+    consistent_ = true;
+    kicked_ = false;
+    fit_velocities(island, JointRows::Booking::stop, problem.settings.h, Fitting::solved);
 }
 
 }  // namespace tumble

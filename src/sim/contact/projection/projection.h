@@ -1,7 +1,7 @@
 // Projection of gaps: the least displacements, in the metric of the masses, that close the joints of a tree.
 //   minimize du^T M du / 2   under   J du = -g
 // From the leaves to the root each subtree is replaced by its inertia about its joint, less what the free directions of the
-// joint do not pass on, as in lock_tree.h; the displacements follow from the root to the leaves. Momenta stay, and so does
+// joint do not pass on; the displacements follow from the root to the leaves. Momenta stay, and so does
 // the center of mass of a tree without an anchor.
 #pragma once
 

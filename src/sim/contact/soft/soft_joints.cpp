@@ -172,8 +172,6 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
         j.impulse = {};
         if (!again_) {
             j.curving = {};
-            j.constraint_force = {};
-            j.constraint_rates = {};
         }
         unpack_torque(group, l, place, j);
         const Place& kept = places_[place];

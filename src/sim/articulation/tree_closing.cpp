@@ -1,0 +1,141 @@
+// TreeFlight: steps that keep closure rows g(q) = 0. All methods keep them by their accelerations; what is left is projected.
+// In a stage of Verlet's method that is symmetric too:
+//   u' = u + M^-1 G^T l at its start, such that g = 0 at its end, and u+ = u' + M^-1 G^T m there, such that G u+ = 0,
+// as in RATTLE (Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.1.4). So the stage has
+// second order, and compositions have theirs; and a mechanism at rest stays so, for l = m = 0.
+#include "sim/articulation/settings.h"
+#include "sim/articulation/tree_flight.h"
+#include "sim/joints/settings.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+
+// rad/s
+double TreeFlight::fastest_turn(const Vector& y) const {
+    double fastest = 0.0;
+    for (const TreeNode& node : tree_.nodes())
+        for (int k = 0; k < node.speeds(); ++k)
+            if (!node.is_length(k)) fastest = std::max(fastest, std::abs(y[coordinates_ + node.speed_at + k]));
+    return fastest;
+}
+
+// At rest at the places of y, for impulses.
+void TreeFlight::move_still(const Vector& y) {
+    const std::vector<double> still(std::size_t(tree_.speeds()), 0.0);
+    dynamics_.move(y.data(), still.data());
+    friction_.hold(dynamics_);
+    limits_.drive(dynamics_, still.data());
+}
+
+// The impulses of the rows change the speeds of one state to those of the other.
+void TreeFlight::give_impulses(const Vector& before, Vector& after, const std::vector<double>& impulses, double time) {
+    move_still(before);
+    closures_.look(dynamics_, before.data());
+    closures_.give(closures_.shared(impulses), false);
+    closures_.push(dynamics_);
+    std::vector<double> change(std::size_t(tree_.speeds()));
+    dynamics_.accelerate(Vec3::Zero(), change.data());
+    std::vector<Wrench> wrenches(step_->island.size());
+    closures_.add_to(dynamics_, wrenches);
+    account_->strike(dynamics_, time, wrenches);
+    const Eigen::Index n = tree_.speeds();
+    const Vector mean = 0.5 * (before.segment(coordinates_, n) + after.segment(coordinates_, n));
+    dynamics_.place(before.data(), mean.data());
+    closures_.add_sums(dynamics_, frame_, time, 1.0, after.data() + closed_ + 1);
+}
+
+// The matrices at the places of y.
+void TreeFlight::load_closures(const Vector& y) {
+    move_still(y);
+    std::vector<double> change(std::size_t(tree_.speeds()));
+    dynamics_.accelerate(Vec3::Zero(), change.data());
+    closures_.load(dynamics_, y.data());
+}
+
+void TreeFlight::fit_closures(Vector& y, double time, bool counts) {
+    load_closures(y);
+    const Vector before = y;
+    double* speeds = y.data() + coordinates_;
+    std::vector<double> sum(closures_.rows(), 0.0);
+    for (int pass = 0; pass < 2; ++pass) {
+        std::vector<double> side = closures_.speeds_of(speeds);
+        for (double& x : side) x = -x;
+        const std::vector<double> impulses = closures_.solve(side);
+        closures_.add_response(impulses, speeds);
+        for (std::size_t r = 0; r < sum.size(); ++r) sum[r] += impulses[r];
+    }
+    if (counts) give_impulses(before, y, sum, time);
+}
+
+bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
+    if (!closures_.any_rows()) return stage(y, h, time, counts);
+    const double turn = std::abs(h) * fastest_turn(y), closed = closures_.place_rounding();
+    closures_.set_compliance(tuning::joint_singular * turn * turn * turn * turn);
+    load_closures(y);
+    at_start_ = closures_;
+    std::vector<double> impulses(closures_.rows(), 0.0);
+    Vector start, end;
+    double last = infinity;
+    for (int pass = 0;; ++pass) {
+        start = y;
+        at_start_.add_response(impulses, start.data() + coordinates_);
+        end = start;
+        if (!stage(end, h, time, false)) return false;
+        dynamics_.place(end.data(), end.data() + coordinates_);
+        closures_.look_at_forms(dynamics_, end.data());
+        const double error = closures_.error();
+        if (error <= closed || (error < tuning::joint_rounding && error >= 0.5 * last)) break;
+        if (!std::isfinite(error) || pass == tuning::closure_passes || (pass > 4 && error >= 0.9 * last)) {
+            // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
+            if (error < tuning::joint_flight_open) break;
+            coarse_ = true;
+            swing_ = std::max(swing_, tuning::joint_easy_swing);
+            return false;
+        }
+        last = error;
+        std::vector<double> side = closures_.errors();
+        for (double& x : side) x /= -h;
+        const std::vector<double> more = at_start_.solve(side, closures_);
+        for (std::size_t r = 0; r < more.size(); ++r) impulses[r] += more[r];
+    }
+    if (counts) {
+        account_->begin_stage();
+        closures_ = at_start_;
+        give_impulses(y, start, impulses, time);
+        end = start;
+        if (!stage(end, h, time, true)) return false;
+    }
+    y = end;
+    fit_closures(y, time + h, counts);
+    if (counts) swing_ = std::max(swing_, std::abs(h) * account_->swing_rate(h));
+    closures_.set_compliance(0.0);
+    return true;
+}
+
+// After a step of a method that keeps the rows by their accelerations.
+bool TreeFlight::close(double time) {
+    if (!closures_.any_rows()) return true;
+    std::vector<double> change(std::size_t(tree_.speeds()));
+    double last = infinity;
+    for (int pass = 0; pass < tuning::closure_passes; ++pass) {
+        move_still(y_);
+        closures_.look(dynamics_, y_.data());
+        const double error = closures_.error();
+        if (!(error < tuning::joint_flight_open)) return false;
+        if (error <= closures_.place_rounding() || error >= 0.5 * last) break;
+        last = error;
+        dynamics_.accelerate(Vec3::Zero(), change.data());
+        closures_.load(dynamics_, y_.data());
+        std::vector<double> side = closures_.errors();
+        for (double& x : side) x = -x;
+        std::fill(change.begin(), change.end(), 0.0);
+        closures_.add_response(closures_.solve(side), change.data());
+        drift(y_.data(), change.data(), 1.0);
+    }
+    fit_closures(y_, time, true);
+    return true;
+}
+
+}  // namespace tumble
