@@ -136,8 +136,21 @@ void ForwardDynamics::load_effort(const TreeNode& node, Link& link) {
 
 void ForwardDynamics::start() {
     links_.resize(tree_.nodes().size());
+    if (carried_) return;
+    ground_ = {};
+    carrying_ = {};
     ground_.orientation = tree_.ground();
     ground_.rotation = tree_.ground().toRotationMatrix();
+}
+
+void ForwardDynamics::carry(const Quat& orientation, const Vec3& point, const SpatialMotion& velocity,
+                            const SpatialMotion& acceleration) {
+    carried_ = true;
+    ground_.orientation = orientation;
+    ground_.rotation = orientation.toRotationMatrix();
+    ground_.point = point;
+    ground_.velocity = velocity;
+    carrying_ = acceleration;
 }
 
 void ForwardDynamics::move(const double* coordinates, const double* speeds) {
@@ -257,7 +270,7 @@ void ForwardDynamics::sweep_in() {
 // Accelerations from the root to the leaves (third loop of Table 7.1).
 void ForwardDynamics::sweep_out(const Vec3& base, double* rates) {
     const std::vector<TreeNode>& nodes = tree_.nodes();
-    ground_.acceleration.move = base;
+    ground_.acceleration = {carrying_.turn, carrying_.move + base};
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         const TreeNode& node = nodes[i];
         Link& link = links_[i];

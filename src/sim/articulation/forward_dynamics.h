@@ -45,6 +45,11 @@ public:
 
     explicit ForwardDynamics(const JointTree& tree) : tree_(tree) {}
 
+    /// The ground moves: its pose (place from the tree's origin), velocity and acceleration, from the next call on.
+    void carry(const Quat& orientation, const Vec3& point, const SpatialMotion& velocity,
+               const SpatialMotion& acceleration);
+    /// The ground stands still, at the tree's origin.
+    void stand() { carried_ = false; }
     /// Places, velocities and inertias of all nodes. Quaternions may have any length. Speeds of a ball are components in the
     /// parent's frame.
     void move(const double* coordinates, const double* speeds);
@@ -138,6 +143,8 @@ private:
     std::vector<Efforts> efforts_;
     SpatialMotion ground_aside_;
     Link ground_;
+    bool carried_ = false;
+    SpatialMotion carrying_;  // acceleration of the ground
 };
 
 }  // namespace tumble

@@ -61,6 +61,7 @@ TreeFlight::Outcome IslandFlight::fly_part(const FlightStep& step, const Group& 
     TreeStep part{step.bodies, group.bodies, group.joints,       step.forces,
                   from,        to - from,    group.length(step), step.to - step.from};
     part.all = step.joints.joints();
+    part.late = from != step.from;
     const TreeMethod method = tree_method(step.bodies, group.bodies);
     Outcome outcome = Outcome::declined;
     if (!method.verlet()) {

@@ -130,14 +130,17 @@ void JointTree::order_bodies(const std::vector<Body>& bodies, std::span<const st
     order_.clear();
     hung_ = TreeNode::no_joint;
     for (std::size_t e = 0; e < 2 * m; ++e)
-        if (spanning_.kept[e / 2] && spanning_.ends[e] != TreeNode::no_body) ++first_[std::size_t(spanning_.ends[e]) + 1];
+        if (spanning_.kept[e / 2] && spanning_.ends[e] != TreeNode::no_body)
+            ++first_[std::size_t(spanning_.ends[e]) + 1];
     for (std::size_t k = 0; k < n; ++k) first_[k + 1] += first_[k];
     std::vector<int> filled(first_.begin(), first_.end() - 1);
     for (std::size_t e = 0; e < 2 * m; ++e)
         if (spanning_.kept[e / 2] && spanning_.ends[e] != TreeNode::no_body)
             next_[std::size_t(filled[std::size_t(spanning_.ends[e])]++)] = int(e);
     for (std::size_t k = 0; k < m; ++k) {
-        if (!spanning_.kept[k] || (spanning_.ends[2 * k] != TreeNode::no_body && spanning_.ends[2 * k + 1] != TreeNode::no_body)) continue;
+        if (!spanning_.kept[k] ||
+            (spanning_.ends[2 * k] != TreeNode::no_body && spanning_.ends[2 * k + 1] != TreeNode::no_body))
+            continue;
         if (hung_ == TreeNode::no_joint) hung_ = int(k);
         child_[k] = std::max(spanning_.ends[2 * k], spanning_.ends[2 * k + 1]);
         order_.push_back({child_[k], int(k)});
@@ -281,6 +284,7 @@ void JointTree::find_origin(const std::vector<Body>& bodies, std::span<const std
     const Vec3 near = bodies[island[0]].position;
     origin_ = near;
     ground_ = Quat::Identity();
+    carrier_ = Joint::world;
     if (spanning_.free) {
         double mass = 0.0;
         Vec3 sum = Vec3::Zero();
@@ -294,7 +298,10 @@ void JointTree::find_origin(const std::vector<Body>& bodies, std::span<const std
         const bool forward = hangs_[std::size_t(hung_)].forward;
         const JointSide side = side_of(bodies, forward ? joint.a : joint.b);
         ground_ = side.orientation;
-        origin_ = side.position + side.orientation * (forward ? joint.anchor_a : joint.anchor_b);
+        carried_at_ = forward ? joint.anchor_a : joint.anchor_b;
+        origin_ = side.position + side.orientation * carried_at_;
+        if (const std::uint32_t body = forward ? joint.a : joint.b; body != Joint::world && bodies[body].track)
+            carrier_ = body;
     }
 }
 

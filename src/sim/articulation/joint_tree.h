@@ -102,6 +102,12 @@ public:
     /// Where the first root hangs: the side of its joint that does not move, or the center of mass of a free tree.
     const Vec3& origin() const { return origin_; }
     const Quat& ground() const { return ground_; }
+    /// The body with a prescribed motion that the root hangs on (index in the world), and the anchor in its frame, m, from
+    /// the center of mass; Joint::world: the ground stands still.
+    std::uint32_t carrier() const { return carrier_; }
+    const Vec3& carried_at() const { return carried_at_; }
+    /// The joint that the root hangs on; no_joint: a free tree.
+    int hung() const { return hung_; }
 
     int coordinates() const { return coordinates_; }
     int speeds() const { return speeds_; }
@@ -116,8 +122,8 @@ private:
     struct Hang {                  // the joint that a body hangs on
         int first = 0, count = 0;  // its nodes
         int anchor = TreeNode::ground;
-        bool forward = true;       // the parent is the joint's first body
-        bool direct = false;       // one node that locks all displacements
+        bool forward = true;  // the parent is the joint's first body
+        bool direct = false;  // one node that locks all displacements
         bool plain = false;
         double levers[2] = {0.0, 0.0};
         // Four unit quaternions, square to each other. A fixed joint allows the first as the child's orientation in the
@@ -148,6 +154,8 @@ private:
     std::vector<int> node_of_, child_, parent_, first_, next_;
     Vec3 origin_ = Vec3::Zero();
     Quat ground_ = Quat::Identity();
+    std::uint32_t carrier_ = Joint::world;
+    Vec3 carried_at_ = Vec3::Zero();
     double gap_ = 0.0;
     int coordinates_ = 0, speeds_ = 0;
 };

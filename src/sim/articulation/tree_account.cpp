@@ -39,8 +39,9 @@ TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, i
     if (second) {
         s = {on_child.force, on_child.moment, link.point, link.velocity.move};
     } else {
-        s.point = dynamics.link(tree_.anchor_node(index)).point;
-        s.rate.setZero();
+        const ForwardDynamics::Link& anchor = dynamics.link(tree_.anchor_node(index));
+        s.point = anchor.point;
+        s.rate = anchor.velocity.move;
         if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
             const int at = tree_.node_of_body()[std::size_t(above)];
             const ForwardDynamics::Link& parent = dynamics.link(at);

@@ -45,12 +45,15 @@ TreeFlight::Totals TreeFlight::totals() const {
 bool TreeFlight::start(double stage) {
     const TreeStep& step = *step_;
     if (!tree_.find(step.bodies, step.island, step.joints, step.all) || tree_.gap() > tuning::tree_gap) return false;
+    dynamics_.stand();
+    if (track() && step.late) return false;
     if (!closures_.find(tree_, step, stage)) return false;
+    if (track() && !closures_.empty()) return false;
     if (!springs_.find(tree_, step, stage)) return false;
     friction_.find(tree_, step);
     limits_.clear();
     if (stage == 0.0 && !limits_.find(tree_, step, closures_)) return false;
-    pushed_ = false;
+    pushed_ = track() != nullptr;  // the time is a coordinate
     for (const std::uint32_t i : step.island)
         pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
     const int n = int(step.island.size());
@@ -69,6 +72,8 @@ bool TreeFlight::start(double stage) {
         frame_.velocity = start_.momentum / start_.mass;
     }
     tree_.start(y_.data());
+    law_time_ = 0.5 * (step.from + next_change(step.from));
+    carry(0.0);
     dynamics_.look(step.bodies, step.island, y_.data());
     velocities_.resize(step.island.size());
     for (std::size_t i = 0; i < step.island.size(); ++i) {
@@ -85,9 +90,33 @@ bool TreeFlight::start(double stage) {
     return y_.allFinite() && ((friction_.empty() && limits_.empty()) || begin_laws());
 }
 
+// The ground at a time of the step (s), in the part that law_time_ is in. With `impulse` impulses act in place of forces.
+void TreeFlight::carry(double time, bool impulse) {
+    if (!track()) return;
+    const KeyframeTrack::Motion m = track()->at(step_->from + time, law_time_);
+    const KeyframeTrack::Acceleration a = track()->acceleration(step_->from + time, law_time_);
+    const Vec3 arm = m.rotation * (step_->bodies[tree_.carrier()].center_of_mass + tree_.carried_at());
+    const Vec3 around = m.angular_velocity.cross(arm);
+    const SpatialMotion velocity{m.angular_velocity, m.velocity + around};
+    const SpatialMotion acceleration{a.angular, a.linear + a.angular.cross(arm) + m.angular_velocity.cross(around)};
+    dynamics_.carry(m.rotation, m.position + arm - tree_.origin(), impulse ? SpatialMotion{} : velocity,
+                    impulse ? velocity : acceleration);
+}
+
+// s: of the forces and of the carrier, at most the end of the step.
+double TreeFlight::next_change(double now) const {
+    double next = step_->from + step_->h;
+    if (pushed_)
+        for (const std::uint32_t i : step_->island) next = std::min(next, step_->forces.next_change(i, now));
+    if (!track()) return next;
+    const double rounding = tuning::tree_least_rest * step_->h, key = track()->next_key(now + rounding);
+    return key < next - rounding ? key : next;
+}
+
 // The tree's speeds at the bodies' momenta: the nearest in the metric of their masses. Impulses in the joints make the change.
 void TreeFlight::fit() {
     const std::vector<double> still(std::size_t(tree_.speeds()), 0.0);
+    carry(0.0, true);
     dynamics_.move(y_.data(), still.data());
     std::vector<Wrench> momenta;
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
@@ -98,6 +127,7 @@ void TreeFlight::fit() {
     closures_.accelerate(dynamics_, Vec3::Zero(), y_.data(), y_.data() + coordinates_);
     if (!closures_.empty()) closures_.add_to(dynamics_, momenta);
     account_->strike(dynamics_, 0.0, momenta);
+    carry(0.0);
     dynamics_.move(y_.data(), y_.data() + coordinates_);
     if (!closures_.empty()) closures_.add_sums(dynamics_, frame_, 0.0, 1.0, y_.data() + closed_ + 1);
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
@@ -153,6 +183,7 @@ bool TreeFlight::keeps_energy() {
 TreeFlight::Vector TreeFlight::rate(const Vector& y) {
     Vector dy(y.size());
     const double *q = y.data(), *speeds = q + coordinates_;
+    if (track()) carry(y[extras_]);
     dynamics_.move(q, speeds);
     springs_.drive(dynamics_, q, speeds, dy.data() + heats_);
     friction_.drive(dynamics_);
@@ -363,8 +394,7 @@ void TreeFlight::place() {
             inertia.zz += square;
         }
         if (pushed_) {
-            for (std::size_t i = 0; i < n; ++i)
-                wanted += y_.segment<3>(extras_ + 1 + pushed_numbers * Eigen::Index(i));
+            for (std::size_t i = 0; i < n; ++i) wanted += y_.segment<3>(extras_ + 1 + pushed_numbers * Eigen::Index(i));
             moment += y_.segment<3>(y_.size() - 6);
             place += y_.tail<3>();
         }
@@ -430,9 +460,8 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     find_weak();
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
-        double next = end;
-        if (pushed_)
-            for (const std::uint32_t i : step.island) next = std::min(next, step.forces.next_change(i, now));
+        const double next = next_change(now);
+        if (track() && !track()->smooth() && next < end) return Outcome::declined;  // a blow of the carrier
         law_time_ = 0.5 * (now + next);
         const double until = next < end ? next - step.from : step.h;
         if (!(method.verlet() ? integrate_verlet(until, substeps) : integrate(until, method.kind)))
@@ -442,6 +471,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     }
     if (!bounded()) return Outcome::stopped;
     if (event_ != none) own_->h = time_;
+    carry(time_);
     if (!method.verlet() || !friction_.empty())
         rate(y_);
     else
@@ -452,11 +482,23 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     count_turns();
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
     if (!closures_.finish(*own_, y_.data() + closed_ + 1)) return Outcome::stopped;
-    if (lost_ > 0.0) step_->joints[0]->account.step.work.impacts += lost_;
+    if (lost_ > 0.0) step_->joints[std::size_t(std::max(0, tree_.hung()))]->account.step.work.impacts += lost_;
     springs_.account(*own_, y_.data(), y_.data() + heats_);
     friction_.account(*own_, dynamics_, y_.data(), y_.data() + works_);
     limits_.account(*own_, dynamics_);
+    account_for_carrier();
     return Outcome::flown;
+}
+
+// The work of the joint that the root hangs on is the carrier's, but for its laws.
+void TreeFlight::account_for_carrier() {
+    if (!track()) return;
+    Joint& joint = *step_->joints[std::size_t(tree_.hung())];
+    JointAccount::Span& step = joint.account.step;
+    const bool first = joint.a == tree_.carrier();
+    const double given = step.work.springs + step.work.motors - step.work.heat - step.work.impacts;
+    step.work.carriers = (first ? step.work_b : step.work_a) - given;
+    (first ? step.work_a : step.work_b) = -step.work.carriers;
 }
 
 // In more and more substeps, while they are too long.

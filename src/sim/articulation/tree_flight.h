@@ -87,6 +87,12 @@ private:
     static constexpr std::size_t none = std::size_t(-1);
 
     bool start(double stage);
+    void carry(double time, bool impulse = false);
+    double next_change(double now) const;
+    void account_for_carrier();
+    const KeyframeTrack* track() const {
+        return tree_.carrier() == Joint::world ? nullptr : step_->bodies[tree_.carrier()].track.get();
+    }
     Outcome advance_tree(const TreeStep& step, TreeMethod method, int& substeps);
     Outcome fly(const TreeStep& step, TreeMethod method, int substeps);
     Outcome advance_pieces(const TreeStep& step, TreeMethod method, int& substeps, int broken);
@@ -145,10 +151,10 @@ private:
     TreeFriction friction_;
     TreeLimits limits_;
     TreeClosures closures_, at_start_;  // now, and at the start of a stage of Verlet's method
-    std::vector<int> weak_;     // joints that can break, and carry less than their strength at the start
-    std::size_t event_ = none;  // at the end of this part
-    double needed_ = 0.0;       // N m, N: net effort of a held coordinate there
-    int changes_ = 0;           // of friction and limits in this step
+    std::vector<int> weak_;             // joints that can break, and carry less than their strength at the start
+    std::size_t event_ = none;          // at the end of this part
+    double needed_ = 0.0;               // N m, N: net effort of a held coordinate there
+    int changes_ = 0;                   // of friction and limits in this step
     FallingFrame frame_;
     Totals start_;
     double energy_ = 0.0;      // J, kinetic, at the start

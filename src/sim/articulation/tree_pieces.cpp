@@ -66,7 +66,7 @@ TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, TreeMethod 
     for (const Piece& piece : pieces_of(step)) {
         const TreeStep rest{step.bodies,     piece.bodies, piece.joints, step.forces,
                             step.from + now, step.h - now, step.length,  step.whole > 0.0 ? step.whole : step.h,
-                            step.most_steps, step.all};
+                            step.most_steps, step.all,     true};
         if (advance(rest, method, substeps) != Outcome::flown) return Outcome::stopped;
         evaluations += evaluations_;
     }

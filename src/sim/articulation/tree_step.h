@@ -23,6 +23,7 @@ struct TreeStep {
     double whole = 0.0;                        // s: of the step that this one is a part of; 0: itself
     int most_steps = tuning::tree_most_steps;  // of half a radian each
     std::span<const Joint> all = {};           // that gears refer to
+    bool late = false;                         // begins within a step, at whose start the carriers stand
 };
 
 /// A frame that falls freely, with the center of mass of a free tree: there uniform gravity does not act.

@@ -99,6 +99,7 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     if (pushed_) middle_[extras_] += 0.5 * h;
     double last = infinity;
     for (int pass = 0;; ++pass) {
+        if (pass == 0 && pushed_) carry(middle_[extras_]);
         if (pass == 0)
             dynamics_.move(middle_.data(), speeds);
         else

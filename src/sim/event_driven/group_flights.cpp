@@ -51,7 +51,10 @@ void GroupFlights::find() {
 bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces) {
     for (const std::uint32_t k : groups_[group].bodies)
         if (!forces.only_gravity(k) || (*bodies_)[k].asleep) return false;
-    return tree_laws(joints_of(group), *bodies_);
+    const std::vector<Joint*> joints = joints_of(group);
+    return std::none_of(joints.begin(), joints.end(),
+                        [&](const Joint* joint) { return on_moving_carrier(*joint, *bodies_); }) &&
+           tree_laws(joints, *bodies_);
 }
 
 std::vector<GroupFlights::JointMemory> GroupFlights::memory_of(std::uint32_t group) const {

@@ -6,12 +6,6 @@ namespace tumble {
 
 namespace {
 
-bool on_moving_carrier(const Joint& joint, const std::vector<Body>& bodies) {
-    for (const std::uint32_t i : {joint.a, joint.b})
-        if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return true;
-    return false;
-}
-
 bool motors_fly(const Joint& joint) {
     for (std::size_t c = 0; joint.soft && c < joint.count(); ++c) {
         const JointAxis& axis = joint.axis(c);
@@ -24,6 +18,12 @@ bool motors_fly(const Joint& joint) {
 }
 
 }  // namespace
+
+bool on_moving_carrier(const Joint& joint, const std::vector<Body>& bodies) {
+    for (const std::uint32_t i : {joint.a, joint.b})
+        if (i != Joint::world && !bodies[i].dynamic() && bodies[i].moves()) return true;
+    return false;
+}
 
 bool has_friction(const Joint& joint) {
     for (std::size_t c = 0; joint.soft && c < joint.count(); ++c)
@@ -51,15 +51,23 @@ bool acts_along_coordinates(const Joint& joint) {
 }
 
 bool tree_laws(std::span<const Joint* const> joints, const std::vector<Body>& bodies) {
-    return std::all_of(joints.begin(), joints.end(), [&](const Joint* joint) {
-        for (const std::uint32_t i : {joint->a, joint->b})
+    int anchors = 0, carried = 0;
+    for (const Joint* joint : joints) {
+        for (const std::uint32_t i : {joint->a, joint->b}) {
+            anchors += i == Joint::world || !bodies[i].dynamic();
             if (i != Joint::world && bodies[i].dynamic() && bodies[i].integrator == IntegratorKind::explicit_euler)
                 return false;
+        }
         if (joint->distance() && (has_motors(*joint) || has_friction(*joint))) return false;
-        return !joint->broken && !on_moving_carrier(*joint, bodies) &&
-               !(joint->soft && joint->description.friction_coefficient > 0.0) && acts_along_coordinates(*joint) &&
-               motors_fly(*joint);
-    });
+        if (on_moving_carrier(*joint, bodies)) {
+            ++carried;
+            if (joint->distance()) return false;
+        }
+        if (joint->broken || (joint->soft && joint->description.friction_coefficient > 0.0) ||
+            !acts_along_coordinates(*joint) || !motors_fly(*joint))
+            return false;
+    }
+    return carried == 0 || anchors == 1;
 }
 
 IntegratorKind joined_integrator(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {

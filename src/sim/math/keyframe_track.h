@@ -26,7 +26,21 @@ public:
     };
     Motion at(double time) const;
 
+    struct Acceleration {
+        Vec3 linear = Vec3::Zero();   // m/s^2, of the origin
+        Vec3 angular = Vec3::Zero();  // rad/s^2, world frame
+    };
+    /// The motion at a time, by the part of the path between two keys that holds the time `within`: on both sides of a key.
+    Motion at(double time, double within) const;
+    Acceleration acceleration(double time, double within) const;
+    /// The first key after a time, s; infinity: none.
+    double next_key(double time) const;
+    /// Whether the velocity is continuous.
+    bool smooth() const { return smooth_; }
+
 private:
+    std::size_t segment(double time) const;  // that holds the time, between the first key and the last
+    Motion on(std::size_t segment, double u) const;
     std::vector<Keyframe> keys_;
     std::vector<Vec3> velocity_;  // tangents at the keys, m/s
     std::vector<Vec3> turn_;      // segment i: rotation vector from key i to i + 1, in key i's frame
