@@ -136,8 +136,7 @@ TEST(JointPressed, ACarrierThatAccelerates) {
             limit(scene.joints[0].move[0], 0.0, 1.0, e);
             const Load load = measure(scene, 0);
             EXPECT_NEAR(load.force.x(), 2.0 * 3.0 * 9.81, 0.01) << which(mode, e);
-            // The step's own loss: m (a h)^2 / 2 in each of 960 steps.
-            EXPECT_NEAR(load.loss, std::pow(3.0 * 9.81, 2) / 960.0, 1e-3) << which(mode, e);
+            EXPECT_LT(load.loss, 1e-6) << which(mode, e);
             EXPECT_LT(load.travel, 1e-4) << which(mode, e);
         }
 }

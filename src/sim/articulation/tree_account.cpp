@@ -26,6 +26,7 @@ void TreeAccount::begin(const TreeStep& step) {
     forces_.resize(tree_.nodes().size());
     time_ = 0.0;
     sampled_ = staged_ = false;
+    carrier_ = Joint::world;
 }
 
 // The force on the joint's second body, about that body's anchor.
@@ -39,9 +40,9 @@ TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, i
     if (second) {
         s = {on_child.force, on_child.moment, link.point, link.velocity.move};
     } else {
-        const ForwardDynamics::Link& anchor = dynamics.link(tree_.anchor_node(index));
-        s.point = anchor.point;
-        s.rate = anchor.velocity.move;
+        const ForwardDynamics::Link& ground = dynamics.link(tree_.anchor_node(index));
+        s.point = ground.point;
+        s.rate = ground.velocity.move;
         if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
             const int at = tree_.node_of_body()[std::size_t(above)];
             const ForwardDynamics::Link& parent = dynamics.link(at);
@@ -197,6 +198,11 @@ bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
     return true;
 }
 
+// At the end of the step.
+JointSide TreeAccount::side(std::uint32_t body) const {
+    return body == carrier_ ? carrier_end_ : side_of(step_->bodies, body);
+}
+
 bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     const std::size_t k = std::size_t(index);
     const bool second = joint.b == step_->island[std::size_t(tree_.child_of(index))];
@@ -213,19 +219,18 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     }
     // Else the caller has counted the way of the coordinate.
     if (!staged_ || joint.soft || !tree_.plain(index)) {
-        const JointGeometry g = measure(joint, side_of(step_->bodies, joint.a), side_of(step_->bodies, joint.b));
+        const JointGeometry g = measure(joint, side(joint.a), side(joint.b));
         for (std::size_t c = 0; c < joint.count(); ++c)
             if (!joint.locked(c)) joint.value[c] = g.coordinates[c].value;
         if (beyond_limit(joint, g, staged_ ? 0.0 : tuning::joint_rounding)) return false;
         joint.point = g.point;
         if (!staged_) keep_impulses(joint, g, samples_[k]);
     } else {
-        if (joint.turns_alike())
-            joint.value[3] = twist_of(joint, side_of(step_->bodies, joint.a), side_of(step_->bodies, joint.b));
+        if (joint.turns_alike()) joint.value[3] = twist_of(joint, side(joint.a), side(joint.b));
         joint.point = joint.anchor_b;
         if (joint.b != Joint::world) {
-            const Body& body = step_->bodies[joint.b];
-            joint.point = body.position + body.rotation * joint.anchor_b;
+            const JointSide b = side(joint.b);
+            joint.point = b.position + b.orientation * joint.anchor_b;
         }
     }
     const JointDescription& strength = joint.description;

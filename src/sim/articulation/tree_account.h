@@ -43,6 +43,11 @@ public:
     void begin_stage() { struck_.assign(samples_.size(), Vec3::Zero()); }
     double swing_rate(double h);
 
+    /// The pose at the end of a body with a prescribed motion.
+    void carry(std::uint32_t body, const JointSide& end) {
+        carrier_ = body;
+        carrier_end_ = end;
+    }
     /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false where
     /// a limit is violated or a joint is loaded well beyond its strength.
     bool finish(std::span<const PushedImpulse> pushed);
@@ -63,11 +68,14 @@ private:
     Sample joint_sample(const ForwardDynamics& dynamics, int joint, double t) const;
     void add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes, std::span<const Sample> ends,
                          double t);
+    JointSide side(std::uint32_t body) const;
     bool settle(Joint& joint, int index, const Behind& behind) const;
     void keep_impulses(Joint& joint, const JointGeometry& g, const Sample& end) const;
 
     const JointTree& tree_;
     const TreeStep* step_ = nullptr;
+    std::uint32_t carrier_ = Joint::world;
+    JointSide carrier_end_;
     const FallingFrame& frame_;
     double time_ = 0.0;  // s, of the last sample
     bool sampled_ = false;

@@ -73,6 +73,7 @@ bool TreeFlight::start(double stage) {
     }
     tree_.start(y_.data());
     law_time_ = 0.5 * (step.from + next_change(step.from));
+    if (jolted()) return false;
     carry(0.0);
     dynamics_.look(step.bodies, step.island, y_.data());
     velocities_.resize(step.island.size());
@@ -101,6 +102,17 @@ void TreeFlight::carry(double time, bool impulse) {
     const SpatialMotion acceleration{a.angular, a.linear + a.angular.cross(arm) + m.angular_velocity.cross(around)};
     dynamics_.carry(m.rotation, m.position + arm - tree_.origin(), impulse ? SpatialMotion{} : velocity,
                     impulse ? velocity : acceleration);
+}
+
+// Whether the velocity of the carrier jumps at the start of the step: a blow, which the rows of the contact solver take.
+bool TreeFlight::jolted() const {
+    if (!track()) return false;
+    const double from = step_->from;
+    const KeyframeTrack::Motion before = track()->at(from, from - tuning::tree_least_rest * step_->h),
+                                after = track()->at(from, law_time_);
+    const double jump = (after.velocity - before.velocity).norm() +
+                        step_->length * (after.angular_velocity - before.angular_velocity).norm();
+    return jump > tuning::tree_misfit * (after.velocity.norm() + step_->length * after.angular_velocity.norm());
 }
 
 // s: of the forces and of the carrier, at most the end of the step.
@@ -480,6 +492,11 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     if (!method.verlet()) sample();
     place();
     count_turns();
+    if (track()) {
+        const ForwardDynamics::Link& ground = dynamics_.link(TreeNode::ground);
+        account_->carry(tree_.carrier(),
+                        {tree_.origin() + ground.point - ground.rotation * tree_.carried_at(), ground.orientation});
+    }
     if (!account_->finish(pushed_impulses())) return Outcome::stopped;
     if (!closures_.finish(*own_, y_.data() + closed_ + 1)) return Outcome::stopped;
     if (lost_ > 0.0) step_->joints[std::size_t(std::max(0, tree_.hung()))]->account.step.work.impacts += lost_;

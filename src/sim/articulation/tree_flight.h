@@ -88,6 +88,7 @@ private:
 
     bool start(double stage);
     void carry(double time, bool impulse = false);
+    bool jolted() const;
     double next_change(double now) const;
     void account_for_carrier();
     const KeyframeTrack* track() const {

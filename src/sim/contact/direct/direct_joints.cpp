@@ -41,7 +41,7 @@ void DirectSolver::load_part(const JointIsland& island, bool first) {
     joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (!in_parts_) return;
-    const double longer = d / estimated_for_;
+    const double longer = std::min(d / estimated_for_, tuning::direct_longer);
     estimated_for_ = d;
     for (ConstraintRows& constraint : constraints_) {
         if (!first) move_contact(constraint, problem);

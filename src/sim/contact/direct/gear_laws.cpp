@@ -51,7 +51,7 @@ void JointRows::add_gear(const JointIsland& island, std::uint32_t index) {
     row.compliance = compliance_ * square;  // as of a row of unit length
     row.least = -infinity;
     row.most = infinity;
-    row.reference = std::abs(g.error) <= tuning::joint_rounding * (row.turns() ? 1.0 : gear.size) ? 0.0 : g.error;
+    row.reference = std::abs(g.error) <= closed_share() * (row.turns() ? 1.0 : gear.size) ? 0.0 : g.error;
     row.target = unit * ((row.reference - g.error) / h_ + h_ * gear.curving[first]);
     row_of.value = std::max(std::abs(g.value[0]), std::abs(g.value[1] * gear.description.ratio));
     push_row(row);

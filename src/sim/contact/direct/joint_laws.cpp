@@ -94,7 +94,7 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     Row r = row;
     const Joint& j = joint(blocks_.back());
     const bool above = law == Joint::lower;  // the coordinate must stay above the limit
-    const double unit = row.turns() ? length_ : 1.0, tolerance = tuning::joint_rounding * (row.turns() ? 1.0 : j.size);
+    const double unit = row.turns() ? length_ : 1.0, tolerance = closed_share() * (row.turns() ? 1.0 : j.size);
     const double room = above ? value - limit : limit - value;  // negative: violated
     r.law = law;
     (above ? r.least : r.most) = 0.0;
@@ -133,7 +133,7 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         Row r = row;
         r.law = Joint::lock;
         r.closes = true;
-        r.reference = std::abs(value) <= tuning::joint_rounding * (row.turns() ? 1.0 : j.size) ? 0.0 : value;
+        r.reference = std::abs(value) <= closed_share() * (row.turns() ? 1.0 : j.size) ? 0.0 : value;
         r.target = unit * ((r.reference - value) / h + h * j.curving[k]);
         push_row(r);
         return;

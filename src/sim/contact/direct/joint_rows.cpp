@@ -379,7 +379,8 @@ void JointRows::store(const JointIsland& island, bool apply) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
             j.impulse[row.coordinate][row.law] = amount;
-            if (row.law == Joint::lock) j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
+            if (row.law == Joint::lock && h_ * tuning::joint_swing_substeps >= step_)  // else it is rounding
+                j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
         }
         const JointLoad load = load_of(block);
         j.force = load.force / h_;

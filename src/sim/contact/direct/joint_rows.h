@@ -19,6 +19,7 @@
 #include "sim/joints/swing.h"
 #include "sim/math/block_cholesky.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -263,6 +264,9 @@ private:
     std::vector<Row> rows_;
     std::vector<BodyVelocity> before_;  // by body of the island
     std::vector<double> swing_;         // 1/s^2, by body of the island
+    // Errors that a part of the step closes by speed, in sizes of the joint: the speed is no larger in a short part.
+    double closed_share() const { return tuning::joint_rounding * std::min(1.0, h_ / step_); }
+
     double h_ = 0.0, length_ = 1.0, compliance_ = 0.0, total_mass_ = 0.0, from_ = 0.0, to_ = 0.0;
     double ahead_ = 0.0;  // s, of the carriers
     std::vector<Strike> strikes_;

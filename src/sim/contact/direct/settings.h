@@ -58,6 +58,10 @@ inline constexpr double direct_closing = 1e-3;
 /// fitted: below any visible size. Tests: those of landing (tests/sim/landing_test.cpp).
 inline constexpr double direct_slop = 1e-6;
 
+/// Largest factor of the estimates of impulses from a part of a step to a longer one. Not fitted: the forces of a very short
+/// part are rounding.
+inline constexpr double direct_longer = 16.0;
+
 /// Compliance of position correction, over the island's mass, and the share of that stiffness across the normals.
 /// No case is known that guards it.
 inline constexpr double direct_push_compliance = 1e-2;
