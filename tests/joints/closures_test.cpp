@@ -219,7 +219,7 @@ TEST(Closures, LoadsOfALoop) {
     }
 }
 
-// The coupler breaks off at its strength, m w^2 r = 9 N without the cranks: those then turn on at their speed.
+// A motor turns one crank faster and faster, before the flat position. Joints of the tree and the one that is cut.
 TEST(Closures, AJointOfALoopBreaks) {
     for (const std::size_t weak : {std::size_t(0), std::size_t(1), std::size_t(2), std::size_t(3)})
         for (const IntegratorKind integrator : {IntegratorKind::symplectic_euler, IntegratorKind::exact}) {
@@ -229,13 +229,13 @@ TEST(Closures, AJointOfALoopBreaks) {
             motor.speed = 1e6;
             motor.max_force = 5.0;
             scene.joints[1 - weak % 2].turn[0].motor = motor;
-            scene.joints[weak].break_force = 8.0;
+            scene.joints[weak].break_force = 3.0;
             World world(scene);
-            for (int step = 0; step < 120; ++step) {
+            for (int step = 0; step < 80; ++step) {
                 world.step();
                 for (const JointState& joint : world.joint_states()) {
                     if (!joint.active) continue;
-                    ASSERT_LT(joint.gap, 1e-11) << step;
+                    ASSERT_LT(joint.gap, 1e-11) << weak << " in step " << step;
                 }
             }
             EXPECT_TRUE(world.joint_states()[weak].broken_at.has_value()) << weak;

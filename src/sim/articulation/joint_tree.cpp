@@ -233,9 +233,18 @@ void JointTree::add_joint(const std::vector<Body>& bodies, std::span<const std::
         if (place == TreeNode::no_body) continue;
         const Body& body = bodies[island[std::size_t(place)]];
         const Vec3 arm = body.principal_axes.conjugate() * (side == 0 ? sides.anchor_child : sides.anchor_parent);
-        for (int c = 0; c < 3; ++c)
-            hang.levers[side] =
-                std::max(hang.levers[side], Vec3::Unit(c).cross(arm).norm() / body.principal_inertia[c]);
+        const auto lever_about = [&](const Vec3& axis) {
+            return axis.cross(arm).norm() * axis.dot(axis.cwiseQuotient(body.principal_inertia));
+        };
+        // In a loop a hinge and its neighbors turn about few axes.
+        if (!spanning_.cut.empty() && hang.direct && kind != NodeKind::ball) {
+            const Quat& frame = (side == 0) == hang.forward ? joint.frame_b : joint.frame_a;
+            if (kind == NodeKind::revolute)
+                hang.levers[side] =
+                    lever_about(body.principal_axes.conjugate() * (frame * Vec3::Unit(nodes_.back().coordinate - 3)));
+            continue;
+        }
+        for (int c = 0; c < 3; ++c) hang.levers[side] = std::max(hang.levers[side], lever_about(Vec3::Unit(c)));
     }
 }
 

@@ -40,7 +40,16 @@ public:
     /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
     double swing_rate();
     /// The same in a stage of `h` s, with the impulses at both of its ends.
-    void begin_stage() { struck_.assign(samples_.size(), Vec3::Zero()); }
+    void begin_stage() {
+        struck_.assign(samples_.size(), Vec3::Zero());
+        torques_before_ = torques_;
+        carried_before_ = carried_;
+    }
+    /// Forgets add_stage() since begin_stage().
+    void restart_stage() {
+        torques_ = torques_before_;
+        carried_ = carried_before_;
+    }
     double swing_rate(double h);
 
     /// The pose at the end of a body with a prescribed motion.
@@ -86,6 +95,7 @@ private:
     std::vector<Vec3> moments_,
         carried_;                       // N m s, by joint: integrals of point x force, and of the frame's place x force
     std::vector<Vec3> torques_;         // N m s, by joint: of stages
+    std::vector<Vec3> torques_before_, carried_before_;
     std::vector<Vec3> struck_;          // N s, by joint: at both ends of a stage
     std::vector<Behind> behind_;        // by body
     std::vector<double> sums_;          // by body

@@ -29,10 +29,11 @@ void TreeFlight::move_still(const Vector& y) {
     limits_.drive(dynamics_, still.data());
 }
 
-// The impulses of the rows change the speeds of one state to those of the other.
-void TreeFlight::give_impulses(const Vector& before, Vector& after, const std::vector<double>& impulses, double time) {
-    move_still(before);
-    closures_.look(dynamics_, before.data());
+// Impulses of the rows at the places of `at`, and their mean speeds: adds them to the account and to the sums of y.
+void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
+                               double time) {
+    move_still(at);
+    closures_.look(dynamics_, at.data());
     closures_.give(closures_.shared(impulses), false);
     closures_.push(dynamics_);
     std::vector<double> change(std::size_t(tree_.speeds()));
@@ -40,10 +41,8 @@ void TreeFlight::give_impulses(const Vector& before, Vector& after, const std::v
     std::vector<Wrench> wrenches(step_->island.size());
     closures_.add_to(dynamics_, wrenches);
     account_->strike(dynamics_, time, wrenches);
-    const Eigen::Index n = tree_.speeds();
-    const Vector mean = 0.5 * (before.segment(coordinates_, n) + after.segment(coordinates_, n));
-    dynamics_.place(before.data(), mean.data());
-    closures_.add_sums(dynamics_, frame_, time, 1.0, after.data() + closed_ + 1);
+    dynamics_.place(at.data(), mean.data() + coordinates_);
+    closures_.add_sums(dynamics_, frame_, time, 1.0, y.data() + closed_ + 1);
 }
 
 // The matrices at the places of y.
@@ -66,15 +65,17 @@ void TreeFlight::fit_closures(Vector& y, double time, bool counts) {
         closures_.add_response(impulses, speeds);
         for (std::size_t r = 0; r < sum.size(); ++r) sum[r] += impulses[r];
     }
-    if (counts) give_impulses(before, y, sum, time);
+    if (counts) give_impulses(before, y, sum, 0.5 * (before + y), time);
+    fitted_ = y.head(coordinates_);
 }
 
 bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
     if (!closures_.any_rows()) return stage(y, h, time, counts);
     const double turn = std::abs(h) * fastest_turn(y), closed = closures_.place_rounding();
     closures_.set_compliance(tuning::joint_singular * turn * turn * turn * turn);
-    load_closures(y);
+    if (fitted_.size() != coordinates_ || fitted_ != y.head(coordinates_)) load_closures(y);
     at_start_ = closures_;
+    if (counts) account_->begin_stage();
     std::vector<double> impulses(closures_.rows(), 0.0);
     Vector start, end;
     double last = infinity;
@@ -82,7 +83,8 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
         start = y;
         at_start_.add_response(impulses, start.data() + coordinates_);
         end = start;
-        if (!stage(end, h, time, false)) return false;
+        if (counts) account_->restart_stage();
+        if (!stage(end, h, time, counts)) return false;
         dynamics_.place(end.data(), end.data() + coordinates_);
         closures_.look_at_forms(dynamics_, end.data());
         const double error = closures_.error();
@@ -101,11 +103,8 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
         for (std::size_t r = 0; r < more.size(); ++r) impulses[r] += more[r];
     }
     if (counts) {
-        account_->begin_stage();
         closures_ = at_start_;
-        give_impulses(y, start, impulses, time);
-        end = start;
-        if (!stage(end, h, time, true)) return false;
+        give_impulses(y, end, impulses, 0.5 * (y + start), time);
     }
     y = end;
     fit_closures(y, time + h, counts);

@@ -54,6 +54,7 @@ bool TreeFlight::start(double stage) {
     limits_.clear();
     if (stage == 0.0 && !limits_.find(tree_, step, closures_)) return false;
     pushed_ = track() != nullptr;  // the time is a coordinate
+    fitted_.resize(0);
     for (const std::uint32_t i : step.island)
         pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
     const int n = int(step.island.size());
@@ -193,6 +194,7 @@ bool TreeFlight::keeps_energy() {
 }
 
 TreeFlight::Vector TreeFlight::rate(const Vector& y) {
+    fitted_.resize(0);
     Vector dy(y.size());
     const double *q = y.data(), *speeds = q + coordinates_;
     if (track()) carry(y[extras_]);
@@ -362,6 +364,8 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
         done = last ? span : done + size;
         time_ = begin + done;
         if (!close(time_)) return false;
+        const double turn = size * fastest_turn(y_);
+        if (!exact && closures_.nearly_dependent(turn * turn)) return false;
         size = std::min(2.0 * tried, span);
         if (event_ == none) continue;
         if (event_ >= first_weak()) return true;

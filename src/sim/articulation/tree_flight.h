@@ -60,8 +60,9 @@ public:
         return advance(step, {method, 2}, substeps);
     }
 
-    /// Whether the joints of the last step form a tree.
+    /// Whether the joints of the last step have a spanning tree, and whether that is all of them.
     bool is_tree() const { return tree_.found(); }
+    bool is_whole() const { return tree_.found() && tree_.cut().empty(); }
     /// Evaluations of the dynamics in the last step.
     int evaluations() const { return evaluations_; }
     /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next one should
@@ -110,7 +111,8 @@ private:
     bool stage(Vector& y, double h, double time, bool counts);
     bool closed_stage(Vector& y, double h, double time, bool counts);
     void move_still(const Vector& y);
-    void give_impulses(const Vector& before, Vector& after, const std::vector<double>& impulses, double time);
+    void give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
+                       double time);
     void load_closures(const Vector& y);
     void fit_closures(Vector& y, double time, bool counts);
     bool close(double time);
@@ -164,6 +166,7 @@ private:
     // Coordinates, speeds, heats of dampers, works of motors, the time and sums of closures; where other forces than gravity act also the time, by body their impulse, moment and work, and
     // the moment about the center of mass and the displacement of the whole.
     Vector y_;
+    Vector fitted_;  // coordinates of the closures' matrices; empty: others
     int coordinates_ = 0, heats_ = 0, works_ = 0, closed_ = 0, extras_ = 0;  // number of coordinates; places in y
     bool pushed_ = false;
     double lost_ = 0.0;                   // J, where the velocities did not fit the joints at the start

@@ -295,12 +295,14 @@ int DirectSolver::next_substeps(int substeps) const {
 
 namespace {
 
-// Joints that flight knows, but for the number of their loops.
-bool has_many_loops(const JointIsland& island) {
+// Joints with the laws of flight that are no tree.
+bool has_loops(const JointIsland& island) {
     const JointSet& set = *island.problem.joints;
     std::vector<const Joint*> joints;
     for (const std::uint32_t k : island.joints) joints.push_back(&set.joints()[set.active()[k]]);
-    return tree_laws(joints, island.problem.bodies) && !has_few_loops(island.bodies, joints, set.joints());
+    SpanningJoints tree;
+    return tree_laws(joints, island.problem.bodies) &&
+           !(span_joints(island.bodies, joints, set.joints(), tree) && tree.cut.empty());
 }
 
 }  // namespace
@@ -354,8 +356,8 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
     // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces too.
-    // So are those of many loops: with half of the forces at both ends and fitted velocities they are RATTLE's.
-    cut_ = manifolds.empty() && (fine_integrator(joined_integrator(problem.bodies, bodies)) || has_many_loops(island));
+    // So are those of loops: with half of the forces at both ends and fitted velocities they are RATTLE's.
+    cut_ = manifolds.empty() && (fine_integrator(joined_integrator(problem.bodies, bodies)) || has_loops(island));
     for (bool cut = cut_; !solve_jointed_step(island, manifolds, substeps); cut = cut_) {
         if (cut == cut_) substeps *= 2;
         reset();
