@@ -65,6 +65,10 @@ inline constexpr double closure_compliance = 1e-12;
 inline constexpr double closure_closed = 8e-15;
 inline constexpr int closure_passes = 40;
 
+/// Largest energy of the impulses at one end of a stage, as a share of the kinetic one: in singular positions they would be
+/// blows, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
+inline constexpr double closure_energy = 0.01;
+
 /// Substeps beyond which passes that do not close the joints leave the step to the rows. Not fitted: a bound of the cost.
 inline constexpr int closure_substeps = 64;
 

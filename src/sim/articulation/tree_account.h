@@ -93,8 +93,8 @@ private:
     std::vector<Sample> samples_;         // by joint
     std::vector<Vec3> momenta_, pushes_;  // N s, by body: of the last sample
     std::vector<Vec3> moments_,
-        carried_;                       // N m s, by joint: integrals of point x force, and of the frame's place x force
-    std::vector<Vec3> torques_;         // N m s, by joint: of stages
+        carried_;                // N m s, by joint: integrals of point x force, and of the frame's place x force
+    std::vector<Vec3> torques_;  // N m s, by joint: of stages
     std::vector<Vec3> torques_before_, carried_before_;
     std::vector<Vec3> struck_;          // N s, by joint: at both ends of a stage
     std::vector<Behind> behind_;        // by body

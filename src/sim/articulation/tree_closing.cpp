@@ -1,4 +1,4 @@
-// TreeFlight: steps that keep closure rows g(q) = 0. All methods keep them by their accelerations; what is left is projected.
+// TreeFlight: steps that keep closure rows g(q) = 0. All methods keep them by their accelerations, and project the rest.
 // In a stage of Verlet's method that is symmetric too:
 //   u' = u + M^-1 G^T l at its start, such that g = 0 at its end, and u+ = u' + M^-1 G^T m there, such that G u+ = 0,
 // as in RATTLE (Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.1.4). So the stage has
@@ -29,6 +29,21 @@ void TreeFlight::move_still(const Vector& y) {
     limits_.drive(dynamics_, still.data());
 }
 
+// J: most of the impulses at one end of a stage of `h` s, after it. Gaps that are rounding may close.
+double TreeFlight::most_energy(double h) const {
+    double sum = 0.0, mass = 0.0;
+    for (std::size_t i = 0; i < tree_.nodes().size(); ++i) {
+        const TreeNode& node = tree_.nodes()[i];
+        if (node.body == TreeNode::no_body) continue;
+        const ForwardDynamics::Link& link = dynamics_.link(int(i));
+        const Vec3& w = link.velocity.turn;
+        mass += node.mass;
+        sum += node.mass * link.center_velocity().squaredNorm() + w.dot(node.inertia_at(link.rotation) * w);
+    }
+    const double speed = tuning::joint_rounding * step_->length / h;
+    return 0.5 * tuning::closure_energy * sum + mass * speed * speed;
+}
+
 // Impulses of the rows at the places of `at`, and their mean speeds: adds them to the account and to the sums of y.
 void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
                                double time) {
@@ -53,7 +68,8 @@ void TreeFlight::load_closures(const Vector& y) {
     closures_.load(dynamics_, y.data());
 }
 
-void TreeFlight::fit_closures(Vector& y, double time, bool counts) {
+// Returns the energy of the impulses.
+double TreeFlight::fit_closures(Vector& y, double time, bool counts) {
     load_closures(y);
     const Vector before = y;
     double* speeds = y.data() + coordinates_;
@@ -67,6 +83,7 @@ void TreeFlight::fit_closures(Vector& y, double time, bool counts) {
     }
     if (counts) give_impulses(before, y, sum, 0.5 * (before + y), time);
     fitted_ = y.head(coordinates_);
+    return closures_.energy_of(sum);
 }
 
 bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
@@ -102,12 +119,22 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
         const std::vector<double> more = at_start_.solve(side, closures_);
         for (std::size_t r = 0; r < more.size(); ++r) impulses[r] += more[r];
     }
+    const double most = most_energy(h);
+    if (at_start_.energy_of(impulses) > most) {
+        coarse_ = true;
+        swing_ = std::max(swing_, tuning::joint_easy_swing);
+        return false;
+    }
     if (counts) {
         closures_ = at_start_;
         give_impulses(y, end, impulses, 0.5 * (y + start), time);
     }
     y = end;
-    fit_closures(y, time + h, counts);
+    if (fit_closures(y, time + h, counts) > most) {
+        coarse_ = true;
+        swing_ = std::max(swing_, tuning::joint_easy_swing);
+        return false;
+    }
     if (counts) swing_ = std::max(swing_, std::abs(h) * account_->swing_rate(h));
     closures_.set_compliance(0.0);
     return true;

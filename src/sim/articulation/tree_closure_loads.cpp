@@ -73,8 +73,7 @@ void TreeClosures::add_sums(const ForwardDynamics& dynamics, const FallingFrame&
             if (side.node == TreeNode::ground) continue;
             const ForwardDynamics::Link& link = dynamics.link(side.node);
             const Vec3 velocity = link.velocity.move + link.velocity.turn.cross(part.b.point - link.point) + speed;
-            to[12 + s] +=
-                (s == 0 ? -h : h) * (part.force.dot(velocity) + part.torque.dot(link.velocity.turn));
+            to[12 + s] += (s == 0 ? -h : h) * (part.force.dot(velocity) + part.torque.dot(link.velocity.turn));
         }
         to[14] += h * part.heat;
         to += sums;

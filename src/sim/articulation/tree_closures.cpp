@@ -95,8 +95,7 @@ bool TreeClosures::add_joint(int index, const TreeStep& step, double stage) {
 
 void TreeClosures::add_gear(int index, const TreeStep& step) {
     const Joint& gear = *step.joints[std::size_t(index)];
-    const GearGeometry g =
-        measure_gear(gear, step.all, [&](std::uint32_t body) { return side_of(step.bodies, body); });
+    const GearGeometry g = measure_gear(gear, step.all, [&](std::uint32_t body) { return side_of(step.bodies, body); });
     Row& row = rows_.emplace_back();
     row.part = int(parts_.size());
     for (std::size_t s = 0; s < 2; ++s) {
@@ -223,8 +222,7 @@ void TreeClosures::drive(ForwardDynamics& dynamics) {
         for (const Side* side : {&part.a, &part.b}) {
             if (!part.spring || side->node == TreeNode::ground) continue;
             const Vec3 force = side == &part.b ? part.force : Vec3(-part.force);
-            dynamics.push(side->node,
-                          {force, (side->point - dynamics.link(side->node).position()).cross(force)});
+            dynamics.push(side->node, {force, (side->point - dynamics.link(side->node).position()).cross(force)});
         }
     }
 }
@@ -472,6 +470,13 @@ std::vector<double> TreeClosures::solve_by(const std::vector<double>& matrix, co
         }
     }
     return l;
+}
+
+double TreeClosures::energy_of(const std::vector<double>& l) const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < l.size(); ++i)
+        for (std::size_t j = 0; j < l.size(); ++j) sum += l[i] * matrix_[i * l.size() + j] * l[j];
+    return 0.5 * sum;
 }
 
 void TreeClosures::add_response(const std::vector<double>& l, double* u) const {

@@ -54,6 +54,8 @@ public:
     std::vector<double> solve(const std::vector<double>& side, const TreeClosures& forms) const;
     /// The same impulses with equal loads on redundant rows.
     std::vector<double> shared(const std::vector<double>& l) const;
+    /// l^T G M^-1 G^T l / 2, J.
+    double energy_of(const std::vector<double>& l) const;
     /// Adds M^-1 G^T l, by the matrices of load().
     void add_response(const std::vector<double>& l, double* u) const;
     /// True if the step began near a singular position: a row depends on others but for this share.
@@ -86,8 +88,8 @@ private:
     struct Part {  // of a cut joint, or one of the two joints of a gear
         int joint = 0, of = 0;
         bool gear = false, second = false, spring = false;
-        double factor = 1.0;                               // of a gear
-        int node = 0;                                      // of its coordinate
+        double factor = 1.0;                                // of a gear
+        int node = 0;                                       // of its coordinate
         double stiffness = 0.0, damping = 0.0, rest = 0.0;  // N/m, N s/m, m: of a spring along a distance
         double heat = 0.0;                                  // W
         double stored = 0.0;                                // J, of the spring at the start
@@ -100,7 +102,7 @@ private:
         int part = 0;
         std::uint8_t coordinate = 0;
         bool turns = false;
-        double unit = 1.0, size = 1.0, start = 0.0;        // m or 1; m or rad; of a gear: error at q = 0
+        double unit = 1.0, size = 1.0, start = 0.0;  // m or 1; m or rad; of a gear: error at q = 0
         Vec3 direction = Vec3::Zero(), x = Vec3::Zero(), y = Vec3::Zero();
         double sign = 0.0;  // of x . y; 0: another row
         double error = 0.0;

@@ -62,7 +62,6 @@ public:
 
     /// Whether the joints of the last step have a spanning tree, and whether that is all of them.
     bool is_tree() const { return tree_.found(); }
-    bool is_whole() const { return tree_.found() && tree_.cut().empty(); }
     /// Evaluations of the dynamics in the last step.
     int evaluations() const { return evaluations_; }
     /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next one should
@@ -114,7 +113,8 @@ private:
     void give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
                        double time);
     void load_closures(const Vector& y);
-    void fit_closures(Vector& y, double time, bool counts);
+    double most_energy(double h) const;
+    double fit_closures(Vector& y, double time, bool counts);
     bool close(double time);
     double fastest_turn(const Vector& y) const;
     void drift(double* coordinates, const double* speeds, double h) const;

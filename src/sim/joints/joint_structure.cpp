@@ -4,6 +4,7 @@
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_groups.h"
 #include "sim/joints/settings.h"
+#include "sim/joints/spanning_joints.h"
 
 #include <Eigen/QR>
 
