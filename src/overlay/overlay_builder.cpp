@@ -1,11 +1,11 @@
 #include "overlay/overlay_builder.h"
 
+#include "core/disjoint_sets.h"
 #include "scene/description/shape_bounds.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace tumble {
@@ -67,24 +67,6 @@ std::string shortened(const std::string& name) {
 bool near(const BodyState& a, const BodyState& b, double radius) {
     return (a.origin - b.origin).norm() < rested * radius && a.orientation.angularDistance(b.orientation) < rested;
 }
-
-/// Sets that are joined by their members (union-find): the islands of bodies in contact.
-class Islands {
-public:
-    explicit Islands(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), std::size_t(0)); }
-    std::size_t root(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    /// The lower index stays the root: the color of an island depends on its first body alone.
-    void join(std::size_t a, std::size_t b) {
-        a = root(a), b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-private:
-    std::vector<std::size_t> parent_;
-};
 
 }  // namespace
 
@@ -201,7 +183,7 @@ void OverlayBuilder::add_ghosts(const Snapshot& snapshot, std::int64_t frame) {
 }
 
 void OverlayBuilder::add_islands(const Snapshot& snapshot, const ContactRecords& records) {
-    Islands islands(snapshot.bodies.size());
+    DisjointSets islands(snapshot.bodies.size());
     const auto dynamic = [&](std::size_t i) { return scene_->bodies[i].type == BodyType::dynamic; };
     for (const ContactRecord& r : records.contacts)
         if (r.a != ContactRecord::nobody && dynamic(r.a) && dynamic(r.b)) islands.join(r.a, r.b);

@@ -12,6 +12,7 @@ namespace {
 constexpr double common_length = 1.0 / 10.0, longest_length = 0.8;
 constexpr double least_friction = 0.02;  // of the normal force
 constexpr double noise = 1e-3;           // of the largest size: smaller ones are not counted
+constexpr double rounding = 1e-9;        // of the largest force times the visible height: smaller torques are zero
 constexpr double least_size = 1e-100;    // SI units: smaller ones are zero but for rounding, and have no finite scale
 
 constexpr std::array<Overlay, arrow_quantity_count> shown_by{
@@ -177,6 +178,10 @@ OverlayScales ScaleSurvey::scales() const {
         }
         const Sizes& sizes = sizes_[q];
         if (sizes.most <= 0.0) continue;
+        // Joints without a torque: rounding of their forces.
+        if (ArrowQuantity(q) == ArrowQuantity::torque &&
+            sizes.most < rounding * height * sizes_[std::size_t(ArrowQuantity::force)].most)
+            continue;
         const int least = bin_of(noise * sizes.most);
         std::int64_t all = 0, smaller = 0;
         for (const auto& [bin, count] : sizes.counts)

@@ -299,8 +299,8 @@ TEST(TreeFlight, FastTurns) {
     }
 }
 
-// By joint coordinates and by RATTLE: the same motion and the same forces, for each type and both orders of the bodies.
-TEST(TreeFlight, AgreesWithRattle) {
+// By extrapolation and by Verlet's method: the same motion and the same forces, for each type and both orders of the bodies.
+TEST(TreeFlight, MethodsAgree) {
     for (const JointType type : {JointType::fixed, JointType::hinge, JointType::ball, JointType::slider,
                                  JointType::universal, JointType::cylindrical, JointType::planar, JointType::six_dof})
         for (const bool swapped : {false, true}) {
@@ -321,14 +321,14 @@ TEST(TreeFlight, AgreesWithRattle) {
                 run(world, scene, 0.5);
                 return std::pair(world.snapshot(), world.joint_states()[0]);
             };
-            const auto tree = run_with(IntegratorKind::exact, 16), rows = run_with(IntegratorKind::splitting, 16);
+            const auto tree = run_with(IntegratorKind::exact, 16), verlet = run_with(IntegratorKind::splitting, 16);
             for (std::size_t i = 0; i < 2; ++i) {
-                const BodyState &a = tree.first.bodies[i], &b = rows.first.bodies[i];
+                const BodyState &a = tree.first.bodies[i], &b = verlet.first.bodies[i];
                 EXPECT_LT((a.center_of_mass - b.center_of_mass).norm(), 1e-9);
                 EXPECT_LT((a.angular_velocity - b.angular_velocity).norm(), 1e-8);
             }
-            EXPECT_LT((tree.second.force - rows.second.force).norm(), 1e-7);
-            EXPECT_LT((tree.second.torque - rows.second.torque).norm(), 1e-7);
+            EXPECT_LT((tree.second.force - verlet.second.force).norm(), 1e-7);
+            EXPECT_LT((tree.second.torque - verlet.second.torque).norm(), 1e-7);
         }
 }
 

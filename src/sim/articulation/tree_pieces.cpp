@@ -1,4 +1,5 @@
 // TreeFlight: the rest of a step in which a joint breaks.
+#include "core/disjoint_sets.h"
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 #include "sim/joints/gear.h"
@@ -16,12 +17,7 @@ struct Piece {
 // Bodies that joints still connect.
 std::vector<Piece> pieces_of(const TreeStep& step) {
     const std::size_t n = step.island.size();
-    std::vector<std::size_t> root(n);
-    for (std::size_t i = 0; i < n; ++i) root[i] = i;
-    const auto find = [&](std::size_t i) {
-        while (root[i] != i) i = root[i];
-        return i;
-    };
+    DisjointSets sets(n);
     const auto place_of = [&](std::uint32_t body) {
         const auto at = std::lower_bound(step.island.begin(), step.island.end(), body);
         return at != step.island.end() && *at == body ? std::size_t(at - step.island.begin()) : n;
@@ -32,14 +28,13 @@ std::vector<Piece> pieces_of(const TreeStep& step) {
     for (const Joint* joint : step.joints) {
         const std::size_t a = place_of(joint->a), b = place_of(joint->b);
         if (!holds(*joint) || a == n || b == n) continue;
-        const std::size_t first = find(a), second = find(b);
-        root[std::max(first, second)] = std::min(first, second);
+        sets.join(a, b);
     }
     std::vector<Piece> pieces(n);
-    for (std::size_t i = 0; i < n; ++i) pieces[find(i)].bodies.push_back(step.island[i]);
+    for (std::size_t i = 0; i < n; ++i) pieces[sets.root(i)].bodies.push_back(step.island[i]);
     for (Joint* joint : step.joints) {
         const std::size_t a = place_of(joint->a);
-        if (holds(*joint)) pieces[find(a == n ? place_of(joint->b) : a)].joints.push_back(joint);
+        if (holds(*joint)) pieces[sets.root(a == n ? place_of(joint->b) : a)].joints.push_back(joint);
     }
     std::erase_if(pieces, [](const Piece& piece) { return piece.bodies.empty(); });
     return pieces;

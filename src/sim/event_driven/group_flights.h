@@ -1,9 +1,8 @@
 // Flight of groups of joined bodies between events: in each step from its start, or from an impact, to its end.
 //
-// A group that touches nothing moves in joint coordinates where its joints form a tree (tree_flight.h), else by the
-// compositions of RATTLE of order 8 (joint_flight.h). A trajectory through the states at both ends serves the search for
-// impacts; the time of an impact is then refined by flying the group from its start to that time, so it has the accuracy
-// of the flight.
+// A group that touches nothing moves in joint coordinates (tree_flight.h). A trajectory through the states at both ends
+// serves the search for impacts; the time of an impact is then refined by flying the group from its start to that time, so
+// it has the accuracy of the flight.
 #pragma once
 
 #include "sim/articulation/tree_flight.h"

@@ -95,6 +95,9 @@ inline constexpr int tree_most_closures = 64;
 /// JointReference.AFourBarPassesItsSingularPosition.
 inline constexpr double joint_flight_open = 1e-5;
 
+/// Passes after which such a position ends them. Not fitted: others contract by 10 in each.
+inline constexpr int joint_singular_rounds = 8;
+
 /// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
 /// that turn by a radian in a step open their joints by less.
 inline constexpr double joint_clamped_open = 0.1;

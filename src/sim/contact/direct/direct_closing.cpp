@@ -223,6 +223,9 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island) {
         // Friction may change slowly from round to round; the joints are closed all the same.
         if (!constraints_.empty() && round + 1 >= most_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;
+        // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
+        if (loops_ && round >= tuning::joint_singular_rounds && error < tuning::joint_flight_open)
+            return Closing::closed;
         slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
         if (slow == 2 && constraints_.empty() && !stiffened) {
             // A pass leaves R / (R + s^2) of an error, where s^2 is small for heavy bodies on long arms.

@@ -244,7 +244,7 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
         base_kept_ = false;  // joints that gave way are bounded
         const Closing closing = close_joints(part);
         // Shorter steps help the joints, seldom the contacts.
-        const bool alone = closing == Closing::open && constraints_.empty();
+        const bool alone = closing == Closing::open && constraints_.empty() && !loops_;
         const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
         if (closing != Closing::closed && substeps < most) return false;
     } while (joints_.give_way());
@@ -357,7 +357,8 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
     };
     // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces too.
     // So are those of loops: with half of the forces at both ends and fitted velocities they are RATTLE's.
-    cut_ = manifolds.empty() && (fine_integrator(joined_integrator(problem.bodies, bodies)) || has_loops(island));
+    loops_ = manifolds.empty() && has_loops(island);
+    cut_ = loops_ || (manifolds.empty() && fine_integrator(joined_integrator(problem.bodies, bodies)));
     for (bool cut = cut_; !solve_jointed_step(island, manifolds, substeps); cut = cut_) {
         if (cut == cut_) substeps *= 2;
         reset();

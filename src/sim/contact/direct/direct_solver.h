@@ -155,6 +155,7 @@ private:
     std::vector<Start> starts_;
     std::vector<Impulse> part_starts_;     // momenta
     bool cut_ = false;                     // the step is cut where limits with restitution are met
+    bool loops_ = false;                   // without contacts: may pass a singular position, which substeps do not help
     bool in_parts_ = false;                // it is solved in substeps, or cut
     bool kicked_ = false;                  // forces have acted since the rows have kept the velocities
     double estimated_for_ = 0.0;           // s: of the estimates of contacts

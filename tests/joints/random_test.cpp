@@ -1,0 +1,89 @@
+// Random trees and loops of joints with all laws, in the air and on a floor: the state stays finite and in bounds.
+#include "sim/random_shapes.h"
+#include "sim/world.h"
+#include "swept_scenes.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace tumble::random_test {
+using namespace tumble::testing;
+
+namespace {
+
+void add_laws(JointDescription& joint, Random& random) {
+    const bool turns = joint.type == JointType::hinge;
+    if (!turns && joint.type != JointType::slider) return;
+    JointAxis& axis = turns ? joint.turn[0] : joint.move[0];
+    if (random.below(3) == 0) {
+        limit_turn(axis, random(-1.0, -0.003), random(0.003, 1.0));
+        axis.restitution = 0.4 * random.below(3);
+    }
+    if (random.below(4) == 0) axis.friction = random(0.01, 2.0);
+    if (random.below(5) == 0)
+        axis.spring =
+            JointSpring{.stiffness = std::exp(random(0.0, 8.0)), .damping = random.below(2) * random(0.0, 5.0)};
+    if (random.below(7) == 0) {
+        axis.motor.emplace().speed = random(-3.0, 3.0);
+        axis.motor->max_force = random(1.0, 20.0);
+    }
+}
+
+SceneDescription random_scene(std::uint64_t seed) {
+    Random random(seed);
+    SceneDescription scene;
+    constexpr int rates[] = {1, 2, 4};
+    scene.simulation.steps_per_frame = rates[random.below(3)];
+    if (random.below(7) == 0) scene.simulation.gravity.setZero();
+    const int n = 2 + random.below(8);
+    constexpr double speeds[] = {0.0, 1.0, 5.0, 20.0};
+    const double speed = speeds[random.below(4)];
+    for (int i = 0; i < n; ++i) {
+        const Vec3 size(random(0.1, 0.5), random(0.1, 0.5), random(0.1, 0.5)),
+            at(0.6 * i + random(-0.05, 0.05), 1.2 + random(-0.2, 0.5), random(-0.2, 0.2));
+        BodyDescription& box = add_box(scene, size, at, std::exp(random(-2.0, 2.0)));
+        box.rotation = random.turn();
+        box.velocity = random.vector(speed);
+        box.angular_velocity = random.vector(speed);
+        box.friction = 0.5 * random.below(2);
+        box.restitution = 0.0;
+    }
+    constexpr JointType types[] = {JointType::hinge,     JointType::hinge, JointType::ball,       JointType::slider,
+                                   JointType::universal, JointType::fixed, JointType::cylindrical};
+    const bool chain = random.below(2) == 0;
+    for (int i = 1; i < n; ++i) {
+        const int before = chain ? i - 1 : std::max(0, i - 1 - random.below(2));
+        const Vec3 anchor = 0.5 * (scene.bodies[std::size_t(i)].position + scene.bodies[std::size_t(before)].position);
+        JointDescription& joint =
+            add_joint(scene, types[random.below(7)], std::size_t(before), std::size_t(i), anchor, random.direction());
+        add_laws(joint, random);
+        if (random.below(12) == 0) joint.break_force = std::exp(random(2.0, 6.0));
+    }
+    if (chain && n > 2 && random.below(3) == 0)
+        add_joint(scene, JointType::ball, std::size_t(n - 1), 0,
+                  0.5 * (scene.bodies[0].position + scene.bodies[std::size_t(n - 1)].position));
+    if (random.below(10) < 7) add_floor(scene);
+    return scene;
+}
+
+}  // namespace
+
+// Motors give up to 200 W.
+TEST(RandomJoints, StayFiniteAndInBounds) {
+    for (std::uint64_t seed = 1; seed <= 300; ++seed) {
+        const SceneDescription scene = random_scene(seed);
+        World world(scene);
+        double kinetic = 0.0;
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            if (scene.bodies[i].type != BodyType::dynamic) continue;
+            const BodyState state = world.snapshot().bodies[i];
+            kinetic += 0.5 * (state.momentum.dot(state.velocity) + state.angular_momentum.dot(state.angular_velocity)) +
+                       20.0 * state.mass;
+        }
+        EXPECT_NO_THROW(for (int frame = 0; frame < 45; ++frame) world.advance_frame()) << seed;
+        EXPECT_LT(world.measure().kinetic, kinetic + 400.0) << seed;
+    }
+}
+
+}  // namespace tumble::random_test
