@@ -124,7 +124,7 @@ bool IslandFlight::fly(const FlightStep& step, const Group& group, int parts) {
     return true;
 }
 
-// Of the next step, by those of this one. The phase of a swing is proportional to the substep.
+// The number of substeps of the next step. The phase of a swing is proportional to the length of a substep.
 void IslandFlight::set_substeps(const Group& group, int substeps) const {
     const int wait = tree_.strains_energy() ? tuning::joint_wait : std::max(0, group.joints[0]->wait - 1);
     if (wait == 0 && tree_.swing() < tuning::joint_easy_swing && substeps > 1) {

@@ -63,7 +63,8 @@ using NodeKind = TreeNode::Kind;
 
 class JointTree {
 public:
-    /// Whether the joints connect these bodies (indices, ascending), joints with laws close no loop, and the others close few.
+    /// Returns true if the joints connect these bodies (indices, ascending), no joint with laws closes a loop, and the others
+    /// close few.
     /// Then nodes() are those of the present poses. The structure is kept from call to call while bodies and joints stay the
     /// same. `all`: the joints that gears refer to.
     bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints,

@@ -20,7 +20,7 @@ void TreeFlight::carry(double time, bool impulse) {
                     impulse ? velocity : acceleration);
 }
 
-// Whether the velocity of the carrier jumps at the start of the step: a blow, which the rows of the contact solver take.
+// The velocity of the carrier jumps at the start of the step: such a blow is left to the contact solver.
 bool TreeFlight::jolted() const {
     if (!track()) return false;
     const double from = step_->from;

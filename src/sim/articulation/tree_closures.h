@@ -13,8 +13,8 @@ namespace tumble {
 
 class TreeClosures {
 public:
-    /// Of the present poses. Returns false where joints are too wide open, a rope is taut, or steps of `stage` s (0: of any
-    /// length) do not resolve a spring.
+    /// Finds the closure rows at the present poses. Returns false where joints are too wide open, where a rope is taut, or
+    /// where steps of `stage` s do not resolve a spring (0: steps of any length).
     bool find(const JointTree& tree, const TreeStep& step, double stage);
     bool empty() const { return parts_.empty(); }
     bool any_rows() const { return !rows_.empty(); }

@@ -145,8 +145,8 @@ double TreeFlight::kinetic_energy() const {
     return sum;
 }
 
-// Whether Verlet's method has kept the energy of a free tree, or half as many substeps have kept it as well: then the error is
-// rounding.
+// Returns true if Verlet's method has kept the energy of a free tree, or if half as many substeps have kept it as well: then
+// the error is rounding.
 bool TreeFlight::keeps_energy() {
     if (!tree_.is_free() || pushed_ || !springs_.empty() || !closures_.empty()) return true;
     const double now = kinetic_energy(), fall = step_->h * frame_.gravity.norm();

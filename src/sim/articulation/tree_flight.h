@@ -60,14 +60,14 @@ public:
         return advance(step, {method, 2}, substeps);
     }
 
-    /// Whether the joints of the last step have a spanning tree, and whether that is all of them.
+    /// True if the joints of the last step have a spanning tree.
     bool is_tree() const { return tree_.found(); }
     /// Evaluations of the dynamics in the last step.
     int evaluations() const { return evaluations_; }
     /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next one should
     /// have no fewer.
     double swing() const { return swing_; }
-    /// Whether half the substeps would not have kept the energy of the last step.
+    /// True if half the substeps would not have kept the energy of the last step.
     bool strains_energy() const { return strains_energy_; }
 
 private:

@@ -14,7 +14,7 @@ bool has_motors(const Joint& joint);
 bool has_friction(const Joint& joint);  // of a constant bound
 /// Whether each spring, motor and friction of the joint acts along one coordinate of a tree: not those of balls.
 bool acts_along_coordinates(const Joint& joint);
-/// Whether a side of the joint is a body with a prescribed motion.
+/// True if a side of the joint is a body with a prescribed motion.
 bool on_moving_carrier(const Joint& joint, const std::vector<Body>& bodies);
 /// Whether the laws of these joints are those of trees in flight: locks, limits, springs, dampers, friction, and motors with
 /// one target or with a speed and a bound. One joint may hang on a body with a prescribed motion, if no other joint is
