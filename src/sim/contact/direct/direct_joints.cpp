@@ -288,8 +288,9 @@ void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting
 
 // Substeps of the next step, by those of this one.
 int DirectSolver::next_substeps(int substeps) const {
+    const bool shorter_parts_help = constraints_.empty() && !loops_;
     const bool easy =
-        swing_ < tuning::joint_easy_swing && (!constraints_.empty() || rounds_ <= tuning::joint_easy_rounds);
+        swing_ < tuning::joint_easy_swing && (!shorter_parts_help || rounds_ <= tuning::joint_easy_rounds);
     return easy ? std::max(1, substeps / 2) : substeps;
 }
 
