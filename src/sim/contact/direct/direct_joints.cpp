@@ -242,11 +242,12 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
     if (moves_freely(part)) return true;
     do {
         base_kept_ = false;  // joints that gave way are bounded
-        const Closing closing = close_joints(part);
+        const Closing closing = close_joints(part, true);
         // Shorter steps help the joints, seldom the contacts.
         const bool alone = closing == Closing::open && constraints_.empty() && !loops_;
         const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
         if (closing != Closing::closed && substeps < most) return false;
+        if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part);
     } while (joints_.give_way());
     swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
     return !(swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps);

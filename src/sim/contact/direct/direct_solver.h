@@ -97,7 +97,8 @@ private:
     void kick(const JointIsland& part);
     void strike(const JointIsland& part, double ahead, Fitting fitting);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
-    Closing close_joints(const JointIsland& island);
+    Closing close_joints(const JointIsland& island, bool moving);
+    void fit_start(const JointIsland& island);
     double close_contacts(const JointIsland& island);
     bool moves_no_body() const;
     bool comes_to_rest(const JointIsland& island) const;
@@ -161,6 +162,7 @@ private:
     double estimated_for_ = 0.0;           // s: of the estimates of contacts
     double swing_ = 0.0;                   // rad, largest phase of a swing in a substep
     int rounds_ = 0;                       // most passes of a substep
+    double gap_left_ = 0.0;                // largest error of the last pass, in sizes of the joint
     bool consistent_ = true;               // the impulses fit the velocities
     bool joint_friction_softens_ = false;  // the friction of joints is as soft as that of contacts
     bool ties_ = true;                     // contacts about to open or close count as closed in the second derivatives

@@ -236,6 +236,11 @@ void JointRows::keep_estimates() {
         if (!row.soft) row.impulse = row.estimate;
 }
 
+void JointRows::aim_at_start() {
+    for (Row& row : rows_)
+        if (row.law == Joint::lock) row.target = 0.0;
+}
+
 // Pose at the end of the step: a body of the island has it in `ends`, another one moves by its velocity.
 JointSide JointRows::end_of(const JointIsland& island, std::uint32_t body, int place,
                             std::span<const JointSide> ends) const {
