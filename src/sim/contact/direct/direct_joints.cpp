@@ -20,8 +20,15 @@ namespace tumble {
 
 using namespace contact_rows;
 
+// The rows of the joints at the present poses, and the matrix in which they have their places.
+void DirectSolver::load_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds) {
+    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
+    structure(island.problem, island.bodies, manifolds);
+    factored_ = base_kept_ = false;
+}
+
 // The state at the start of a part of the step: forces in equal parts, rows and contacts at the present poses.
-void DirectSolver::load_part(const JointIsland& island, bool first) {
+void DirectSolver::load_part(const JointIsland& island, std::span<const std::uint32_t> manifolds, bool first) {
     const ContactProblem& problem = island.problem;
     const double d = problem.settings.h, share = force_share(island);
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
@@ -37,8 +44,7 @@ void DirectSolver::load_part(const JointIsland& island, bool first) {
         put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
-    factored_ = base_kept_ = false;
-    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(island.joints.size())));
+    load_joints(island, manifolds);
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (!in_parts_) return;
     const double longer = std::min(d / estimated_for_, tuning::direct_longer);
@@ -237,8 +243,7 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
     part_starts_.clear();
     for (const std::uint32_t i : part.bodies)
         part_starts_.push_back({part.problem.bodies[i].momentum, part.problem.bodies[i].angular_momentum});
-    load_part(part, first);
-    structure(part.problem, part.bodies, manifolds);
+    load_part(part, manifolds, first);
     if (moves_freely(part)) return true;
     do {
         base_kept_ = false;  // joints that gave way are bounded
@@ -247,7 +252,7 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
         const bool alone = closing == Closing::open && constraints_.empty() && !loops_;
         const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
         if (closing != Closing::closed && substeps < most) return false;
-        if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part);
+        if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part, manifolds);
     } while (joints_.give_way());
     swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
     return !(swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps);

@@ -90,7 +90,8 @@ private:
     bool solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds, int substeps);
     enum class Fitting { solved, unsolved, rebounds };  // with the rows' impulses or without; rebounds alone
     bool solve_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, int substeps, bool first);
-    void load_part(const JointIsland& part, bool first);
+    void load_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds);
+    void load_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, bool first);
     void give_back_part(const JointIsland& part);
     bool kicks() const { return cut_ && constraints_.empty(); }
     double force_share(const JointIsland& part) const;
@@ -98,7 +99,7 @@ private:
     void strike(const JointIsland& part, double ahead, Fitting fitting);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island, bool moving);
-    void fit_start(const JointIsland& island);
+    void fit_start(const JointIsland& island, std::span<const std::uint32_t> manifolds);
     double close_contacts(const JointIsland& island);
     bool moves_no_body() const;
     bool comes_to_rest(const JointIsland& island) const;

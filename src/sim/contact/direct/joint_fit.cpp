@@ -201,9 +201,8 @@ void DirectSolver::close_poses(const ContactProblem& problem, std::span<const st
     load_bodies(problem, bodies);
     const JointIsland island{problem, bodies, joints, length_, problem.joints->from(), problem.joints->to()};
     joints_.start_step(problem.settings.h, false);
-    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
+    load_joints(island, {});
     joints_.keep_estimates();  // the impulses of the step
-    structure(problem, bodies, {});
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
         const double error = aim_at_gaps(island);
@@ -217,7 +216,7 @@ void DirectSolver::close_poses(const ContactProblem& problem, std::span<const st
             body.derive();
         }
     }
-    joints_.load(island, tuning::joint_compliance / (total_mass_ * double(joints.size())));
+    load_joints(island, {});
     joints_.keep_estimates();
     consistent_ = true;
     kicked_ = false;
