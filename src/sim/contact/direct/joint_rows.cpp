@@ -237,8 +237,10 @@ void JointRows::keep_estimates() {
 }
 
 void JointRows::aim_at_start() {
-    for (Row& row : rows_)
+    for (Row& row : rows_) {
         if (row.law == Joint::lock) row.target = 0.0;
+        row.estimate = 0.0;
+    }
 }
 
 // Pose at the end of the step: a body of the island has it in `ends`, another one moves by its velocity.

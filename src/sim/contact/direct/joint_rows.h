@@ -148,7 +148,7 @@ public:
     /// change and the largest impulse, N s.
     std::pair<double, double> next_round(bool follow);
     void keep_estimates();
-    /// The locks keep their coordinates at the start of the part.
+    /// The locks keep their coordinates at the start of the part, from no impulses on.
     void aim_at_start();
     bool any_friction() const;
     /// Makes the rows of friction `factor` times as compliant as rigid rows.
