@@ -45,6 +45,7 @@ struct Joint {
     // State.
     int substeps = 1;    // of its island in the next step, a power of two
     int wait = 0;        // steps of flight before fewer are tried
+    bool jammed = false;  // the impulses of its last step by rows did not settle: they are no estimate of the next ones
     bool active = true;  // holds in this step
     bool broken = false;
     double broken_at = 0.0;                   // s
@@ -72,11 +73,11 @@ struct Joint {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks, substeps,
-               wait, active, broken, broken_at, value, impulse, curving, force, torque, point, account] = self;
+               wait, jammed, active, broken, broken_at, value, impulse, curving, force, torque, point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
         archive.between(1, substeps, 2 * tuning::joint_swing_substeps);
         archive.between(0, wait, tuning::joint_wait);
-        archive.keep(active, broken, broken_at, value, impulse, curving, force, torque, point, account);
+        archive.keep(jammed, active, broken, broken_at, value, impulse, curving, force, torque, point, account);
     }
 };
 

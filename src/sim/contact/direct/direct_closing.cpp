@@ -186,6 +186,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
     const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
     const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
     consistent_ = true;
+    settled_ = false;
     limits_held_ = false;
     const double most_turn = tuning::joint_corner_turn / island.problem.settings.h;  // rad/s
     const bool turns = std::any_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
@@ -233,7 +234,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
         const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance
                                  : near_rest_         ? tuning::joint_rest_tolerance
                                                       : tuning::direct_round_tolerance;
-        const bool settled =
+        const bool settled = settled_ =
             change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
         if (!constraints_.empty() && (settled || moves_no_body()) && error < tuning::joint_contact_settled &&

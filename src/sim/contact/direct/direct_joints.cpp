@@ -45,6 +45,8 @@ void DirectSolver::load_part(const JointIsland& island, std::span<const std::uin
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
     load_joints(island, manifolds);
+    if (!joints_.estimated())
+        for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.estimate = 0.0; });
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (!in_parts_) return;
     const double longer = std::min(d / estimated_for_, tuning::direct_longer);
@@ -93,7 +95,7 @@ void DirectSolver::move_contact(ConstraintRows& constraint, const ContactProblem
 bool DirectSolver::moves_freely(const JointIsland& island) {
     if (speed_scale_ > tuning::direct_rounding * fastest_) return false;
     velocity_ = free_;
-    consistent_ = true;
+    consistent_ = settled_ = true;
     joints_.evaluate_speeds(velocity_);
     predict_ends(island, false);
     if (joints_.close(island, ends_) <= std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_)))
@@ -110,7 +112,7 @@ void DirectSolver::apply_solution(const JointIsland& island) {
         std::vector<bool> reached(island.bodies.size(), true);
         apply_contacts(island.problem, reached);
     }
-    joints_.store(island, consistent_);
+    joints_.store(island, consistent_, settled_ || constraints_.empty());
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = bodies[island.bodies[k]];
         if (!consistent_) {

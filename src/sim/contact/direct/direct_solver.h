@@ -165,6 +165,7 @@ private:
     int rounds_ = 0;                       // most passes of a substep
     double gap_left_ = 0.0;                // largest error of the last pass, in sizes of the joint
     bool consistent_ = true;               // the impulses fit the velocities
+    bool settled_ = true;                  // the rounds have ended with impulses that no longer change
     bool joint_friction_softens_ = false;  // the friction of joints is as soft as that of contacts
     bool ties_ = true;                     // contacts about to open or close count as closed in the second derivatives
     bool near_rest_ = false;               // see comes_to_rest()

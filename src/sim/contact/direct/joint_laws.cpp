@@ -57,7 +57,7 @@ void JointRows::push_row(const Row& row) {
     double last = j.impulse[row.coordinate][row.law];
     // A flight by Verlet's method leaves the force alone.
     if (last == 0.0 && row.law == Joint::lock) last = h_ * row.direction.dot(row.turns() ? j.torque : j.force);
-    if (!row.soft && (tree_ || row.law != Joint::lock))
+    if (!row.soft && !j.jammed && (tree_ || row.law != Joint::lock))
         added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }
 

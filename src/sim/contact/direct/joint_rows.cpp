@@ -236,6 +236,10 @@ void JointRows::keep_estimates() {
         if (!row.soft) row.impulse = row.estimate;
 }
 
+bool JointRows::estimated() const {
+    return std::none_of(blocks_.begin(), blocks_.end(), [&](const Block& block) { return joint(block).jammed; });
+}
+
 void JointRows::aim_at_start() {
     for (Row& row : rows_) {
         if (row.law == Joint::lock) row.target = 0.0;
@@ -375,13 +379,14 @@ double JointRows::close_push(const JointIsland& island, std::span<const JointSid
     return worst;
 }
 
-void JointRows::store(const JointIsland& island, bool apply) {
+void JointRows::store(const JointIsland& island, bool apply, bool settled) {
     if (!apply)
         for (Row& row : rows_) row.impulse = 0.0;
     part_ = h_;
     for (const Block& block : blocks_) {
         Joint& j = joint(block);
         j.impulse = {};
+        j.jammed = !settled;
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;

@@ -99,6 +99,8 @@ public:
     std::span<Row> rows() { return rows_; }
     std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
     double length() const { return length_; }  // m, of the island
+    /// Whether the impulses of the last step are estimates.
+    bool estimated() const;
     /// Whether the joints form no loop: else their impulses are not unique, and those of the last step no estimate.
     bool tree() const { return tree_; }
     std::span<Block> blocks() { return blocks_; }
@@ -205,7 +207,8 @@ public:
     void break_under_loads(const JointIsland& island);
 
     /// Gives the impulses to the bodies and keeps them with the joints. Without `apply` all are zero.
-    void store(const JointIsland& island, bool apply);
+    /// `settled`: the impulses are estimates of the next ones.
+    void store(const JointIsland& island, bool apply, bool settled);
     /// Adds the impulses of the rows to the momenta of the bodies.
     void give(const JointIsland& island) const;
 
