@@ -43,10 +43,6 @@ inline constexpr int joint_swing_substeps = 1024;
 inline constexpr int joint_open_substeps = 64;
 inline constexpr int joint_stuck_substeps = 4;
 
-/// Passes up to which a step counts as easy: the next one is tried with half the substeps. Not fitted: the number changes
-/// the cost alone.
-inline constexpr int joint_easy_rounds = 6;
-
 /// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
 /// a singular position, as of a taut chain, it is closed by displacements up to half the square root of this times as
 /// large.

@@ -221,7 +221,6 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
             return found && last < rounding ? Closing::closed : Closing::stuck;
         }
         found = true;
-        rounds_ = std::max(rounds_, round + 1);
         const auto [change, largest] = next_round();
         std::fill(push_.begin(), push_.end(), 0.0);
         predict_ends(island, false);

@@ -187,7 +187,6 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
         }
     std::vector<double> sums;
     swing_ = 0.0;
-    rounds_ = 0;
     int cuts = 0;
     bool first = true;
     for (int substep = 0; substep < substeps; ++substep)
@@ -296,10 +295,7 @@ void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting
 
 // Substeps of the next step, by those of this one.
 int DirectSolver::next_substeps(int substeps) const {
-    const bool shorter_parts_help = constraints_.empty() && !loops_;
-    const bool easy =
-        swing_ < tuning::joint_easy_swing && (!shorter_parts_help || rounds_ <= tuning::joint_easy_rounds);
-    return easy ? std::max(1, substeps / 2) : substeps;
+    return swing_ < tuning::joint_easy_swing ? std::max(1, substeps / 2) : substeps;
 }
 
 namespace {

@@ -162,7 +162,6 @@ private:
     bool kicked_ = false;                  // forces have acted since the rows have kept the velocities
     double estimated_for_ = 0.0;           // s: of the estimates of contacts
     double swing_ = 0.0;                   // rad, largest phase of a swing in a substep
-    int rounds_ = 0;                       // most passes of a substep
     double gap_left_ = 0.0;                // largest error of the last pass, in sizes of the joint
     bool consistent_ = true;               // the impulses fit the velocities
     bool settled_ = true;                  // the rounds have ended with impulses that no longer change
