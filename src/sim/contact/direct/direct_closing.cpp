@@ -207,7 +207,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
         if (!step_linear() && !minimize(most_steps)) {
             if (found) {
                 velocity_ = kept_;
-                joints_.keep_estimates();
+                joints_.return_to(velocity_);
                 for (ConstraintRows& constraint : constraints_)
                     each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
             }

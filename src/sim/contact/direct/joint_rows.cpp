@@ -236,6 +236,14 @@ void JointRows::keep_estimates() {
         if (!row.soft) row.impulse = row.estimate;
 }
 
+void JointRows::return_to(const std::vector<double>& u) {
+    evaluate_speeds(u);
+    keep_estimates();
+    for (Row& row : rows_)
+        if (row.soft)
+            row.impulse = std::clamp(row.estimate + (row.target - row.speed) / row.compliance, row.least, row.most);
+}
+
 bool JointRows::estimated() const {
     return std::none_of(blocks_.begin(), blocks_.end(), [&](const Block& block) { return joint(block).jammed; });
 }

@@ -150,6 +150,8 @@ public:
     /// change and the largest impulse, N s.
     std::pair<double, double> next_round(bool follow);
     void keep_estimates();
+    /// The impulses of the last round, whose velocities are u: soft rows follow them.
+    void return_to(const std::vector<double>& u);
     /// The locks keep their coordinates at the start of the part, from no impulses on.
     void aim_at_start();
     bool any_friction() const;
