@@ -186,12 +186,14 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
             if (cut_) body.derive_velocities();
         }
     std::vector<double> sums;
+    const double scale_of_step = speed_scale_;
     swing_ = 0.0;
     int cuts = 0;
     bool first = true;
     for (int substep = 0; substep < substeps; ++substep)
         for (double done = 0.0; done < d;) {
             const double from = island.from + substep * d + done;
+            speed_scale_ = scale_of_step;
             ConstraintSettings settings = step.settings;
             settings.h = d - done;
             const ContactProblem problem{step.bodies, step.manifolds, step.before, settings, step.totals, step.joints};
