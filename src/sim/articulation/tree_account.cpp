@@ -191,11 +191,33 @@ bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
             Behind& next = behind_[std::size_t(above)];
             next.momentum += b.momentum;
             next.moment += b.moment;
-            next.work += b.work;
         }
         if (!settle(*step_->joints[std::size_t(index)], index, b)) return false;
     }
     return true;
+}
+
+// A joint gives its first body the work of its laws, less that which it gives to the bodies behind it.
+void TreeAccount::give_work() {
+    const auto order = tree_.order();
+    for (std::size_t k = order.size(); k-- > 0;) {
+        const auto [body, index] = order[k];
+        if (index == TreeNode::no_joint) continue;
+        Joint& joint = *step_->joints[std::size_t(index)];
+        JointAccount::Span& step = joint.account.step;
+        const double behind = behind_[std::size_t(body)].work,
+                     before = step.work.springs + step.work.motors - step.work.heat - step.work.impacts - behind;
+        const bool second = joint.b == step_->island[std::size_t(body)];
+        (second ? step.work_b : step.work_a) = behind;
+        double& other = second ? step.work_a : step.work_b;
+        if (const int above = tree_.parent_of(index); above != TreeNode::no_body) {
+            behind_[std::size_t(above)].work -= before;
+            other = before;
+        } else if (carrier_ != Joint::world) {
+            step.work.carriers = -before;
+            other = before;
+        }
+    }
 }
 
 // At the end of the step.
@@ -241,10 +263,8 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
         joint.broken = true;
         joint.broken_at = step_->from + h;
     }
-    const bool on_ground = tree_.parent_of(index) == TreeNode::no_body;
-    const double on_child = behind.work, on_parent = on_ground ? 0.0 : -behind.work;
     joint.account.step = {};
-    joint.account.step.add_flight(load, second ? on_parent : on_child, second ? on_child : on_parent);
+    joint.account.step.add_flight(load, 0.0, 0.0);
     return true;
 }
 

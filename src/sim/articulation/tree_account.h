@@ -60,6 +60,8 @@ public:
     /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false where
     /// a limit is violated or a joint is loaded well beyond its strength.
     bool finish(std::span<const PushedImpulse> pushed);
+    /// Then, once the joints have the work of their laws: their work on both bodies, and that of a carrier.
+    void give_work();
 
 private:
     struct Sample {

@@ -41,15 +41,4 @@ double TreeFlight::next_change(double now) const {
     return key < next - rounding ? key : next;
 }
 
-// The work of the joint that the root hangs on is the carrier's, but for its laws.
-void TreeFlight::account_for_carrier() {
-    if (!track()) return;
-    Joint& joint = *step_->joints[std::size_t(tree_.hung())];
-    JointAccount::Span& step = joint.account.step;
-    const bool first = joint.a == tree_.carrier();
-    const double given = step.work.springs + step.work.motors - step.work.heat - step.work.impacts;
-    step.work.carriers = (first ? step.work_b : step.work_a) - given;
-    (first ? step.work_a : step.work_b) = -step.work.carriers;
-}
-
 }  // namespace tumble

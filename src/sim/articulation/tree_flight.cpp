@@ -473,7 +473,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     springs_.account(*own_, y_.data(), y_.data() + heats_);
     friction_.account(*own_, dynamics_, y_.data(), y_.data() + works_);
     limits_.account(*own_, dynamics_);
-    account_for_carrier();
+    account_->give_work();
     return Outcome::flown;
 }
 

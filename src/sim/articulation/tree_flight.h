@@ -90,7 +90,6 @@ private:
     void carry(double time, bool impulse = false);
     bool jolted() const;
     double next_change(double now) const;
-    void account_for_carrier();
     const KeyframeTrack* track() const {
         return tree_.carrier() == Joint::world ? nullptr : step_->bodies[tree_.carrier()].track.get();
     }
