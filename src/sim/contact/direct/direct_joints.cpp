@@ -112,7 +112,7 @@ void DirectSolver::apply_solution(const JointIsland& island) {
         std::vector<bool> reached(island.bodies.size(), true);
         apply_contacts(island.problem, reached);
     }
-    joints_.store(island, consistent_, settled_ || constraints_.empty());
+    joints_.store(island, consistent_, estimates());
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = bodies[island.bodies[k]];
         if (!consistent_) {
@@ -257,7 +257,7 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
         if (closing != Closing::closed && substeps < most) return false;
         if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part, manifolds);
     } while (joints_.give_way());
-    swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
+    if (estimates()) swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
     return !(swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps);
 }
 
