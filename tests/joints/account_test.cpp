@@ -1,5 +1,5 @@
 // Forces and energies that the tables show: against closed forms and conservation.
-#include "joint_scenes.h"
+#include "swept_scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -160,6 +160,28 @@ TEST(JointAccount, ThePendulumPullsAtTheBottom) {
         most = std::max(most, world.joint_states()[0].force.norm());
     }
     EXPECT_NEAR(most, 24.4883042394014963, 1e-2);
+}
+
+// The root of a flight gets the work of the laws: where it has touched something, its loss is not booked twice.
+TEST(JointAccount, ALimitIsBookedOnceWhereTheRootHasTouched) {
+    SceneDescription scene;
+    scene.simulation.steps_per_frame = 64;
+    scene.simulation.sleep = false;
+    add_floor(scene);
+    scene.bodies.back().restitution = 0.8;
+    for (int i = 0; i < 2; ++i) {
+        BodyDescription& box = add_box(scene, {0.4, 0.1, 0.1}, {0.5 * i, 0.4, 0.0});
+        box.restitution = 0.8;
+        box.friction = 0.0;
+    }
+    scene.bodies[2].angular_velocity = {0.0, 0.0, -12.0};
+    scene.bodies[2].velocity = {0.0, -3.0, 0.0};
+    JointAxis& axis = add_joint(scene, JointType::hinge, 1, 2, {0.25, 0.4, 0.0}, Vec3::UnitZ()).turn[0];
+    limit_turn(axis, -0.3, 0.3);
+    axis.restitution = 0.5;
+    World world(scene);
+    EXPECT_LT(largest_error(world, 40), 0.05);
+    EXPECT_GT(world.contact_records().energy.impact_loss, 3.0);
 }
 
 }  // namespace

@@ -95,5 +95,37 @@ TEST(JointFit, StepsByRowsAddNoEnergy) {
             }
 }
 
+// CCD stops an island within the step, at poses that its velocities do not fit.
+TEST(JointFit, AChainThatCcdStopsFitsItsJoints) {
+    SceneDescription scene = empty_scene(1);
+    scene.simulation.sleep = false;
+    add_box(scene, {0.1, 4.0, 4.0}, {2.0, 0.0, 0.0}).type = BodyType::fixed;
+    for (int i = 0; i < 4; ++i) {
+        BodyDescription& box = add_box(scene, {0.2, 0.2, 0.2}, {0.5 * i - 1.5, 0.0, 0.05 * i});
+        box.velocity = {60.0, 0.0, 0.0};
+        box.angular_velocity = {10.0, 5.0 * i, -8.0};
+        box.restitution = 0.5;
+        if (i > 0) add_joint(scene, JointType::ball, std::size_t(i), std::size_t(i + 1), {0.5 * i - 1.75, 0.0, 0.0});
+    }
+    World world(scene);
+    const auto misfit = [&] {
+        const Snapshot& now = world.snapshot();
+        double most = 0.0;
+        for (std::size_t k = 0; k < scene.joints.size(); ++k) {
+            const Vec3 point = world.joint_states()[k].point;
+            const auto velocity = [&](std::size_t i) {
+                const BodyState& body = now.bodies[i];
+                return Vec3(body.velocity + body.angular_velocity.cross(point - body.center_of_mass));
+            };
+            most = std::max(most, (velocity(k + 2) - velocity(k + 1)).norm());
+        }
+        return most;
+    };
+    for (int frame = 0; frame < 12; ++frame) {
+        world.advance_frame();
+        EXPECT_LT(misfit(), 1e-9) << frame;
+    }
+}
+
 }  // namespace
 }  // namespace tumble::fit_test

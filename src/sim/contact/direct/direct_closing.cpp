@@ -161,9 +161,8 @@ double DirectSolver::close_contacts(const JointIsland& island) {
 // Where the passes do not converge, as where contacts and joints exclude each other, the last one would leave large impulses
 // and their energy. The velocities then fit joints and contacts at the start of the part: a projection that gains no energy,
 // and leaves gaps of second order.
-void DirectSolver::fit_start(const JointIsland& island, std::span<const std::uint32_t> manifolds) {
-    load_joints(island, manifolds);
-    joints_.aim_at_start();
+void DirectSolver::fit_start(const JointIsland& island) {
+    joints_.aim_at_start(island);
     for (ConstraintRows& constraint : constraints_) {
         each_row(constraint, [](Row& row) { row.estimate = 0.0; });
         for (int i = 0; i < constraint.count; ++i) {

@@ -255,7 +255,7 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
         const bool alone = closing == Closing::open && constraints_.empty() && !loops_;
         const int most = alone ? tuning::joint_open_substeps : tuning::joint_stuck_substeps;
         if (closing != Closing::closed && substeps < most) return false;
-        if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part, manifolds);
+        if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part);
     } while (joints_.give_way());
     if (estimates()) swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
     return !(swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps);

@@ -101,7 +101,7 @@ private:
     void strike(const JointIsland& part, double ahead, Fitting fitting);
     enum class Closing { closed, open, stuck };  // open: passes do not converge; stuck: Newton's steps do not
     Closing close_joints(const JointIsland& island, bool moving);
-    void fit_start(const JointIsland& island, std::span<const std::uint32_t> manifolds);
+    void fit_start(const JointIsland& island);
     double close_contacts(const JointIsland& island);
     bool moves_no_body() const;
     bool comes_to_rest(const JointIsland& island) const;

@@ -249,10 +249,20 @@ bool JointRows::estimated() const {
     return std::none_of(blocks_.begin(), blocks_.end(), [&](const Block& block) { return joint(block).jammed; });
 }
 
-void JointRows::aim_at_start() {
-    for (Row& row : rows_) {
-        if (row.law == Joint::lock) row.target = 0.0;
-        row.estimate = 0.0;
+void JointRows::aim_at_start(const JointIsland& island) {
+    for (const Block& block : blocks_) {
+        if (block.breaks) continue;
+        const Joint& j = joint(block);
+        JointGeometry g;
+        if (!block.gear) g = measure(j, side_at(island, j.a), side_at(island, j.b));
+        for (std::size_t k = block.first; k < block.first + block.count; ++k) {
+            Row& row = rows_[k];
+            row.estimate = 0.0;
+            if (row.law == Joint::lock) row.target = 0.0;
+            if (!is_limit(row) || !row.closes) continue;
+            const double value = row.law == Joint::cone ? g.swing.value : g.coordinates[row.coordinate].value;
+            row.target = (row.turns() ? length_ : 1.0) * (row.reference - value) / h_;
+        }
     }
 }
 

@@ -152,8 +152,8 @@ public:
     void keep_estimates();
     /// The impulses of the last round, whose velocities are u: soft rows follow them.
     void return_to(const std::vector<double>& u);
-    /// The locks keep their coordinates at the start of the part, from no impulses on.
-    void aim_at_start();
+    /// From no impulses on, the locks keep their coordinates at the start of the part, and limits take their room.
+    void aim_at_start(const JointIsland& island);
     bool any_friction() const;
     /// Makes the rows of friction `factor` times as compliant as rigid rows.
     void soften_friction(double factor);
