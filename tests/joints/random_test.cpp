@@ -101,10 +101,10 @@ SceneDescription jammed_pair(std::uint64_t seed) {
     SceneDescription scene = empty_scene();
     scene.simulation.steps_per_frame = 1;
     const auto add = [&](const Vec3& at) {
-        BodyDescription& body =
-            random.below(2) == 0
-                ? add_box(scene, {random(0.1, 0.25), random(0.1, 0.25), random(0.1, 0.25)}, at, std::exp(random(-1.0, 2.0)))
-                : add_sphere(scene, random(0.06, 0.12), at, std::exp(random(-1.0, 2.0)));
+        BodyDescription& body = random.below(2) == 0
+                                    ? add_box(scene, {random(0.1, 0.25), random(0.1, 0.25), random(0.1, 0.25)}, at,
+                                              std::exp(random(-1.0, 2.0)))
+                                    : add_sphere(scene, random(0.06, 0.12), at, std::exp(random(-1.0, 2.0)));
         body.velocity = random.vector(2.0);
         body.angular_velocity = random.vector(6.0);
         body.restitution = 0.3 * random.below(3);

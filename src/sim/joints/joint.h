@@ -43,10 +43,10 @@ struct Joint {
     JointLocks locks;
 
     // State.
-    int substeps = 1;    // of its island in the next step, a power of two
-    int wait = 0;        // steps of flight before fewer are tried
+    int substeps = 1;     // of its island in the next step, a power of two
+    int wait = 0;         // steps of flight before fewer are tried
     bool jammed = false;  // the impulses of its last step by rows did not settle: they are no estimate of the next ones
-    bool active = true;  // holds in this step
+    bool active = true;   // holds in this step
     bool broken = false;
     double broken_at = 0.0;                   // s
     std::array<double, coordinates> value{};  // m and rad, with whole turns counted; at the end of the last step
