@@ -1,5 +1,6 @@
 #include "output/clip_reader.h"
 
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
 #include "core/safe_text.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -60,18 +60,10 @@ ClipReader::ClipReader(const fs::path& clip, std::optional<double> fps)
 ClipReader::~ClipReader() { stop(); }
 
 void ClipReader::start(bool with_alpha_decoder) {
-    std::array<int, 2> ends{};
-    if (::pipe2(ends.data(), O_CLOEXEC) != 0)
-        throw RunError(fmt::format("cannot make a pipe: {}", std::strerror(errno)));
-    ::fcntl(ends[0], F_SETPIPE_SZ, int(buffer_bytes));
-    pipe_ = ends[0];
-    try {
-        process_ = std::make_unique<Process>(ffmpeg_, arguments_for(clip_, fps_, with_alpha_decoder), ends[1]);
-    } catch (...) {
-        ::close(ends[1]);
-        throw;
-    }
-    ::close(ends[1]);
+    Pipe pipe;
+    ::fcntl(pipe.read_end(), F_SETPIPE_SZ, int(buffer_bytes));
+    process_ = std::make_unique<Process>(ffmpeg_, arguments_for(clip_, fps_, with_alpha_decoder), pipe.write_end());
+    pipe_ = pipe.take_read();
 }
 
 void ClipReader::stop() {

@@ -1,5 +1,6 @@
 #include "output/process.h"
 
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 
@@ -40,26 +41,6 @@ constexpr std::size_t pipe_bytes = 1 << 20;     // the largest pipe that a user 
 constexpr std::size_t kept_output = 1 << 16;    // bytes of a program's standard output
 // ms between checks for the end of a program whose pipes are silent, because other processes may hold those open.
 constexpr int poll_period = 20;
-
-/// Both ends of a pipe, closed by the destructor unless taken.
-struct Pipe {
-    int read = -1, write = -1;
-    Pipe() {
-        int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) != 0)
-            throw RunError("cannot make a pipe: " + std::generic_category().message(errno));
-        read = ends[0];
-        write = ends[1];
-    }
-    ~Pipe() {
-        if (read >= 0) ::close(read);
-        if (write >= 0) ::close(write);
-    }
-    Pipe(const Pipe&) = delete;
-    Pipe& operator=(const Pipe&) = delete;
-    int take_read() { return std::exchange(read, -1); }
-    int take_write() { return std::exchange(write, -1); }
-};
 
 /// Starts the program with these descriptors as standard input, output and error (-1: nothing to read, or output is
 /// dropped).
@@ -205,9 +186,11 @@ std::string ProcessEnd::describe() const {
 
 Process::Process(const fs::path& program, const std::vector<std::string>& arguments, std::optional<int> output) {
     Pipe input, errors;
-    ::fcntl(input.write, F_SETPIPE_SZ, int(pipe_bytes));  // refused beyond the user's limit; the pipe then stays small
-    ::fcntl(input.write, F_SETFL, O_NONBLOCK);  // this end only, so that waiting for the program also notices its end
-    id_ = start(program, arguments, input.read, output.value_or(-1), errors.write);
+    // Refused beyond the user's limit; the pipe then stays small.
+    ::fcntl(input.write_end(), F_SETPIPE_SZ, int(pipe_bytes));
+    // This end only, so that waiting for the program also notices its end.
+    ::fcntl(input.write_end(), F_SETFL, O_NONBLOCK);
+    id_ = start(program, arguments, input.read_end(), output.value_or(-1), errors.write_end());
     input_ = input.take_write();
     error_pipe_ = errors.take_read();
 }
@@ -316,9 +299,9 @@ ProgramOutput listen_to(pid_t id, int pipe, const std::function<bool()>& stop) {
 ProgramOutput run_program(const fs::path& program, const std::vector<std::string>& arguments,
                           const std::function<bool()>& stop) {
     Pipe output;
-    const pid_t id = start(program, arguments, -1, output.write, -1);
-    ::close(output.take_write());
-    return listen_to(id, output.read, stop);
+    const pid_t id = start(program, arguments, -1, output.write_end(), -1);
+    output.close_write();
+    return listen_to(id, output.read_end(), stop);
 }
 
 std::optional<std::string> output_of(const fs::path& program, const std::vector<std::string>& arguments) {

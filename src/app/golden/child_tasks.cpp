@@ -1,15 +1,14 @@
 #include "app/golden/child_tasks.h"
 
 #include "core/check.h"
+#include "core/child_process.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/process.h"
 
 #include <fmt/format.h>
 
-#include <fcntl.h>
 #include <poll.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -17,7 +16,6 @@
 #include <exception>
 #include <memory>
 #include <new>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -26,15 +24,6 @@ namespace {
 
 constexpr int poll_period = 50;           // ms between checks for an interrupt
 constexpr char done = 'd', failed = 'f';  // the first byte of a child's text
-
-void write_all(int file, std::string_view text) {
-    while (!text.empty()) {
-        const ssize_t n = ::write(file, text.data(), text.size());
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) return;  // no parent is left to read it
-        text.remove_prefix(std::size_t(n));
-    }
-}
 
 TaskEnd end_of(const std::function<std::string()>& task) {
     try {
@@ -54,25 +43,14 @@ TaskEnd end_of(const std::function<std::string()>& task) {
 class Child {
 public:
     Child(std::size_t index, const std::function<std::string(std::size_t)>& task) : index_(index) {
-        int ends[2];
-        if (::pipe2(ends, O_CLOEXEC) != 0) fail("cannot make a pipe");
-        const pid_t parent = ::getpid();
-        id_ = ::fork();
-        if (id_ < 0) {
-            ::close(ends[0]);
-            ::close(ends[1]);
-            fail("cannot start a process");
-        }
-        if (id_ == 0) {
-            ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-            if (::getppid() != parent) ::_exit(1);
-            ::close(ends[0]);
+        Pipe pipe;
+        id_ = fork_child({.end_signal = SIGTERM, .own_group = false}, [&] {
+            pipe.close_read();
             const TaskEnd end = end_of([&] { return task(index); });
-            write_all(ends[1], (end.ok ? done : failed) + end.text);
-            ::_exit(0);
-        }
-        ::close(ends[1]);
-        pipe_ = ends[0];
+            write_all(pipe.write_end(), (end.ok ? done : failed) + end.text);
+            return 0;
+        });
+        pipe_ = pipe.take_read();
     }
     ~Child() {
         if (pipe_ >= 0) ::close(pipe_);
@@ -101,10 +79,6 @@ public:
     }
 
 private:
-    [[noreturn]] static void fail(const char* problem) {
-        throw RunError(fmt::format("{}: {}", problem, std::generic_category().message(errno)));
-    }
-
     std::size_t index_;
     pid_t id_ = -1;
     int pipe_ = -1;

@@ -1,16 +1,15 @@
 #include "app/workers/worker_process.h"
 
+#include "core/child_process.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
 
 #include <malloc.h>
 #include <signal.h>
-#include <sys/prctl.h>
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
@@ -22,13 +21,7 @@ constexpr int largest_kept_block = 4 << 20, kept_memory = 32 << 20;  // bytes
 constexpr auto longest_end = std::chrono::seconds(1);  // of a worker without a job, which takes milliseconds
 
 /// Call it before the first OpenGL call.
-void become_worker(pid_t program) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);  // a worker that hangs or was stopped ends with the program as well
-    if (::getppid() != program) ::_exit(0);
-    ::setpgid(0, 0);  // Ctrl-C must reach it only through the program
-    sigset_t none;
-    sigemptyset(&none);
-    ::sigprocmask(SIG_SETMASK, &none, nullptr);
+void become_worker() {
     // Keeps freed memory for the next frame: returned to the system, it would come back as hundreds of new pages.
     // Larger blocks are returned.
     ::mallopt(M_MMAP_THRESHOLD, largest_kept_block);
@@ -43,25 +36,21 @@ WorkerProcess::WorkerProcess(const char* purpose, std::span<const int> other_soc
     int ends[2];
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends) != 0)
         throw RunError("cannot make a socket: " + std::generic_category().message(errno));
-    std::fflush(nullptr);
-    const pid_t program = ::getpid();
-    id_ = ::fork();
-    if (id_ == 0) {
-        become_worker(program);
-        // A copy of the program's end of a socket in this process would keep the other worker from noticing the
-        // program's end.
-        ::close(ends[0]);
-        for (const int socket : other_sockets) ::close(socket);
-        ::_exit(work(ends[1]));  // no destructors of the parent's objects, no second flush of its streams
+    try {
+        id_ = fork_child({}, [&] {
+            become_worker();
+            // A copy of the program's end of a socket in this process would keep the other worker from noticing the
+            // program's end.
+            ::close(ends[0]);
+            for (const int socket : other_sockets) ::close(socket);
+            return work(ends[1]);
+        });
+    } catch (const RunError& error) {
+        for (const int end : ends) ::close(end);
+        throw RunError(fmt::format("{} for {}", error.message(), purpose));
     }
-    const int error = errno;
     ::close(ends[1]);
     socket_ = ends[0];
-    if (id_ < 0) {
-        ::close(socket_);
-        throw RunError(
-            fmt::format("cannot start a process for {}: {}", purpose, std::generic_category().message(error)));
-    }
 }
 
 WorkerProcess::~WorkerProcess() {

@@ -55,13 +55,15 @@ double viewing_distance(const SceneDescription& description, const RenderScene& 
 
 double fog_distance(const SceneDescription& description, const RenderScene& scene, double viewing_distance) {
     double distance = half_fog * viewing_distance;
-    const auto seen_from = [&](const CameraDescription& camera) {
+    CameraDescription camera = description.camera;
+    camera.keyframes.clear();
+    const auto seen_from_camera = [&] {
         const Camera view(camera, description.output.width, description.output.height);
         const double least_slope = large_part * view.pixel_size() * view.height();  // of a body's width to its distance
         const auto add = [&](const RenderBody& proxy, const Vec3& origin, const Quat& rotation) {
             const Vec3 center = view.relative(origin + rotation * proxy.bound_center);
             const bool large = 2.0 * proxy.bound_radius >= least_slope * center.norm();
-            if (large && (camera.moves() || view.sees(center, proxy.bound_radius)))
+            if (large && (description.camera.moves() || view.sees(center, proxy.bound_radius)))
                 distance = std::max(distance, beyond_large * gap_to(camera.eye, proxy, origin, rotation, scene));
         };
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -71,13 +73,12 @@ double fog_distance(const SceneDescription& description, const RenderScene& scen
             for (const Keyframe& key : description.bodies[i].keyframes) add(proxy, key.position, key.rotation);
         }
     };
-    if (description.camera.keyframes.empty()) seen_from(description.camera);
+    if (description.camera.keyframes.empty()) seen_from_camera();
     for (const CameraKeyframe& key : description.camera.keyframes) {
-        CameraDescription camera = description.camera;
         camera.eye = key.eye;
         camera.target = key.target;
         camera.vertical_fov = key.vertical_fov;
-        seen_from(camera);
+        seen_from_camera();
     }
     return distance;
 }

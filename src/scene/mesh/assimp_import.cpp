@@ -1,5 +1,7 @@
 #include "scene/mesh/assimp_import.h"
 
+#include "core/child_process.h"
+#include "core/error.h"
 #include "scene/mesh/mesh_transform.h"
 
 #include <assimp/postprocess.h>
@@ -9,7 +11,6 @@
 #include <assimp/Importer.hpp>
 
 #include <fcntl.h>
-#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,7 +21,6 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
-#include <system_error>
 #include <vector>
 
 namespace tumble {
@@ -100,26 +100,18 @@ MeshFile import(std::string_view bytes, const std::string& extension) {
 
 constexpr char is_mesh = 'm', is_error = 'e';
 
-void write_all(int file, const void* data, std::size_t size) {
-    const char* at = static_cast<const char*>(data);
-    while (size > 0) {
-        const ssize_t n = ::write(file, at, size);
-        if (n < 0 && errno == EINTR) continue;
-        if (n <= 0) ::_exit(1);  // no parent is left to read it
-        at += n;
-        size -= static_cast<std::size_t>(n);
-    }
+void write_bytes(int file, const void* data, std::size_t size) {
+    if (!write_all(file, {static_cast<const char*>(data), size})) ::_exit(1);
 }
 
 template <class T>
 void write_list(int file, const std::vector<T>& list) {
     const std::uint64_t count = list.size();
-    write_all(file, &count, sizeof count);
-    write_all(file, list.data(), list.size() * sizeof(T));
+    write_bytes(file, &count, sizeof count);
+    write_bytes(file, list.data(), list.size() * sizeof(T));
 }
 
-[[noreturn]] void run_child(std::string_view bytes, const std::string& extension, int result) {
-    ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+int run_child(std::string_view bytes, const std::string& extension, int result) {
     const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
     for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
     const rlimit no_core{0, 0};
@@ -136,17 +128,17 @@ void write_list(int file, const std::vector<T>& list) {
     ::alarm(import_seconds);
     try {
         const MeshFile mesh = import(bytes, extension);
-        write_all(result, &is_mesh, 1);
+        write_bytes(result, &is_mesh, 1);
         write_list(result, mesh.positions);
         write_list(result, mesh.triangles);
         write_list(result, mesh.objects);
     } catch (const std::bad_alloc&) {
-        ::_exit(ENOMEM);
+        return ENOMEM;
     } catch (const std::exception& error) {
-        write_all(result, &is_error, 1);
-        write_all(result, error.what(), std::strlen(error.what()));
+        write_bytes(result, &is_error, 1);
+        write_bytes(result, error.what(), std::strlen(error.what()));
     }
-    ::_exit(0);
+    return 0;
 }
 
 /// The child's end of the pipe closes when the child ends, even if it crashes.
@@ -218,19 +210,16 @@ bool assimp_reads(const std::string& extension) {
 }
 
 MeshFile import_with_assimp(std::string_view bytes, const std::string& extension) {
-    int ends[2];
-    if (::pipe2(ends, O_CLOEXEC) != 0)
-        throw MeshError("cannot be imported: no pipe can be made: " + std::generic_category().message(errno));
-    const pid_t child = ::fork();
-    if (child == 0) run_child(bytes, extension, ends[1]);
-    const int error = errno;
-    ::close(ends[1]);
-    if (child < 0) {
-        ::close(ends[0]);
-        throw MeshError("cannot be imported: no process can be started: " + std::generic_category().message(error));
+    std::string answer;
+    pid_t child = -1;
+    try {
+        Pipe pipe;
+        child = fork_child({.own_group = false}, [&] { return run_child(bytes, extension, pipe.write_end()); });
+        pipe.close_write();
+        answer = read_all(pipe.read_end());
+    } catch (const RunError& error) {
+        throw MeshError("cannot be imported: " + error.message());
     }
-    const std::string answer = read_all(ends[0]);
-    ::close(ends[0]);
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
