@@ -5,7 +5,7 @@
 
 namespace tumble::bench {
 
-/// Whether one side of the joint is the world or a body that does not move.
+/// True if `body` is the world or a body that does not move.
 bool is_fixed(const Scene& scene, std::size_t body);
 
 /// A spanning forest of the joint graph, by breadth: from the world where a group of bodies is joined to it, else from
@@ -39,10 +39,10 @@ double largest_excess(const Scene& scene, const std::vector<Motion>& motions);
 /// Where a point of a body at the start has gone.
 Vector moved(const Scene& scene, std::size_t body, const Motion& motion, const Vector& point);
 
-/// Whether a kind of joint or one of its features occurs.
+/// True if a kind of joint or one of its features occurs.
 bool has_kind(const Scene& scene, JointKind kind);
 bool has_cones(const Scene& scene);
-/// Whether a joint must break.
+/// True if a joint must break.
 bool needs_breaking(const Scene& scene);
 
 }  // namespace tumble::bench

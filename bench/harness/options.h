@@ -20,7 +20,7 @@ struct CommandLine {
     std::string header;              // the first line of the results
     std::vector<std::string> cases;  // lines of --list
     std::string way = "way";         // name of the option that selects a way
-    bool patience = false;           // whether --patience exists
+    bool patience = false;           // true if --patience exists
 };
 
 /// Reads the arguments; prints the header or the list on request. Returns the exit status if nothing more is to be

@@ -110,7 +110,7 @@ struct Joint {
     std::optional<double> speed;                  // rad/s or m/s, of the motor of a hinge or slider
     double strength = 0.0;                        // N m or N, the largest of the motor
     double break_force = 0.0;                     // N; 0: never breaks
-    bool collide = false;                         // whether the two bodies collide with each other
+    bool collide = false;                         // true if the two bodies collide with each other
 };
 
 struct Scene {

@@ -6,7 +6,7 @@
 
 namespace tumble::bench {
 
-/// Whether Bullet's constraints can represent all joints: all but distances.
+/// True if Bullet's constraints can represent all joints: all but distances.
 bool bullet_can_join(const Scene& scene);
 
 /// The constraint of a joint between `first` and `second`, the scene's bodies; h: the step, s.

@@ -289,7 +289,7 @@ private:
     std::vector<std::unique_ptr<btMultiBodyLinkCollider>> colliders_;
     std::vector<std::unique_ptr<btRigidBody>> fixed_;
     std::vector<std::unique_ptr<btMultiBodyConstraint>> constraints_;
-    // Of the base and the links, in their own frames, m/s and rad/s; read after a step when it is asked for.
+    // Velocities of the base and the links, in their own frames, m/s and rad/s; read after a step when it is asked for.
     mutable std::map<const btMultiBody*, std::vector<std::pair<btVector3, btVector3>>> velocities_;
     mutable bool fresh_ = false;
 };

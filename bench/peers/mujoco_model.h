@@ -13,7 +13,7 @@ struct MujocoSettings {
     int iterations = 100;  // at most, of the solver
 };
 
-/// Whether there is a model: MuJoCo has no breaking joints, no loops of sliders, and its reader refuses deep nesting.
+/// True if there is a model: MuJoCo has no breaking joints, no loops of sliders, and its reader refuses deep nesting.
 bool mujoco_can_represent(const Scene& scene, const JointForest& forest);
 
 /// The XML text. Bodies are named by their indices, actuators by those of their joints.

@@ -78,10 +78,10 @@ struct Joint {
     std::optional<double> friction_coefficient;            // of a bearing
     std::optional<double> bearing_radius;                  // m
     std::optional<double> length, min_length, max_length;  // m, of a distance joint
-    // Of a joint of type six_dof: displacements along and angles about x, y and z; locked where not given.
+    // Coordinates of a joint of type six_dof: displacements along and angles about x, y and z; locked where not given.
     std::array<std::optional<JointCoordinate>, 3> move, turn;
 
-    // Of a gear: names of two hinges or sliders, with theta_1 + ratio theta_2 constant.
+    // Joints of a gear: names of two hinges or sliders, with theta_1 + ratio theta_2 constant.
     std::array<std::string, 2> joints;
     std::optional<double> ratio;  // unit of the first coordinate over that of the second, rad and m
 

@@ -35,16 +35,16 @@ public:
 
     /// Records impacts, contacts and energy losses from now on. Call it at time 0. The motion is the same.
     void record_contacts();
-    /// Of the last advance_frame(), or of the start. Throws Error (input) without record_contacts().
+    /// Contacts of the last advance_frame(), or of the start. Throws Error (input) without record_contacts().
     FrameContacts contacts() const;
 
     /// The state of all bodies: at time 0 that of the scene.
     Snapshot snapshot() const;
-    /// Of all joints, in the order of the scene; forces of the last advance_frame(), else 0.
+    /// States of all joints, in the order of the scene; forces of the last advance_frame(), else 0.
     std::vector<JointState> joints() const;
     /// Finds the contacts of the present poses, which costs about as much as a step.
     Energies energies() const;
-    /// Of the body of that index in scene order. Throws Error (input) for an index of no body.
+    /// Properties of the body of that index in scene order. Throws Error (input) for an index of no body.
     BodyProperties properties(std::size_t body) const;
 
 private:

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-using Channels = std::array<bool, 3>;  // whether each is raised
+using Channels = std::array<bool, 3>;  // true: the channel is raised
 constexpr Channels only_first{true, true, false}, only_second{false, true, false};
 constexpr int raised = 96;  // levels: visible on black
 

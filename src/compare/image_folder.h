@@ -27,7 +27,7 @@ struct PictureFolder {
     std::vector<std::string> other;  // names of pictures of kinds that are not compared
 };
 
-/// Of the same files.
+/// The pictures among the same files.
 PictureFolder pictures_in(const std::filesystem::path& folder);
 
 struct References {

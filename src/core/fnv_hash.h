@@ -9,7 +9,7 @@ namespace tumble {
 
 inline constexpr std::uint64_t fnv_start = 0xcbf29ce484222325u;
 
-/// Of the bytes after others with the hash `before`.
+/// Hash of the bytes after others with the hash `before`.
 constexpr std::uint64_t fnv_hash(std::span<const std::byte> bytes, std::uint64_t before = fnv_start) {
     for (const std::byte b : bytes) before = (before ^ std::uint64_t(b)) * 0x100000001b3u;
     return before;

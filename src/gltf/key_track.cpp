@@ -62,7 +62,7 @@ void KeyTrack<N>::add(const KeySample<N>& sample) {
     if (sample.corner) close();
 }
 
-/// Of equal values in a row, only the first and the last become keys.
+/// Only the first and the last of equal values in a row become keys.
 template <int N>
 void KeyTrack<N>::add_linear(const KeySample<N>& sample) {
     const Value moved = (double(float(sample.time)) - sample.time) * sample.in;  // until the rounded time
@@ -107,8 +107,8 @@ bool KeyTrack<N>::fits(const Tangents& tangents) const {
                        [&](const KeySample<N>& sample) { return passes(tangents, sample, tolerance_); });
 }
 
-/// Whether the segment's cubic is nearly that of the segment without its last sample, which passes all others: both
-/// begin alike, and pass samples in all parts of the segment closely.
+/// True if the segment's cubic is nearly the cubic of the segment without its last sample, which passes all others:
+/// both begin alike, and pass samples in all parts of the segment closely.
 template <int N>
 bool KeyTrack<N>::continues(const Tangents& tangents) const {
     constexpr std::size_t least = 8;

@@ -43,7 +43,7 @@ public:
     const PoseKeys& camera() const { return camera_; }
     /// Node of a body relative to the body's origin, body frame, m.
     Vec3 node_place(std::size_t body) const;
-    /// Of the nodes of all bodies except planes, over the whole motion.
+    /// Bounds of the nodes of all bodies except planes, over the whole motion.
     const Bounds& bounds() const { return bounds_; }
     double position_error() const;  // m, the largest of all keys
     double rotation_error() const;  // rad

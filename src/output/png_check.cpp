@@ -18,7 +18,7 @@ std::uint32_t number_at(std::string_view bytes, std::size_t at) {
     return number;
 }
 
-/// Of a file that starts with these bytes, up to the first fault.
+/// State of a file that starts with these bytes, up to the first fault.
 PngState state_of(std::string_view bytes) {
     PngState state;
     if (!bytes.starts_with(signature)) return state;

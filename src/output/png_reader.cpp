@@ -73,7 +73,7 @@ struct PngRows::File {
     /// False: `failure` has the reason.
     bool read_head() {
         if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) return false;
-        // Of the optional chunks, only those that define the meaning of the numbers.
+        // The only optional chunks that are read: they define the meaning of the numbers.
         static constexpr png_byte meaning[] = "bKGD\0cHRM\0gAMA\0iCCP\0sBIT\0sRGB";
         png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
         png_set_keep_unknown_chunks(png, PNG_HANDLE_CHUNK_AS_DEFAULT, meaning, int(sizeof meaning / 5));

@@ -109,13 +109,13 @@ private:
     Image* image_ = nullptr;
     const DepthImage* depths_ = nullptr;
     TouchedTiles touched_;
-    // Of a line that is being drawn: coverage of each pixel, and the pixels with any.
+    // The line being drawn: coverage of each pixel, and the pixels with any.
     struct Cover {
         float line = 0.0f, halo = 0.0f;
     };
     std::vector<Cover> cover_;
     std::vector<std::size_t> covered_;
-    // Of a surface that is being drawn, at 2 x 2 samples a pixel: 1 / depth of the nearest triangle (0: none), lit color.
+    // The surface being drawn, at 2 x 2 samples a pixel: 1 / depth of the nearest triangle (0: none), lit color.
     struct SurfaceSample {
         float nearness = 0.0f;
         Color color;

@@ -30,7 +30,7 @@ Json settings_json(const PageRun& run) {
             {"gravity", vector_json(simulation.gravity)}};
 }
 
-/// Whether impacts have all digits, and the bodies' events are part of the data.
+/// True if impacts have all digits, and the bodies' events are part of the data.
 bool has_precise_impacts(const PageRun& run) {
     std::size_t bytes = std::size_t(run.all_impacts) * bytes_of_impact, moving = 0;
     for (const BodyRecord& body : run.bodies) {

@@ -122,7 +122,7 @@ private:
 
     void plan(std::size_t body);
     void choose_level();
-    /// Whether states at impacts follow from the frames around: exact mode, with the times of all impacts.
+    /// True if states at impacts follow from the frames around: exact mode, with the times of all impacts.
     bool fine_velocities() const { return run_.scene.simulation.impacts == ImpactMode::exact && knows_times(); }
     bool knows_times() const;
     Quanta quanta(int level) const { return at_level(fine_velocities() ? level_0_exact : level_0, level); }
@@ -260,7 +260,7 @@ Json Writer::struck_times() {
     return {{"counts", arrays_.add(counts)}, {"times", arrays_.add(times)}};
 }
 
-/// Of each body that sleeps: the frames where it falls asleep and wakes up, in turn.
+/// Frames where each body that sleeps falls asleep and wakes up, in turn.
 Json Writer::asleep() const {
     Json all = Json::array();
     for (std::size_t i = 0; i < run_.bodies.size(); ++i) {

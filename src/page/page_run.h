@@ -25,7 +25,7 @@ struct BodySample {
 struct BodyEvent {
     double time = 0.0;  // s, when the body is there: the start of the step, where a step resolves the impact
     StruckBody body;
-    bool exact = false;  // whether that is also the impact's time; else the impact has that of the step's end
+    bool exact = false;  // true if that is also the impact's time; else the impact has the time of the step's end
 };
 
 struct BodyRecord {

@@ -63,7 +63,7 @@ public:
 
     /// The whole file. Call it once, last. Throws RunError if Cairo fails.
     std::string finish();
-    /// Of a transparent image: RGBA with straight (not premultiplied) alpha.
+    /// Pixels of a transparent image: RGBA with straight (not premultiplied) alpha.
     Image image() const;
 
 private:

@@ -126,7 +126,7 @@ const Image& Renderer::render(const Snapshot& snapshot) {
         return s.image;
     }
     const Visibility visible = find_visible(frame);
-    // Of visible bodies only: the place of a tile in the atlas may change the last digit of a color.
+    // Occlusion of visible bodies only: the place of a tile in the atlas may change the last digit of a color.
     s.ambient_occlusion.update(frame, visible);
     std::optional<Visibility> everything;
     const Visibility& drawn = s.switches.draw_hidden ? everything.emplace(everything_visible(frame)) : visible;

@@ -36,17 +36,17 @@ public:
 
     /// Collects impacts, contacts and energy losses of each frame from now on. The motion is the same.
     void record_contacts();
-    /// Of the last advance_frame(), or of the start. Precondition: record_contacts().
+    /// Records of the last advance_frame(), or of the start. Precondition: record_contacts().
     const ContactRecords& contact_records() const;
     bool records_contacts() const;
 
     Snapshot snapshot() const;
-    /// Of all joints, in the scene's order, at the present time.
+    /// States of all joints, in the scene's order, at the present time.
     std::vector<JointState> joint_states() const;
-    /// Of the joints that hold now.
+    /// Report of the joints that hold now.
     JointReport joint_report() const;
     Measurement measure() const;
-    /// Of the present poses, ascending; without bodies that a joint keeps from colliding.
+    /// Overlaps of the present poses, ascending; without bodies that a joint keeps from colliding.
     std::vector<Overlap> overlaps() const;
     BodyReport report(std::size_t body) const;
 

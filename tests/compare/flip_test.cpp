@@ -41,7 +41,7 @@ double distance(const Pixel& p, const Pixel& q) {
     return std::pow(std::fabs(a[0] - b[0]) + std::hypot(a[1] - b[1], a[2] - b[2]), 0.7);
 }
 
-/// Of plain pictures: no filter changes them, and they have neither edges nor points.
+/// FLIP of plain pictures: no filter changes them, and they have neither edges nor points.
 double flip_of_colors(const Pixel& p, const Pixel& q) {
     const double largest = distance({0, 255, 0}, {0, 0, 255}), knee = 0.4 * largest, d = distance(p, q);
     return d < knee ? 0.95 * d / knee : 0.95 + 0.05 * (d - knee) / (largest - knee);

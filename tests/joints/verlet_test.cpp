@@ -140,7 +140,7 @@ TEST(Verlet, DampersHaveOrderTwo) {
     }
 }
 
-// Of a phase of 1000 in a step: at rest after a few steps, with its energy in the heat.
+// A spring with a phase of 1000 in a step is at rest after a few steps, with its energy in the heat.
 TEST(Verlet, StiffSpringsAndDampersAreStable) {
     for (const double damping : {0.0, 1e5}) {
         double unbalanced = 0.0;

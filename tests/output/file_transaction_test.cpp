@@ -34,7 +34,7 @@ protected:
         files.commit();
     }
 
-    /// Of the four files: "oldoldold", "newnewnewnew", or a mixture.
+    /// Contents of the four files: "oldoldold", "newnewnewnew", or a mixture.
     std::string contents() {
         std::string all;
         for (const std::string& name : names) all += read_text(folder_ / name);

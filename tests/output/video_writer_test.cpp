@@ -211,7 +211,7 @@ TEST(VideoWriter, UnchangedPicturesAreStoredOnceAndShownLonger) {
 }
 
 TEST(VideoWriter, AFastGifKeepsItsShownFrames) {
-    // Of 100 frames/s it takes every second one: content of the other frames must not appear.
+    // The GIF takes every second one of 100 frames/s: content of the other frames must not appear.
     const TestFolder folder;
     VideoWriter writer(folder / "a.gif", 64, 48, 100.0);
     const Image dark = plain(64, 48, {40, 40, 40}), bright = plain(64, 48, {200, 200, 200});

@@ -123,7 +123,7 @@ double growth(const SceneDescription& scene, const std::vector<Snapshot>& film_o
     return most;
 }
 
-// Whether a picometer at the start becomes more than a micrometer within the second: the scene's own chaos, without
+// True if a picometer at the start becomes more than a micrometer within the second: the scene's own chaos, without
 // displacement or reordering.
 bool chaotic(const SceneDescription& scene, const std::vector<Snapshot>& film_of_it) {
     Random random(12);
@@ -190,8 +190,8 @@ TEST(ExactFrame, TheOrderOfTheBodiesDoesNotMatter) {
     }
 }
 
-// Of bodies far apart only one can be near the origin of the computation. A box that rattles down a kilometer from it
-// has gaps resolved to a picometer at best, and still comes to rest as it does alone.
+// Only one of several bodies far apart can be near the origin of the computation. A box that rattles down a kilometer
+// from it has gaps resolved to a picometer at best, and still comes to rest as it does alone.
 TEST(ExactFrame, ABoxFarFromTheOthersRattlesDownAsItDoesAlone) {
     Random random(3);
     for (const double restitution : {0.2, 0.4, 0.7})

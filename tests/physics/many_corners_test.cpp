@@ -71,7 +71,7 @@ TEST(ManyCorners, ATiltedDiscComesToRest) {
                                 std::to_string(corners) + " corners, radius " + std::to_string(radius));
 }
 
-// Of a face that is even to a share of the radius, three corners touch, and others are as far off.
+// A face that is even to a share of the radius touches with three corners, and others are as far off.
 TEST(ManyCorners, AnUnevenDiscComesToRest) {
     for (int seed = 0; seed < 20; ++seed) {
         Random random{std::uint64_t(seed)};

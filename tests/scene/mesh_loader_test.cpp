@@ -161,7 +161,7 @@ TEST_F(MeshLoader, FacesThatDisagreeAreTurned) {
     }
 }
 
-// Of an open component the larger part decides.
+// The larger part of an open component decides.
 TEST_F(MeshLoader, OpenComponentsAreTurnedLikeMostOfTheirArea) {
     const std::string strip = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 2 0 0\nv 2 1 0\nv 3 0 0\nv 3 1 0\n";
     for (const auto& [faces, up] :

@@ -89,7 +89,7 @@ TEST(ContactAreas, MeanDistanceOfReducedPoints) {
     spread_pressure(contact_area(octagon, whole.normal), whole);
     ASSERT_EQ(whole.count, 4);
     EXPECT_NEAR(whole.area, 2.0 * std::sqrt(2.0), 1e-6);
-    // Of a disc of the same area, from its rim: 32 R / (9 pi).
+    // Mean distance of a disc of the same area, from its rim: 32 R / (9 pi).
     const double rim = std::sqrt(whole.area / 3.14159265358979323846);
     EXPECT_NEAR(mean_distance(whole, {rim, 0.0, 0.0}), 32.0 * rim / (9.0 * 3.14159265358979323846), 0.01 * rim);
 }

@@ -140,7 +140,7 @@ TEST(PressingAcceleration, IsTheGapsSecondDerivativeInEitherOrder) {
     EXPECT_GE(all, trials(150));
 }
 
-// Of a ball over a face, past an edge, past a corner, and past another ball.
+// A ball over a face, past an edge, past a corner, and past another ball.
 TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
     Random random(12);
     int all = 0;
@@ -154,7 +154,7 @@ TEST(PressingAcceleration, OnABallIsTheGapsSecondDerivativeToo) {
         const auto measured = gap_acceleration(a, b);
         if (!measured) continue;
         const auto on = [&](double t) { return one_point(at_time(a, t), at_time(b, t), 1e-3); };
-        // Whether the ball is over a face, and whether the gap ends on a line.
+        // Two flags: the ball is over a face, and the gap ends on a line.
         const auto feature = [&](double t) {
             const auto m = on(t);
             const PointGeometry geometry = m->geometry();

@@ -104,7 +104,7 @@ TEST(Growth, IsNeverWithoutAFirstManifold) {
     EXPECT_GT(now.first.count, 0);
 }
 
-// Of sixteen corners eight can be kept: one that sank is added, and the points stay all around, though those on the far
+// Eight of sixteen corners can be kept: one that sank is added, and the points stay all around, though those on the far
 // side are higher.
 TEST(Growth, ReplacesANeighborWhereThereIsNoRoom) {
     std::vector<ContactPoint> points = polygon(16, 0.0);

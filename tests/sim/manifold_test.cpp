@@ -40,7 +40,7 @@ TEST(Manifold, APlateStandsOnItsFourCorners) {
             }
 }
 
-// Of many points on a circle four that support its middle well.
+// Four of many points on a circle are kept: they support its middle well.
 TEST(Manifold, ADiscStandsAroundItsMiddle) {
     for (int corners = 5; corners <= 40; ++corners) {
         std::vector<ContactPoint> points;

@@ -59,7 +59,7 @@ SupportPoints cloud_of(std::vector<Vec3> points) {
     return cloud;
 }
 
-// Whether a body and some triangle overlap, by their Minkowski difference: independent of the tested routine.
+// True if a body and some triangle overlap, by their Minkowski difference: independent of the tested routine.
 bool overlap(const CollisionMesh& s, const Polyhedron& b, const Pose& pose) {
     std::vector<Vec3> points;
     Bounds bounds;
@@ -122,7 +122,7 @@ TEST(PolyhedronOnSurface, FlatFloorHasOneNormalAtAnyResolution) {
             pose.position.y() += gap - lowest(*body, pose);
             const auto found = collide_all(floor, {}, body, pose, 0.02);
             ASSERT_FALSE(found.empty());
-            // Of more than four points the deepest is kept to within a thousandth of the patch.
+            // The deepest of more than four points is kept to within a thousandth of the patch.
             EXPECT_NEAR(deepest(found), gap, 1e-3 * body->radius) << n << " " << trial;
             for (const Manifold& m : found) EXPECT_LT((m.normal - Vec3::UnitY()).norm(), 1e-12) << n << " " << trial;
         }

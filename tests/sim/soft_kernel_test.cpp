@@ -375,7 +375,7 @@ TEST(SoftKernel, TorsionalFrictionIsMuTimesTheLevers) {
         OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
         slow.push(480.0f);
         EXPECT_NEAR(slow.state(1)[4], 0.0, 1e-6);
-        // Of an area: half as much where the load is uniform, and all of it where one point has the load.
+        // Friction of an area: half as much where the load is uniform, and all of it where one point has the load.
         lane.spread = 0.5;
         OneColor even = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
         even.push(480.0f);

@@ -72,7 +72,7 @@ const char* type_text(BodyType type) {
     return "";
 }
 
-/// Of a restitution or a friction in pairs.
+/// Text of a restitution or a friction in pairs.
 std::string surface_text(double value) { return value < 0.0 ? "of the other body" : fmt::format("{}", value); }
 
 std::string keyframes_text(const BodyDescription& body) {

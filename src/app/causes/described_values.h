@@ -9,7 +9,7 @@ namespace tumble {
 
 BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body);
 
-/// Of the scene without its bodies: light, simulation, forces, ... Without the camera: a record has its views.
+/// Values of the scene without its bodies: light, simulation, forces, ... Without the camera: a record has its views.
 ValueMap values_of(const SceneDescription& scene);
 
 /// Size, samples and text of the whole image.

@@ -47,7 +47,7 @@ public:
     /// `frames`: those that are drawn, ascending. `length`: frames that the simulation makes.
     RunRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length);
 
-    /// Of a plot: its runs as panels, whose first frame is recorded.
+    /// Recorder of a plot: its runs are the panels, whose first frame is recorded.
     explicit RunRecorder(const std::vector<SceneDescription>& runs);
 
     PanelRecorder& panel(std::size_t index) { return panels_[index]; }

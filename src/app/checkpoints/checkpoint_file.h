@@ -13,7 +13,7 @@
 
 namespace tumble {
 
-/// Of the layout of all files and of the states in them: a new one reads no old file.
+/// Version of the layout of all files and of the states in them: a new one reads no old file.
 inline constexpr std::uint32_t checkpoint_format = 2;
 
 struct CheckpointHeader {

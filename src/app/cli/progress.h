@@ -8,7 +8,7 @@ namespace tumble {
 
 class Progress {
 public:
-    /// Of `total` frames, or other `things`; `quiet` disables all output.
+    /// Progress of `total` frames, or other `things`; `quiet` disables all output.
     Progress(std::int64_t total, bool quiet, const char* things = "frames");
     /// Erases the bar, so that the next message begins on a clean line.
     ~Progress();

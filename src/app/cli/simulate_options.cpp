@@ -52,7 +52,7 @@ void add_checkpoints(CLI::App& command, SimulateCommand& c) {
         ->check(number_within(limits::duration.min, limits::duration.max))
         ->needs(from)
         ->option_text("S [0]");
-    // Of the clip: the same as those of render.
+    // Options of the clip: the same as the options of render.
     const std::vector<CLI::Option*> before = command.get_options();
     add_size(command, c.overrides.width, c.overrides.height, "Of the clip: picture size, in place of the scene's");
     add_clip_times(command, c.clip);

@@ -25,7 +25,7 @@ public:
     /// Composes the frame of that time (s).
     void compose(std::span<const PanelImage> panels, double time);
 
-    /// Of the last compose().
+    /// The image of the last compose().
     const Image& image() const { return frame_; }
     /// The regions in which the image may differ from the previous one.
     const std::vector<Rectangle>& changed() const { return changed_; }

@@ -31,7 +31,7 @@ private:
     std::string mark_;
 };
 
-/// Of its values, before compression.
+/// Bytes of the values of a pixel, before compression.
 std::size_t bytes_of_pixel(Aov aov);
 
 /// Upper bound of the size of such a file, bytes.

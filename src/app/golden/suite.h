@@ -52,7 +52,7 @@ struct GoldenSuite {
     const GoldenCase* find(std::string_view name) const;
     /// Those of the case, else of the suite.
     const Tolerances& tolerances_of(const GoldenCase& golden) const;
-    /// Of an image of a case (image_name()).
+    /// Tolerances of an image of a case (image_name()).
     PairTolerances tolerances_of(const std::string& image) const;
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr double figure_width = 680.0, figure_height = 400.0;
 constexpr double left = 64.0, right = 500.0, top = 16.0, bottom = 348.0;
 constexpr double label_gap = 17.0;  // between the names of two lines
-/// Of the axis: smaller errors are rounding, and would take most of the picture. They are drawn on its lower edge.
+/// Lower end of the axis. Smaller errors are rounding and would take most of the picture: they are drawn at this end.
 constexpr double least_error = 1e-17;
 
 struct Picture {

@@ -19,7 +19,7 @@ struct BlockPlaces {
     SourceLocation block;
     std::map<std::string, SourceLocation> keys;
 
-    /// Of the key; of the block if the key is not there.
+    /// Place of the key; of the block if the key is not there.
     const SourceLocation& of(const std::string& key) const;
 };
 

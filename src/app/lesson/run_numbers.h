@@ -16,7 +16,7 @@ public:
     CheckedRun(std::span<const StatedNumber* const> numbers, const SceneDescription& scene);
 
     SurveyObserver& observer() { return values_; }
-    /// Of the stated number of that index. Throws InputError, with its place, if the run has no such number.
+    /// Value of the stated number of that index. Throws InputError, with its place, if the run has no such number.
     double measured(std::size_t index, const PageRun& run) const;
 
 private:

@@ -15,7 +15,7 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t no_event = SIZE_MAX;
-// Of more impacts, and of more contacts in a frame, a page has the strongest ones: they take most of its bytes, and a
+// A page with more impacts, or more contacts in a frame, has the strongest ones: they take most of its bytes, and a
 // reader follows a few.
 constexpr std::size_t most_impacts = 1500;
 constexpr std::int64_t most_contacts = 22000, least_contacts = 40;  // of all frames; of a frame

@@ -37,7 +37,7 @@ public:
     const std::vector<std::byte>& shapes() const { return shapes_; }
     /// The first moment of the frame after the last one given.
     Snapshot next_start();
-    /// Of the first moment of the last frame given; null unless they are recorded.
+    /// Records of the first moment of the last frame given; null unless they are recorded.
     const ContactRecords* records() const;
 
     /// Brings the world to the start of the frame that next() gives next.

@@ -42,7 +42,7 @@ std::string differences(const FrameIdentity& there, const FrameIdentity& here);
 /// As JSON, for a file beside the frames.
 std::string manifest_text(const FrameIdentity& identity);
 
-/// Of such a file; empty if it is missing or damaged.
+/// The identity in such a file; empty if it is missing or damaged.
 std::optional<FrameIdentity> read_manifest(const std::filesystem::path& path);
 
 }  // namespace tumble

@@ -9,7 +9,7 @@ namespace tumble {
 
 /// Infinities and NaN, which JSON lacks, become strings: "inf", "nan".
 nlohmann::ordered_json json_of(const toml::node& value);
-/// Of the text of a value.
+/// The same for the text of a value.
 nlohmann::ordered_json json_of(const std::string& toml);
 
 }  // namespace tumble

@@ -32,7 +32,7 @@ private:
         bool follow(PanelPoses& moments);
         PoseFilter poses;
         std::vector<std::byte> overlay;  // of the previous frame
-        bool moves = false;              // whether bodies moved while the shutter was open for the previous frame
+        bool moves = false;              // true if bodies moved while the shutter was open for the previous frame
     };
     bool follow_image(MotionBlurFrame& frame_poses);
 

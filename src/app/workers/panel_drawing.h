@@ -21,7 +21,7 @@ public:
     /// Draws the moments of the panel in the shared memory.
     void draw(const SharedFrames& memory, std::size_t panel, std::int64_t frame);
 
-    /// Of the last draw().
+    /// The image of the last draw().
     const Image& image() const { return *image_; }
     /// The regions that may differ from the image of the previous draw().
     const std::vector<Rectangle>& changed() const { return *changed_; }

@@ -3,8 +3,8 @@
 // - the planes in its old and new shadow and within its AO radius;
 // - every body behind it as seen from the sun;
 // - every surface with changed AO.
-// Of large receivers and bodies with lightmaps, only the shadows on them (receiver_damage.h) and the changed
-// texels are damaged. A change of the depth range, of the cascades or of a plane damages the whole frame. The
+// Large receivers and bodies with lightmaps are damaged only in the shadows on them (receiver_damage.h) and in the
+// changed texels. A change of the depth range, of the cascades or of a plane damages the whole frame. The
 // damage is conservative: the frame has the bytes of a full redraw.
 #pragma once
 

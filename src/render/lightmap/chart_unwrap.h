@@ -26,7 +26,7 @@ struct ChartedMesh {
     std::vector<std::array<float, 2>> texels;  // of each vertex; the center of the first texel is at 0, 0
     std::vector<std::uint32_t> indices;        // the asset's triangles in their order
 
-    /// Of each texel, row by row.
+    /// Positions, normals and heights of the texels, row by row.
     std::vector<std::array<float, 3>> positions, normals;
     std::vector<std::array<float, 2>>
         heights;  // range of heights that the texel shades, along the chart's axis, m; (1, 0)

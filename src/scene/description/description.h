@@ -176,7 +176,7 @@ struct BodyDescription {
     std::vector<Keyframe> keyframes;           // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
 
-    /// Of the body in a pair (pair_rule.h): a dynamic body without values has these.
+    /// Restitution and friction of the body in a pair (pair_rule.h): a dynamic body without values has these.
     static constexpr double default_restitution = 0.5, default_friction = 0.0;
     double restitution_in_pair() const {
         return restitution.value_or(dynamic() ? default_restitution : value_of_other);

@@ -66,15 +66,15 @@ struct JointDescription {
     std::array<JointAxis, 3> move, turn;                                   // along and about x, y, z of the frame
     std::optional<std::array<double, 2>> swing;  // rad: half angles of the cone of x about y and z; of a ball
     double length = 0.0;                         // m, of a distance joint with a locked length, which is move[0]
-    // Of a gear: indices of two hinges or sliders, whose coordinates keep theta_1 + ratio theta_2 constant.
+    // Joints of a gear: indices of two hinges or sliders, whose coordinates keep theta_1 + ratio theta_2 constant.
     std::array<std::size_t, 2> geared{};
     double ratio = 0.0;                 // unit of the first coordinate over that of the second, rad and m
     double friction_coefficient = 0.0;  // of a bearing: its friction is that times its load,
     double bearing_radius = 0.0;        // m, times this for rotation
     double break_force = infinity, break_torque = infinity, break_impulse = infinity;  // N, N m, N s
-    bool collide = false;                // whether the two bodies collide with each other
+    bool collide = false;                // true if the two bodies collide with each other
     double start = 0.0, end = infinity;  // s: the joint holds in [start, end)
-    bool visible = false;                // whether it is drawn
+    bool visible = false;                // true if it is drawn
 
     bool ever_breaks() const { return break_force < infinity || break_torque < infinity || break_impulse < infinity; }
 };

@@ -10,7 +10,7 @@ struct MassCenter {
     Vec3 center = Vec3::Zero();  // body frame, from the body's origin
 };
 
-/// Of a body with a closed shape, with its densities or its mass.
+/// Mass and center of mass of a body with a closed shape, with its densities or its mass.
 MassCenter mass_center(const BodyDescription& body);
 
 }  // namespace tumble

@@ -34,7 +34,7 @@ struct CopiesRequest {
     std::vector<Color> colors;  // empty: all have the body's color
 };
 
-/// Whether copies have sizes of their own. Those of an instance have one size, whose key is for the whole.
+/// Sizes of copies: each its own, or one for all. The copies of an instance have one size, whose key is for the whole.
 enum class CopyScales { drawn, one };
 
 /// Reads grid, scatter, scale and colors of a body's table; empty for a single body.

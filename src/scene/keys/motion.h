@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// Of keyframes, of bodies and of the camera.
+/// Interpolations of keyframes, of bodies and of the camera.
 inline constexpr Choice<Interpolation> interpolations[] = {
     {"smooth", Interpolation::smooth},
     {"linear", Interpolation::linear},

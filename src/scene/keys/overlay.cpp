@@ -33,7 +33,7 @@ void add_overlay(std::string_view name, const SourcePosition& origin, OverlaySet
     origin.fail(fmt::format("\"{}\" is not the name of an overlay{}", safe_text(name), hint));
 }
 
-/// Of the command line: names separated by commas, or "none".
+/// Reads the list of the command line: names separated by commas, or "none".
 OverlaySet read_list(std::string_view list) {
     OverlaySet set;
     if (list == "none") return set;

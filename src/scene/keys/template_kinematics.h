@@ -35,7 +35,7 @@ struct WorldJoint {
 
 bool has_one_coordinate(const JointDescription& joint);
 
-/// Of a hinge or a slider, in rad or m.
+/// Coordinate of a hinge or a slider, in rad or m.
 double coordinate_of(const JointDescription& joint, const WorldJoint& world);
 
 /// Appends the errors of all locked coordinates, m and rad.

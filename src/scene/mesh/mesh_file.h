@@ -45,7 +45,7 @@ struct MeshFile {
     void check_more_positions(std::uint64_t more) const;
 };
 
-/// Whether a file without a reader of Tumble's may be imported in a child process.
+/// Import of a file without a reader of Tumble's: allowed in a child process, or refused.
 enum class MeshImports { in_child_process, refused };
 
 /// The file's ending determines the reader: one of Tumble's, or assimp (assimp_import.h). Throws MeshError if the file

@@ -32,7 +32,7 @@ struct TreeNode {
     Vec3 arm = Vec3::Zero();         // m, from the parent's reference to this one's, at a coordinate of 0
     Quat turned = Quat::Identity();  // orientation at a coordinate of 0
     Vec3 axis = Vec3::Zero();        // prismatic: in the parent's frame; revolute: in the node's own
-    // Of the body.
+    // Mass properties of the body.
     double mass = 0.0;           // kg
     Sym3 inertia;                // kg m^2, about the center of mass
     bool aligned = false;        // the inertia has its principal axes along the frame

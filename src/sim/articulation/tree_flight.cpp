@@ -22,7 +22,7 @@ bool is_length(const TreeNode& node, int k, bool speed) {
 
 }  // namespace
 
-// Of the bodies' present momenta, about their center of mass.
+// Totals of the bodies' present momenta, about their center of mass.
 TreeFlight::Totals TreeFlight::totals() const {
     Totals sum;
     for (const std::uint32_t i : step_->island) {
@@ -118,7 +118,7 @@ void TreeFlight::fit() {
     }
 }
 
-// Whether the bodies' velocities are those of the tree.
+// True if the bodies' velocities are the velocities of the tree.
 bool TreeFlight::fits() {
     double fastest = 0.0, off = 0.0;
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
@@ -417,7 +417,7 @@ void TreeFlight::place() {
     root.derive_velocities();
 }
 
-// Of angles more than half a turn from those of the start, which the poses do not show.
+// Counts angles more than half a turn from the angles of the start, which the poses do not show.
 void TreeFlight::count_turns() {
     for (const TreeNode& node : tree_.nodes())
         if (node.kind == NodeKind::revolute)

@@ -28,7 +28,7 @@ struct TreeMethod {
     bool verlet() const { return !fine_integrator(kind); }
 };
 
-/// Of bodies that are joined.
+/// Method of bodies that are joined.
 inline TreeMethod tree_method(const std::vector<Body>& bodies, std::span<const std::uint32_t> joined) {
     const IntegratorKind kind = joined_integrator(bodies, joined);
     return {kind, kind == IntegratorKind::exact ? 8 : kind == IntegratorKind::symplectic_euler ? 2 : 4};
@@ -172,8 +172,8 @@ private:
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up
     std::vector<Wrench> pushes_;          // by body
     int evaluations_ = 0;
-    // Of Verlet's method: stages of its composition, as shares of a part; the middle of a stage, its rates and the speeds at
-    // its end.
+    // Verlet's method: stages of its composition, as shares of a part; the middle of a stage, its rates and the speeds
+    // at its end.
     std::vector<double> stages_;
     int order_ = 0;
     Vector middle_, rates_, after_, mean_;

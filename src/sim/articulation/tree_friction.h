@@ -41,8 +41,8 @@ public:
 
     /// A coordinate is at rest, or let go, at coordinates q; `net`: the effort that a held one needs.
     void change(std::size_t k, const double* q, double* speeds, double net);
-    /// Of coordinates at rest, after accelerate() with drive(): holds those that would move against their direction, and
-    /// lets those go that need more than their bound; of one alone or of all. Returns whether there were any.
+    /// Holds coordinates at rest that would move against their direction, after accelerate() with drive(), and lets
+    /// those go that need more than their bound; of one alone or of all. Returns whether there were any.
     bool revise(const ForwardDynamics& dynamics, const double* speeds, const double* rates, bool one);
     /// After an impact at coordinates q: the directions of motion anew.
     void strike(const double* q, const double* speeds);

@@ -113,7 +113,7 @@ double TreeLimits::curve_of_ball(const Limit& limit, const ForwardDynamics& dyna
     return (8.0 * difference(d) - difference(2.0 * d)) / (12.0 * d);
 }
 
-// Of a held coordinate: into the allowed range.
+// Net effort on a held coordinate, into the allowed range.
 double TreeLimits::net_effort(const Limit& limit, const ForwardDynamics& dynamics) const {
     return limit.ball ? -dynamics.holding_torque(limit.node) : limit.side * dynamics.net_effort(limit.node);
 }
@@ -130,7 +130,7 @@ void TreeLimits::hold(const Limit& limit, ForwardDynamics& dynamics, const doubl
         dynamics.hold(limit.node);
 }
 
-// Of speeds, or of their rates or changes: the part that leads away from the limit.
+// The part of speeds, or of their rates or changes, that leads away from the limit.
 double TreeLimits::inwards(std::size_t k, const ForwardDynamics& dynamics, const double* speeds) const {
     const Limit& limit = list_[k];
     if (!limit.ball) return limit.side * speeds[limit.speed_at];

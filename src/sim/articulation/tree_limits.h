@@ -13,13 +13,13 @@ namespace tumble {
 
 class TreeLimits {
 public:
-    /// Of the present poses. Returns false where a limit is violated, or a ball in a loop has one. Impulses act with the
-    /// closures.
+    /// Finds the limits of the present poses. Returns false where a limit is violated, or a ball in a loop has one.
+    /// Impulses act with the closures.
     bool find(const JointTree& tree, const TreeStep& step, TreeClosures& closures);
     void clear() { list_.clear(); }
     bool empty() const { return list_.empty(); }
     std::size_t count() const { return list_.size(); }
-    /// Whether excess() needs ForwardDynamics::accelerate(): a coordinate is held, or a ball has limits.
+    /// True if excess() needs ForwardDynamics::accelerate(): a coordinate is held, or a ball has limits.
     bool needs_rates() const;
 
     /// After ForwardDynamics::move(): speeds (rad/s, m/s) at limits that are rounding beside the fastest body (m/s) become 0.
@@ -38,7 +38,7 @@ public:
 
     bool held(std::size_t k) const { return list_[k].held; }
     void let_go(std::size_t k) { list_[k].held = list_[k].rests = false; }
-    /// Whether the coordinate is at its limit, and moves towards it; after ForwardDynamics::move().
+    /// True if the coordinate is at its limit, and moves towards it; after ForwardDynamics::move().
     bool strikes(std::size_t k, const ForwardDynamics& dynamics, const double* q, const double* speeds) const;
 
     /// An impact of one limit. Held coordinates pass it on while it presses them to their limits, and leave them else.
@@ -53,7 +53,7 @@ public:
     Impact strike(std::size_t k, ForwardDynamics& dynamics, double* q, double* speeds, std::size_t numbers, double span,
                   const std::function<const double*()>& rates);
 
-    /// Of coordinates at rest at their limits, after accelerate() with drive(): holds those that would move beyond, and lets
+    /// Holds coordinates at rest at their limits that would move beyond, after accelerate() with drive(), and lets
     /// those go that would leave; of one alone or of all. Returns whether there were any.
     bool revise(const ForwardDynamics& dynamics, const double* q, const double* speeds, const double* rates,
                 std::size_t numbers, bool one);

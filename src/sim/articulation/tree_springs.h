@@ -11,8 +11,8 @@ namespace tumble {
 
 class TreeSprings {
 public:
-    /// Of the present poses. Returns false where a spring acts along no single coordinate of the tree. Springs and dampers
-    /// that steps of `stage` s (0: of any length) do not resolve are stiff.
+    /// Finds the springs at the present poses. Returns false where a spring acts along no single coordinate of the
+    /// tree. Springs and dampers that steps of `stage` s (0: of any length) do not resolve are stiff.
     bool find(const JointTree& tree, const TreeStep& step, double stage);
     bool empty() const { return list_.empty(); }
     /// Number of dampers, stiff springs and motors: each has a heat, a coordinate of the motion that grows at C q'^2, or a
@@ -31,7 +31,7 @@ public:
     /// Adds the heats of the stage, which ends at speeds `after`.
     void heat_stage(const double* start, const double* speeds, const double* middle, const double* after, double h,
                     double* heats) const;
-    /// Whether no motor gives more than its largest force.
+    /// True if no motor gives more than its largest force.
     bool within_bounds(const double* q, const double* speeds) const;
     /// Adds the work of the step to the joints' accounts, at its last coordinates and heats (J).
     void account(const TreeStep& step, const double* q, const double* heats) const;

@@ -30,10 +30,10 @@ TouchDepth touch_depth(const std::vector<Manifold>& manifolds, const std::vector
 /// The pairs that may meet in the step: called only where a body is fast.
 using FindPairs = std::function<const std::vector<BroadPhase::Pair>&()>;
 
-/// Whether a body rotates in free rotation, not by its motion's angular velocity; none: no body does.
+/// True if a body rotates in free rotation, not by its motion's angular velocity; none: no body does.
 using TurnsFreely = std::function<bool(std::uint32_t body)>;
 
-/// Whether a pair has been found to stay apart in the step, on the paths of its flight; none: no pair has.
+/// True if a pair has been found to stay apart in the step, on the paths of its flight; none: no pair has.
 using KnownApart = std::function<bool(std::uint32_t a, std::uint32_t b)>;
 
 /// Preconditions: as for touch_depth().
@@ -44,7 +44,7 @@ struct CcdStep {
     const std::vector<Body>& bodies;
     const std::vector<BodyVelocity>& motions;  // by body; zero for bodies that do not move
     double h;                                  // s
-    bool any_fast;                             // whether any motion is fast
+    bool any_fast;                             // true if any motion is fast
     TurnsFreely turns_freely = nullptr;
     KnownApart known_apart = nullptr;
 };
@@ -58,7 +58,7 @@ class CcdClamp {
 public:
     explicit CcdClamp(const std::vector<Body>& bodies);
 
-    /// Whether the body moves so far in h seconds that it might pass another undetected. If no body does, there are no
+    /// True if the body moves so far in h seconds that it might pass another undetected. If no body does, there are no
     /// limits.
     bool fast(std::uint32_t body, const BodyVelocity& motion, double h) const;
 

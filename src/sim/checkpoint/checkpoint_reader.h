@@ -272,7 +272,7 @@ private:
         values.clear();
         for (std::size_t left = length(1); left > 0; --left) make(values.emplace_back());
     }
-    /// Of a value without a past.
+    /// Reads a value without a past.
     template <class T>
     void make(T& value) {
         const bool outer = std::exchange(made_, true);
@@ -295,7 +295,7 @@ private:
     std::span<const std::byte> bytes_;  // those not read yet
     std::size_t bodies_ = 0;
     bool unbounded_ = false;  // infinite numbers are right; NaN never is
-    bool made_ = false;       // whether the value that is read was made for it
+    bool made_ = false;       // true if the value that is read was made for it
     std::vector<SharedIndices> shared_;
 };
 

@@ -199,7 +199,7 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
             if (substep_multipliers_[s] != wanted) continue;
             const auto bodies = islands.bodies(softly_[s]);
             const auto manifolds = islands.manifolds(softly_[s]);
-            // Of islands with other joints the direct solver has failed.
+            // The direct solver has failed on islands with other joints.
             const Swept kind = swept_[softly_[s]];
             const bool net = kind != Swept::no;
             const auto joints = net ? islands.joints(softly_[s]) : std::span<const std::uint32_t>{};

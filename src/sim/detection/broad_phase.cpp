@@ -69,7 +69,7 @@ void BroadPhase::keep_apart(std::vector<Pair> pairs) {
     apart_.swap(pairs);
     std::erase_if(pairs_, [&](const Pair& pair) { return kept_apart(pair); });
     if (!built_) return;
-    // Whether the released pairs overlap is found when one of the two bodies leaves its bounds.
+    // Released pairs are tested for overlap only when one of the two bodies leaves its bounds.
     for (const Pair& pair : pairs) {
         if (kept_apart(pair) || (!states_[pair.a].active && !states_[pair.b].active)) continue;
         const auto place = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
@@ -110,7 +110,7 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
     look_for_awake_ = false;
 }
 
-// Whether the body's state holds: inside its fat bounds, and awake or ballistic as in the last update.
+// True if the body's state holds: inside its fat bounds, and awake or ballistic as in the last update.
 bool BroadPhase::stays(std::uint32_t i, const Body& body, double h) {
     State& state = states_[i];
     if (active(body) != state.active) return false;

@@ -54,7 +54,7 @@ public:
     }
 
 private:
-    /// Whether each body is in the tree that its state names, and the pairs are in order.
+    /// True if each body is in the tree that its state names, and the pairs are in order.
     bool sound() const;
     bool kept_apart(const Pair& pair) const { return std::binary_search(apart_.begin(), apart_.end(), pair); }
     void build(const std::vector<Body>& bodies);

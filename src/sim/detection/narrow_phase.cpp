@@ -284,7 +284,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     search(index, reach, moved, h, found);
 }
 
-// Whether the last result is still valid after a relative motion (m) of the bodies. Refreshes its manifolds.
+// Validity of the last result after a relative motion (m) of the bodies. Refreshes its manifolds.
 NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, const View& b, double reach,
                                             const Search& last, double moved) {
     const auto told = [](bool holds) { return holds ? Standing::holds : Standing::out_of_date; };
@@ -306,7 +306,7 @@ NarrowPhase::Standing NarrowPhase::standing(const Entry& entry, const View& a, c
         if (!m.more) spare = deepest_reduced_point(persistent_[k], a.pose, b.pose, m);
         const bool last_of_faces = k + 1 == entry.first + entry.count || !manifolds_[k + 1].more;
         missed = missed || (last_of_faces && sank(spare, deepest, radius));
-        // Whether it touches is known to less than the error of refreshed manifolds on edges and balls.
+        // A gap within the error of refreshed manifolds on edges and balls may be a touch.
         stands = stands && (nearest <= touch || nearest > moved);
     }
     return missed ? Standing::sank : told(stands);

@@ -142,7 +142,7 @@ private:
         }
     };
 
-    /// Whether the manifolds are those of the entries, in their order, and the searches exist.
+    /// True if the manifolds are the manifolds of the entries, in their order, and the searches exist.
     bool sound() const;
     bool match(const std::vector<BroadPhase::Pair>& pairs, const std::vector<Body>& bodies);
     void park(const Entry& entry);

@@ -38,13 +38,13 @@ public:
     /// Gravity and wind alone: for spans in which the forces at points have been applied already.
     ForceField without_points() const;
 
-    /// Whether a point force on the body begins or ends within [from, to): such a body must be awake.
+    /// True if a point force on the body begins or ends within [from, to): such a body must be awake.
     bool changes(std::size_t index, double from, double to) const;
     /// The first time after `time` at which a point force on the body begins or ends; infinity when there is none.
     double next_change(std::size_t index, double time) const;
-    /// Whether only gravity acts on the body throughout [from, to): its motion is then known in closed form.
+    /// True if only gravity acts on the body throughout [from, to): its motion is then known in closed form.
     bool constant(std::size_t index, double from, double to) const;
-    /// Whether no point force acts on the body at a time, so that it has no torque.
+    /// True if no point force acts on the body at a time, so that it has no torque.
     bool torque_free(std::size_t index, double time) const;
     /// Rate of deceleration by drag: |dF/dv| / m per m/s of the speed relative to the air, 1/m.
     double drag_rate(const Body& body) const;
@@ -53,7 +53,7 @@ public:
 
     const Vec3& gravity() const { return gravity_; }  // m/s^2
 
-    /// Whether nothing but gravity ever acts on the body; and whether forces at points ever act on any body.
+    /// True if nothing but gravity ever acts on the body; true if forces at points ever act on any body.
     bool only_gravity(std::size_t index) const { return !wind_ && at_points_[index].empty(); }
     bool ever_changes() const { return !pushed_.empty(); }
     /// Bodies with forces at points, ascending.

@@ -29,7 +29,7 @@ std::uint32_t support_on(std::uint32_t k, const Body& body, const Supports& supp
 double pressing_acceleration(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
                              const Supports& supports);
 
-/// Whether the hop that begins with the contact's present v_rel would end before `time` s, or rise no higher than the
+/// True if the hop that begins with the contact's present v_rel would end before `time` s, or rise no higher than the
 /// tolerance of the search for impacts: the end of such a hop cannot be found.
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time);
 

@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-// Of the body on the path up to time `span`: its bounds in the middle, moved along with the center and turned.
+// Bounds of the body on the path up to time `span`: its bounds in the middle, moved along with the center and turned.
 Bounds swept_bounds(const Body& body, const Trajectory& path, double span) {
     const Motion middle = path.at(0.5 * span);
     const Bounds there = world_bounds(body.collider, {middle.position, middle.rotation});

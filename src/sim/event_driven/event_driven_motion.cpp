@@ -309,7 +309,7 @@ double EventDrivenMotion::zeno_limit(std::uint32_t i) const {
     return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
 }
 
-// Whether the body's last hop was below the Zeno limit, for any cause of its return. Measured, because the formula of a
+// True if the body's last hop was below the Zeno limit, for any cause of its return. Measured, because the formula of a
 // contact's acceleration does not include edges that rotate against each other.
 bool EventDrivenMotion::below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
     const BodyEvent& f = events_[i];
@@ -372,7 +372,7 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     return true;
 }
 
-// Whether no third body can touch the ball at `at`.
+// True if no third body can touch the ball at `at`.
 bool EventDrivenMotion::alone(std::uint32_t i, std::uint32_t but, const Vec3& at, const std::vector<Body>& bodies,
                               const EventTime& now) const {
     const double r = bodies[i].radius * (1.0 + tuning::touch);

@@ -39,7 +39,7 @@ struct HalfSpaceFilter {
     double offset = 0.0;  // m: normal . p of its surface
     bool valid = false;   // else this body is no half-space
 
-    /// Whether a ball of this radius (m) about the center of a body certainly stays above for `horizon` s from the
+    /// True if a ball of this radius (m) about the center of a body certainly stays above for `horizon` s from the
     /// trajectory's time `from` on: it is above at the start and at the end, and does not fall and rise again in
     /// between.
     bool stays_below(const Trajectory& path, double radius, double from, double horizon) const;
@@ -56,7 +56,7 @@ public:
     /// Stepped bodies that no contact holds become ballistic at `step`. Returns whether any did.
     bool take_off(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, std::vector<Body>& bodies,
                   const ForceField& forces, std::int64_t step);
-    /// Whether any body needs stepping: one in contact, a moving kinematic one, one under varying forces.
+    /// True if any body needs stepping: one in contact, a moving kinematic one, one under varying forces.
     bool stepping(const std::vector<Body>& bodies) const;
     /// Starts the trajectories of stepped and kinematic bodies through the coming step. By body: `motions`, of stepped
     /// bodies; `limits`, the fraction of the step for which they may move.
@@ -70,7 +70,7 @@ public:
     std::int64_t run(std::vector<Body>& bodies, SleepMonitor& sleep, const ForceField& forces, std::int64_t until);
     /// Where impacts and the contacts of landings are recorded; null: nowhere. It must outlive the last run().
     void record_in(ContactLog* log) { log_ = log; }
-    /// Whether all events before the step have been processed, and none after it.
+    /// True if all events before the step have been processed, and none after it.
     bool stands_at(std::int64_t step) const {
         return until_ == step && (queue_.empty() || !(queue_.first_moment() < EventTime{step, 0.0}));
     }
@@ -142,14 +142,14 @@ private:
 
     void start(std::uint32_t i, const Trajectory& path, const EventTime& now, const EventTime& until);
     void fly(std::uint32_t i, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
-    /// Whether the body flies with a group of joined bodies.
+    /// True if the body flies with a group of joined bodies.
     bool flies_joined(std::uint32_t i, const std::vector<Body>& bodies) const {
         return bodies[i].flying && groups_.group(i) != GroupFlights::none;
     }
     bool fly_group(std::uint32_t group, std::vector<Body>& bodies, const EventTime& now);
     void take_off_groups(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step);
     void land_group(std::uint32_t group, std::vector<Body>& bodies);
-    /// Of a body that flies with a group; none for others.
+    /// Whereabouts of a body that flies with a group; none for others.
     std::optional<ImpactCluster::Whereabouts> whereabouts(std::uint32_t i, const std::vector<Body>& bodies,
                                                           const EventTime& now) const;
     TimeOfImpact refine(std::uint32_t i, std::uint32_t j, const TimeOfImpact& found, const std::vector<Body>& bodies,
@@ -170,7 +170,7 @@ private:
     void release_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void switch_to_contact(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void hold_receivers(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
-    /// Whether the body's trajectory ends now, at the other body.
+    /// True if the body's trajectory ends now, at the other body.
     bool meets(std::uint32_t i, std::uint32_t other, const EventTime& now) const {
         return events_[i].met == other && events_[i].until <= now;
     }

@@ -32,7 +32,7 @@ public:
     JointSet& joints() const { return *joints_; }
     bool empty() const { return groups_.empty(); }
 
-    /// Whether the group's motion is free but for its joints and gravity.
+    /// True if the group's motion is free but for its joints and gravity.
     bool can_fly(std::uint32_t group, const ForceField& forces);
     /// Flies the group for `span` s from its present state, and leaves it there. Returns false where a joint comes to a
     /// limit, breaks or has no solution in that time.

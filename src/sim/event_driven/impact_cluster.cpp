@@ -103,7 +103,7 @@ void ImpactCluster::note_reach(const std::vector<Body>& bodies) {
     }
 }
 
-// Whether the body has an approaching contact now: then it takes part.
+// True if the body has an approaching contact now: then it takes part.
 bool ImpactCluster::approaches(std::uint32_t body, std::vector<Body>& bodies, const NeighborBoxes& neighbor_boxes,
                                const Bring& bring) {
     const std::size_t pairs = pairs_.size(), first = manifolds_.size(), expanded = expanded_.size();

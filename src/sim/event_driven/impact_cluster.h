@@ -45,7 +45,7 @@ public:
                  const Bring& bring, const LoadSpeed& load, const ImpactSettings& settings,
                  ImpactTrace* trace = nullptr);
 
-    /// Of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
+    /// Results of the last call: the contacts examined, and the dynamic bodies that got an impulse, ascending.
     const std::vector<Contact>& contacts() const { return contacts_; }
     const std::vector<Gap>& gaps() const { return gaps_; }  // by contact
     const std::vector<Manifold>& manifolds() const { return manifolds_; }

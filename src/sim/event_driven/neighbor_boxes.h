@@ -26,7 +26,7 @@ public:
     const std::vector<std::uint32_t>& moving(std::uint32_t body) const { return moving_[body]; }
     /// Fixed bodies near the body's box; half-spaces always.
     const std::vector<std::uint32_t>& fixed(std::uint32_t body) const { return standing_[body]; }
-    /// Whether a body could ever meet anything but half-spaces.
+    /// True if a body could ever meet anything but half-spaces.
     bool crowded() const { return movers_ > 1 || !fixed_.empty(); }
 
     /// For checkpoints: see sim/checkpoint/archive.h.

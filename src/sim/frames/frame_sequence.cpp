@@ -4,7 +4,7 @@
 
 namespace tumble {
 
-/// Of the interval that ends now.
+/// Keeps the impacts of the interval that ends now.
 void FrameSequence::keep_impacts() {
     if (!world_.records_contacts()) return;
     const ContactRecords& records = world_.contact_records();

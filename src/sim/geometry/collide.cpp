@@ -59,7 +59,7 @@ bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
                        [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
 }
 
-// Whether part k would push towards the body's own interior: a contact at an internal edge between parts, which must
+// True if part k would push towards the body's own interior: a contact at an internal edge between parts, which must
 // not catch a sliding body.
 bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
     const double size = whole.parts[k].reach;

@@ -321,7 +321,7 @@ void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuer
                                        .normal = normal_of(of_b, face)};
     SeparatingAxis by_edges{.separation = best};
     bool uses_edges = edge_i >= 0,
-         rejected_edges = false;  // whether an edge contact is used; whether it was rejected for a face
+         rejected_edges = false;  // true if an edge contact is used; true if it was rejected for a face
     if (uses_edges) {
         by_edges.normal = Vec3::Unit(edge_i).cross(r.col(edge_j)).normalized();
         if (flip) by_edges.normal = -by_edges.normal;

@@ -26,7 +26,7 @@ struct TriangleAxis {
     Vec3 normal = Vec3::Zero();  // away from the triangle
 };
 
-// Whether a direction lies on the arc between the normals of an edge's two faces, so that the edge is the farthest
+// True if a direction lies on the arc between the normals of an edge's two faces, so that the edge is the farthest
 // feature along it. Precondition: the direction is perpendicular to the edge.
 bool on_arc(const Vec3& direction, const Vec3& left, const Vec3& right) {
     const Vec3 turn = left.cross(right);
@@ -115,7 +115,7 @@ void add_triangle_manifold(const Polyhedron& b, const FacingTriangle& triangle, 
     add_face_manifold({on_body ? Vec3(-axis.normal) : n, on_body ? face : 0, on_body}, false, sink);
 }
 
-// Whether a contact point of the triangle lies in the body: proof of an overlap.
+// True if a contact point of the triangle lies in the body: proof of an overlap.
 bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose) {
     return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
         const Vec3 on_triangle = pose.to_body(p.position - 0.5 * p.separation * m.normal);

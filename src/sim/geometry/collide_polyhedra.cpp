@@ -51,7 +51,7 @@ void add_manifold(const Polyhedron& a, const Polyhedron& b, const Pose& b_in_a, 
     }
 }
 
-// Whether a contact point lies in both shapes: proof of an overlap.
+// True if a contact point lies in both shapes: proof of an overlap.
 bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, const Polyhedron& b,
                     const Pose& pose_b) {
     const double slack = axis_preference(std::min(a.radius, b.radius));

@@ -12,7 +12,7 @@
 
 namespace tumble {
 
-/// Whether a reduced point has sunk below all points of a pair of faces, by enough to be needed. Separations in m,
+/// True if a reduced point has sunk below all points of a pair of faces, by enough to be needed. Separations in m,
 /// `radius` that of the smaller body.
 bool sank(double reduced, double deepest, double radius);
 

@@ -35,7 +35,7 @@ struct CollisionMesh {
 
     Vec3 corner(std::uint32_t triangle, int i) const { return vertices[triangles[triangle].vertices[std::size_t(i)]]; }
 
-    /// Whether a contact normal (from this mesh outward, unit) belongs to a triangle: beyond the corner or edge that is
+    /// True if a contact normal (from this mesh outward, unit) belongs to a triangle: beyond the corner or edge that is
     /// the triangle's farthest feature along it, the mesh must not extend farther.
     bool owns_normal(const Triangle& triangle, const Vec3& normal) const;
 

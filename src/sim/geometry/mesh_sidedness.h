@@ -17,7 +17,7 @@ struct SideScratch {
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at_edges;
     std::vector<std::uint32_t> piece;  // per triangle of the query: the first triangle of its connected piece
     struct Piece {                     // per triangle of the query, valid for the first ones
-        bool mixed = false;            // whether the planes disagree
+        bool mixed = false;            // true if the planes disagree
         double square = 0.0;           // m^2, least squared distance, to the triangle `nearest`
         std::uint32_t nearest = CollisionMesh::none;
         std::optional<bool> behind;

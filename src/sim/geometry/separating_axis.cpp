@@ -82,7 +82,7 @@ Region contact_region(const Polyhedron& shape, const FaceAxis& f, const Polyhedr
             {own.offset + std::min(0.0, f.separation) - reach, into.dot(other_pose.position) - theirs.offset - reach}};
 }
 
-// Whether the two edges form a face of the Minkowski difference: their arcs on the Gauss map cross (Gregorius 2013). a,
+// True if the two edges form a face of the Minkowski difference: their arcs on the Gauss map cross (Gregorius 2013). a,
 // b: A's face normals beside its edge; c, d: B's, negated; all in one frame.
 bool arcs_cross(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
     const Vec3 bxa = b.cross(a), dxc = d.cross(c);

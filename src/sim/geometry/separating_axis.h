@@ -47,17 +47,17 @@ double axis_preference(double smaller_radius, AxisChoice choice = AxisChoice::st
 /// Separation (m) by which an edge pair must exceed a face with almost the same normal to be chosen.
 double face_over_edges(double smaller_radius);
 
-/// Whether two edges meet so nearly along a face's normal, and separate so little better, that the face is preferred:
+/// True if two edges meet so nearly along a face's normal, and separate so little better, that the face is preferred:
 /// its manifold has several points and already includes the next ones to touch, while on the edges' single point a
 /// tilted plate would rattle. Both as normal and separation; not for AxisChoice::nearest.
 bool edges_along_face(const SeparatingAxis& edges, const SeparatingAxis& face, double smaller_radius,
                       AxisChoice choice);
 
-/// Whether the manifold of that face, if there is one, has no point where the edges meet, because they meet beyond the
+/// True if the manifold of that face, if there is one, has no point where the edges meet, because they meet beyond the
 /// face's border. Then the edges are used after all.
 bool misses_edges(std::span<const Manifold> of_face, double edges_separation, double smaller_radius);
 
-/// Whether shapes that are `apart` along one axis pass each other along another face: they graze its plane, and the
+/// True if shapes that are `apart` along one axis pass each other along another face: they graze its plane, and the
 /// nearer feature would meet only a corner's height of it. Then the face is preferred: a box that slides from tile to
 /// tile does not run into the next tile's side. `face`: separation and normal. Where they graze along both, the
 /// displacement (m) of the step selects the face that they slide over, if it is longer than the grazing tolerance. Not
@@ -65,10 +65,10 @@ bool misses_edges(std::span<const Manifold> of_face, double edges_separation, do
 bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const Vec3& displacement,
                  double smaller_radius, AxisChoice choice);
 
-/// Whether slides_past is possible for a best axis of this separation (m): most pairs are excluded by it.
+/// True if slides_past is possible for a best axis of this separation (m): most pairs are excluded by it.
 bool may_slide_past(double separation, const Vec3& displacement, double smaller_radius);
 
-/// Whether a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
+/// True if a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
 bool contains(const Polyhedron& shape, const Vec3& point, double slack);
 
 }  // namespace tumble

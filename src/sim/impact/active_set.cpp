@@ -304,7 +304,7 @@ void ActiveSet::release_row(std::size_t k) {
     basis_.resize(held_.size() * std::size_t(size_));
 }
 
-// Of all multipliers with the same change, chooses those of the least sum of squares: a flat box presses equally on its
+// Chooses the multipliers of the least sum of squares among all with the same change: a flat box presses equally on its
 // four corners, not on two of them. With B = W_tight Q, over all rows that are just met, and B^T B c = Q^T d these are
 // B c; where one would become negative, the multipliers move from the active set's own towards them as far as none
 // does.

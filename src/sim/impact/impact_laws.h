@@ -36,7 +36,7 @@ struct ImpactSettings {
 /// larger.
 double least_impact(const Contact& contact, double threshold);
 
-/// Whether any contact with restitution approaches fast enough to bounce.
+/// True if any contact with restitution approaches fast enough to bounce.
 bool bounces(const ImpactSystem& cluster, double threshold);
 
 /// Repeats the law until nothing bounces; returns the number of passes. Jammed contacts (a ball between two walls)

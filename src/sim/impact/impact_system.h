@@ -86,7 +86,7 @@ public:
         if (groups_) push_own(row, amount);
     }
     double impulse(std::size_t i) const { return impulse_[i]; }  // N s, sum of all pushes
-    /// Whether the impulse is more than rounding, which gives some contacts a push, and not their mirror images.
+    /// True if the impulse is more than rounding, which gives some contacts a push, and not their mirror images.
     bool felt(std::size_t i) const;
 
     /// For the trace of a pass: announce() its pushes before the first of them, end_pass() after the last.

@@ -37,7 +37,7 @@ GearGeometry measure_gear(const Joint& gear, std::span<const Joint> joints, cons
     return g;
 }
 
-/// Whether both joints of a gear hold.
+/// True if both joints of a gear hold.
 bool gear_holds(const Joint& gear, std::span<const Joint> joints);
 
 /// Sets the bodies and the size of a gear between joints that are built.

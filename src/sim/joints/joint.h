@@ -97,7 +97,7 @@ struct JointCoordinate {
 struct JointGeometry {
     Vec3 point = Vec3::Zero();  // m, world: B's anchor, where both bodies get the forces
     std::array<JointCoordinate, Joint::coordinates> coordinates;
-    // Of a ball: axes of A's frame, the rotation vector (rad) of B's frame along them, and the swing out of the cone.
+    // Ball: axes of A's frame, the rotation vector (rad) of B's frame along them, and the swing out of the cone.
     Mat3 axes = Mat3::Identity();
     Vec3 rotation = Vec3::Zero();
     JointCoordinate swing;
@@ -118,13 +118,13 @@ void measure_locks(const JointLocks& locks, const JointFrames& frames,
 /// Whole turns are counted from Joint::value.
 JointGeometry measure(const Joint& joint, const JointSide& a, const JointSide& b);
 
-/// Of a ball: its coordinate 3.
+/// Twist of a ball: its coordinate 3.
 double twist_of(const Joint& joint, const JointSide& a, const JointSide& b);
 
-/// Whether any coordinate or swing has limits; whether a coordinate was at one at the end of the last step.
+/// True if any coordinate or swing has limits; true if a coordinate was at one at the end of the last step.
 bool limited(const Joint& joint);
 bool at_limit(const Joint& joint);
-/// Whether a limit is violated by more than `tolerance`, in rad and sizes of the joint.
+/// True if a limit is violated by more than `tolerance`, in rad and sizes of the joint.
 bool beyond_limit(const Joint& joint, const JointGeometry& g, double tolerance = 0.0);
 
 }  // namespace tumble

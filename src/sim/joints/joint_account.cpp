@@ -63,7 +63,7 @@ void JointSet::begin_frame() {
     }
 }
 
-// Of the account of a later joint.
+// Prefetches the account of a later joint.
 void JointSet::fetch_spans(std::size_t k) const {
     if (k + elements_ahead >= joints_.size()) return;
     const JointAccount& account = joints_[k + elements_ahead].account;

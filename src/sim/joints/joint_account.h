@@ -50,13 +50,13 @@ struct JointLoad {
 };
 
 struct JointAccount {
-    /// Of a step, and of a frame.
+    /// Account of a step, or of a frame.
     struct Span {
         JointLoad load;
         double work_a = 0.0, work_b = 0.0;  // J, of the joint on each body
         JointWork work;
         int solves = 0;  // steps, or substeps
-        // Of a gear: the same of its second joint, while the above are of its first.
+        // Second joint of a gear: the same, while the above are of the first joint.
         JointLoad second_load;
         double second_work_a = 0.0, second_work_b = 0.0;
 

@@ -40,7 +40,7 @@ public:
     /// Pairs of bodies that do not collide, ascending: of active joints without `collide`.
     std::vector<BodyPair> apart() const;
 
-    /// Whether the joint's motor follows a path in the step: its bodies must not sleep.
+    /// True if the joint's motor follows a path in the step: its bodies must not sleep.
     static bool driven(const Joint& joint, double from, double to);
 
     /// The accounts of all joints begin now.
@@ -51,7 +51,7 @@ public:
     /// After the impacts of a step, and flights between them: adds them to the loads and accounts.
     void take_events();
     void end_frame(int steps, double h, const std::vector<Body>& bodies);
-    /// Of the present poses, and since the start of the accounts.
+    /// Energies of the joints at the present poses, and since the start of the accounts.
     JointEnergies energies(const std::vector<Body>& bodies) const;
     /// Energy in the springs of all joints, or of one, J.
     double elastic(const std::vector<Body>& bodies) const;

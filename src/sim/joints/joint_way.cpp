@@ -21,7 +21,7 @@ double leverage(const Body& body, const Vec3& r) {
     return body.mass * (r.squaredNorm() * w.trace() - r.dot(w * r));
 }
 
-// Whether single precision has the digits for the compliances of the joint.
+// True if single precision has the digits for the compliances of the joint.
 bool holds_digits(const Joint& joint, const std::vector<Body>& bodies) {
     bool turns = false;
     for (std::size_t k = 3; k < joint.count(); ++k)
@@ -98,7 +98,7 @@ double factor_work(const JointGroup& group, const JointSet& joints) {
 
 namespace {
 
-// Whether flight knows the joints of the group.
+// True if flight knows the joints of the group.
 bool flies(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
     std::vector<const Joint*> members;
     for (const std::uint32_t k : group.joints) members.push_back(&joints.joints()[k]);

@@ -54,7 +54,7 @@ JointWay choose_way(const MechanismFacts& mechanism, const ContactFacts& contact
 enum class SweepRule : std::uint8_t { none, dear, all };
 SweepRule sweep_rule(const SimulationSettings& settings);
 
-/// Whether sweeps know the joint: it holds two anchors together and locks or limits turns, with dampers or friction of
+/// True if sweeps know the joint: it holds two anchors together and locks or limits turns, with dampers or friction of
 /// turns, or it holds their distance. Springs, motors, strengths, gears, sliding joints and restitution at limits are
 /// left to the direct solver.
 bool known_to_sweeps(const Joint& joint);
@@ -65,8 +65,8 @@ double factor_work(const JointGroup& group, const JointSet& joints);
 MechanismFacts facts_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies,
                         SweepRule rule);
 
-/// Whether the figures that touch something are so many that they are solved in sweeps, with a hysteresis: a heap that
-/// alternated between the solvers would rock.
+/// Decides if the figures that touch something are so many that they are solved in sweeps, with a hysteresis: a heap
+/// that alternated between the solvers would rock.
 class FigureCrowd {
 public:
     /// Once a step: bodies of the figures that touch something.
@@ -88,7 +88,7 @@ private:
 class Mechanisms {
 public:
     void find(const JointSet& joints, const std::vector<Body>& bodies, SweepRule rule);
-    /// Of an island with joints.
+    /// Facts of an island with joints.
     MechanismFacts facts(std::span<const std::uint32_t> island) const;
 
 private:

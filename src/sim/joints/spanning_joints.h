@@ -24,7 +24,7 @@ struct SpanningJoints {
 bool span_joints(std::span<const std::uint32_t> bodies, std::span<const Joint* const> joints,
                  std::span<const Joint> all, SpanningJoints& tree);
 
-/// Whether they are found, with no more rows than flight solves.
+/// True if span_joints() finds a tree, with no more rows than flight solves.
 bool has_few_loops(std::span<const std::uint32_t> bodies, std::span<const Joint* const> joints,
                    std::span<const Joint> all);
 

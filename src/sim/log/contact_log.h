@@ -93,7 +93,7 @@ private:
         double span = 0.0;         // s, with contact
         double stick_speed = 0.0;  // m/s: slower counts as sticking
     };
-    /// Of a body, in this frame; moments are about the world origin.
+    /// Account of a body, in this frame; moments are about the world origin.
     struct Account {
         Impulse start;               // momentum and angular momentum at the start
         Impulse external, contact;   // impulses since then

@@ -13,7 +13,7 @@ namespace {
 // Below this angle (rad) the series to second order is exact to rounding.
 constexpr double small_angle = 1e-4;
 
-// Of a segment, for the angular acceleration: its error of fourth order and its rounding are below 1e-12 of it.
+// Share of a segment, for the angular acceleration: its error of fourth order and its rounding are below 1e-12 of it.
 constexpr double difference = 1e-3;
 
 }  // namespace

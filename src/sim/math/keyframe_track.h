@@ -35,7 +35,7 @@ public:
     Acceleration acceleration(double time, double within) const;
     /// The first key after a time, s; infinity: none.
     double next_key(double time) const;
-    /// Whether the velocity is continuous.
+    /// True if the velocity is continuous.
     bool smooth() const { return smooth_; }
 
 private:

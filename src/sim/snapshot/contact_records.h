@@ -20,7 +20,7 @@ enum class ContactFeatures : std::uint8_t { vertex_face, face_vertex, edge_edge,
 struct ImpactTime {
     double time = 0.0;       // s
     std::int64_t frame = 0;  // the last frame at or before it
-    bool exact = false;      // whether it is the impact's own, else the end of the step that resolves it
+    bool exact = false;      // true if it is the impact's own time, else the end of the step that resolves it
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [time, frame, exact] = self;
@@ -124,7 +124,7 @@ struct EnergyLedger {
     }
 };
 
-/// Whether the bodies that the impacts struck are among so many.
+/// True if the bodies that the impacts struck are among so many.
 inline bool names_struck(const std::vector<ImpactRecord>& impacts, std::size_t struck) {
     for (const ImpactRecord& impact : impacts)
         if (impact.struck_a >= struck || impact.struck_b >= struck) return false;

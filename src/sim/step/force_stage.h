@@ -37,7 +37,7 @@ public:
     /// Sets the body back to its momenta before the forces: the start of an integrator of higher order.
     void set_back(std::uint32_t i, Body& body) const;
 
-    /// Whether contact has added anything to the effect of the step's forces.
+    /// True if contact has added anything to the effect of the step's forces.
     bool touched(std::uint32_t i, const Body& body) const {
         return effects_[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
                !body.push_angular_velocity.isZero(0.0);

@@ -20,7 +20,7 @@
 namespace tumble {
 namespace {
 
-// Whether touching points with restitution approach faster than resting contact does.
+// True if touching points with restitution approach faster than resting contact does.
 bool collides(std::size_t island, ContactDetection& detection, const StepContext& step, double threshold) {
     const std::vector<Body>& bodies = step.set.bodies;
     const auto touching = detection.islands().pairs(island);

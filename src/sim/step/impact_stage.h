@@ -18,7 +18,7 @@ class ImpactStage {
 public:
     /// v_rel < 0: impulses with restitution.
     void resolve(const StepContext& step, ContactDetection& detection);
-    /// Whether the step has impacts: momenta have changed.
+    /// True if the step has impacts: momenta have changed.
     bool any() const { return !struck_.empty(); }
 
     /// Restores the speeds of the bounces after the step's forces.

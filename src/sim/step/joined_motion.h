@@ -25,7 +25,7 @@ public:
 
     /// After the forces and the solve: the momenta of the step's end to the bodies that are free.
     void give_momenta(const StepContext& step) const;
-    /// Of a body that is `placed`: its velocity along the step, and its state at the end.
+    /// Motion of a body that is `placed`: its velocity along the step, and its state at the end.
     BodyVelocity motion(std::uint32_t body, const BodySet& set, double h) const;
     const RigidState& end(std::uint32_t body) const { return ends_[place_[body]]; }
 

@@ -27,7 +27,7 @@ public:
     /// more may leave the stepped ones here.
     virtual std::span<const std::uint32_t> choose_stepped(const StepContext& step,
                                                           const std::vector<Manifold>& manifolds) = 0;
-    /// Whether stepped bodies may differ from the awake ones, and bodies move between steps.
+    /// True if stepped bodies may differ from the awake ones, and bodies move between steps.
     virtual bool has_ballistic_bodies() const = 0;
 
     /// Smallest speed at which a contact under load may rebound, over the speed that its load gives it in a step.

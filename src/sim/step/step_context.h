@@ -34,9 +34,9 @@ struct StepContext {
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s
-    /// Of an impact that this step resolves.
+    /// Time of an impact that this step resolves.
     ImpactTime impact_time() const { return {end(), (index + 1) / settings.steps_per_frame, false}; }
-    /// Of an impact in the last step, `lag` s before its end.
+    /// Time of an impact in the last step, `lag` s before its end.
     ImpactTime time_before_start(double lag) const {
         return {start() - lag, (index - 1) / settings.steps_per_frame, true};
     }

@@ -13,7 +13,7 @@
 namespace tumble {
 namespace {
 
-// Whether the body's rotation in flight is nonuniform, or too large for one tangent: if the body is clamped, its
+// True if the body's rotation in flight is nonuniform, or too large for one tangent: if the body is clamped, its
 // rotation is that of free rotation, which keeps the energy all along.
 bool turns_freely(std::uint32_t i, const StepContext& step) {
     const Body& body = step.set.bodies[i];

@@ -36,7 +36,7 @@ struct ConstraintRows {
     Vec3 tangent_1 = Vec3::Zero();
     std::uint8_t source[4] = {};
     ContactConstraint geometry;
-    // Of a shared area: its first constraint has the friction rows of all; the others do not rub.
+    // Shared area: its first constraint has the friction rows of all; the others do not rub.
     const SharedArea* area = nullptr;
     int first = none, next = none;  // indices of constraints: the first, and a chain from it through all others
     bool rubs = true;

@@ -39,8 +39,8 @@ void DirectSolver::join_area(ConstraintRows& constraint, const ContactProblem& p
     geometry.tangent_2 = geometry.normal.cross(geometry.tangent_1);
 }
 
-// Of all constraints of an area, from their estimates or impulses: the load (N s) and its levers (N s m), both times the
-// coefficients of friction.
+// Shared load of all constraints of an area, from their estimates or impulses: load (N s) and its levers (N s m), both
+// times the coefficients of friction.
 std::pair<double, double> DirectSolver::shared_load(const ConstraintRows& first, double Row::*impulse) const {
     double load = 0.0;
     Vec3 aside = Vec3::Zero();

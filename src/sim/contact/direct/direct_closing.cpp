@@ -99,8 +99,8 @@ void DirectSolver::set_friction_compliance(double compliance) {
     if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
 }
 
-// Whether no body in contact is faster than the forces change velocities in a step. Rounds that end with soft friction leave
-// a creep there, which the next steps go on with.
+// True if no body in contact is faster than the forces change velocities in a step. Rounds that end with soft friction
+// leave a creep there, which the next steps go on with.
 bool DirectSolver::comes_to_rest(const JointIsland& island) const {
     return !constraints_.empty() && std::all_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
         const BodyVelocity& before = island.problem.before[i];
@@ -108,7 +108,7 @@ bool DirectSolver::comes_to_rest(const JointIsland& island) const {
     });
 }
 
-// Whether the last round has changed no velocity: where bodies jam, impulses may have no limit and keep changing.
+// True if the last round has changed no velocity: where bodies jam, impulses may have no limit and keep changing.
 bool DirectSolver::moves_no_body() const {
     const double least = (near_rest_ ? tuning::joint_rest : tuning::joint_contact_rest) * speed_scale_;
     for (std::size_t k = 0; k < velocity_.size(); ++k)

@@ -91,7 +91,7 @@ void DirectSolver::move_contact(ConstraintRows& constraint, const ContactProblem
     rewrite(constraint.friction[1], geometry.tangent_2, geometry.friction_arm_a, geometry.friction_arm_b);
 }
 
-// Whether the rows are fulfilled without impulses: at the present velocities, and at the end of the step.
+// True if the rows are fulfilled without impulses: at the present velocities, and at the end of the step.
 bool DirectSolver::moves_freely(const JointIsland& island) {
     if (speed_scale_ > tuning::direct_rounding * fastest_) return false;
     velocity_ = free_;
@@ -155,7 +155,7 @@ void DirectSolver::move_to_end(const JointIsland& island, bool moved) {
     }
 }
 
-// Of the step's forces, those of a part that act at its start. Without contacts half of them act at its end, as in flight.
+// Share of the step's forces that acts at the start of a part. Without contacts as much acts at its end, as in flight.
 double DirectSolver::force_share(const JointIsland& part) const {
     const double share = part.problem.settings.h / (part.problem.joints->to() - part.problem.joints->from());
     return kicks() ? 0.5 * share : share;

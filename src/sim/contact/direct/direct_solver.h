@@ -94,7 +94,7 @@ private:
     void load_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, bool first);
     void give_back_part(const JointIsland& part);
     bool kicks() const { return cut_ && constraints_.empty(); }
-    /// Whether the impulses are loads, and estimates of the next ones: where contacts and joints jam they have no limit.
+    /// True if the impulses are loads and estimates of the next ones: where contacts and joints jam they have no limit.
     bool estimates() const { return settled_ || constraints_.empty(); }
     double force_share(const JointIsland& part) const;
     void kick(const JointIsland& part);

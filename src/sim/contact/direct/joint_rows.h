@@ -99,9 +99,9 @@ public:
     std::span<Row> rows() { return rows_; }
     std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
     double length() const { return length_; }  // m, of the island
-    /// Whether the impulses of the last step are estimates.
+    /// True if the impulses of the last step are estimates.
     bool estimated() const;
-    /// Whether the joints form no loop: else their impulses are not unique, and those of the last step no estimate.
+    /// True if the joints form no loop: else their impulses are not unique, and the last step gives no estimate.
     bool tree() const { return tree_; }
     std::span<Block> blocks() { return blocks_; }
     void clear() {
@@ -137,7 +137,7 @@ public:
     /// Impulses along the Newton step, without and with their derivatives.
     void evaluate(double along);
     void evaluate_with_weights();
-    /// Whether the last evaluate_with_weights() has moved a row to or from a bound.
+    /// True if the last evaluate_with_weights() has moved a row to or from a bound.
     bool weights_changed() const { return weights_changed_; }
     double slope() const;                                            // sum of f J du
     double objective(const std::vector<double>& u) const;            // J: the rows' part of the minimized function at u

@@ -45,7 +45,7 @@ void JointRows::keep_velocities(const JointIsland& island, bool first) {
     }
 }
 
-// Of the body at a point: the mean of before and after the step.
+// Velocity of the body at a point: the mean of before and after the step.
 BodyVelocity JointRows::mean_velocity(const JointIsland& island, std::uint32_t body, int place,
                                       const Vec3& point) const {
     if (body == Joint::world) return {Vec3::Zero(), Vec3::Zero()};

@@ -14,7 +14,7 @@ double size_of(const Manifold& m, const std::vector<Body>& bodies) {
     return std::min(bodies[m.a].radius, bodies[m.b].radius);
 }
 
-// Whether two faces meet there.
+// True if two faces meet there.
 bool face_contact(const Manifold& m) { return !m.more && m.count >= 3 && m.area > 0.0f; }
 
 std::span<const ContactPoint> points_of(const Manifold& m) { return std::span(m.points).first(std::size_t(m.count)); }
@@ -36,10 +36,10 @@ Vec3 acting_centroid(const Manifold& m, const std::vector<Body>& bodies) {
     return acting_point(contact_area(m).centroid, separation, m.normal, bodies[m.a].dynamic(), bodies[m.b].dynamic());
 }
 
-// Whether two bodies that contacts do not move act as one.
+// True if two bodies that contacts do not move act as one.
 bool move_alike(const Body& a, const Body& b) { return &a == &b || (!a.moves() && !b.moves()); }
 
-// Whether the faces of two manifolds with one common body lie in one plane.
+// True if the faces of two manifolds with one common body lie in one plane.
 bool coplanar(const Manifold& m, const Manifold& other, const std::vector<Body>& bodies) {
     // The common body may be A of one and B of the other.
     const bool turned = m.a == other.b || m.b == other.a;

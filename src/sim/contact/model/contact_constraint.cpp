@@ -59,7 +59,7 @@ bool ConstraintSettings::bounces(double approach, const Manifold& m, int point, 
 
 namespace {
 
-// Whether the normal of a curved gap turns until the bodies meet within the step.
+// True if the normal of a curved gap turns until the bodies meet within the step.
 bool turns_ahead(const Manifold& m, const Body& a, const Body& b, const ConstraintSettings& settings) {
     if (a.jointed || b.jointed) return false;
     const auto gap = std::get<CurvedGap>(m.geometry());
@@ -92,7 +92,7 @@ ContactConstraint make_constraint(const Manifold& m, const BodiesInStep& bodies,
     const double near = tuning::friction_near * constraint.size;
     Vec3 center = Vec3::Zero(), of_area = Vec3::Zero();  // relative to A's center
     double weights = 0.0, shares = 0.0;
-    bool whole = true;  // whether all of the area touches or nearly does
+    bool whole = true;  // true if all of the area touches or nearly does
     for (int i = 0; i < m.count; ++i) {
         const ContactPoint& from = m.points[std::size_t(i)];
         const PredictedGap seen = predicted_gap(m, i, bodies, settings.h);

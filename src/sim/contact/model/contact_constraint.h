@@ -40,7 +40,7 @@ struct ConstraintSettings {
     double threshold_share = 0.0, rebound_share = 0.0;
     bool meets = false;  // time-stepping: a curved gap that turns toward contact may close into an overlap
 
-    /// Whether a point that approaches at this speed (m/s) bounces.
+    /// True if a point that approaches at this speed (m/s) bounces.
     bool bounces(double approach, const Manifold& manifold, int point, const Body& a, const Body& b) const;
 };
 
@@ -88,8 +88,8 @@ inline Vec3 acting_point(const Vec3& position, double separation, const Vec3& no
 /// v_rel of a manifold's point, m/s; negative: approaching.
 double relative_velocity(const ContactPoint& point, const Vec3& normal, const Body& a, const Body& b);
 
-/// Whether a point is skipped in this step because it will bounce, or meet the other body at another normal: stopping it at
-/// the surface would take the speed of its rebound, or push it along the present normal. `slower` (m/s): PredictedGap::slower.
+/// True if this step skips a point because it will bounce, or meet the other body at another normal: stopping it at the
+/// surface would take its rebound's speed, or push it along the present normal. `slower` (m/s): PredictedGap::slower.
 bool will_bounce(const Manifold& manifold, int point, const Body& a, const Body& b, double slower,
                  const ConstraintSettings& settings);
 
@@ -110,7 +110,7 @@ double normal_impulse(const Manifold& manifold);
 /// Multiplies the impulses by `share`.
 void scale_impulses(Manifold& manifold, double share);
 
-/// Of a pair of bodies, by the rules of the scene.
+/// Restitution and friction of a pair of bodies, by the rules of the scene.
 double pair_restitution(const Body& a, const Body& b);
 double pair_friction(const Body& a, const Body& b);
 

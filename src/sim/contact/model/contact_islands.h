@@ -59,11 +59,11 @@ public:
             archive.keep(first, second, manifold);
         }
     };
-    /// Of all islands, ascending.
+    /// Repeated manifolds of all islands, ascending.
     std::span<const Repeated> repeated() const { return repeated_; }
     /// Number of body pairs that touch; a pair of compounds or meshes may have many manifolds.
     std::size_t touching_pairs(std::size_t island) const { return touching_pairs_[island]; }
-    /// Whether the island touches only its own bodies.
+    /// True if the island touches only its own bodies.
     bool is_free(std::size_t island) const { return free_[island] != 0; }
 
 private:

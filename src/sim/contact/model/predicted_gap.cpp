@@ -29,7 +29,7 @@ public:
     RotatingPointGap(const Vec3& corner, double gap, const Vec3& normal, const RigidMotion& of_corner,
                      const RigidMotion& of_face);
 
-    // Whether the relative rotation of the bodies is fast enough to matter in a step of h seconds, while the face
+    // True if the relative rotation of the bodies is fast enough to matter in a step of h seconds, while the face
     // keeps its normal. A spin about the normal lowers no corner: with it, rounding would choose one of a flat body's
     // corners.
     static bool matters(const Vec3& normal, const RigidMotion& of_corner, const RigidMotion& of_face, double h);

@@ -42,7 +42,7 @@ void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
 
 namespace {
 
-// Whether the bodies touch, or will before the end of the step.
+// True if the bodies touch, or will before the end of the step.
 bool meets(const Manifold& m, const Body& a, const Body& b, double h, double speed_change) {
     const double touch = touch_distance(a.radius, b.radius);
     for (int i = 0; i < m.count; ++i) {
@@ -80,7 +80,7 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
     return woken;
 }
 
-// Whether the body has been at rest for one of the spans.
+// True if the body has been at rest for one of the spans.
 bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     bool rests = false;
     const double least = (tuning::sleep_samples + 1) * h;  // steps may be as long as a span: its trend must be known

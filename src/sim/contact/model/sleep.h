@@ -37,7 +37,7 @@ public:
     void observe(const ContactIslands& islands, const std::vector<Manifold>& manifolds, std::vector<Body>& bodies,
                  double h, double speed_change = 0.0, const JointSet* joints = nullptr);
 
-    /// Whether the sleeping bodies are just the members of the groups that they fell asleep with.
+    /// True if the sleeping bodies are just the members of the groups that they fell asleep with.
     bool sound(const std::vector<Body>& bodies) const;
 
     /// Increases whenever a body falls asleep or wakes.
@@ -84,7 +84,7 @@ private:
         Spans spans;
         double since = 0.0;  // s, since the last sample
         int steady = 0;      // consecutive samples without rest
-        bool ends = false;   // whether the way that is left to a motion that decays is short enough
+        bool ends = false;   // true if the way that is left to a motion that decays is short enough
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
             auto& [spans, since, steady, ends] = self;

@@ -92,7 +92,7 @@ void Projection::add_tree(const JointGroup& group, const JointSet& joints, const
     trees_.push_back({first, nodes_.size()});
 }
 
-// Of the body alone.
+// Loads the inertia of the body alone.
 void Projection::load_inertia(const Body& body, Link& link) {
     const Vec3& arm = link.arm;
     const double m = body.mass, square = m * arm.squaredNorm();

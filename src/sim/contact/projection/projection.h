@@ -20,7 +20,7 @@ class Projection {
 public:
     /// The trees of joints, found anew when joints begin or end to hold.
     void find(const JointSet& joints, const std::vector<Body>& bodies);
-    /// Whether all joints of an island are closed: none of its groups has a loop.
+    /// True if all joints of an island are closed: none of its groups has a loop.
     bool closes(std::span<const std::uint32_t> island) const {
         return std::none_of(island.begin(), island.end(), [&](std::uint32_t i) { return loops_[i] != 0; });
     }

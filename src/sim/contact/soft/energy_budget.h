@@ -46,7 +46,7 @@ struct EnergyBudget {
 /// Takes a fraction of its gain from a body that has gained. Its displacement in the step is scaled by `displacement`.
 void take_back(const ForceAccount& forces, double share, double displacement, Body& body);
 
-/// Whether soft contacts may spin up a body of this island; its displacement is then limited by the budget. In other
+/// True if soft contacts may spin up a body of this island; its displacement is then limited by the budget. In other
 /// islands, resting bodies may be pushed out of an overlap at no cost.
 bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies,
                  const std::vector<BodyVelocity>& before, double h);

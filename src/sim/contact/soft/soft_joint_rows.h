@@ -48,7 +48,7 @@ struct TurnRows {
     Vector3<Real> turned;                  // rad, the coordinates at present
     Vector3<Real> bend;  // coordinate x grows by bend.x y z, and so on: of two turns in sequence, as of a cross
     Real circle, twist;  // coordinate y grows by (circle z + twist x)^2: of a swing along the border of a cone
-    // Of a round cone the axes follow the swing: x halfway between the twist axes of A and B, y that of the swing.
+    // In a round cone the axes follow the swing: x halfway between the twist axes of A and B, y the axis of the swing.
     // Coordinate y is the sine of the angle beyond the cone.
     Real round;  // 1: of a round cone, else 0
     Real limit_sine, limit_cosine;
@@ -60,7 +60,7 @@ struct TurnRows {
     Symmetric3<Real> mass;     // kg m^2, inverse of the compliance of the locked axes
     Vector3<Real> impulse;     // N m s, on B
     Vector3<Real> torque_sum;  // N m s, world, of all substeps
-    // Of driven joints. Dampers: the compliance 1/(d C) of a substep d, 1/(kg m^2), 0 without one; and the inverse of all
+    // Driven joints. Dampers: the compliance 1/(d C) of a substep d, 1/(kg m^2), 0 without one; and the inverse of all
     // compliance. Friction about the axes that have `rubs` 1: its largest impulse, N m s, and the increase of that with
     // the impulse of the force, m.
     Vector3<Real> softness, damps, damping, rubs, friction;

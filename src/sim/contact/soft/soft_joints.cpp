@@ -37,7 +37,7 @@ Vec3 direction_of(const Vec3& apart) {
     return length > 0.0 ? Vec3(apart / length) : Vec3(Vec3::UnitY());
 }
 
-// Of the body at a point: the mean of before and after the solve.
+// Velocity of the body at a point: the mean of before and after the solve.
 BodyVelocity mean_at(const ContactProblem& problem, std::uint32_t body, const Vec3& point) {
     if (body == Joint::world) return {};
     const Body& b = problem.bodies[body];

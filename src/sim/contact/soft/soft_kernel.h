@@ -147,7 +147,7 @@ struct Bodies {
     float* start = nullptr;
 };
 
-/// Of a soft constraint (soft_solver.h): overlap to velocity, 1/s; factors of the mass and of the last impulse.
+/// Constants of a soft constraint (soft_solver.h): overlap to velocity, 1/s; factors of mass and of the last impulse.
 struct Softness {
     float bias_rate, mass_scale, impulse_scale;
 };
@@ -155,7 +155,7 @@ struct Substep {
     float per_second;
     // for pairs that impulses move, of like or unlike masses; for pairs with a body that impulses do not move
     Softness alike, unlike, fixed;
-    // Of joints: share of the gap that is closed, 1/s, and share of the last impulse that a push gives up.
+    // Joints: share of the gap that is closed, 1/s, and share of the last impulse that a push gives up.
     float joint_rate = 0.0f, joint_leak = 0.0f;
 };
 

@@ -63,7 +63,7 @@ struct Impulse {
     Vector linear, angular;
 };
 
-// Of a manifold: normal impulses at each point, along both tangents and torsional (`friction`).
+// Total impulse of a manifold: normal impulses at each point, along both tangents and torsional (`friction`).
 template <class AtPoint>
 inline Impulse total(const Rows& m, int points, AtPoint&& along_normal_at, const Vector& friction) {
     const Vector n = m.normal, t1 = m.tangent;
@@ -335,7 +335,7 @@ inline void solve_normals(Rows& m, const Motion& a, const Motion& b, const Subst
     }
 }
 
-// Whether no lane has any impulse: until one has, nothing changes.
+// True if no lane has any impulse: until one has, nothing changes.
 template <int points>
 inline bool idle(const Rows& m) {
     Lanes sum = m.friction.x * m.friction.x + m.friction.y * m.friction.y + m.friction.z * m.friction.z;

@@ -92,12 +92,12 @@ public:
         const std::vector<Joint>& joints;
         const std::vector<soft::JointKind>& kinds;  // by joint
     };
-    /// Of a batch with joints, before close().
+    /// Adds the joints of a batch that has some, before close().
     void add_joints(const IslandBatch& batch, const AllJoints& all, const std::vector<Body>& bodies,
                     const std::vector<std::uint32_t>& slot, std::size_t lanes);
     void close(const IslandBatch& batch, std::size_t lanes);
 
-    /// Whether the layout is valid for one more step with the same pairs: the cuts of large islands depend on the
+    /// True if the layout is valid for one more step with the same pairs: the cuts of large islands depend on the
     /// bodies' positions, and the costs of manifolds change slowly.
     bool lasts() { return lasts_ && ++steps_ < tuning::soft_layout_steps; }
 

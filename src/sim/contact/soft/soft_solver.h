@@ -44,7 +44,7 @@ public:
     /// number of threads.
     using Batch = IslandBatch;
     void solve(const ContactProblem& problem, std::span<Batch> batches, bool same, ThreadPool& pool);
-    /// Of a joint of the last solve: see soft_joints.h, N m s.
+    /// Moment C of a joint in the last solve: see soft_joints.h, N m s.
     const Vec3& carried(std::uint32_t joint) const { return carried_[joint]; }
 
 private:

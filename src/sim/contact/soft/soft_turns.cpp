@@ -31,8 +31,8 @@ bool turns_freely(const Joint& joint) {
 
 Vec3 vector_of(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
 
-// Of impulses along the axes of A's frame, which a ball's dampers and friction have; those of others are along the
-// coordinates.
+// Impulses of a law about the axes. The impulses of a ball's dampers and friction are along the axes of A's frame; the
+// impulses of others are along the coordinates.
 Vec3 drive_about(const Joint& joint, const JointGeometry& g, const TurnAxes& axes, Joint::Law law) {
     Vec3 impulse;
     for (std::size_t k = 0; k < 3; ++k) impulse[Eigen::Index(k)] = joint.impulse[3 + k][law];

@@ -9,7 +9,7 @@
 
 namespace tumble {
 
-/// Of a joint that sweeps know (known_to_sweeps).
+/// Kind of a joint that sweeps know (known_to_sweeps).
 soft::JointKind kind_in_sweeps(const Joint& joint);
 
 /// The axes of a joint's turns, one for each of the coordinates 3 to 5, of the poses at the start of a step.

@@ -52,7 +52,7 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
     const Wrench wrench = law(velocity, rotation);
     double rate = 0.0;
     if (drag.rate > 0.0) {
-        // Of dv/dt = a - k |u| u, k half the drag rate, it is k |u|; where the speed still builds up, sqrt(k a).
+        // The rate of dv/dt = a - k |u| u, k half the drag rate, is k |u|; where the speed still builds up, sqrt(k a).
         const double speed = (velocity - drag.wind).norm(), acceleration = mass.inverse_mass * wrench.force.norm();
         rate += drag.rate * speed + std::sqrt(drag.rate * acceleration);
         // The singularity is |u| / a away. Over h it contributes k a^2 h^3 to the velocity, which vanishes for small h.

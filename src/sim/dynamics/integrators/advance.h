@@ -7,9 +7,9 @@
 
 namespace tumble {
 
-/// Whether advance_one_step moves bodies of this kind (the two Euler methods belong to World).
+/// True if advance_one_step moves bodies of this kind (the two Euler methods belong to World).
 bool steps_whole_state(IntegratorKind kind);
-/// Whether a body without contact moves from its whole state at the start of the step: by those or in closed form.
+/// True if a body without contact moves from its whole state at the start of the step: by those or in closed form.
 inline bool advances_whole_state(IntegratorKind kind) {
     return kind == IntegratorKind::exact || steps_whole_state(kind);
 }

@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// Whether the rotation in a step of h seconds is too large for one tangent: by more than tuning::spin_largest_turn.
+/// True if the rotation in a step of h seconds is too large for one tangent: by more than tuning::spin_largest_turn.
 bool turns_too_far(const Body& body, double h);
 
 /// The constant angular velocity (rad/s) that, used in advance_pose() over h seconds, gives the orientation of
@@ -42,7 +42,7 @@ void turn_freely(Body& body, const Quat& from, double duration);
 /// Twice the rotational energy (J).
 inline double spin(const Body& body) { return body.angular_momentum.dot(body.angular_velocity); }
 
-/// Whether the rotation has increased spin() from `before` by more than tuning::spin_growth of it.
+/// True if the rotation has increased spin() from `before` by more than tuning::spin_growth of it.
 bool spin_grew(const Body& body, double before);
 
 /// Scales L such that spin() equals `before`.
