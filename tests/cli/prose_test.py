@@ -84,6 +84,20 @@ class Prose(unittest.TestCase):
             ["src/a.cpp:3", "for ever"], ["tests/b.cpp:1", "British spelling"], ["tests/b.cpp:1", "free relative"],
             ["tests/c.py:1", "a body is 'it'"]])
 
+    def test_comments_that_begin_without_a_subject_are_found(self):
+        found = self.checked({"src/a.cpp": "int a;   // m\n// Of the body.\nint b;\nbool c;   // whether it moves\n/* Whether it rests. */\n",
+                              "tests/b.h": "/// A paragraph.\n///\n/// Of another one.\n    // Whether it\n    // moves.\n",
+                              "shaders/c.frag": "/** A paragraph.\n *\n * Whether it\n * moves. */\nfloat x;   //!< Of a body\n"})
+        self.assertEqual([line.split(": ")[:2] for line in found], [
+            [place, "comment without a subject"]
+            for place in ("src/a.cpp:2", "src/a.cpp:4", "src/a.cpp:5", "tests/b.h:3", "tests/b.h:4", "shaders/c.frag:3", "shaders/c.frag:5")])
+
+    def test_only_the_begin_of_a_comment_needs_a_subject(self):
+        files = {"src/a.cpp": "// It tells\n// whether a body moves. Of two bodies one moves.\nint a;   // of a body\nint b;   // one\n"
+                              "         // Of two\nauto c = \"Of a body\";\n/* Two\n   Of them. */\n// `Whether`: a word.\n",
+                 "docs/b.md": "Whether a body sleeps is measured.\n", "scripts/c.py": "# Of all bodies one moves.\n"}
+        self.assertEqual(self.checked(files), [])
+
     def test_history_is_found_in_documents_only(self):
         found = self.checked({"docs/a.md": "It is now faster.\n", "src/b.cpp": "// The time is now.\n"})
         self.assertEqual([line.split(": ")[:2] for line in found], [["docs/a.md:1", "history"]])
