@@ -14,7 +14,7 @@
 namespace tumble {
 
 /// Version of the layout of all files and of the states in them: a new one reads no old file.
-inline constexpr std::uint32_t checkpoint_format = 2;
+inline constexpr std::uint32_t checkpoint_format = 3;
 
 struct CheckpointHeader {
     std::uint32_t format = checkpoint_format;
