@@ -31,7 +31,7 @@ private:
     int read_ = -1, write_ = -1;
 };
 
-/// Writes all bytes; false if nobody is left to read them.
+/// Writes all bytes; false if no reader is left.
 bool write_all(int file, std::string_view bytes);
 
 struct ChildRules {

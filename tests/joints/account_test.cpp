@@ -162,7 +162,7 @@ TEST(JointAccount, ThePendulumPullsAtTheBottom) {
     EXPECT_NEAR(most, 24.4883042394014963, 1e-2);
 }
 
-// The root of a flight gets the work of the laws: where it has touched something, its loss is not booked twice.
+// In flight the first body of a joint gets the work of its laws: a loss is not booked again as one of its contacts.
 TEST(JointAccount, ALimitIsBookedOnceWhereTheRootHasTouched) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = 64;

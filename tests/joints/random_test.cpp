@@ -122,7 +122,7 @@ SceneDescription jammed_pair(std::uint64_t seed) {
 
 }  // namespace
 
-// Contact and rod exclude each other: impulses against each other have no limit, and each rebound would be fed again.
+// Contact and rod exclude each other: their impulses have no limit, and must not become energy.
 TEST(RandomJoints, JammedPairsGainNoEnergy) {
     for (std::uint64_t seed = 1; seed <= 60; ++seed) {
         World world(jammed_pair(seed));

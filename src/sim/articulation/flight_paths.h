@@ -19,7 +19,7 @@ public:
     /// A body (index among those of start()) has flown through a part.
     void add(std::size_t body, int part, const Body& before, const Body& after);
 
-    /// True if two bodies of a manifold meet. Bodies beside those of start() move with their present velocities.
+    /// True if two bodies of a manifold meet. Bodies that start() was not given keep their velocities.
     bool any_meet(const std::vector<Body>& all, const std::vector<Manifold>& manifolds,
                   std::span<const std::uint32_t> of_island) const;
 

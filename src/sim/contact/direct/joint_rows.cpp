@@ -192,7 +192,7 @@ double JointRows::demand(const std::vector<double>& u) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const Row& row = rows_[k];
-            if (row.least == row.most) continue;  // an open limit
+            if (row.least == row.most) continue;  // an open limit, or a joint that gives way
             const double missing = row.target - row.offset - dot(block, row, u);
             if (row.law == Joint::lock) most = std::max(most, std::abs(missing));
             if (row.least == 0.0) most = std::max(most, missing);

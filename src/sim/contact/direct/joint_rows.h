@@ -99,7 +99,7 @@ public:
     std::span<Row> rows() { return rows_; }
     std::span<const Row> rows(const Block& block) const { return std::span(rows_).subspan(block.first, block.count); }
     double length() const { return length_; }  // m, of the island
-    /// True if the impulses of the last step are estimates.
+    /// True if the impulses of the last step have settled: only then are they estimates of the next ones.
     bool estimated() const;
     /// True if the joints form no loop: else their impulses are not unique, and the last step gives no estimate.
     bool tree() const { return tree_; }

@@ -10,7 +10,7 @@ struct Spin {  // quaternion
     Vector v;
 };
 
-// Spin of the rotation vector t: (cos|t|/2, sin(|t|/2)/|t| t), as series in |t|^2.
+// Quaternion of the rotation vector t: (cos|t|/2, sin(|t|/2)/|t| t), as series in |t|^2.
 inline Spin spin_of(const Vector& t) {
     const Lanes s = 0.25f * dot(t, t);
     const Lanes cosine = 1.0f - s * (0.5f - s * (1.0f / 24.0f - s * (1.0f / 720.0f - s * (1.0f / 40320.0f))));
