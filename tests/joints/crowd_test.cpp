@@ -33,8 +33,8 @@ void add_figure(SceneDescription& scene, const Vec3& place, const Quat& q) {
     }
 }
 
-/// Figures of five bodies fall on a floor, apart or in a heap. Joints of one axis have friction. Balls have none: in heaps
-/// of other angles a limb may swing for long.
+/// Figures of five bodies fall on a floor, apart or in a heap. Joints of one axis have friction; in a heap all have, or a
+/// limb that hangs free would swing for long.
 SceneDescription crowd(int figures, bool heap = false) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = 4;
@@ -43,7 +43,7 @@ SceneDescription crowd(int figures, bool heap = false) {
         add_figure(scene, heap ? above : apart, turn(Vec3(1.0, 0.3 * k, -0.5).normalized(), (heap ? 0.82 : 0.7) * k));
     }
     for (JointDescription& joint : scene.joints)
-        if (joint.type == JointType::hinge) joint.turn[0].friction = 0.05;
+        if (joint.type == JointType::hinge || heap) joint.turn[0].friction = 0.05;
     add_floor(scene);
     return scene;
 }

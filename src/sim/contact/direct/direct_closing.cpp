@@ -236,8 +236,10 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
             change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
         if (!constraints_.empty() && (settled || moves_no_body()) && error < tuning::joint_contact_settled &&
-            contact_error < tuning::joint_corner_closed)
+            contact_error < tuning::joint_corner_closed) {
+            settled_ = settled;
             return Closing::closed;
+        }
         // Friction may change slowly from round to round; the joints are closed all the same.
         if (!constraints_.empty() && round + 1 >= most_rounds && error < tuning::joint_contact_closed)
             return Closing::closed;

@@ -123,6 +123,12 @@ double JointRows::misfit() const {
     return most;
 }
 
+double JointRows::largest_impulse() const {
+    double most = 0.0;
+    for (const Row& row : rows_) most = std::max(most, std::abs(row.impulse));
+    return most;
+}
+
 void JointRows::break_under_loads(const JointIsland& island) {
     const double h = island.problem.settings.h;
     for (const Block& block : blocks_) {
@@ -158,12 +164,13 @@ void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking bookin
     // The fit belongs to the forces at the end of a part.
     if (!kicked_) joints_.keep_velocities(island, false);
     kicked_ = false;
+    // At rest all speeds are rounding: those that the impulses give and take count.
+    const double fits = tuning::joint_fits * std::max(fastest_, joints_.largest_impulse() / lightest_);
     joints_.start_fit(island, ahead, solved, struck);
     joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
     velocity_ = free_;
     joints_.evaluate_speeds(velocity_);
     double last = speed_scale_ = joints_.misfit();
-    const double fits = tuning::joint_fits * fastest_;
     if (!(last > fits)) return;
     int slow = 0;
     for (int pass = 0; pass < tuning::joint_rounds && last > fits; ++pass) {
