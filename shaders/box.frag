@@ -22,15 +22,21 @@ void main() {
     // a thin face by many times its width, on the tile of another face. Clamp to the box.
     vec2 on_face = clamp(v_on_face, -v_face.xy, v_face.xy);
     // Normal of a rounded box: direction away from the box that is smaller by the bevel.
-    vec3 normal = vec3(max(on_face - v_face.zw, 0.0) + min(on_face + v_face.zw, 0.0), v_edges.x);
+    // It is the mean over one and a half pixels as far as they are on the face: at a low angle a bevel is narrower than a
+    // pixel, and pixel centers would hit it in dashes.
+    vec2 wide = max(0.75 * fwidth(v_on_face), 1e-4 * v_face.xy);
+    vec2 low = max(on_face - wide, -v_face.xy), high = min(on_face + wide, v_face.xy);
+    vec2 a = max(high - v_face.zw, 0.0), b = max(low - v_face.zw, 0.0);
+    vec2 c = max(-low - v_face.zw, 0.0), d = max(-high - v_face.zw, 0.0);
+    vec3 normal = vec3((a * a - b * b - c * c + d * d) / (2.0 * (high - low)), v_edges.x);
     vec2 spread = vec2(0.0);
 #ifdef FILTERED
     // Variance of the normal's tilt over the pixel: the mean of the square less the square of the mean. GGX's squared
     // width is twice the variance of slopes.
     vec2 footprint = 0.5 * max(fwidth(v_on_face), 1e-4 * v_edges.xx), bent = abs(on_face) - v_face.zw;
-    vec2 low = max(bent - footprint, 0.0), high = max(bent + footprint, 0.0);
-    vec2 mean = (high * high - low * low) / (4.0 * footprint);
-    vec2 squares = (high * high * high - low * low * low) / (6.0 * footprint);
+    vec2 inner = max(bent - footprint, 0.0), outer = max(bent + footprint, 0.0);
+    vec2 mean = (outer * outer - inner * inner) / (4.0 * footprint);
+    vec2 squares = (outer * outer * outer - inner * inner * inner) / (6.0 * footprint);
     spread = bevel_blur * 2.0 * max(squares - mean * mean, 0.0) / dot(normal, normal);
 #endif
     normal *= inversesqrt(dot(normal, normal));

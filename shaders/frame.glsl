@@ -10,8 +10,8 @@ layout(std140) uniform Frame {
     vec4 shadow_y;
     vec4 shadow_z;
     vec4 shadow_far;             // near map -> far map: scale, offset x, offset y; w: 1 with a far map, else 0
-    vec4 shadow_texels;          // size of a texel, m, near and far; z: texels across one map;
-                                 // w: normal offset bias, texels
+    vec4 shadow_texels;          // size of a texel, m, near and far; z, w: bias towards
+                                 // the sun and along the normal, texels
     float fog_density;           // 1 / squared distance at which fog is half of the light, 1/m^2
     float pixel_size;            // at distance 1
     float widest_rod;            // half size at distance 1

@@ -84,7 +84,9 @@ void main() {
     v_shadow_x = over_screen(shadow_x.xyz);
     v_shadow_y = over_screen(shadow_y.xyz);
     v_shadow_z = over_screen(shadow_z.xyz);
-    vec3 lifted = vec3(dot(shadow_x.xyz, lift), dot(shadow_y.xyz, lift), dot(shadow_z.xyz, lift));
+    // towards the sun too, as in shadow_place.glsl
+    float toward = shadow_texels.z * length(shadow_z.xyz);
+    vec3 lifted = vec3(dot(shadow_x.xyz, lift), dot(shadow_y.xyz, lift), dot(shadow_z.xyz, lift) - toward);
     v_shadow_eye = vec3(shadow_x.w, shadow_y.w, shadow_z.w) + lifted * shadow_texels.x;
 #ifdef FAR_MAP
     v_far = shadow_far;

@@ -1,4 +1,5 @@
-// Edges of shadows in images that are coarser than the shadow map, compared with exact areas.
+// Edges of shadows in images that are coarser than the shadow map, compared with exact areas; and light where nothing is
+// in shadow: before lit walls, beside bodies far away, and above bodies that are hidden by a plane.
 #include "drawing.h"
 #include "example_scenes.h"
 
@@ -6,7 +7,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 namespace tumble::shadow_test {
 namespace {
@@ -89,6 +93,83 @@ TEST(Shadows, EdgesInSmallImagesHaveExactCoverage) {
             EXPECT_GT(edges.pixels, height / 2);
             EXPECT_LT(edges.rms, 0.16) << height << " rows" << (on_box ? ", on a box" : "");
         }
+}
+
+/// A white ball and a white box on a plane, whose lit side meets the ground.
+SceneDescription ball_and_box() {
+    SceneDescription scene = empty_scene();
+    scene.output.width = 640;
+    scene.output.height = 360;
+    scene.camera.eye = Vec3(2.6, 2.7, 5.6);
+    scene.camera.target = Vec3(0.9, 0.8, 0.0);
+    scene.bodies = {ground_plane({190, 190, 190}, Pattern::plain), ball_body(Vec3(0.0, 1.0, 0.0), 1.0, {255, 255, 255}),
+                    box_body(Vec3(2.0, 0.5, 0.0), Vec3::Ones(), {255, 255, 255})};
+    return scene;
+}
+
+// The kernel's taps beyond the wall are nearer to the sun than the ground is: without the lift a tenth is in shadow.
+TEST(Shadows, TheFootOfALitWallIsLit) {
+    SceneDescription scene = ball_and_box();
+    for (const double height : {0.4, 1.0, 2.0})  // of the sun
+        for (const int side : {0, 2}) {
+            scene.light.direction = side == 0 ? Vec3(-1.0, -height, -0.3) : Vec3(-0.3, -height, -1.0);
+            scene.light.shadows = true;
+            const Image image = drawn(scene);
+            scene.light.shadows = false;
+            const Image open = drawn(scene);
+            for (int k = -4; k <= 4; ++k) {
+                const double along = 0.1 * k, beyond = 0.504;  // m, from the middle of the wall
+                const Pixel at =
+                    pixel_of(scene, side == 0 ? Vec3(2.0 + beyond, 0.0, along) : Vec3(2.0 + along, 0.0, beyond));
+                for (int x = at.x; x <= at.x + 2; ++x)
+                    EXPECT_GT(linear(image, x, at.y + 1), 0.97 * linear(open, x, at.y + 1))
+                        << height << ' ' << side << ' ' << k;
+            }
+        }
+}
+
+// Casters that no map reaches, and such that are far above or below, take no step of the others' depths or texels.
+TEST(Shadows, BodiesFarAwayChangeNone) {
+    SceneDescription scene = ball_and_box();
+    const auto with_box_at = [&](const Vec3& position) {
+        SceneDescription more = scene;
+        more.bodies.push_back(box_body(position, Vec3::Ones(), {255, 255, 255}));
+        return drawn(more);
+    };
+    const Vec3 back = (scene.camera.eye - scene.camera.target).normalized();
+    const Image out_of_view = with_box_at(1e5 * back);
+    const Vec3 to_sun = -scene.light.direction.normalized();
+    std::vector<Vec3> places = {1e6 * to_sun + 40.0 * back, -1e6 * to_sun, Vec3(0.0, -2e6, 0.0)};
+    for (const double distance : {1e5, 1e6})
+        for (const double aside : {-0.4, 0.0, 0.4})
+            places.push_back(distance * Vec3(-back.x() + aside * back.z(), 5e-6, -back.z() - aside * back.x()));
+    for (const Vec3& place : places) {
+        const Image image = with_box_at(place);
+        int different = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                different += !std::equal(image.at(x, y), image.at(x, y) + 3, out_of_view.at(x, y));
+        EXPECT_LE(different, 4) << place.transpose();  // the box itself
+    }
+}
+
+// The plane hides it: it is not drawn in stripes with the plane, and does not darken bodies above.
+TEST(Shadows, ABodyBelowThePlaneDoesNotShow) {
+    SceneDescription scene = ball_and_box();
+    const auto with_box_at = [&](const Vec3& position) {
+        SceneDescription more = scene;
+        more.bodies.push_back(box_body(position, Vec3::Ones(), {255, 0, 0}));
+        return drawn(more);
+    };
+    const Image deep = with_box_at({0.2, -9.0, 0.4});
+    for (const double top : {0.0, -1e-4, -0.05}) {
+        const Image image = with_box_at({0.2, top - 0.5, 0.4});
+        int different = 0;
+        for (int y = 0; y < image.height; ++y)
+            for (int x = 0; x < image.width; ++x)
+                for (int c = 0; c < 3; ++c) different += std::abs(image.at(x, y)[c] - deep.at(x, y)[c]) > 2;
+        EXPECT_EQ(different, 0) << top;
+    }
 }
 
 }  // namespace

@@ -67,6 +67,13 @@ struct AmbientOcclusion::State {
         return {state.origin - reference, center_of(body), state.orientation.toRotationMatrix()};
     }
 
+    bool behind_plane(const Occluder& o) const {
+        return std::any_of(planes.begin(), planes.end(), [&](const PlaneInView& plane) {
+            const float reach = (o.to_local * plane.normal).cwiseAbs().dot(o.half_size) + o.radius;
+            return plane.normal.dot(o.center) + plane.height <= -reach;
+        });
+    }
+
     const RenderScene& scene;
     const Vec3 reference;
     OcclusionAtlas atlas;
@@ -242,7 +249,8 @@ void AmbientOcclusion::State::update_body(std::size_t body, std::uint8_t visible
 
     const Eigen::Vector3f center = middle.cast<float>();
     finder.find(center, float(proxy.bound_radius), found);
-    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body; });  // a body does not occlude itself
+    // A body does not occlude itself, nor others from behind a plane.
+    std::erase_if(found, [&](std::size_t i) { return occluders[i].body == body || behind_plane(occluders[i]); });
     near_planes.clear();
     for (const PlaneInView& plane : planes)
         if (plane.normal.dot(center) + plane.height < proxy.bound_radius + 2.0 * proxy.ao_radius)

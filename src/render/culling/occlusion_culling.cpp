@@ -124,11 +124,23 @@ struct Candidate {
     float distance;  // m; of the bounding ball
 };
 
+// True if a plane that is seen from its open side hides all of a body. A face in the plane would flicker through it.
+bool behind_plane(const FrameContext& frame, std::size_t body) {
+    const DrawableBounds& bounds = frame.drawables.bodies[body];
+    const bool box = frame.scene.bodies[body].kind == DrawKind::box;
+    return std::any_of(frame.planes.begin(), frame.planes.end(), [&](const PlanePatch& plane) {
+        const double reach =
+            box ? (bounds.half_axes.transpose() * plane.normal).cwiseAbs().sum() : double(bounds.radius);
+        constexpr double rounding = 1e-6;
+        return plane.normal.dot(bounds.center) + plane.height <= rounding * bounds.radius - reach;
+    });
+}
+
 std::vector<Candidate> find_candidates(const FrameContext& frame) {
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < frame.drawables.bodies.size(); ++i) {
         const DrawableBounds& bounds = frame.drawables.bodies[i];
-        if (bounds.exists() && frame.camera.sees(bounds.center, bounds.radius))
+        if (bounds.exists() && frame.camera.sees(bounds.center, bounds.radius) && !behind_plane(frame, i))
             candidates.push_back({std::uint32_t(i), float(bounds.center.norm())});
     }
     std::sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) {

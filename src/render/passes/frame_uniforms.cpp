@@ -21,7 +21,7 @@ FrameUniforms make_frame_uniforms(const FrameContext& frame, int atlas_height, b
     u.shadow_y = shadows.y;
     u.shadow_z = shadows.z;
     u.shadow_far = shadows.far;
-    u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadow_map_texels),
+    u.shadow_texels = glm::vec4(float(shadows.near_texel), float(shadows.far_texel), float(shadows.filter.lift),
                                 float(shadows.filter.offset));
     u.fog_density = float(1.0 / (view.fog_distance() * view.fog_distance()));
     u.pixel_size = float(view.pixel_size());

@@ -3,6 +3,7 @@
 #include "render/gl/glm_conversion.h"
 #include "render/scene/distance_outliers.h"
 #include "render/scene/large_receivers.h"
+#include "render/scene/plane_patch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +17,10 @@ constexpr double near_margin = 1.3;
 // A shadow's edge is about three texels wide. Around few bodies the map could be so fine that edges look unnaturally
 // sharp, so a texel has at least this part of the bodies' typical AO radius (their half edge).
 constexpr double least_texel_of_ao_radius = 0.02;
+
+// and no more than this, pixels: the steps of wider texels are visible along a shadow's edge and where a lit face
+// meets its receiver.
+constexpr double softest_pixels = 1.0;
 
 // In small frames a texel may be much smaller than a pixel. Texels below the first part of a pixel (at the bodies'
 // median distance) are filtered by the pixel's width. Texels are never made smaller than the second part: a pixel seen
@@ -77,6 +82,18 @@ Held places_to_hold(const std::vector<CascadePlace>& places, const Vec3& x_axis,
     return {fine > 0 ? fine : finest, size};
 }
 
+/// True if one of the planes is seen from its open side and hides all of a body: it casts no visible shadow.
+bool hidden(const std::vector<PlaneShape>& planes, const Vec3& eye, const RenderBody& proxy, const Vec3& center,
+            const Quat& rotation) {
+    return std::any_of(planes.begin(), planes.end(), [&](const PlaneShape& plane) {
+        const Vec3 normal = rotation.conjugate() * plane.normal;
+        const double reach = proxy.kind == DrawKind::box ? normal.cwiseAbs().dot(proxy.half_size) : proxy.bound_radius;
+        constexpr double rounding = 1e-6;  // of the size: a face may lie in the plane
+        return plane.normal.dot(eye) > plane.offset &&
+               plane.normal.dot(center) + reach <= plane.offset + rounding * proxy.bound_radius;
+    });
+}
+
 double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
 }  // namespace
@@ -110,11 +127,19 @@ CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderSc
     const double gravity = description.simulation.gravity.norm();
     const Vec3 down = gravity > 0.0 ? Vec3(description.simulation.gravity / gravity) : Vec3::Zero();
     const RestHeightEstimate landing(description, scene);
+    std::vector<PlaneShape> planes;
+    for (const std::size_t i : scene.planes) {
+        BodyState start;
+        start.origin = description.bodies[i].position;
+        start.orientation = description.bodies[i].rotation;
+        planes.push_back(plane_in_world(scene.bodies[i], start));
+    }
     std::vector<CascadePlace> places;
     // bodies outside the view may become visible
     const bool camera_turns = !description.camera.keyframes.empty() || description.camera.orbit != 0.0;
     const auto add = [&](const RenderBody& proxy, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * proxy.bound_center;
+        if (hidden(planes, view.eye(), proxy, center, rotation)) return;
         const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
         for (const Vec3& p : {center, landed})
             if (camera_turns || view.sees_swept(view.relative(p), proxy.bound_radius, z_axis_))
@@ -141,24 +166,27 @@ CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderSc
         places.resize(held.count);
         least = least_of_all * held.size_of_all;
     }
-    CascadeExtent x, y;
+    CascadeExtent x, y, z;
     distances.clear();
     for (const CascadePlace& p : places) {
         x.add(x_axis_.dot(p.center), p.radius);
         y.add(y_axis_.dot(p.center), p.radius);
+        z.add(z_axis_.dot(p.center), p.radius);
         distances.push_back(p.distance);
     }
     if (x.empty()) {  // without visible bodies: the camera's target
         const Vec3 target = view.eye() + view.forward() * view.target_distance();
         x.add(x_axis_.dot(target), 0.5 * view.target_distance());
         y.add(y_axis_.dot(target), 0.5 * view.target_distance());
+        z.add(z_axis_.dot(target), 0.5 * view.target_distance());
     }
     const double pixel = view.pixel_size() * (distances.empty() ? view.target_distance() : lower_median(distances));
-    const double softest = texels * std::min(least_texel_of_ao_radius * scene.typical_ao_radius, fine_pixels * pixel);
+    const double softest = texels * std::min(least_texel_of_ao_radius * scene.typical_ao_radius, softest_pixels * pixel);
     size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least, finest_pixels * pixel * texels});
     if (size_ < filtered_by_pixel * pixel * texels) filter_ = pixel_filter;
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
+    middle_z_ = 0.5 * (z.low + z.high);
 }
 
 ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snapshot, const Camera& view,
@@ -166,6 +194,8 @@ ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snap
     const double texel = size_ / texels_;
     const double low_x = low_x_ + texel * std::round(x_axis_.dot(carried) / texel);
     const double low_y = low_y_ + texel * std::round(y_axis_.dot(carried) / texel);
+    std::vector<PlaneShape> planes;
+    for (const std::size_t i : scene.planes) planes.push_back(plane_in_world(scene.bodies[i], snapshot.bodies[i]));
     CascadeExtent x, y,
         z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -174,6 +204,12 @@ ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snap
         const BoundingBall ball = bounding_ball(proxy, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
         const Vec3 center = view.eye() + ball.center;
+        if (hidden(planes, view.eye(), proxy, center, snapshot.bodies[i].orientation)) continue;
+        // beyond the largest far map: it casts no shadow, and would coarsen the others' texels and depths
+        const double beyond = std::max(std::abs(x_axis_.dot(center) - low_x - 0.5 * size_),
+                                       std::abs(y_axis_.dot(center) - low_y - 0.5 * size_)) -
+                              ball.radius;
+        if (beyond > 0.5 * most_growth * size_) continue;
         x.add((x_axis_.dot(center) - low_x) / size_, ball.radius / size_);
         y.add((y_axis_.dot(center) - low_y) / size_, ball.radius / size_);
         z.add(z_axis_.dot(center), ball.radius);
@@ -189,6 +225,12 @@ ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snap
     };
     fit.x = row(x_axis_, low_x, size_);
     fit.y = row(y_axis_, low_y, size_);
+
+    // Bodies far above or below would leave the others few steps of depth: they are drawn at the ends of the range.
+    const double middle_z = middle_z_ + z_axis_.dot(carried), reach = most_growth * size_;
+    z.low = std::clamp(z.low, middle_z - reach, middle_z + reach);
+    z.high = std::clamp(z.high, middle_z - reach, middle_z + reach);
+    if (!(z.high > z.low)) z.high = z.low + size_;
 
     // The depth range is a multiple of a power of two, so that a moving body does not round the others' depths
     // differently.

@@ -22,6 +22,7 @@ struct ShadowFilter {
     double along;   // PCF kernel radius along each axis, texels
     double across;  // PCF kernel radius over both axes, texels
     double offset;  // normal offset bias, texels, against acne without gaps at contacts
+    double lift;    // bias towards the sun, texels: against darkness before lit walls, from taps beyond them
     double extent;  // distance from a shadow's outline within which a point may be affected, texels
     friend bool operator==(const ShadowFilter&, const ShadowFilter&) = default;
 };
@@ -30,8 +31,8 @@ struct ShadowFilter {
 /// would be visible; above the maximum, the maps' margins (5) would be too small.
 inline constexpr double least_pixel_step = 1.5, most_pixel_step = 8.0;
 
-inline constexpr ShadowFilter texel_filter{false, 2.0, 2.83, 2.2, 6.0};
-inline constexpr ShadowFilter pixel_filter{true, 0.5 * most_pixel_step + 1.0, 0.5 * most_pixel_step + 1.42, 1.6, 7.5};
+inline constexpr ShadowFilter texel_filter{false, 2.0, 2.83, 2.2, 4.0, 6.0};
+inline constexpr ShadowFilter pixel_filter{true, 0.5 * most_pixel_step + 1.0, 0.5 * most_pixel_step + 1.42, 1.6, 4.0, 7.5};
 
 struct ShadowCascades {
     int texels = 1;  // across each map
@@ -67,6 +68,7 @@ private:
     Vec3 x_axis_, y_axis_, z_axis_;  // z: direction in which the light travels
     double size_;                    // of the near map, m
     double low_x_, low_y_;           // its corner, along the axes from the world's origin, m
+    double middle_z_;                // depth of the bodies' middle at the start, m
     int texels_;
     ShadowFilter filter_ = texel_filter;
 };
