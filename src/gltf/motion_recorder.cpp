@@ -94,7 +94,7 @@ void MotionRecorder::add(const Snapshot& snapshot, const CameraDescription& came
         if (started_ && body.interpolation == Interpolation::linear) add_keyframes(i, now);
         add_pose(bodies_[i], now);
         last_[i] = now;
-        if (!std::holds_alternative<PlaneShape>(body.shape)) bounds_.add(now.position);
+        if (!endless(body.shape)) bounds_.add(now.position);
     }
     Pose eye{snapshot.time, camera.eye, Vec3::Zero(), camera_rotation(camera), Vec3::Zero(), Vec3::Zero()};
     if (started_) eye.rotation.coeffs() = aligned(eye.rotation, last_camera_);

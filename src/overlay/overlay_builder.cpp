@@ -1,7 +1,7 @@
 #include "overlay/overlay_builder.h"
 
 #include "core/disjoint_sets.h"
-#include "scene/description/shape_bounds.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
 #include <array>
@@ -71,7 +71,7 @@ bool near(const BodyState& a, const BodyState& b, double radius) {
 }  // namespace
 
 double radius_about_origin(const Shape& shape) {
-    if (std::holds_alternative<PlaneShape>(shape)) return 0.0;
+    if (endless(shape)) return 0.0;
     const BoundingSphere sphere = bounding_sphere(shape);
     return sphere.center.norm() + sphere.radius;
 }

@@ -27,7 +27,7 @@ struct Layer {
 
 const std::map<std::string, Layer> layers = {
     {"core", {{"core/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
-    {"scene", {{"core/", "scene/"}, {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"scene", {{"core/", "scene/", "sim/geometry/shapes/"}, {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"sim", {{"core/", "scene/", "sim/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/"}}},
     {"render",
      {{"core/", "scene/description/", "sim/snapshot/snapshot.h", "render/"},
@@ -37,7 +37,7 @@ const std::map<std::string, Layer> layers = {
      {{"core/", "scene/toml/", "output/", "compare/"}, {"toml++", "assimp", "GL/", "glm/", "CLI/", "libqhull"}}},
     {"plot", {{"core/", "plot/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"overlay",
-     {{"core/", "scene/description/", "sim/snapshot/", "render/", "plot/", "overlay/"},
+     {{"core/", "scene/description/", "sim/geometry/shapes/", "sim/snapshot/", "render/", "plot/", "overlay/"},
       {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"gltf",
      {{"core/", "scene/description/", "sim/snapshot/", "gltf/"},

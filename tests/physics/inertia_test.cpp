@@ -1,5 +1,5 @@
 // Masses, centers of mass and inertia tensors against their formulas.
-#include "sim/math/mass_properties.h"
+#include "sim/geometry/shapes/shape.h"
 #include "support/meshes.h"
 #include "support/scenes.h"
 
@@ -12,12 +12,12 @@ namespace tumble::inertia_test {
 using namespace tumble::testing;
 
 TEST(Inertia, BoxAndSphere) {
-    const MassProperties box = box_mass({1.0, 2.0, 3.0}, 500.0);
+    const MassProperties box = mass_properties(BoxShape{Vec3(1.0, 2.0, 3.0)}, 500.0);
     EXPECT_DOUBLE_EQ(box.mass, 3000.0);
     EXPECT_DOUBLE_EQ(box.inertia(0, 0), 3000.0 * 13.0 / 12.0);
     EXPECT_DOUBLE_EQ(box.inertia(1, 1), 3000.0 * 10.0 / 12.0);
     EXPECT_DOUBLE_EQ(box.inertia(2, 2), 3000.0 * 5.0 / 12.0);
-    const MassProperties sphere = sphere_mass(0.5, 1000.0);
+    const MassProperties sphere = mass_properties(SphereShape{0.5}, 1000.0);
     EXPECT_NEAR(sphere.mass, 523.5987755982989, 1e-9);
     EXPECT_NEAR(sphere.inertia(2, 2), 0.4 * sphere.mass * 0.25, 1e-12);
 }
@@ -25,7 +25,8 @@ TEST(Inertia, BoxAndSphere) {
 // The mesh integrals of a box equal the box formulas, for any origin.
 TEST(Inertia, MeshOfABoxFarFromItsOrigin) {
     const Vec3 low(100.0, -50.0, 7.0), size(1.0, 2.0, 3.0);
-    const MassProperties mesh = mesh_mass(box_mesh(low, low + size), 500.0), box = box_mass(size, 500.0);
+    const MassProperties mesh = mesh_mass(box_mesh(low, low + size), 500.0),
+                         box = mass_properties(BoxShape{size}, 500.0);
     EXPECT_NEAR(mesh.mass, box.mass, 1e-9);
     EXPECT_LT((mesh.center_of_mass - low - 0.5 * size).norm(), 1e-12);
     EXPECT_LT((mesh.inertia - box.inertia).norm(), 1e-8);
@@ -106,11 +107,11 @@ TEST(PrincipalInertia, DiagonalTensorsKeepTheirAxes) {
 }
 
 TEST(PrincipalInertia, EqualForSymmetricShapes) {
-    const Vec3 ball = principal_inertia(sphere_mass(0.37, 911.0).inertia).moments;
+    const Vec3 ball = principal_inertia(mass_properties(SphereShape{0.37}, 911.0).inertia).moments;
     EXPECT_TRUE(ball.x() == ball.y() && ball.y() == ball.z());
-    const Vec3 cube = principal_inertia(box_mass({0.3, 0.3, 0.3}, 700.0).inertia).moments;
+    const Vec3 cube = principal_inertia(mass_properties(BoxShape{Vec3(0.3, 0.3, 0.3)}, 700.0).inertia).moments;
     EXPECT_TRUE(cube.x() == cube.y() && cube.y() == cube.z());
-    const Vec3 rod = principal_inertia(box_mass({0.3, 0.7, 0.3}, 700.0).inertia).moments;
+    const Vec3 rod = principal_inertia(mass_properties(BoxShape{Vec3(0.3, 0.7, 0.3)}, 700.0).inertia).moments;
     EXPECT_TRUE(rod.x() == rod.z() && rod.x() > rod.y());
     // Meshes, whose integrals are rounded: a cube far from its origin, an icosahedron.
     const Vec3 low(3.1, -7.3, 0.9);

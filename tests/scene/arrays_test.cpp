@@ -1,8 +1,8 @@
 // Grids and scatters: places of the copies, and their dependence on the seed only.
 #include "core/error.h"
-#include "scene/description/shape_bounds.h"
 #include "scene/keys/random.h"
 #include "scene/load.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 // Compounds in scene files: results, and errors with their positions.
 #include "core/error.h"
 #include "mesh_files.h"
-#include "scene/description/shape_bounds.h"
 #include "scene/load.h"
 #include "scene/mesh/mesh_loader.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
 

@@ -1,6 +1,6 @@
 #include "scene/camera/default_camera.h"
-#include "scene/description/shape_bounds.h"
 #include "scene/load.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // The tree finds exactly what a loop over all items finds.
-#include "sim/geometry/bounds_tree.h"
+#include "sim/math/bounds_tree.h"
 #include "random_shapes.h"
 
 #include <gtest/gtest.h>

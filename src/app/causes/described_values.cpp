@@ -2,7 +2,7 @@
 
 #include "core/fnv_hash.h"
 #include "core/frame_rate.h"
-#include "scene/description/shape_bounds.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -156,7 +156,7 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
             kind.matter["integrator"] = fmt::format("{}", int(*body.integrator));
     }
     if (!body.keyframes.empty()) kind.matter["keyframes"] = keyframes_text(body);
-    if (!std::holds_alternative<PlaneShape>(body.shape)) kind.bounds = local_bounds(body.shape);
+    if (!endless(body.shape)) kind.bounds = local_bounds(body.shape);
     kind.round = std::holds_alternative<SphereShape>(body.shape) && look.pattern == Pattern::plain;
     return kind;
 }

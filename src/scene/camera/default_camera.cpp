@@ -3,7 +3,7 @@
 #include "core/deterministic_math.h"
 #include "scene/camera/camera_visibility.h"
 #include "scene/camera/throw_preview.h"
-#include "scene/description/shape_bounds.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
 #include <array>
@@ -109,7 +109,7 @@ std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
     BoundsOfShapes bounds_of_shape;
     std::vector<Vec3> points = flight_points(scene, seconds);
     for (const BodyDescription& body : scene.bodies) {
-        if (body.type == BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
+        if (body.type == BodyType::fixed || endless(body.shape)) continue;
         const Bounds local = bounds_of_shape(body.shape);
         add_corners(local, body.position, body.rotation, points);
         for (const Keyframe& key : body.keyframes) add_corners(local, key.position, key.rotation, points);
@@ -126,7 +126,7 @@ std::vector<Vec3> points_of_note(const SceneDescription& scene, double seconds) 
     const double reach = points.empty() ? 0.0 : moving.extent().norm();
     BoundsOfShapes bounds_of_shape;
     for (const BodyDescription& body : scene.bodies) {
-        if (body.type != BodyType::fixed || std::holds_alternative<PlaneShape>(body.shape)) continue;
+        if (body.type != BodyType::fixed || endless(body.shape)) continue;
         std::vector<Vec3> corners;
         add_corners(bounds_of_shape(body.shape), body.position, body.rotation, corners);
         const Bounds bounds = bounds_of(corners);

@@ -1,6 +1,6 @@
 #include "scene/camera/throw_preview.h"
 
-#include "scene/description/shape_bounds.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
 #include <cmath>

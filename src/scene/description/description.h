@@ -133,6 +133,9 @@ struct CompoundShape {
 };
 using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape, CompoundShape>;
 
+/// True for a plane, which has no bounds and no mass.
+inline bool endless(const Shape& shape) { return std::holds_alternative<PlaneShape>(shape); }
+
 struct CompoundPart {
     Shape shape;                       // a box, a sphere or a mesh; a mesh collides as its convex hull
     Vec3 position = Vec3::Zero();      // of the part's origin, body frame, m

@@ -1,9 +1,9 @@
 #include "scene/keys/arrays.h"
 
 #include "core/deterministic_math.h"
-#include "scene/description/shape_bounds.h"
 #include "scene/keys/random.h"
 #include "scene/toml/limits.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
 
@@ -257,7 +257,7 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
     const TomlValue& arrangement = grid ? *grid : *scatter;
     if (type == BodyType::kinematic)
         arrangement.origin().fail("is for dynamic and fixed bodies (given a kinematic one)");
-    if (std::holds_alternative<PlaneShape>(shape.shape)) {
+    if (endless(shape.shape)) {
         arrangement.origin().fail("is for bodies of finite size (given a plane, which is endless)");
     }
     CopiesRequest request{{}, arrangement.origin(), 1.0, 1.0, {}};

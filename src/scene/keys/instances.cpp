@@ -1,14 +1,13 @@
 #include "scene/keys/instances.h"
 
 #include "core/safe_text.h"
-#include "scene/description/shape_bounds.h"
-#include "scene/description/shape_mass.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/motion.h"
 #include "scene/keys/template_pose.h"
 #include "scene/keys/template_scale.h"
 #include "scene/toml/limits.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
 
@@ -37,7 +36,7 @@ const SceneTemplate& find_template(const SceneTemplates& templates, const TomlVa
 double mass_of_all(const SceneTemplate& content) {
     double mass = 0.0;
     for (const BodyDescription& body : content.bodies)
-        if (body.type == BodyType::dynamic) mass += mass_center(body).mass;
+        if (body.type == BodyType::dynamic) mass += mass_properties(body).mass;
     return mass;
 }
 
@@ -56,7 +55,7 @@ void read_size(const TomlTable& table, MeshCache& meshes, SceneTemplate& content
     if (scale == 1.0 && factor == 1.0) return;
     enlarge(content, scale, factor, meshes);
     for (const BodyDescription& body : content.bodies) {
-        if (std::holds_alternative<PlaneShape>(body.shape)) continue;
+        if (endless(body.shape)) continue;
         const Vec3 extent = local_bounds(body.shape).extent();
         if (limits::size.contains(extent.maxCoeff()) && extent.minCoeff() > 0.0) continue;
         table.require("scale").fail(fmt::format("makes body \"{}\" of unusable size (a length {})",
@@ -69,7 +68,7 @@ Shape stand_in(const SceneTemplate& content, const TomlValue& arrangement) {
     Bounds bounds;
     std::vector<BoundingSphere> spheres;
     for (const BodyDescription& body : content.bodies) {
-        if (std::holds_alternative<PlaneShape>(body.shape)) {
+        if (endless(body.shape)) {
             arrangement.origin().fail(
                 fmt::format("is for bodies of finite size (given a template with the plane \"{}\", which is endless)",
                             safe_text(body.name)));
@@ -187,7 +186,7 @@ private:
         body.velocity = place.velocity + place.rotation * body.velocity;
         body.angular_velocity = place.angular_velocity + place.rotation * body.angular_velocity;
         if (place.angular_velocity.isZero(0.0)) return;
-        const Vec3 center = body.position + body.rotation * mass_center(body).center;
+        const Vec3 center = body.position + body.rotation * mass_properties(body).center_of_mass;
         body.velocity += place.angular_velocity.cross(center - place.position);
     }
 

@@ -1,6 +1,6 @@
 #include "scene/keys/joint_pins.h"
 
-#include "scene/description/shape_bounds.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
 #include <array>

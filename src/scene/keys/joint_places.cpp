@@ -2,8 +2,8 @@
 
 #include "core/deterministic_math.h"
 #include "core/rotation.h"
-#include "scene/description/shape_bounds.h"
 #include "scene/toml/limits.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
 

@@ -60,7 +60,7 @@ const Material& find_material(const Materials& materials, const TomlValue& value
 }
 
 void apply_material(const Material& material, BodyDescription& body) {
-    const bool is_plane = std::holds_alternative<PlaneShape>(body.shape);
+    const bool is_plane = endless(body.shape);
     body.appearance.color = material.color.value_or(is_plane ? default_plane_color : default_color);
     body.appearance.pattern = material.pattern.value_or(is_plane ? Pattern::grid : Pattern::plain);
     body.appearance.roughness = material.roughness.value_or(body.appearance.roughness);

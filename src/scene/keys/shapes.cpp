@@ -215,13 +215,9 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
 
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
     if (factor == 1.0) return request.shape;
-    if (const auto* box = std::get_if<BoxShape>(&request.shape)) return BoxShape{box->size * factor};
-    if (const auto* ball = std::get_if<SphereShape>(&request.shape)) return SphereShape{ball->radius * factor};
-    if (std::holds_alternative<MeshShape>(request.shape)) {
+    if (std::holds_alternative<MeshShape>(request.shape))
         return MeshShape{meshes.load(request.mesh, request.mesh_scale * factor).asset};
-    }
-    if (const auto* compound = std::get_if<CompoundShape>(&request.shape)) return meshes.enlarged(*compound, factor);
-    return request.shape;
+    return meshes.enlarged(request.shape, factor);
 }
 
 }  // namespace tumble

@@ -1,6 +1,6 @@
 #include "scene/keys/template_scale.h"
 
-#include "scene/description/shape_mass.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <cmath>
 
@@ -49,23 +49,15 @@ void enlarge_joint(JointDescription& joint, double scale, double mass, double ge
     joint.break_impulse *= mass * time;
 }
 
-void enlarge_shape(Shape& shape, double scale, MeshCache& meshes) {
-    if (auto* plane = std::get_if<PlaneShape>(&shape)) plane->offset *= scale;
-    if (auto* box = std::get_if<BoxShape>(&shape)) box->size *= scale;
-    if (auto* ball = std::get_if<SphereShape>(&shape)) ball->radius *= scale;
-    if (auto* mesh = std::get_if<MeshShape>(&shape)) *mesh = meshes.enlarged(*mesh, scale);
-    if (auto* compound = std::get_if<CompoundShape>(&shape)) *compound = meshes.enlarged(*compound, scale);
-}
-
 }  // namespace
 
 void enlarge(SceneTemplate& content, double scale, double mass_factor, MeshCache& meshes) {
     const bool keeps_density = mass_factor == scale * scale * scale;
     for (BodyDescription& body : content.bodies) {
         if (body.type == BodyType::dynamic && (body.mass || !keeps_density))
-            body.mass = mass_center(body).mass * mass_factor;
+            body.mass = mass_properties(body).mass * mass_factor;
         if (scale == 1.0) continue;
-        enlarge_shape(body.shape, scale, meshes);
+        body.shape = meshes.enlarged(body.shape, scale);
         body.position *= scale;
         for (Keyframe& key : body.keyframes) key.position *= scale;
     }

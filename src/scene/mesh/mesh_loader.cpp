@@ -3,6 +3,7 @@
 #include "scene/mesh/mesh_normals.h"
 #include "scene/mesh/mesh_winding.h"
 #include "scene/toml/limits.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
 
@@ -243,21 +244,28 @@ const std::vector<LoadedMesh>& MeshCache::load_objects(const std::filesystem::pa
     return find(scale)->second;
 }
 
-MeshShape MeshCache::enlarged(const MeshShape& shape, double factor) {
+Shape MeshCache::enlarged(const Shape& shape, double factor) {
+    return std::visit([&](const auto& one) { return Shape(larger(one, factor)); }, shape);
+}
+
+template <class Simple>
+Simple MeshCache::larger(const Simple& shape, double factor) {
+    return tumble::enlarged(shape, factor);
+}
+
+MeshShape MeshCache::larger(const MeshShape& shape, double factor) {
     auto& larger = larger_meshes_[{shape.asset.get(), factor}];
     if (!larger.made) larger = {shape.asset, scaled(LoadedMesh{shape.asset, {}}, factor).asset};
     return {larger.made};
 }
 
-CompoundShape MeshCache::enlarged(const CompoundShape& shape, double factor) {
+CompoundShape MeshCache::larger(const CompoundShape& shape, double factor) {
     auto& known = larger_compounds_[{shape.parts.get(), factor}];
     if (!known.made) {
         std::vector<CompoundPart> parts = *shape.parts;
         for (CompoundPart& part : parts) {
             part.position *= factor;
-            if (auto* box = std::get_if<BoxShape>(&part.shape)) box->size *= factor;
-            if (auto* ball = std::get_if<SphereShape>(&part.shape)) ball->radius *= factor;
-            if (auto* mesh = std::get_if<MeshShape>(&part.shape)) *mesh = enlarged(*mesh, factor);
+            part.shape = enlarged(part.shape, factor);
         }
         known = {shape.parts, std::make_shared<const std::vector<CompoundPart>>(std::move(parts))};
     }

@@ -50,11 +50,15 @@ public:
     const std::vector<LoadedMesh>& load_objects(const std::filesystem::path& file, double scale);
     /// The files that were read, in the order of first use.
     const std::vector<std::filesystem::path>& files() const { return read_; }
-    /// All parts and their places enlarged by a factor.
-    CompoundShape enlarged(const CompoundShape& shape, double factor);
-    MeshShape enlarged(const MeshShape& shape, double factor);
+    /// All lengths enlarged by a factor, and the parts of a compound with their places.
+    Shape enlarged(const Shape& shape, double factor);
 
 private:
+    CompoundShape larger(const CompoundShape& shape, double factor);
+    MeshShape larger(const MeshShape& shape, double factor);
+    template <class Simple>
+    Simple larger(const Simple& shape, double factor);
+
     MeshImports imports_;
     MeshSupplier supplier_;
     std::vector<std::filesystem::path> read_;

@@ -16,7 +16,7 @@ double depth(const Body& body) { return depth(body.collider); }
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
 
-bool mesh(const Body& body) { return std::holds_alternative<std::shared_ptr<const CollisionMesh>>(body.collider); }
+bool mesh(const Body& body) { return contact_surface(body.collider) == ContactSurface::triangles; }
 
 // Only the center of a ball counts; the arm of a body that cannot rotate may be infinite.
 double turning(double arm, const BodyVelocity& motion) {

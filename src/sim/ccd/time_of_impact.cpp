@@ -2,7 +2,6 @@
 
 #include "sim/ccd/separation.h"
 #include "sim/ccd/settings.h"
-#include "sim/geometry/compound.h"
 #include "sim/geometry/separating_axis.h"
 #include "sim/geometry/settings.h"
 
@@ -77,22 +76,14 @@ TimeOfImpact result(double time, double horizon) {
     return {};
 }
 
-double rounding_of(const CollisionShape& collider) {
-    const auto* ball = std::get_if<Ball>(&collider);
-    return ball ? ball->radius : 0.0;
-}
-
 // Sets the constant data of the support points.
 void prepare(SupportPoints& points, const MovingBody& t, double horizon) {
     points.spin_bound = t.path->spin_bound();
     points.turning_bound = t.path->turning_bound();
-    points.radius = rounding_of(collider_of(t));
-    points.reach = t.part ? t.part->place.position.norm() : 0.0;
-    points.arms.assign(1, Vec3::Zero());
-    if (const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t))) {
-        points.reach += (*hull)->radius;
-        points.arms.resize((*hull)->vertices.size());
-    }
+    const RoundedHull hull = rounded_hull(collider_of(t));
+    points.radius = hull.radius;
+    points.reach = (t.part ? t.part->place.position.norm() : 0.0) + hull.reach;
+    points.arms.assign(hull.points.size(), Vec3::Zero());
     points.acceleration_change =
         t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
 }
@@ -102,14 +93,13 @@ void pose(SupportPoints& points, const MovingBody& t, double time, const Motion&
     points.velocity = motion.velocity;
     points.acceleration = t.path->acceleration(t.since + time);
     points.angular_velocity = motion.angular_velocity;
-    const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t));
+    const RoundedHull hull = rounded_hull(collider_of(t));
     if (t.part) {  // arms start at the body's center of mass here too: the points move as the body does
         const Vec3 place = motion.rotation * t.part->place.position;
         const Mat3 turn = motion.rotation * t.part->place.rotation;
-        for (std::size_t i = 0; i < points.arms.size(); ++i)
-            points.arms[i] = hull ? Vec3(place + turn * (*hull)->vertices[i]) : place;
-    } else if (hull) {
-        for (std::size_t i = 0; i < points.arms.size(); ++i) points.arms[i] = motion.rotation * (*hull)->vertices[i];
+        for (std::size_t i = 0; i < points.arms.size(); ++i) points.arms[i] = place + turn * hull.points[i];
+    } else {
+        for (std::size_t i = 0; i < points.arms.size(); ++i) points.arms[i] = motion.rotation * hull.points[i];
     }
 }
 

@@ -6,7 +6,7 @@
 #include "sim/ccd/separation.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/collide.h"
-#include "sim/geometry/compound.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <vector>
 

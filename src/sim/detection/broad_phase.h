@@ -10,8 +10,8 @@
 
 #include "sim/dynamics/body.h"
 #include "sim/geometry/body_pair.h"
-#include "sim/geometry/bounds_tree.h"
 #include "sim/geometry/dynamic_tree.h"
+#include "sim/math/bounds_tree.h"
 #include "sim/threads/thread_pool.h"
 
 #include <algorithm>

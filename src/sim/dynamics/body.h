@@ -5,7 +5,7 @@
 
 #include "core/vector.h"
 #include "scene/description/description.h"
-#include "sim/geometry/collider.h"
+#include "sim/geometry/shapes/shape.h"
 #include "sim/math/keyframe_track.h"
 
 #include <memory>

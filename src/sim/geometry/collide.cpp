@@ -1,6 +1,5 @@
 #include "sim/geometry/collide.h"
 
-#include "sim/geometry/compound.h"
 #include "sim/geometry/settings.h"
 
 #include <algorithm>
@@ -9,37 +8,7 @@
 namespace tumble {
 namespace {
 
-using PolyhedronRef = std::shared_ptr<const Polyhedron>;
-using MeshRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
-
-// Shape pairs that have a routine, in the order of its arguments.
-struct Pair {
-    const CollisionQuery& query;
-
-    void operator()(const HalfSpace& a, const Ball& b) const { collide_half_space_ball(a, b, query); }
-    void operator()(const HalfSpace& a, const PolyhedronRef& b) const { collide_half_space_polyhedron(a, *b, query); }
-    void operator()(const Ball& a, const Ball& b) const { collide_balls(a, b, query); }
-    void operator()(const PolyhedronRef& a, const Ball& b) const { collide_polyhedron_ball(*a, b, query); }
-    void operator()(const PolyhedronRef& a, const PolyhedronRef& b) const { collide_polyhedra(*a, *b, query); }
-    void operator()(const MeshRef& a, const Ball& b) const { collide_mesh_ball(*a, b, query); }
-    void operator()(const MeshRef& a, const PolyhedronRef& b) const { collide_mesh_polyhedron(*a, *b, query); }
-};
-
-// Pairs of shapes that are both fixed.
-template <class T>
-constexpr bool immovable = std::is_same_v<T, HalfSpace> || std::is_same_v<T, MeshRef>;
-// Compounds are split into parts earlier.
-template <class T>
-constexpr bool compound = std::is_same_v<T, CompoundRef>;
-
-// Number of values of Manifold::part that this collider contributes to a pair. Precondition: below 2^32 for two
-// colliders together; limits::parts and limits::mesh_triangles ensure it.
-std::uint32_t part_count(const CollisionShape& collider) {
-    if (const auto* mesh = std::get_if<MeshRef>(&collider)) return std::uint32_t((*mesh)->triangles.size());
-    if (const auto* compound = std::get_if<CompoundRef>(&collider)) return std::uint32_t((*compound)->parts.size());
-    return 1;
-}
 
 // Finds the parts whose bounds come within the margin of the other shape, in ascending order.
 void find_near_parts(const Compound& whole, const Pose& pose, const CollisionShape& other, const Pose& pose_other,
@@ -49,14 +18,6 @@ void find_near_parts(const Compound& whole, const Pose& pose, const CollisionSha
     parts.clear();
     whole.tree.query(bounds, [&](std::uint32_t part) { parts.push_back(part); });
     std::sort(parts.begin(), parts.end());
-}
-
-bool holds(const Compound::Part& part, const Vec3& point, double tolerance) {
-    const Vec3 p = part.place.to_body(point);
-    if (const auto* ball = std::get_if<Ball>(&part.collider)) return p.norm() <= ball->radius + tolerance;
-    const auto& faces = std::get<PolyhedronRef>(part.collider)->faces;
-    return std::all_of(faces.begin(), faces.end(),
-                       [&](const Polyhedron::Face& f) { return f.normal.dot(p) <= f.offset + tolerance; });
 }
 
 // True if part k would push towards the body's own interior: a contact at an internal edge between parts, which must
@@ -70,7 +31,9 @@ bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Man
                    pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
                bool inside = false;
                whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
-                   inside = inside || (other != k && holds(whole.parts[other], probe, tuning::seam_tolerance * size));
+                   const Compound::Part& part = whole.parts[other];
+                   inside = inside || (other != k && contains(part.collider, part.place.to_body(probe),
+                                                              tuning::seam_tolerance * size));
                });
                return inside;
            });
@@ -81,6 +44,7 @@ void collide_parts(const Compound& whole, const CollisionShape& other, bool whol
     const Pose &pose = whole_is_a ? query.pose_a : query.pose_b, &pose_other = whole_is_a ? query.pose_b : query.pose_a;
     CollisionScratch& scratch = query.scratch;
     std::vector<Manifold>& out = query.out;
+    // Parts and triangles of two shapes are below 2^32 together, by limits::parts and limits::mesh_triangles.
     const std::uint32_t stride = part_count(other);
     std::vector<std::uint32_t>& near = scratch.near_parts[std::holds_alternative<CompoundRef>(other) ? 1 : 0];
     find_near_parts(whole, pose, other, pose_other, query.margin, near);
@@ -114,19 +78,21 @@ void collide(const CollisionShape& a, const CollisionShape& b, const CollisionQu
     if (const auto* whole = std::get_if<CompoundRef>(&a)) return collide_parts(**whole, b, true, query);
     if (const auto* whole = std::get_if<CompoundRef>(&b)) return collide_parts(**whole, a, false, query);
     std::visit(
-        [&](const auto& shape_a, const auto& shape_b) {
+        [&](const auto& held_a, const auto& held_b) {
+            const auto &shape_a = collider_in(held_a), &shape_b = collider_in(held_b);
             using A = std::decay_t<decltype(shape_a)>;
             using B = std::decay_t<decltype(shape_b)>;
             const std::size_t first = query.out.size();
-            if constexpr ((immovable<A> && immovable<B>) || compound<A> || compound<B>) {
-                return;
-            } else if constexpr (std::is_invocable_v<Pair, const A&, const B&>) {
-                Pair{query}(shape_a, shape_b);
+            if constexpr ((!A::can_move && !B::can_move) || std::is_same_v<A, Compound> ||
+                          std::is_same_v<B, Compound>) {
+                return;  // a compound has been split
+            } else if constexpr (requires { collide_pair(shape_a, shape_b, query); }) {
+                collide_pair(shape_a, shape_b, query);
             } else {  // the same pair in the other order: swap, collide, turn the normals
-                Pair{query.swapped()}(shape_b, shape_a);
+                collide_pair(shape_b, shape_a, query.swapped());
                 for (std::size_t i = first; i < query.out.size(); ++i) query.out[i].swap();
             }
-            if constexpr (std::is_same_v<A, Ball> || std::is_same_v<B, Ball>)
+            if constexpr (A::contact_surface == ContactSurface::curved || B::contact_surface == ContactSurface::curved)
                 query.scratch.on_ball = query.scratch.on_ball || query.out.size() > first;
         },
         a, b);

@@ -1,9 +1,9 @@
 // The narrow phase: exact manifolds between two posed shapes, for every pair of shapes in either order.
 #pragma once
 
-#include "sim/geometry/collider.h"
 #include "sim/geometry/manifold.h"
 #include "sim/geometry/mesh_sidedness.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <span>
 #include <utility>
@@ -83,16 +83,16 @@ struct CollisionQuery {
 /// two meshes, and a half-space with a mesh give no manifolds: they cannot move.
 void collide(const CollisionShape& a, const CollisionShape& b, const CollisionQuery& query);
 
-// The routines per pair, each with its first shape as A.
-void collide_half_space_ball(const HalfSpace& a, const Ball& b, const CollisionQuery& query);
-void collide_half_space_polyhedron(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query);
-void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query);
-void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const CollisionQuery& query);
-void collide_polyhedra(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
+// The routines per pair of kinds, each with its first shape as A: collide() finds the one that takes its shapes.
+void collide_pair(const HalfSpace& a, const Ball& b, const CollisionQuery& query);
+void collide_pair(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query);
+void collide_pair(const Ball& a, const Ball& b, const CollisionQuery& query);
+void collide_pair(const Polyhedron& a, const Ball& b, const CollisionQuery& query);
+void collide_pair(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
 /// Precondition: both are boxes (Polyhedron::is_box). Gives the result of the general routine in a fraction of the
 /// time.
 void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
-void collide_mesh_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query);
-void collide_mesh_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query);
+void collide_pair(const CollisionMesh& a, const Ball& b, const CollisionQuery& query);
+void collide_pair(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query);
 
 }  // namespace tumble

@@ -46,7 +46,7 @@ Nearest nearest_on_face(const Polyhedron& shape, const Polyhedron::Face& face, c
 
 }  // namespace
 
-void collide_half_space_ball(const HalfSpace& a, const Ball& b, const CollisionQuery& query) {
+void collide_pair(const HalfSpace& a, const Ball& b, const CollisionQuery& query) {
     const Vec3 normal = query.pose_a.rotation * a.normal;
     const double height = normal.dot(query.pose_b.position - query.pose_a.position) - a.offset;
     const double separation = height - b.radius;
@@ -55,7 +55,7 @@ void collide_half_space_ball(const HalfSpace& a, const Ball& b, const CollisionQ
     query.out.back().set_geometry(BallOverFace{false, query.pose_b.position});
 }
 
-void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query) {
+void collide_pair(const Ball& a, const Ball& b, const CollisionQuery& query) {
     const Vec3 d = query.pose_b.position - query.pose_a.position;
     const double reach = a.radius + b.radius + query.margin;
     if (d.squaredNorm() > reach * reach) return;
@@ -67,7 +67,7 @@ void collide_balls(const Ball& a, const Ball& b, const CollisionQuery& query) {
     query.out.back().set_geometry(CurvedGap{distance, Vec3::Zero(), query.pose_a.position, query.pose_b.position});
 }
 
-void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const CollisionQuery& query) {
+void collide_pair(const Polyhedron& a, const Ball& b, const CollisionQuery& query) {
     const Vec3 center = query.pose_a.to_body(query.pose_b.position);
     const double reach = b.radius + query.margin;
     // The face with the greatest distance from the center: a lower bound of the gap, and the direction of least
@@ -119,7 +119,7 @@ void collide_polyhedron_ball(const Polyhedron& a, const Ball& b, const Collision
             CurvedGap{distance, query.pose_a.rotation * nearest.edge, point, query.pose_b.position});
 }
 
-void collide_half_space_polyhedron(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query) {
+void collide_pair(const HalfSpace& a, const Polyhedron& b, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     const Vec3 normal = query.pose_a.rotation * a.normal;
     const double height = normal.dot(query.pose_b.position - query.pose_a.position) - a.offset;

@@ -1,7 +1,7 @@
 // Spheres against a triangle mesh. Internal edges must not catch a sliding sphere: a point on an edge or a corner
 // counts only if the mesh comes no nearer next to it.
 #include "sim/geometry/collide.h"
-#include "sim/geometry/mesh_shape.h"
+#include "sim/geometry/shapes/mesh.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@ bool listed(const std::vector<T>& list, T value) {
 
 }  // namespace
 
-void collide_mesh_ball(const CollisionMesh& a, const Ball& b, const CollisionQuery& query) {
+void collide_pair(const CollisionMesh& a, const Ball& b, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     const Vec3 center = query.pose_a.to_body(query.pose_b.position);
     const double reach = b.radius + query.margin;

@@ -119,13 +119,13 @@ void add_triangle_manifold(const Polyhedron& b, const FacingTriangle& triangle, 
 bool proves_overlap(const Manifold& m, const Polyhedron& shape, const Pose& pose) {
     return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
         const Vec3 on_triangle = pose.to_body(p.position - 0.5 * p.separation * m.normal);
-        return contains(shape, on_triangle, axis_preference(shape.radius));
+        return shape.contains(on_triangle, axis_preference(shape.radius));
     });
 }
 
 }  // namespace
 
-void collide_mesh_polyhedron(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query) {
+void collide_pair(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     // In the body's frame, because hulls are larger than triangles.
     const Pose a_in_b = seen_from(query.pose_b, query.pose_a);

@@ -56,13 +56,13 @@ bool proves_overlap(const Manifold& m, const Polyhedron& a, const Pose& pose_a, 
                     const Pose& pose_b) {
     const double slack = axis_preference(std::min(a.radius, b.radius));
     return std::any_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& p) {
-        return contains(a, pose_a.to_body(p.position), slack) && contains(b, pose_b.to_body(p.position), slack);
+        return a.contains(pose_a.to_body(p.position), slack) && b.contains(pose_b.to_body(p.position), slack);
     });
 }
 
 }  // namespace
 
-void collide_polyhedra(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query) {
+void collide_pair(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     const double radii = a.radius + b.radius, reach = radii + query.margin,
                  square = (query.pose_b.position - query.pose_a.position).squaredNorm();

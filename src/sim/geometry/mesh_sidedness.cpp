@@ -1,7 +1,7 @@
 #include "sim/geometry/mesh_sidedness.h"
 
 #include "core/deterministic_math.h"
-#include "sim/geometry/mesh_shape.h"
+#include "sim/geometry/shapes/mesh.h"
 
 #include <algorithm>
 #include <functional>

@@ -3,7 +3,7 @@
 // (Baerentzen and Aanaes 2005, "Signed distance computation using the angle weighted pseudonormal").
 #pragma once
 
-#include "sim/geometry/mesh_shape.h"
+#include "sim/geometry/shapes/mesh.h"
 
 #include <optional>
 #include <span>

@@ -7,8 +7,8 @@
 // out of date.
 #pragma once
 
-#include "sim/geometry/collider.h"
 #include "sim/geometry/manifold.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <array>
 #include <span>

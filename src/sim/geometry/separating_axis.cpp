@@ -196,11 +196,6 @@ bool may_slide_past(double separation, const Vec3& displacement, double smaller_
     return separation > 0.0 || (separation > -grazing && displacement.squaredNorm() > grazing * grazing);
 }
 
-bool contains(const Polyhedron& shape, const Vec3& point, double slack) {
-    return std::all_of(shape.faces.begin(), shape.faces.end(),
-                       [&](const Polyhedron::Face& f) { return f.normal.dot(point) <= f.offset + slack; });
-}
-
 SeparatingAxis find_separating_axis(const AxisQuery& query, CollisionScratch& scratch, SeparatingAxis* rejected_edges) {
     const Polyhedron &a = query.a, &b = query.b;
     const Pose& b_in_a = query.b_in_a;

@@ -68,7 +68,4 @@ bool slides_past(const SeparatingAxis& apart, const SeparatingAxis& face, const 
 /// True if slides_past is possible for a best axis of this separation (m): most pairs are excluded by it.
 bool may_slide_past(double separation, const Vec3& displacement, double smaller_radius);
 
-/// True if a point (body frame) lies in a shape, or no farther than `slack` (m) outside of its planes.
-bool contains(const Polyhedron& shape, const Vec3& point, double slack);
-
 }  // namespace tumble

@@ -17,14 +17,14 @@ constexpr std::size_t none = SIZE_MAX;
 Vec3 across(const Vec3& v, const Vec3& normal) { return v - normal.dot(v) * normal; }
 
 ContactFeatures features_of(Corners corners, GeometryKind kind, int points, const Body& a, const Body& b) {
-    const auto is = [&]<class Shape>(std::in_place_type_t<Shape>) {
-        return std::holds_alternative<Shape>(a.collider) || std::holds_alternative<Shape>(b.collider);
+    const auto has = [of_a = contact_surface(a.collider), of_b = contact_surface(b.collider)](ContactSurface surface) {
+        return of_a == surface || of_b == surface;
     };
-    if (is(std::in_place_type<std::shared_ptr<const CollisionMesh>>)) return ContactFeatures::mesh;
+    if (has(ContactSurface::triangles)) return ContactFeatures::mesh;
     const bool edges = kind == GeometryKind::crossing_edges;
-    if (is(std::in_place_type<Ball>) || (kind != GeometryKind::none && !edges)) return ContactFeatures::sphere;
+    if (has(ContactSurface::curved) || (kind != GeometryKind::none && !edges)) return ContactFeatures::sphere;
     if (edges && points == 1) return ContactFeatures::edge_edge;
-    if (points > 2 && !is(std::in_place_type<HalfSpace>)) return ContactFeatures::face_face;
+    if (points > 2 && !has(ContactSurface::plane)) return ContactFeatures::face_face;
     return corners == Corners::of_a ? ContactFeatures::vertex_face : ContactFeatures::face_vertex;
 }
 

@@ -1,7 +1,6 @@
-// Mass, center of mass and inertia tensor of the shapes (notes section 1): exact formulas, no sampling.
+// Mass, center of mass and inertia tensor (notes section 1); of a shape, see sim/geometry/shapes.
 #pragma once
 
-#include "core/triangle_mesh.h"
 #include "core/vector.h"
 
 #include <vector>
@@ -13,16 +12,6 @@ struct MassProperties {
     Vec3 center_of_mass = Vec3::Zero();  // m, in the shape's frame
     Mat3 inertia = Mat3::Zero();         // kg m^2, about the center of mass, axes of the shape's frame
 };
-
-/// A solid box of full edge lengths `size`: I_x = m (y^2 + z^2) / 12 and cyclic.
-MassProperties box_mass(const Vec3& size, double density);
-
-/// A solid sphere: I = 2/5 m r^2.
-MassProperties sphere_mass(double radius, double density);
-
-/// A solid bounded by a closed, outward-facing triangle mesh, by exact integration over the tetrahedra from one point
-/// (Tonon 2004, "Explicit exact formulas for the 3-D tetrahedron inertia tensor"; Blow and Binstock 2004).
-MassProperties mesh_mass(const TriangleMesh& mesh, double density);
 
 /// The same body in another frame.
 MassProperties placed(const MassProperties& properties, const Vec3& position, const Quat& rotation);

@@ -1,7 +1,7 @@
 #include "sim/snapshot/measurement.h"
 
-#include "sim/geometry/compound.h"
 #include "sim/geometry/contact_tolerance.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <Eigen/Eigenvalues>
 
@@ -62,15 +62,14 @@ BodyReport describe(const Body& body) {
     if (body.dynamic()) r.principal_inertia = Eigen::SelfAdjointEigenSolver<Mat3>(body.inertia_body).eigenvalues();
     if (body.dynamic()) r.inertia = body.inertia_body;
     r.center_of_mass = body.center_of_mass;
-    if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&body.collider))
-        r.hull_vertices = (*hull)->vertices.size();
-    if (const auto* surface = std::get_if<std::shared_ptr<const CollisionMesh>>(&body.collider))
-        r.triangles = (*surface)->triangles.size();
-    if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&body.collider)) {
-        for (const Compound::Part& part : (*compound)->parts)
-            if (const auto* hull = std::get_if<std::shared_ptr<const Polyhedron>>(&part.collider))
-                r.hull_vertices += (*hull)->vertices.size();
-    }
+    const auto add = [&](const CollisionShape& collider) {
+        if (contact_surface(collider) == ContactSurface::polyhedral)
+            r.hull_vertices += rounded_hull(collider).points.size();
+    };
+    add(body.collider);
+    if (contact_surface(body.collider) == ContactSurface::triangles) r.triangles = part_count(body.collider);
+    if (const auto* compound = std::get_if<std::shared_ptr<const Compound>>(&body.collider))
+        for (const Compound::Part& part : (*compound)->parts) add(part.collider);
     return r;
 }
 

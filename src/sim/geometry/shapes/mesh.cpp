@@ -1,11 +1,14 @@
-#include "sim/geometry/mesh_shape.h"
+#include "sim/geometry/shapes/mesh.h"
 
 #include "core/error.h"
 #include "core/mesh_components.h"
+#include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
+#include <string>
 #include <utility>
 
 namespace tumble {
@@ -128,6 +131,84 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& 
     if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) return {b + (d4 - d3) / ((d4 - d3) + (d5 - d6)) * (c - b), 2};
     const double scale = 1.0 / (va + vb + vc);
     return {a + vb * scale * ab + vc * scale * ac, 0};
+}
+
+Bounds local_bounds(const MeshShape& mesh) { return mesh.asset->mesh.bounds(); }
+
+void visit_extent(const MeshShape& mesh, const ExtentVisitor& visit) {
+    for (const Vec3& v : mesh.asset->mesh.vertices) visit(v, 0.0);
+}
+
+BoundingSphere bounding_sphere(const MeshShape& mesh) {
+    const Vec3 center = local_bounds(mesh).center();
+    double farthest = 0.0;  // square of the distance
+    for (const Vec3& v : mesh.asset->mesh.vertices) farthest = std::max(farthest, (v - center).squaredNorm());
+    return {center, std::sqrt(farthest)};
+}
+
+MassProperties mesh_mass(const TriangleMesh& mesh, double density) {
+    // Relative to the middle of the bounds, so that a mesh far from its origin loses no digits.
+    const Vec3 apex = mesh.bounds().center();
+    double volume = 0.0;
+    Vec3 first = Vec3::Zero();   // integral of x dV
+    Mat3 second = Mat3::Zero();  // integral of x x^T dV
+    for (const auto& t : mesh.triangles) {
+        const Vec3 a = mesh.vertices[t[0]] - apex, b = mesh.vertices[t[1]] - apex, c = mesh.vertices[t[2]] - apex;
+        const double det = a.dot(b.cross(c));  // six times the tetrahedron's signed volume
+        const Vec3 sum = a + b + c;
+        volume += det / 6.0;
+        first += det / 24.0 * sum;
+        // Integral of x x^T over the tetrahedron (0, a, b, c): det/120 (aa + bb + cc + (a+b+c)(a+b+c)).
+        second += det / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    }
+    MassProperties p;
+    p.mass = density * volume;
+    const Vec3 center = first / volume;
+    const Mat3 covariance = density * (second - volume * center * center.transpose());
+    p.inertia = covariance.trace() * Mat3::Identity() - covariance;
+    p.center_of_mass = apex + center;
+    return p;
+}
+
+MassProperties mass_properties(const MeshShape& mesh, double density) {
+    return closedness(mesh.asset->mesh).closed() ? mesh_mass(mesh.asset->mesh, density) : MassProperties{};
+}
+
+/// Moeller and Trumbore 1997, Fast, Minimum Storage Ray/Triangle Intersection.
+double first_hit(const MeshShape& shape, const Vec3& from, const Vec3& direction) {
+    const TriangleMesh& mesh = shape.asset->mesh;
+    double nearest = infinity;
+    for (const auto& t : mesh.triangles) {
+        const Vec3 &a = mesh.vertices[t[0]], ab = mesh.vertices[t[1]] - a, ac = mesh.vertices[t[2]] - a;
+        const Vec3 p = direction.cross(ac), to = from - a;
+        const double determinant = ab.dot(p);
+        if (determinant == 0.0) continue;
+        const double u = to.dot(p) / determinant;
+        if (u < 0.0 || u > 1.0) continue;
+        const Vec3 q = to.cross(ab);
+        const double v = direction.dot(q) / determinant;
+        if (v < 0.0 || u + v > 1.0) continue;
+        const double at = ac.dot(q) / determinant;
+        if (at > 0.0) nearest = std::min(nearest, at);
+    }
+    return nearest;
+}
+
+CollisionShape make_collider(const MeshShape& mesh, const ColliderRequest& request, ColliderCache& cache) {
+    const MeshAsset& asset = *mesh.asset;
+    ColliderCache::Mesh& made = cache.meshes[&asset];
+    try {
+        if (request.fixed) {
+            if (!made.surface)
+                made.surface = std::make_shared<CollisionMesh>(make_collision_mesh(asset.mesh, request.origin));
+            return made.surface;
+        }
+        if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.mesh.vertices, request.origin));
+        return made.hull;
+    } catch (const InputError& error) {
+        const std::string what = error.what();
+        throw InputError(SourceLocation{asset.file, 0, 0}, what.substr(what.find("error: ") + 7));
+    }
 }
 
 }  // namespace tumble

@@ -1,10 +1,11 @@
-// A fixed triangle mesh as collision shape. Each triangle knows its neighbors, so that an internal edge does not catch
-// a sliding body, and that a body beside a crease is on one side of both triangles.
+// Meshes. A body that moves collides as the convex hull of its mesh (hull.h), a fixed one as the mesh itself. Each
+// triangle knows its neighbors, so that an internal edge does not catch a sliding body, and that a body beside a crease
+// is on one side of both triangles.
 #pragma once
 
 #include "core/triangle_mesh.h"
-#include "core/vector.h"
-#include "sim/geometry/bounds_tree.h"
+#include "sim/geometry/shapes/interface.h"
+#include "sim/math/bounds_tree.h"
 
 #include <array>
 #include <cstdint>
@@ -43,6 +44,15 @@ struct CollisionMesh {
     std::vector<std::uint32_t> ring_start, ring;
     // Triangles at vertex v, stored in the same way.
     std::vector<std::uint32_t> fan_start, fan;
+
+    static constexpr ContactSurface contact_surface = ContactSurface::triangles;
+    static constexpr bool can_move = false;
+    Bounds world_bounds(const Pose& pose) const { return posed_bounds(tree.bounds(), pose); }
+    double bounding_radius() const { return radius; }
+    double depth() const { return infinity; }
+    double mean_projected_area() const { return 0.0; }
+    RoundedHull rounded_hull() const { return {{&origin_point, 1}}; }
+    std::uint32_t part_count() const { return std::uint32_t(triangles.size()); }
 };
 
 /// Throws InputError when no triangle has an area.
@@ -55,5 +65,17 @@ struct NearestOnTriangle {
 
 /// Nearest point of a triangle with its feature (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
 NearestOnTriangle nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
+
+Bounds local_bounds(const MeshShape& mesh);
+void visit_extent(const MeshShape& mesh, const ExtentVisitor& visit);
+BoundingSphere bounding_sphere(const MeshShape& mesh);
+/// A solid bounded by a closed, outward-facing triangle mesh, by exact integration over the tetrahedra from one point
+/// (Tonon 2004, "Explicit exact formulas for the 3-D tetrahedron inertia tensor"; Blow and Binstock 2004).
+MassProperties mesh_mass(const TriangleMesh& mesh, double density);
+/// Zero for an open mesh.
+MassProperties mass_properties(const MeshShape& mesh, double density);
+double first_hit(const MeshShape& mesh, const Vec3& from, const Vec3& direction);
+/// Throws InputError for a mesh without a hull, or without a triangle with an area.
+CollisionShape make_collider(const MeshShape& mesh, const ColliderRequest& request, ColliderCache& cache);
 
 }  // namespace tumble

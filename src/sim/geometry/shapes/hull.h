@@ -1,10 +1,10 @@
-// A convex polyhedron: the collision shape of boxes and of meshes (as their hulls).
+// A convex polyhedron: the collision shape of boxes (box.h) and of meshes that move (as their hulls).
 // Frame: the body's, with its center of mass at the origin. Faces are true polygons (coplanar triangles are one face),
 // so that two boxes meet in a four-cornered manifold and every feature has a stable index.
 #pragma once
 
-#include "core/vector.h"
-#include "sim/geometry/bounds_tree.h"
+#include "sim/geometry/shapes/interface.h"
+#include "sim/math/bounds_tree.h"
 
 #include <cstdint>
 #include <vector>
@@ -46,10 +46,20 @@ struct Polyhedron {
 
     /// Derives planes, edges, bounds and radius from vertices and face loops.
     void complete();
-};
 
-/// A box of the given full edge lengths about the origin.
-Polyhedron make_box(const Vec3& size);
+    static constexpr ContactSurface contact_surface = ContactSurface::polyhedral;
+    static constexpr bool can_move = true;
+    Bounds world_bounds(const Pose& pose) const {
+        return is_box ? posed_bounds(pose.position, half_extent, pose) : posed_bounds(bounds, pose);
+    }
+    double bounding_radius() const { return radius; }
+    double depth() const { return inner_radius; }
+    double mean_projected_area() const { return 0.25 * surface_area(); }  // Cauchy 1832
+    RoundedHull rounded_hull() const { return {vertices, radius}; }
+    std::uint32_t part_count() const { return 1; }
+    /// True if a point lies in the shape, or no farther than `tolerance` (m) outside of its planes.
+    bool contains(const Vec3& point, double tolerance) const;
+};
 
 /// The convex hull of points (Qhull), about `origin` as the new center. Throws InputError when the points have no
 /// volume.

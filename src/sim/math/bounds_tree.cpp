@@ -1,4 +1,4 @@
-#include "sim/geometry/bounds_tree.h"
+#include "sim/math/bounds_tree.h"
 
 #include <algorithm>
 #include <numeric>

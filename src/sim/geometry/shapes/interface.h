@@ -1,0 +1,121 @@
+// The interface of a kind of shape: the functions that its file in this folder gives, and their types. A shape is
+// described by plain values (Shape, in its body's frame) and collides as a collision shape, whose origin is the center
+// of mass. shape.h calls the functions for a shape of any kind.
+//
+// A described shape S has
+//   Bounds local_bounds(const S&)                    axis-aligned, m; empty for a plane
+//   void visit_extent(const S&, const ExtentVisitor&)  balls and points whose convex hull contains it; none for a plane
+//   BoundingSphere bounding_sphere(const S&)         not for planes
+//   MassProperties mass_properties(const S&, double density)  zero without a volume
+//   double first_hit(const S&, const Vec3& from, const Vec3& direction)
+//                                                    the first point of the surface on a ray, as a multiple of
+//                                                    `direction`; infinity without a hit
+//   S enlarged(const S&, double factor)              all lengths by a factor; of a mesh or compound by MeshCache
+//   CollisionShape make_collider(const S&, const ColliderRequest&, ColliderCache&)
+//
+// A collision shape has
+//   Bounds world_bounds(const Pose&) const           m; infinite for a half-space
+//   double bounding_radius() const                   m, of the farthest point from the center of mass
+//   double depth() const                             m, to which another shape may penetrate and still be pushed back
+//                                                    out of the side that it came in by: the inner radius. Infinity for
+//                                                    half-spaces and meshes, where the thickness of the other counts
+//   double mean_projected_area() const               m^2, over all directions; 0 for those that never move freely
+//   RoundedHull rounded_hull() const                 for the time of impact
+//   ContactSurface contact_surface                   the features that touch others
+//   bool can_move                                    false: two of them never collide
+//   std::uint32_t part_count() const                 number of values of Manifold::part in a pair
+// and as a part of a compound
+//   bool contains(const Vec3& point, double tolerance) const  m
+#pragma once
+
+#include "core/vector.h"
+#include "scene/description/description.h"
+#include "sim/math/mass_properties.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <variant>
+
+namespace tumble {
+
+/// Pose of a body: p_world = position + rotation * p_body (notes eq. 5).
+struct Pose {
+    Vec3 position = Vec3::Zero();
+    Mat3 rotation = Mat3::Identity();
+
+    Vec3 to_world(const Vec3& p) const { return position + rotation * p; }
+    Vec3 to_body(const Vec3& p) const { return rotation.transpose() * (p - position); }
+};
+
+/// The given pose in the frame of another one.
+inline Pose seen_from(const Pose& frame, const Pose& pose) {
+    return {frame.to_body(pose.position), frame.rotation.transpose() * pose.rotation};
+}
+
+/// Bounding box (world) of a box with this center (world) and the axes of the pose: |R| times the half extents (Ericson
+/// 2005, "Real-Time Collision Detection", 4.2.6).
+inline Bounds posed_bounds(const Vec3& center, const Vec3& half_extent, const Pose& pose) {
+    const Vec3 half = pose.rotation.cwiseAbs() * half_extent;
+    return {center - half, center + half};
+}
+/// Bounding box (world) of a posed box.
+inline Bounds posed_bounds(const Bounds& local, const Pose& pose) {
+    return posed_bounds(pose.to_world(local.center()), 0.5 * local.extent(), pose);
+}
+
+struct BoundingSphere {
+    Vec3 center = Vec3::Zero();  // body frame
+    double radius = 0.0;         // m
+};
+
+/// Takes the center (m, the shape's frame) and the radius (m; 0: a point) of a ball.
+using ExtentVisitor = std::function<void(const Vec3& center, double radius)>;
+
+/// Points whose convex hull, rounded by a radius, is a convex shape; the origin for all others. Refers to its shape.
+struct RoundedHull {
+    std::span<const Vec3> points;  // m, body frame; at least one
+    double reach = 0.0;            // m, distance of the farthest point from the center of mass
+    double radius = 0.0;           // m
+};
+inline const Vec3 origin_point = Vec3::Zero();
+
+/// Features by which a collision shape touches others: a plane; a curved surface; corners, edges and faces; triangles on
+/// either side; or those of several parts.
+enum class ContactSurface : std::uint8_t { plane, curved, polyhedral, triangles, parts };
+
+struct HalfSpace;
+struct Ball;
+struct Polyhedron;
+struct CollisionMesh;
+struct Compound;
+/// Shared by bodies with the same shape, so that a hull is built once.
+using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>,
+                                    std::shared_ptr<const CollisionMesh>, std::shared_ptr<const Compound>>;
+
+struct ColliderRequest {
+    bool fixed = false;          // the body never moves: a mesh collides as it is, not as its convex hull
+    Vec3 origin = Vec3::Zero();  // m, of the collision shape, in the described shape's frame: the center of mass
+    double density = 1000.0;     // kg/m^3
+};
+
+/// Collision shapes that have been made: equal boxes share one, and so do bodies of the same mesh or compound.
+struct ColliderCache {
+    struct Mesh {
+        std::shared_ptr<const Polyhedron> hull;
+        std::shared_ptr<const CollisionMesh> surface;
+    };
+    struct Whole {
+        Vec3 origin = Vec3::Zero();
+        std::shared_ptr<const Compound> made;
+    };
+    std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes;  // by edge lengths: each takes 2 KB
+    // By the address of their data: looked up only, never iterated.
+    std::map<const MeshAsset*, Mesh> meshes;
+    std::map<const void*, Whole> compounds;
+};
+
+}  // namespace tumble
