@@ -125,11 +125,23 @@ Json SceneWriter::shape_node(const BodyDescription& body, const Shape& shape, co
 }
 
 SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape& shape, const Appearance& look) {
-    if (const auto* box = std::get_if<BoxShape>(&shape)) return unit(box_, unit_box, look, box->size);
-    if (const auto* ball = std::get_if<SphereShape>(&shape))
-        return unit(sphere_, unit_sphere, look, Vec3::Constant(ball->radius));
-    if (const auto* plane = std::get_if<PlaneShape>(&shape)) return {mesh(patch(body, *plane), look), Vec3::Ones()};
-    return {mesh(asset(*std::get<MeshShape>(shape).asset), look), Vec3::Ones()};
+    struct Form {
+        SceneWriter& writer;
+        const BodyDescription& body;
+        const Appearance& look;
+        Placed operator()(const BoxShape& box) { return writer.unit(writer.box_, unit_box, look, box.size); }
+        Placed operator()(const SphereShape& ball) {
+            return writer.unit(writer.sphere_, unit_sphere, look, Vec3::Constant(ball.radius));
+        }
+        Placed operator()(const PlaneShape& plane) {
+            return {writer.mesh(writer.patch(body, plane), look), Vec3::Ones()};
+        }
+        Placed operator()(const MeshShape& shape) {
+            return {writer.mesh(writer.asset(*shape.asset), look), Vec3::Ones()};
+        }
+        Placed operator()(const CompoundShape&) { return {}; }  // written part by part
+    };
+    return std::visit(Form{*this, body, look}, shape);
 }
 
 SceneWriter::Placed SceneWriter::unit(std::optional<Geometry>& geometry, Triangles (*make)(), const Appearance& look,

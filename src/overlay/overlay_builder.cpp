@@ -38,20 +38,12 @@ Color trail_color(const SceneDescription& scene, std::size_t body) {
 
 /// The tight axis-aligned bounding box in the world.
 void add_bounds(const Shape& shape, const Vec3& origin, const Quat& orientation, Bounds& bounds) {
-    if (const auto* ball = std::get_if<SphereShape>(&shape)) {
-        bounds.add(Vec3(origin.array() - ball->radius));
-        bounds.add(Vec3(origin.array() + ball->radius));
-    } else if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        const Vec3 half = orientation.toRotationMatrix().cwiseAbs() * (0.5 * box->size);
-        bounds.add(Vec3(origin - half));
-        bounds.add(Vec3(origin + half));
-    } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
-        const Mat3 rotation = orientation.toRotationMatrix();
-        for (const Vec3& vertex : mesh->asset->mesh.vertices) bounds.add(Vec3(origin + rotation * vertex));
-    } else if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
-        for (const CompoundPart& part : *compound->parts)
-            add_bounds(part.shape, origin + orientation * part.position, orientation * part.rotation, bounds);
-    }
+    const Mat3 rotation = orientation.toRotationMatrix();
+    visit_extent(shape, [&](const Vec3& center, double radius) {
+        const Vec3 place = origin + rotation * center;
+        bounds.add(Vec3(place.array() - radius));
+        bounds.add(Vec3(place.array() + radius));
+    });
 }
 
 /// At most `longest_name` characters (UTF-8).

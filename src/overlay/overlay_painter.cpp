@@ -1,7 +1,7 @@
 #include "overlay/overlay_painter.h"
 
 #include "plot/canvas.h"
-#include "render/mesh/primitive_meshes.h"
+#include "render/shapes/drawn_shape.h"
 
 #include <algorithm>
 #include <array>
@@ -13,51 +13,9 @@ namespace tumble {
 namespace {
 
 constexpr double nearest = 1e-3;  // of the distance to the camera's target: nearer parts of lines are cut off
-constexpr int ball_level = 3;     // 1280 triangles: smooth as a ghost of any size
 constexpr std::size_t most_kept_pixels = 4 << 20;  // of ghosts: 48 MiB in each render process
 constexpr double margin = 14.0;                    // of the legend, in units of the shapes' sizes
 constexpr Color damage_color{255, 64, 200};
-
-/// A vertex of a surface, without color.
-struct Corner {
-    Vec3 position, normal;
-};
-
-void add_mesh(std::span<const MeshAsset::Vertex> vertices, std::span<const std::uint32_t> indices, double scale,
-              std::vector<Corner>& to) {
-    for (const std::uint32_t index : indices) {
-        const MeshAsset::Vertex& v = vertices[index];
-        to.push_back(
-            {scale * Vec3(v.position[0], v.position[1], v.position[2]), Vec3(v.normal[0], v.normal[1], v.normal[2])});
-    }
-}
-
-void add_box(const Vec3& half, std::vector<Corner>& to) {
-    for (int axis = 0; axis < 3; ++axis)
-        for (const double side : {-1.0, 1.0}) {
-            Vec3 normal = Vec3::Zero(), u = Vec3::Zero(), v = Vec3::Zero();
-            normal[axis] = side;
-            u[(axis + 1) % 3] = half[(axis + 1) % 3];
-            v[(axis + 2) % 3] = half[(axis + 2) % 3];
-            const Vec3 center = side * half[axis] * Vec3::Unit(axis);
-            for (const auto& [s, t] : {std::pair(-1, -1), std::pair(1, -1), std::pair(1, 1), std::pair(-1, -1),
-                                       std::pair(1, 1), std::pair(-1, 1)})
-                to.push_back({center + s * u + t * v, normal});
-        }
-}
-
-std::vector<Corner> corners_of(const Shape& shape) {
-    std::vector<Corner> corners;
-    if (const auto* box = std::get_if<BoxShape>(&shape)) {
-        add_box(0.5 * box->size, corners);
-    } else if (const auto* ball = std::get_if<SphereShape>(&shape)) {
-        static const DrawMesh mesh = make_ball(ball_level);
-        add_mesh(mesh.vertices, mesh.indices, ball->radius, corners);
-    } else if (const auto* mesh = std::get_if<MeshShape>(&shape)) {
-        add_mesh(mesh->asset->vertices, mesh->asset->indices, 1.0, corners);
-    }
-    return corners;
-}
 
 ScreenPoint project(const Camera& camera, const Vec3& relative) {
     return {camera.pixel(relative), relative.dot(camera.forward())};
@@ -199,7 +157,7 @@ void OverlayPainter::add_shape(const Shape& shape, const Vec3& origin, const Qua
                       part.color.value_or(color), to);
         return;
     }
-    for (const Corner& corner : corners_of(shape))
+    for (const SurfaceCorner& corner : std::visit([](const auto& one) { return surface_triangles(one); }, shape))
         to.push_back({origin + rotation * corner.position, rotation * corner.normal, color});
 }
 

@@ -28,17 +28,25 @@ Json part_json(const CompoundPart& part, const Appearance& look, MeshTable& mesh
             {"color", to_string(part.color.value_or(look.color))}};
 }
 
+struct ShapeForm {
+    const Appearance& look;
+    MeshTable& meshes;
+
+    Json operator()(const PlaneShape& plane) {
+        return {{"type", "plane"}, {"normal", vector_json(plane.normal)}, {"offset", plane.offset}};
+    }
+    Json operator()(const BoxShape& box) { return {{"type", "box"}, {"size", vector_json(box.size)}}; }
+    Json operator()(const SphereShape& ball) { return {{"type", "sphere"}, {"radius", ball.radius}}; }
+    Json operator()(const MeshShape& mesh) { return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh.asset)}}; }
+    Json operator()(const CompoundShape& compound) {
+        Json parts = Json::array();
+        for (const CompoundPart& part : *compound.parts) parts.push_back(part_json(part, look, meshes));
+        return {{"type", "compound"}, {"parts", std::move(parts)}};
+    }
+};
+
 Json shape_json(const Shape& shape, const Appearance& look, MeshTable& meshes) {
-    if (const auto* plane = std::get_if<PlaneShape>(&shape))
-        return {{"type", "plane"}, {"normal", vector_json(plane->normal)}, {"offset", plane->offset}};
-    if (const auto* box = std::get_if<BoxShape>(&shape)) return {{"type", "box"}, {"size", vector_json(box->size)}};
-    if (const auto* ball = std::get_if<SphereShape>(&shape)) return {{"type", "sphere"}, {"radius", ball->radius}};
-    if (const auto* mesh = std::get_if<MeshShape>(&shape))
-        return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh->asset)}};
-    Json parts = Json::array();
-    for (const CompoundPart& part : *std::get<CompoundShape>(shape).parts)
-        parts.push_back(part_json(part, look, meshes));
-    return {{"type", "compound"}, {"parts", std::move(parts)}};
+    return std::visit(ShapeForm{look, meshes}, shape);
 }
 
 const char* type_name(BodyType type) {

@@ -7,7 +7,6 @@
 #include "render/ambient_occlusion/texel_grid.h"
 #include "render/camera/camera.h"
 #include "render/damage/dirty_tiles.h"
-#include "render/mesh/primitive_meshes.h"
 #include "render/passes/draw_list.h"
 #include "render/render_scene_builder.h"
 #include "render/scene/drawable_bounds.h"
@@ -15,6 +14,7 @@
 #include "render/scene/plane_patch.h"
 #include "render/scene/render_scene.h"
 #include "render/shadow/shadow_cascades.h"
+#include "render/shapes/primitive_meshes.h"
 
 #include <gtest/gtest.h>
 

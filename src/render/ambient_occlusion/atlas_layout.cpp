@@ -38,7 +38,7 @@ bool lay_out(const RenderScene& scene, const Fineness& fineness, OcclusionAtlas&
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const RenderBody& proxy = scene.bodies[i];
         OcclusionPlace place;
-        bool fits = proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane || proxy.without_occlusion;
+        bool fits = !proxy.solid() || proxy.without_occlusion;
         if (fits) {
             // stays unoccluded
         } else if (proxy.lightmap >= 0) {

@@ -27,7 +27,7 @@ Eigen::Array3i cell_of(const Eigen::Array3f& at, float cell) {
 void add_occluders(const RenderScene& scene, std::size_t body, const BodyState& state, const Vec3& reference,
                    std::vector<Occluder>& occluders) {
     const RenderBody& proxy = scene.bodies[body];
-    if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) return;
+    if (!proxy.solid()) return;
     const Eigen::Matrix3f to_local = state.orientation.toRotationMatrix().transpose().cast<float>();
     const auto add = [&](const Vec3& center, const Vec3& half_size, double radius) {
         occluders.push_back({Vec3(state.origin + state.orientation * center - reference).cast<float>(), to_local,

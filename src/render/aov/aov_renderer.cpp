@@ -2,7 +2,6 @@
 
 #include "core/check.h"
 #include "render/aov/surface_motion.h"
-#include "render/aov/surface_normal.h"
 
 #include <algorithm>
 #include <array>
@@ -93,7 +92,10 @@ void fill_normal(const VisibilityBuffer& map, const std::vector<ShapeInstance>& 
         const double depth = map.depth[pixel];
         if (surface >= parts.size())
             return camera.axes * cord_normal(places.cords[surface - parts.size()], depth * ray);
-        return rotations[surface] * part_normal(parts[surface], places.parts[surface], map.triangle[pixel], ray, depth);
+        const auto normal_of = [&](const auto& shape) {
+            return surface_normal(shape, places.parts[surface], map.triangle[pixel], ray, depth);
+        };
+        return rotations[surface] * std::visit(normal_of, parts[surface].shape);
     };
     for_each_run(map, [&](const PixelRun& run) {
         const float* known = run.surface == VisibilityBuffer::nothing ? zero.data()

@@ -62,15 +62,4 @@ void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const Pinh
     }
 }
 
-std::array<double, 3> corner_shares(const std::array<Vec3, 3>& corners, const Vec3& ray) {
-    std::array<double, 3> shares;
-    double sum = 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        shares[i] = corners[(i + 1) % 3].cross(corners[(i + 2) % 3]).dot(ray);
-        sum += shares[i];
-    }
-    for (double& share : shares) share /= sum;
-    return shares;
-}
-
 }  // namespace tumble

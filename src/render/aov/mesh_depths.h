@@ -21,7 +21,4 @@ struct MeshTriangles {
 void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const PinholeCamera& camera,
                     std::span<const double> ray_x, VisibilityBuffer& map);
 
-/// Barycentric coordinates of the intersection of a ray with the triangle; their sum is 1.
-std::array<double, 3> corner_shares(const std::array<Vec3, 3>& corners, const Vec3& ray);
-
 }  // namespace tumble

@@ -1,30 +1,20 @@
 #include "render/aov/shape_instance.h"
 
-#include "core/check.h"
 #include "render/scene/cord_ends.h"
+#include "render/shapes/drawn_shape.h"
 
 namespace tumble {
-namespace {
-
-/// Only a mesh can be open; its inside is then visible, as in gpu_mesh_cache.cpp.
-bool is_closed(const Shape& shape) {
-    const auto* mesh = std::get_if<MeshShape>(&shape);
-    if (mesh == nullptr) return true;
-    const Closedness form = closedness(mesh->asset->mesh);
-    return form.closed() && form.signed_volume > 0.0;
-}
-
-}  // namespace
 
 std::vector<ShapeInstance> surface_parts(const SceneDescription& scene) {
     std::vector<ShapeInstance> parts;
     const auto add = [&](ShapeInstance part) {
-        if (const auto* mesh = std::get_if<MeshShape>(&part.shape); mesh != nullptr && !mesh->asset) return;
-        // Copies share their mesh and are adjacent.
         const auto* mesh = std::get_if<MeshShape>(&part.shape);
+        if (mesh != nullptr && !mesh->asset) return;
+        // Copies share their mesh and are adjacent.
         const auto* before = parts.empty() ? nullptr : std::get_if<MeshShape>(&parts.back().shape);
         const bool known = mesh != nullptr && before != nullptr && mesh->asset == before->asset;
-        part.closed = known ? parts.back().closed : is_closed(part.shape);
+        part.closed =
+            known ? parts.back().closed : std::visit([](const auto& shape) { return closed(shape); }, part.shape);
         parts.push_back(std::move(part));
     };
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {

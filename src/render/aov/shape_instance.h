@@ -3,6 +3,7 @@
 
 #include "core/color.h"
 #include "render/aov/pinhole_camera.h"
+#include "render/shapes/ray_depths.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 
@@ -28,21 +29,8 @@ std::vector<ShapeInstance> surface_parts(const SceneDescription& scene);
 std::uint32_t body_id(std::size_t body);
 std::uint32_t cord_id(const SceneDescription& scene, std::size_t cord);
 
-/// Pose of a part in the camera frame: a point p of the part is at origin + axes p.
-struct PartPlace {
-    Mat3 axes;
-    Vec3 origin;  // m
-
-    friend bool operator==(const PartPlace&, const PartPlace&) = default;
-};
 PartPlace place_of(const ShapeInstance& part, const Snapshot& snapshot, const PinholeCamera& camera);
 
-/// The ends of a cord in the camera frame: its anchor and its attachment on the body.
-struct CordPlace {
-    Vec3 from, to;  // m
-
-    friend bool operator==(const CordPlace&, const CordPlace&) = default;
-};
 CordPlace place_of(const CordDescription& cord, const Snapshot& snapshot, const PinholeCamera& camera);
 
 }  // namespace tumble

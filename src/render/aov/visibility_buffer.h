@@ -5,6 +5,7 @@
 
 #include "render/aov/pinhole_camera.h"
 #include "render/aov/shape_instance.h"
+#include "render/shapes/drawn_shape.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -34,7 +35,7 @@ struct ScenePlaces {
 ScenePlaces make_places(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords,
                         const Snapshot& snapshot, const PinholeCamera& camera);
 
-class VisibilityBufferRenderer {
+class VisibilityBufferRenderer : private RayTarget {
 public:
     /// Both must outlive it.
     VisibilityBufferRenderer(std::span<const ShapeInstance> parts, std::span<const CordDescription> cords);
@@ -43,25 +44,17 @@ public:
     const VisibilityBuffer& find(const ScenePlaces& places, const PinholeCamera& camera);
 
 private:
-    void find_shape(const PlaneShape& plane, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
-    void find_shape(const BoxShape& box, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
-    void find_shape(const SphereShape& ball, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
-    void find_shape(const MeshShape& mesh, std::size_t index, const PartPlace& place, const PinholeCamera& camera);
-    void find_shape(const CompoundShape&, std::size_t, const PartPlace&, const PinholeCamera&) {
-    }  // compounds are expanded
-    void find_cord(std::size_t index, const CordPlace& place, const PinholeCamera& camera);
-
-    /// For the pixels within the hull of the points: stores depths that are nearer than the values in the buffer.
-    /// `depths_of` fills a row.
-    template <class Depths>
-    void find_rows(std::span<const Vec3> hull, std::size_t index, const PinholeCamera& camera, const Depths& depths_of);
+    void add_rows(std::span<const Vec3> hull, const Depths& depths) override;
+    void add_triangles(std::span<const Vec3> vertices, std::span<const std::uint32_t> indices) override;
+    void cast_cord(const CordPlace& place, double radius);
 
     std::span<const ShapeInstance> parts_;
     std::span<const CordDescription> cords_;
     VisibilityBuffer map_;
-    std::vector<double> ray_x_;   // of each column
-    std::vector<double> depths_;  // of one row
-    std::vector<Vec3> vertices_;  // of one mesh, in the camera frame
+    const PinholeCamera* camera_ = nullptr;  // of the present call
+    std::size_t surface_ = 0;                // index of the surface that is added
+    std::vector<double> ray_x_;              // of each column
+    std::vector<double> depths_;             // of one row
 };
 
 }  // namespace tumble

@@ -225,7 +225,7 @@ Visibility find_visible(const FrameContext& frame) {
 Visibility everything_visible(const FrameContext& frame) {
     Visibility all{CoarseDepthBuffer(frame.camera), {}, {}};
     for (const RenderBody& proxy : frame.scene.bodies) {
-        all.bodies.push_back(proxy.kind != DrawKind::hidden && proxy.kind != DrawKind::plane);
+        all.bodies.push_back(proxy.solid());
         all.faces.push_back(proxy.kind == DrawKind::box ? 0x3f : 0);
     }
     return all;

@@ -79,8 +79,8 @@ bool too_near(const FrameContext& frame) {
     for (std::size_t i = 0; i < frame.drawables.bodies.size(); ++i) {
         const DrawableBounds& bounds = frame.drawables.bodies[i];
         if (!bounds.exists() || !camera.sees(bounds.center, bounds.radius)) continue;
-        if (least_depth(frame.scene.bodies[i], frame.scene, frame.snapshot.bodies[i], {bounds.center, bounds.radius},
-                        camera) < limit)
+        if (least_depth(frame.scene.bodies[i], frame.snapshot.bodies[i], {bounds.center, bounds.radius}, camera) <
+            limit)
             return true;
     }
     return std::any_of(frame.drawables.cords.begin(), frame.drawables.cords.end(), [&](const DrawableBounds& bounds) {

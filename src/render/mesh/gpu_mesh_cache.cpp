@@ -1,6 +1,6 @@
 #include "render/mesh/gpu_mesh_cache.h"
 
-#include "render/mesh/primitive_meshes.h"
+#include "render/shapes/primitive_meshes.h"
 
 namespace tumble {
 namespace {

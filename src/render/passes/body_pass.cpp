@@ -29,7 +29,7 @@ BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& proxy : scene.bodies)
-        if (proxy.kind == DrawKind::box || proxy.kind == DrawKind::ball || proxy.kind == DrawKind::mesh)
+        if (proxy.solid())
             for (const bool lit : {true, false})
                 program({proxy.kind, proxy.pattern != Pattern::plain, lit, false,
                          proxy.kind == DrawKind::mesh && proxy.lightmap >= 0});

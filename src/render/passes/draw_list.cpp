@@ -69,13 +69,13 @@ std::size_t ball_mesh_for(double radius, double error) {  // m
 // The bounding balls of bodies that exist are those of their drawables.
 BoundingBall ball_of(const DrawableBounds& bounds) { return {bounds.center, bounds.radius}; }
 
-struct CordPlace {
+struct PlacedCord {
     Vec3 middle;
     double length;
     Quat turn;
 };
 
-CordPlace place_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& camera) {
+PlacedCord place_cord(const CordDescription& cord, const Snapshot& snapshot, const Camera& camera) {
     const CordEnds ends = cord_ends(cord, snapshot);
     const Vec3 from = camera.relative(ends.anchor), to = camera.relative(ends.point);
     const double length = (to - from).norm();
@@ -231,7 +231,7 @@ private:
 
     Instance cord_instance(std::size_t i) const {
         const CordDescription& cord = frame_.scene.cords[i];
-        const CordPlace& place = cords_[i];
+        const PlacedCord& place = cords_[i];
         const std::array<double, 3> color = to_linear(cord.color);
         Instance made{};
         made.position = to_glm(place.middle);
@@ -249,7 +249,7 @@ private:
     const Visibility& visible_;
     const OcclusionAtlas& atlas_;
     Vec3 light_;  // unit, direction in which the light travels
-    std::vector<CordPlace> cords_;
+    std::vector<PlacedCord> cords_;
     std::vector<Item> drawn_, casters_;
 };
 

@@ -37,8 +37,7 @@ PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snaps
 std::array<Vec3, 8> box_corners(const Vec3& center, const Mat3& axes, const Vec3& half_size);
 
 /// Lower bound of the depth of the visible part of a body, m.
-double least_depth(const RenderBody& proxy, const RenderScene& scene, const BodyState& state, const BoundingBall& ball,
-                   const Camera& view);
+double least_depth(const RenderBody& proxy, const BodyState& state, const BoundingBall& ball, const Camera& view);
 
 /// Near distance: half of the nearest visible body's distance, rounded down to a power of two, so that small movements
 /// do not round all depths differently.

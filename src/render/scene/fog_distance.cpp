@@ -23,11 +23,9 @@ constexpr double large_part = 0.01;
 constexpr double beyond_large = 2.0;
 
 // Distance from a point to the bounding box of a body, m; 0 inside.
-double gap_to(const Vec3& eye, const RenderBody& proxy, const Vec3& origin, const Quat& rotation,
-              const RenderScene& scene) {
-    const Vec3& half_size = proxy.kind == DrawKind::mesh ? scene.meshes[proxy.mesh].half_extent : proxy.half_size;
+double gap_to(const Vec3& eye, const RenderBody& proxy, const Vec3& origin, const Quat& rotation) {
     const Vec3 from = rotation.conjugate() * (eye - origin) - proxy.bound_center;
-    return (from.cwiseAbs() - half_size).cwiseMax(0.0).norm();
+    return (from.cwiseAbs() - proxy.half_extent).cwiseMax(0.0).norm();
 }
 
 }  // namespace
@@ -40,7 +38,7 @@ double viewing_distance(const SceneDescription& description, const RenderScene& 
         distances.clear();
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
             const RenderBody& proxy = scene.bodies[i];
-            if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+            if (!proxy.solid()) continue;
             const BodyDescription& body = description.bodies[i];
             distances.push_back((body.position + body.rotation * proxy.bound_center - eye).norm());
         }
@@ -64,11 +62,11 @@ double fog_distance(const SceneDescription& description, const RenderScene& scen
             const Vec3 center = view.relative(origin + rotation * proxy.bound_center);
             const bool large = 2.0 * proxy.bound_radius >= least_slope * center.norm();
             if (large && (description.camera.moves() || view.sees(center, proxy.bound_radius)))
-                distance = std::max(distance, beyond_large * gap_to(camera.eye, proxy, origin, rotation, scene));
+                distance = std::max(distance, beyond_large * gap_to(camera.eye, proxy, origin, rotation));
         };
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
             const RenderBody& proxy = scene.bodies[i];
-            if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+            if (!proxy.solid()) continue;
             add(proxy, description.bodies[i].position, description.bodies[i].rotation);
             for (const Keyframe& key : description.bodies[i].keyframes) add(proxy, key.position, key.rotation);
         }

@@ -29,7 +29,7 @@ struct ReceiverExtent {
     double size() const { return (high - low).maxCoeff(); }
 };
 
-bool is_solid(const RenderBody& proxy) { return proxy.kind != DrawKind::hidden && proxy.kind != DrawKind::plane; }
+bool is_solid(const RenderBody& proxy) { return proxy.solid(); }
 
 }  // namespace
 
@@ -70,9 +70,8 @@ RestHeightEstimate::RestHeightEstimate(const SceneDescription& description, cons
             state.orientation = body.rotation;
             planes_.push_back(plane_in_world(proxy, state));
         } else if (proxy.large_receiver) {
-            const bool mesh = proxy.kind == DrawKind::mesh;
-            blocks_.push_back({body.position + body.rotation * proxy.bound_center,
-                               mesh ? scene.meshes[proxy.mesh].half_extent : proxy.half_size, body.rotation, mesh});
+            blocks_.push_back({body.position + body.rotation * proxy.bound_center, proxy.half_extent, body.rotation,
+                               proxy.kind == DrawKind::mesh});
         }
     }
 }

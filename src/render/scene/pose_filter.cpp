@@ -1,47 +1,24 @@
 #include "render/scene/pose_filter.h"
 
 #include "core/check.h"
+#include "render/shapes/drawn_shape.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace tumble {
-namespace {
-
-double radius_of(const Shape& shape);
-
-double radius_of(const PlaneShape&) { return std::numeric_limits<double>::infinity(); }
-double radius_of(const BoxShape& box) { return 0.5 * box.size.norm(); }
-double radius_of(const SphereShape& ball) { return ball.radius; }
-double radius_of(const MeshShape& mesh) {
-    double squared = 0.0;
-    if (mesh.asset)
-        for (const MeshAsset::Vertex& v : mesh.asset->vertices)
-            squared = std::max(squared, Vec3(v.position[0], v.position[1], v.position[2]).squaredNorm());
-    return std::sqrt(squared);
-}
-double radius_of(const CompoundShape& compound) {
-    double radius = 0.0;
-    for (const CompoundPart& part : *compound.parts)
-        radius = std::max(radius, part.position.norm() + radius_of(part.shape));
-    return radius;
-}
-
-double radius_of(const Shape& shape) {
-    return std::visit([](const auto& one) { return radius_of(one); }, shape);
-}
-
-}  // namespace
 
 PoseFilter::PoseFilter(const SceneDescription& scene)
     : path_(scene.camera),
       camera_(scene.camera),
       followed_(scene.camera.follow),
       view_(scene.camera, scene.output.width, scene.output.height) {
-    for (const BodyDescription& body : scene.bodies)
-        radii_.push_back(body.appearance.visible ? radius_of(body.shape) : 0.0);
-    if (followed_) radii_[*followed_] = radius_of(scene.bodies[*followed_].shape);  // it moves everything that is drawn
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        const bool moves = body.appearance.visible || followed_ == i;  // a followed body moves everything that is drawn
+        radii_.push_back(moves ? std::visit([](const auto& shape) { return reach(shape); }, body.shape) : 0.0);
+    }
     for (const CordDescription& cord : scene.cords) {
         radii_[cord.body] = std::max(radii_[cord.body], cord.point.norm() + cord.radius);
         if (cord.anchor_body)

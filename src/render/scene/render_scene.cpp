@@ -1,83 +1,12 @@
 #include "render/scene/render_scene.h"
 
 #include "render/scene/large_receivers.h"
+#include "render/shapes/drawn_shape.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace tumble {
-namespace {
-
-// AO radius of a body, in parts of its median half edge; for a plate or rod at most twice its short half edge.
-constexpr double ao_radius_of_half_edge = 1.0;
-constexpr double ao_radius_of_thin_side = 2.0;
-
-// Width of a box's rounded edge, in parts of its shortest edge: 3 cm for a box of 1 m.
-constexpr double bevel_of_edge = 0.03;
-
-// A body's pattern has four cells across its thinnest side.
-constexpr double pattern_cell_of_radius = 0.5;
-
-double ao_radius_of(const Vec3& half_size) {
-    std::array<double, 3> h = {half_size.x(), half_size.y(), half_size.z()};
-    std::sort(h.begin(), h.end());
-    return std::min(ao_radius_of_half_edge * h[1], ao_radius_of_thin_side * h[0]);
-}
-
-RenderMesh make_render_mesh(const std::shared_ptr<const MeshAsset>& asset) {
-    RenderMesh proxy;
-    proxy.asset = asset;
-    const Closedness form = closedness(asset->mesh);
-    proxy.closed = form.closed() && form.signed_volume > 0.0;
-    Bounds bounds;
-    for (const MeshAsset::Vertex& v : asset->vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
-    proxy.bound_center = bounds.center();
-    proxy.half_extent = 0.5 * bounds.extent();
-    return proxy;
-}
-
-void set_shape(RenderBody& proxy, const PlaneShape& plane, RenderScene&) {
-    proxy.kind = DrawKind::plane;
-    proxy.plane = plane;
-}
-
-void set_shape(RenderBody& proxy, const BoxShape& box, RenderScene&) {
-    proxy.kind = DrawKind::box;
-    proxy.half_size = 0.5 * box.size;
-    proxy.bound_radius = proxy.half_size.norm();
-    proxy.ao_radius = ao_radius_of(proxy.half_size);
-    proxy.bevel = bevel_of_edge * box.size.minCoeff();
-    proxy.pattern_cell = pattern_cell_of_radius * proxy.half_size.minCoeff();
-}
-
-void set_shape(RenderBody& proxy, const SphereShape& sphere, RenderScene&) {
-    proxy.kind = DrawKind::ball;
-    proxy.half_size = Vec3::Constant(sphere.radius);
-    proxy.pattern_cell = pattern_cell_of_radius * sphere.radius;
-    proxy.bound_radius = sphere.radius;
-    proxy.ao_radius = ao_radius_of(proxy.half_size);
-}
-
-void set_shape(RenderBody& proxy, const MeshShape& mesh, RenderScene& scene) {
-    const std::shared_ptr<const MeshAsset>& asset = mesh.asset;
-    if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
-    proxy.kind = DrawKind::mesh;
-    const auto known = std::find_if(scene.meshes.begin(), scene.meshes.end(),
-                                    [&](const RenderMesh& other) { return other.asset == asset; });
-    proxy.mesh = std::size_t(known - scene.meshes.begin());
-    if (known == scene.meshes.end()) scene.meshes.push_back(make_render_mesh(asset));
-    const RenderMesh& shared = scene.meshes[proxy.mesh];
-    proxy.bound_center = shared.bound_center;
-    proxy.bound_radius = shared.half_extent.norm();
-    proxy.ao_radius =
-        std::max(ao_radius_of(shared.half_extent), 1e-3 * proxy.bound_radius);  // a flat mesh has no thickness
-    proxy.pattern_cell = pattern_cell_of_radius * proxy.ao_radius;
-}
-
-void set_shape(RenderBody&, const CompoundShape&, RenderScene&) {}  // expanded by compound_expansion.h
-
-}  // namespace
 
 RenderScene describe_bodies(const SceneDescription& description) {
     RenderScene scene;
@@ -88,7 +17,7 @@ RenderScene describe_bodies(const SceneDescription& description) {
         RenderBody proxy;
         proxy.fixed = body.type == BodyType::fixed;
         if (body.appearance.visible) {
-            std::visit([&](const auto& shape) { set_shape(proxy, shape, scene); }, body.shape);
+            std::visit([&](const auto& shape) { set_proxy(proxy, shape, scene.meshes); }, body.shape);
             const std::array<double, 3> linear = to_linear(body.appearance.color);
             proxy.color = {float(linear[0]), float(linear[1]), float(linear[2])};
             proxy.roughness = float(body.appearance.roughness);

@@ -148,7 +148,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderSc
     // A large receiver does not widen the map: its caster is at the same place of the map as the shadow.
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const RenderBody& proxy = scene.bodies[i];
-        if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane || proxy.large_receiver) continue;
+        if (!proxy.solid() || proxy.large_receiver) continue;
         const BodyDescription& body = description.bodies[i];
         add(proxy, body.position, body.rotation, body.type == BodyType::dynamic);
         for (const Keyframe& key : body.keyframes) add(proxy, key.position, key.rotation, false);
@@ -200,7 +200,7 @@ ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snap
         z;  // bounds of the casters of visible shadows; x and y in widths of the near map, from its corner
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const RenderBody& proxy = scene.bodies[i];
-        if (proxy.kind == DrawKind::hidden || proxy.kind == DrawKind::plane) continue;
+        if (!proxy.solid()) continue;
         const BoundingBall ball = bounding_ball(proxy, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
         const Vec3 center = view.eye() + ball.center;

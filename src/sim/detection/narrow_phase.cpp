@@ -231,9 +231,7 @@ void NarrowPhase::view(View& v, const Body& body) const {
     v.collider = &body.collider;
     v.awake = awake(body);
     v.flying = body.flying;
-    v.kind = std::holds_alternative<Ball>(body.collider)                                ? View::Kind::ball
-             : std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider) ? View::Kind::polyhedron
-                                                                                        : View::Kind::fixed;
+    v.surface = contact_surface(body.collider);
 }
 
 // Entries are in the order of their first bodies; data of the second body and of the search is scattered.
@@ -263,7 +261,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
         apart > a.speculative + b.speculative + h * ((b.velocity - a.velocity).cwiseAbs().sum() + a.spin + b.spin);
     const double reach = far ? 0.0 : margin(a, b, h);
     if (far || apart > reach) return drop();
-    if (!remembers_ || a.kind == View::Kind::ball || b.kind == View::Kind::ball)
+    if (!remembers_ || a.surface == ContactSurface::curved || b.surface == ContactSurface::curved)
         return search(index, reach, 0.0, h, found);
 
     // The bodies' own motion is available and often small enough; else their relative motion is computed.
@@ -351,8 +349,8 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
     // The triangles of a mesh are found in the order of its tree.
     const auto first = found.manifolds.begin() + begin;
     if (count > 1) std::stable_sort(first, found.manifolds.end(), earlier);
-    const bool swapped =
-        b.kind == View::Kind::fixed || (b.kind == View::Kind::polyhedron && a.kind == View::Kind::ball);
+    const bool swapped = b.surface != ContactSurface::curved &&
+                         (b.surface != ContactSurface::polyhedral || a.surface == ContactSurface::curved);
     std::uint32_t old = entry.first;
     const std::uint32_t old_end = entry.first + entry.count;
     for (auto m = first; m != found.manifolds.end(); ++m) {

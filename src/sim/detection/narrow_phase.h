@@ -62,20 +62,16 @@ private:
         Vec3 velocity = Vec3::Zero();
         double spin = 0.0, radius = 0.0;  // spin: m/s of the farthest point
         const CollisionShape* collider = nullptr;
-        enum class Kind : std::uint8_t {
-            polyhedron,
-            ball,
-            fixed
-        } kind = Kind::polyhedron;  // fixed: half-space or mesh
+        ContactSurface surface = ContactSurface::polyhedral;
         bool awake = false, flying = false;
         Pose pose;
         Quat orientation = Quat::Identity();
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [bounds, travel, speculative, velocity, spin, radius, collider, kind, awake, flying, pose,
+            auto& [bounds, travel, speculative, velocity, spin, radius, collider, surface, awake, flying, pose,
                    orientation] = self;
             archive.keep(travel, pose.position, orientation);
-            archive.scratch(bounds, speculative, velocity, spin, radius, collider, kind, awake, flying);
+            archive.scratch(bounds, speculative, velocity, spin, radius, collider, surface, awake, flying);
         }
     };
     // Pose of a body in another one's frame; the rotation in single precision, which is enough for distances.

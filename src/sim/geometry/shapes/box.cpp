@@ -39,16 +39,12 @@ double box_entry(const Vec3& half_size, const Vec3& from, const Vec3& direction)
     return enter <= leave && leave > 0.0 ? std::max(enter, 0.0) : infinity;
 }
 
-Bounds local_bounds(const BoxShape& box) { return {-0.5 * box.size, 0.5 * box.size}; }
-
 void visit_extent(const BoxShape& box, const ExtentVisitor& visit) {
     for (int corner = 0; corner < 8; ++corner) {
         const Vec3 sign(corner & 1 ? 0.5 : -0.5, corner & 2 ? 0.5 : -0.5, corner & 4 ? 0.5 : -0.5);
         visit(sign.cwiseProduct(box.size), 0.0);
     }
 }
-
-BoundingSphere bounding_sphere(const BoxShape& box) { return {Vec3::Zero(), 0.5 * local_bounds(box).extent().norm()}; }
 
 MassProperties mass_properties(const BoxShape& box, double density) {
     MassProperties p;

@@ -11,9 +11,7 @@ Polyhedron make_box(const Vec3& size);
 /// Entry of a ray into a box about the origin, as a multiple of `direction`; 0 from inside, infinity without a hit.
 double box_entry(const Vec3& half_size, const Vec3& from, const Vec3& direction);
 
-Bounds local_bounds(const BoxShape& box);
 void visit_extent(const BoxShape& box, const ExtentVisitor& visit);
-BoundingSphere bounding_sphere(const BoxShape& box);
 /// I_x = m (y^2 + z^2) / 12 and cyclic.
 MassProperties mass_properties(const BoxShape& box, double density);
 double first_hit(const BoxShape& box, const Vec3& from, const Vec3& direction);

@@ -34,26 +34,9 @@ double Compound::mean_projected_area() const {
     return sum;
 }
 
-Bounds local_bounds(const CompoundShape& compound) {
-    Bounds bounds;
-    visit_extent(compound, [&](const Vec3& p, double r) {
-        bounds.add(Vec3(p.array() - r));
-        bounds.add(Vec3(p.array() + r));
-    });
-    return bounds;
-}
-
 void visit_extent(const CompoundShape& compound, const ExtentVisitor& visit) {
     for (const CompoundPart& part : *compound.parts)
         visit_extent(part.shape, [&](const Vec3& p, double r) { visit(part.position + part.rotation * p, r); });
-}
-
-BoundingSphere bounding_sphere(const CompoundShape& compound) {
-    BoundingSphere sphere{local_bounds(compound).center(), 0.0};
-    visit_extent(compound, [&](const Vec3& p, double r) {
-        sphere.radius = std::max(sphere.radius, (p - sphere.center).norm() + r);
-    });
-    return sphere;
 }
 
 MassProperties mass_properties(const CompoundShape& compound, double density) {

@@ -42,9 +42,7 @@ inline Pose part_pose(const Pose& body, const Compound::Part& part) {
     return {body.to_world(part.place.position), body.rotation * part.place.rotation};
 }
 
-Bounds local_bounds(const CompoundShape& compound);
 void visit_extent(const CompoundShape& compound, const ExtentVisitor& visit);
-BoundingSphere bounding_sphere(const CompoundShape& compound);
 MassProperties mass_properties(const CompoundShape& compound, double density);
 double first_hit(const CompoundShape& compound, const Vec3& from, const Vec3& direction);
 CollisionShape make_collider(const CompoundShape& compound, const ColliderRequest& request, ColliderCache& cache);

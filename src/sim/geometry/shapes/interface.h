@@ -1,31 +1,18 @@
-// The interface of a kind of shape: the functions that its file in this folder gives, and their types. A shape is
-// described by plain values (Shape, in its body's frame) and collides as a collision shape, whose origin is the center
-// of mass. shape.h calls the functions for a shape of any kind.
+// The interface of a kind of shape: the content of its file in this folder. shape.h calls it for a shape of any kind.
 //
-// A described shape S has
-//   Bounds local_bounds(const S&)                    axis-aligned, m; empty for a plane
-//   void visit_extent(const S&, const ExtentVisitor&)  balls and points whose convex hull contains it; none for a plane
-//   BoundingSphere bounding_sphere(const S&)         not for planes
-//   MassProperties mass_properties(const S&, double density)  zero without a volume
-//   double first_hit(const S&, const Vec3& from, const Vec3& direction)
-//                                                    the first point of the surface on a ray, as a multiple of
-//                                                    `direction`; infinity without a hit
-//   S enlarged(const S&, double factor)              all lengths by a factor; of a mesh or compound by MeshCache
-//   CollisionShape make_collider(const S&, const ColliderRequest&, ColliderCache&)
-//
-// A collision shape has
-//   Bounds world_bounds(const Pose&) const           m; infinite for a half-space
-//   double bounding_radius() const                   m, of the farthest point from the center of mass
-//   double depth() const                             m, to which another shape may penetrate and still be pushed back
-//                                                    out of the side that it came in by: the inner radius. Infinity for
-//                                                    half-spaces and meshes, where the thickness of the other counts
-//   double mean_projected_area() const               m^2, over all directions; 0 for those that never move freely
-//   RoundedHull rounded_hull() const                 for the time of impact
-//   ContactSurface contact_surface                   the features that touch others
-//   bool can_move                                    false: two of them never collide
-//   std::uint32_t part_count() const                 number of values of Manifold::part in a pair
-// and as a part of a compound
-//   bool contains(const Vec3& point, double tolerance) const  m
+// A shape is described by plain values in its body's frame: BoxShape and the other kinds of Shape. It collides as a
+// collision shape, whose origin is the center of mass and which has these members:
+//   Bounds world_bounds(const Pose&) const  m; infinite for a half-space
+//   double bounding_radius() const          m, of the farthest point from the center of mass
+//   double depth() const                    m, to which another shape may penetrate and still be pushed back out of the
+//                                           side that it came in by: the inner radius. Infinity for half-spaces and
+//                                           meshes, where the thickness of the other shape counts
+//   double mean_projected_area() const      m^2, over all directions; 0 for a shape that never moves freely
+//   RoundedHull rounded_hull() const        for the time of impact
+//   ContactSurface contact_surface          the features that touch others
+//   bool can_move                           false: two of them never collide
+//   std::uint32_t part_count() const        number of values of Manifold::part in a pair
+//   bool contains(const Vec3& point, double tolerance) const  (m) of a part of a compound
 #pragma once
 
 #include "core/vector.h"
@@ -117,5 +104,22 @@ struct ColliderCache {
     std::map<const MeshAsset*, Mesh> meshes;
     std::map<const void*, Whole> compounds;
 };
+
+// The functions of a described shape. A kind without one does not compile where a shape of any kind has it.
+
+/// Visits balls and points whose convex hull contains the shape; none for a plane.
+template <class Kind>
+void visit_extent(const Kind&, const ExtentVisitor&) = delete;
+/// Zero without a volume. `density`: kg/m^3.
+template <class Kind>
+MassProperties mass_properties(const Kind&, double density) = delete;
+/// The first point of the surface on a ray, as a multiple of `direction`; infinity without a hit.
+template <class Kind>
+double first_hit(const Kind&, const Vec3& from, const Vec3& direction) = delete;
+/// All lengths by a factor; of meshes and compounds by MeshCache.
+template <class Kind>
+Kind enlarged(const Kind&, double factor) = delete;
+template <class Kind>
+CollisionShape make_collider(const Kind&, const ColliderRequest&, ColliderCache&) = delete;
 
 }  // namespace tumble

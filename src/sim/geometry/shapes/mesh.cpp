@@ -133,17 +133,8 @@ NearestOnTriangle nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& 
     return {a + vb * scale * ab + vc * scale * ac, 0};
 }
 
-Bounds local_bounds(const MeshShape& mesh) { return mesh.asset->mesh.bounds(); }
-
 void visit_extent(const MeshShape& mesh, const ExtentVisitor& visit) {
     for (const Vec3& v : mesh.asset->mesh.vertices) visit(v, 0.0);
-}
-
-BoundingSphere bounding_sphere(const MeshShape& mesh) {
-    const Vec3 center = local_bounds(mesh).center();
-    double farthest = 0.0;  // square of the distance
-    for (const Vec3& v : mesh.asset->mesh.vertices) farthest = std::max(farthest, (v - center).squaredNorm());
-    return {center, std::sqrt(farthest)};
 }
 
 MassProperties mesh_mass(const TriangleMesh& mesh, double density) {

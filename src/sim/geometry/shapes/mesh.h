@@ -66,9 +66,7 @@ struct NearestOnTriangle {
 /// Nearest point of a triangle with its feature (Ericson 2005, "Real-Time Collision Detection", 5.1.5).
 NearestOnTriangle nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
-Bounds local_bounds(const MeshShape& mesh);
 void visit_extent(const MeshShape& mesh, const ExtentVisitor& visit);
-BoundingSphere bounding_sphere(const MeshShape& mesh);
 /// A solid bounded by a closed, outward-facing triangle mesh, by exact integration over the tetrahedra from one point
 /// (Tonon 2004, "Explicit exact formulas for the 3-D tetrahedron inertia tensor"; Blow and Binstock 2004).
 MassProperties mesh_mass(const TriangleMesh& mesh, double density);

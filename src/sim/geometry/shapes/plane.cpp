@@ -2,11 +2,7 @@
 
 namespace tumble {
 
-Bounds local_bounds(const PlaneShape&) { return {}; }
-
 void visit_extent(const PlaneShape&, const ExtentVisitor&) {}
-
-BoundingSphere bounding_sphere(const PlaneShape&) { return {Vec3::Zero(), infinity}; }
 
 MassProperties mass_properties(const PlaneShape&, double) { return {}; }
 

@@ -19,9 +19,7 @@ struct HalfSpace {
     std::uint32_t part_count() const { return 1; }
 };
 
-Bounds local_bounds(const PlaneShape&);
 void visit_extent(const PlaneShape&, const ExtentVisitor&);
-BoundingSphere bounding_sphere(const PlaneShape&);
 MassProperties mass_properties(const PlaneShape&, double density);
 double first_hit(const PlaneShape& plane, const Vec3& from, const Vec3& direction);
 PlaneShape enlarged(const PlaneShape& plane, double factor);

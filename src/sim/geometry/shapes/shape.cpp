@@ -2,10 +2,17 @@
 
 #include "core/check.h"
 
+#include <algorithm>
+
 namespace tumble {
 
 Bounds local_bounds(const Shape& shape) {
-    return std::visit([](const auto& one) { return local_bounds(one); }, shape);
+    Bounds bounds;
+    visit_extent(shape, [&](const Vec3& center, double radius) {
+        bounds.add(Vec3(center.array() - radius));
+        bounds.add(Vec3(center.array() + radius));
+    });
+    return bounds;
 }
 
 void visit_extent(const Shape& shape, const ExtentVisitor& visit) {
@@ -14,7 +21,11 @@ void visit_extent(const Shape& shape, const ExtentVisitor& visit) {
 
 BoundingSphere bounding_sphere(const Shape& shape) {
     TUMBLE_CHECK_EQ(endless(shape), false);
-    return std::visit([](const auto& one) { return bounding_sphere(one); }, shape);
+    BoundingSphere sphere{local_bounds(shape).center(), 0.0};
+    visit_extent(shape, [&](const Vec3& center, double radius) {
+        sphere.radius = std::max(sphere.radius, (center - sphere.center).norm() + radius);
+    });
+    return sphere;
 }
 
 MassProperties mass_properties(const Shape& shape, double density) {
@@ -35,16 +46,9 @@ CollisionShape make_collider(const Shape& shape, const ColliderRequest& request,
 }
 
 const void* shared_data(const Shape& shape) {
-    return std::visit(
-        [](const auto& one) -> const void* {
-            if constexpr (requires { one.asset; })
-                return one.asset.get();
-            else if constexpr (requires { one.parts; })
-                return one.parts.get();
-            else
-                return nullptr;
-        },
-        shape);
+    if (const auto* mesh = std::get_if<MeshShape>(&shape)) return mesh->asset.get();
+    if (const auto* compound = std::get_if<CompoundShape>(&shape)) return compound->parts.get();
+    return nullptr;
 }
 
 Bounds world_bounds(const CollisionShape& collider, const Pose& pose) {
@@ -65,10 +69,6 @@ double mean_projected_area(const CollisionShape& collider) {
 
 RoundedHull rounded_hull(const CollisionShape& collider) {
     return std::visit([](const auto& held) { return collider_in(held).rounded_hull(); }, collider);
-}
-
-ContactSurface contact_surface(const CollisionShape& collider) {
-    return std::visit([](const auto& held) { return collider_in(held).contact_surface; }, collider);
 }
 
 std::uint32_t part_count(const CollisionShape& collider) {

@@ -10,10 +10,10 @@
 
 namespace tumble {
 
+/// Axis-aligned, m; empty for a plane.
 Bounds local_bounds(const Shape& shape);
 void visit_extent(const Shape& shape, const ExtentVisitor& visit);
-/// A bounding sphere, exact for boxes and spheres; about the center of its bounds for meshes and compounds. Not for
-/// planes.
+/// About the center of the bounds. Not for planes.
 BoundingSphere bounding_sphere(const Shape& shape);
 MassProperties mass_properties(const Shape& shape, double density);
 /// With the body's densities, or its mass.
@@ -39,7 +39,9 @@ double bounding_radius(const CollisionShape& collider);
 double depth(const CollisionShape& collider);
 double mean_projected_area(const CollisionShape& collider);
 RoundedHull rounded_hull(const CollisionShape& collider);
-ContactSurface contact_surface(const CollisionShape& collider);
+inline ContactSurface contact_surface(const CollisionShape& collider) {
+    return std::visit([](const auto& held) { return collider_in(held).contact_surface; }, collider);
+}
 std::uint32_t part_count(const CollisionShape& collider);
 /// Precondition: a part of a compound.
 bool contains(const CollisionShape& collider, const Vec3& point, double tolerance);

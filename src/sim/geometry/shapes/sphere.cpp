@@ -4,11 +4,7 @@
 
 namespace tumble {
 
-Bounds local_bounds(const SphereShape& ball) { return {Vec3::Constant(-ball.radius), Vec3::Constant(ball.radius)}; }
-
 void visit_extent(const SphereShape& ball, const ExtentVisitor& visit) { visit(Vec3::Zero(), ball.radius); }
-
-BoundingSphere bounding_sphere(const SphereShape& ball) { return {Vec3::Zero(), ball.radius}; }
 
 MassProperties mass_properties(const SphereShape& ball, double density) {
     MassProperties p;

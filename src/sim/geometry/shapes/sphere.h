@@ -20,9 +20,7 @@ struct Ball {
     bool contains(const Vec3& point, double tolerance) const { return point.norm() <= radius + tolerance; }
 };
 
-Bounds local_bounds(const SphereShape& ball);
 void visit_extent(const SphereShape& ball, const ExtentVisitor& visit);
-BoundingSphere bounding_sphere(const SphereShape& ball);
 /// I = 2/5 m r^2.
 MassProperties mass_properties(const SphereShape& ball, double density);
 double first_hit(const SphereShape& ball, const Vec3& from, const Vec3& direction);

@@ -1,4 +1,4 @@
-#include "render/aov/ray_intersections.h"
+#include "render/shapes/ray_depths.h"
 
 #include "core/cpu_dispatch.h"
 
@@ -81,6 +81,15 @@ void fill_none(const RayRow& rays, double* depths) { std::fill_n(depths, rays.co
 
 }  // namespace
 
+std::array<Vec3, 8> corners_of(const PartPlace& place, const Vec3& half_size) {
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Vec3 sides((i & 1) != 0 ? 1.0 : -1.0, (i & 2) != 0 ? 1.0 : -1.0, (i & 4) != 0 ? 1.0 : -1.0);
+        corners[i] = place.origin + place.axes * half_size.cwiseProduct(sides);
+    }
+    return corners;
+}
+
 void box_depths(const PartPlace& place, const Vec3& half_size, const RayRow& rays, double* depths) {
     std::array<Slab, 3> slabs;
     for (int k = 0; k < 3; ++k) {
@@ -129,6 +138,14 @@ void cord_depths(const CordPlace& place, double radius, const RayRow& rays, doub
         const double depth = axis.dot(end) / axis.dot(ray);
         if (depth > 0.0 && (depth * ray - end).squaredNorm() <= radius * radius) depths[i] = std::min(depths[i], depth);
     }
+}
+
+Vec3 cord_normal(const CordPlace& place, const Vec3& point) {
+    const Vec3 axis = (place.to - place.from).normalized();
+    const Vec3 out = point - place.from;
+    const double length = (place.to - place.from).norm(), along = axis.dot(out), near = 1e-9 * length;
+    if (along <= near || along >= length - near) return along <= near ? Vec3(-axis) : axis;
+    return (out - axis.dot(out) * axis).normalized();
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "render/mesh/primitive_meshes.h"
+#include "render/shapes/primitive_meshes.h"
 
 #include "core/deterministic_math.h"
 

@@ -1,0 +1,68 @@
+// Render proxies of bodies and meshes.
+#pragma once
+
+#include "core/vector.h"
+#include "render/lightmap/chart_unwrap.h"
+#include "scene/description/description.h"
+
+#include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace tumble {
+
+/// The ways of drawing: planes, boxes and balls have shaders of their own, all other shapes are drawn as meshes.
+enum class DrawKind { hidden, plane, box, ball, mesh };
+
+struct RenderBody {
+    DrawKind kind = DrawKind::hidden;
+    std::size_t mesh = 0;              // index into RenderScene::meshes
+    Vec3 half_size = Vec3::Ones();     // scale of the unit box or ball, m; 1 for meshes
+    Vec3 half_extent = Vec3::Ones();   // m, of the bounding box about bound_center
+    Vec3 bound_center = Vec3::Zero();  // of the bounding ball, body frame from its origin, m
+    double bound_radius = 0.0;         // m
+    double ao_radius = 0.0;            // AO radius, for occluding and being occluded, m
+    double bevel = 0.0;                // m
+    double pattern_cell = 1.0;         // m; a plane's follows the reference distance instead
+    PlaneShape plane;                  // planes only
+    glm::vec3 color{1.0f};             // linear light
+    float roughness = 0.6f, metallic = 0.0f;
+    Pattern pattern = Pattern::plain;
+    bool large_receiver = false;     // a large receiver, see large_receivers.h
+    bool fixed = false;              // never moves
+    bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
+    std::ptrdiff_t lightmap = -1;    // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
+
+    /// False for planes, which have no bounds and no inside, and for bodies that are not drawn.
+    bool solid() const { return kind != DrawKind::hidden && kind != DrawKind::plane; }
+};
+
+/// A box inside a mesh, which stands for it as an occluder; body frame.
+struct OccluderBox {
+    Vec3 center;     // m
+    Vec3 half_size;  // m
+};
+
+/// A point of a mesh at which its sky visibility is computed; body frame.
+struct VertexSample {
+    Vec3 position;  // m
+    Vec3 normal;    // unit
+};
+
+struct RenderMesh {
+    std::shared_ptr<const MeshAsset> asset;
+    bool closed = true;  // and facing outward; otherwise both sides are visible
+    Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
+    std::vector<OccluderBox> occluders;
+    std::vector<VertexSample> vertex_samples;
+    std::vector<std::uint32_t> sample_of_vertex;
+    std::vector<VertexSample> coarse_samples;  // for meshes that are small on the screen
+    std::vector<std::uint32_t> coarse_of_sample;
+    std::optional<ChartedMesh> charts;  // drawn with these and shaded with its lightmap
+};
+
+}  // namespace tumble
