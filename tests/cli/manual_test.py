@@ -1,5 +1,6 @@
 """Manual pages: all commands and options in them, no warning of groff, the same for each machine."""
 
+import json
 import os
 import pathlib
 import re
@@ -117,6 +118,24 @@ class ManPages(program.ProgramTest):
             self.assertEqual((self.folder / "other" / f"{name}.1").read_text(), text, name)
             self.assertNotIn(str(ROOT), text)
             self.assertNotRegex(text, r"\[\d+\]\n(Threads|Render processes)")
+
+    def test_json_has_the_commands_and_options_of_the_help(self):
+        description = json.loads(self.check(0, "manual", "--json").stdout)
+        values = {"flag": False, "text": True, "number": True, "choice": True, "list": True, "file": True, "folder": True}
+        for words, text in self.commands():
+            command = description
+            for word in words:
+                command = next(part for part in command["commands"] if part["name"] == word)
+            self.assertEqual([part["name"] for part in command["commands"]], listed_commands(text), words)
+            shown = re.findall(r"^  (-[^ ]+)( [^ ]+)?", re.split(r"\n(?:Examples?|Start here):\n", text)[0], re.M)
+            self.assertEqual(sorted(",".join(option["names"]) for option in command["options"]),
+                             sorted(names for names, _ in shown), words)
+            for option in command["options"] + command["arguments"]:
+                self.assertEqual("value" in option, values[option["type"]], option)
+                self.assertEqual(option["type"] in ("choice", "list"), "choices" in option and option["type"] != "file", option)
+                if "endings" in option:
+                    self.assertEqual(option["type"], "file", option)
+        self.check(2, "manual")
 
     def test_a_folder_that_cannot_be_made(self):
         self.write("file", "")

@@ -1,140 +1,179 @@
 #include "app/cli/command_line.h"
 
-#include "compare/platform.h"
-#include "core/error.h"
-#include "scene/description/overlay.h"
-#include "scene/toml/frame_rate_text.h"
+#include "app/cli/command.h"
+#include "app/cli/help_formatter.h"
+#include "app/cli/say.h"
+#include "app/cli/shared_options.h"
+#include "app/farm/shell_text.h"
+#include "core/safe_text.h"
 
-#include <charconv>
-#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <memory>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace tumble {
-CLI::Validator number_within(double least, double most) {
-    return CLI::Validator(
-        [=](const std::string& text) {
-            double value = 0.0;
-            const bool within = CLI::detail::lexical_cast(text, value) && value >= least && value <= most;
-            return within ? std::string()
-                          : fmt::format("Value {} not in range {:g} to {:g}", safe_text(text), least, most);
-        },
-        "");
+namespace {
+
+struct CommandEntry {
+    const char* name;
+    const char* what;  // one sentence without its full stop
+    void (*add)(Command& command);
+    std::vector<manual::ExitCode> exit_codes = {};  // if they are others than those of the program
+};
+
+/// In the order of the help.
+std::vector<CommandEntry> all_commands() {
+    return {
+        {"render", "Simulate a scene, draw it, and write a clip, PNG frames, or both", add_render},
+        {"simulate", "Simulate a scene without drawing, and write tables of numbers", add_simulate},
+        {"plot", "Simulate, and plot quantities over time", add_plot},
+        {"export", "Simulate, and write the scene and its motion as a glTF file for 3D programs", add_export},
+        {"page", "Simulate, and write a web page with the clip in 3D, its plots, impacts and numbers", add_page},
+        {"lesson", "Write web pages from Markdown with scenes, equations and questions", add_lesson},
+        {"encode", "Make a clip from existing frames", add_encode},
+        {"compare",
+         "Compare pictures, folders of them, clips, or a scene with its frames",
+         add_compare,
+         {{0, "alike"}, {1, "different"}, {2, "cannot compare"}, {3, "missing"}}},
+        {"golden", "Check scenes against accepted images, by a suite of cases", add_golden},
+        {"info", "Describe a scene and estimate its cost", add_info},
+        {"sweep", "Make many samples of one scene, with other values in each", add_sweep},
+        {"farm", "Make a clip on many machines: Slurm, or engines that read OpenJD", add_farm},
+        {"doctor", "Check the requirements of rendering, and name a remedy for each that is not met", add_doctor},
+        {"completion", "Print what a shell needs to complete commands and options", add_completion},
+        {"manual", "Print all commands and options, for other programs", add_manual},
+        {"man-pages", "Write the manual pages, for installation", add_man_pages},
+    };
 }
 
-CLI::Validator some_name() {
-    return CLI::Validator([](const std::string& text) { return text.empty() ? "must not be empty" : ""; }, "");
+/// Form of the messages of a run.
+struct LogOptions {
+    bool json = false;
+    int descriptor = 2;
+};
+
+/// To the commands that run for long, and to their commands.
+void add_log(Command& command, LogOptions& log) {
+    for (Command* part : command.commands) add_log(*part, log);
+    if (!command.logs) return;
+    add_choice<bool>(command, "--log", log.json, {{"text", false}, {"json", true}},
+                     "Messages, progress and times as text, or as JSON: an object on each line\n"
+                     "(docs/reference/log.md)")
+        ->option_text("text|json [text]");
+    command
+        .add_option("--log-fd", log.descriptor, "With --log json: the open descriptor to write to, as in 3>log.jsonl")
+        ->check(number_within(1, 1 << 20))
+        ->option_text("N [2]");
 }
 
-CLI::Validator platform_name() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            return is_platform_name(text) ? "" : "must be the name of a folder, without '/' and no dot at its start";
-        },
-        "");
+void begin_log(const LogOptions& log, int argc, char** argv) {
+    if (!log.json) return;
+    messages().write_json_to(log.descriptor);
+    messages().event("start", {{"version", TUMBLE_VERSION}, {"command", std::vector<std::string>(argv, argv + argc)}});
 }
 
-CLI::Validator csv_name() {
-    return CLI::Validator(
-        [](const std::string& text) {
-            if (text.empty()) return "must not be empty";
-            return std::filesystem::path(text).extension() == ".npz"
-                       ? "is written as CSV; give it another ending than .npz"
-                       : "";
-        },
-        "");
+std::string nearest(std::string_view given, const std::vector<std::string>& known) {
+    return did_you_mean(given, {known.begin(), known.end()});
 }
 
-void add_scene(CLI::App& command, std::filesystem::path& scene) {
-    command.add_option("scene", scene, "The scene file (TOML)")->check(some_name())->required()->type_name("SCENE");
+std::string unknown_command(const Command& command, std::string_view word) {
+    std::vector<std::string> names;
+    for (const Command* one : command.commands)
+        if (!one->get_group().empty()) names.push_back(one->get_name());
+    return fmt::format("unknown command \"{}\"{}", safe_text(word), nearest(word, names));
 }
 
-std::pair<int, int> read_size(const std::string& text, const char* option) {
-    int width = 0, height = 0;
-    const char* const last = text.data() + text.size();
-    const auto [x, bad_width] = std::from_chars(text.data(), last, width);
-    bool good = bad_width == std::errc() && x != last && *x == 'x';
-    if (good) {
-        const auto [end, bad_height] = std::from_chars(x + 1, last, height);
-        good = bad_height == std::errc() && end == last;
+std::string unknown_option(const CLI::App& command, std::string_view word) {
+    std::vector<std::string> names;
+    for (const CLI::Option* one : command.get_options())
+        for (const std::string& name : one->get_lnames())
+            if (!one->get_group().empty()) names.push_back("--" + name);
+    std::string whole = command.get_name();
+    for (const CLI::App* above = command.get_parent(); above != nullptr; above = above->get_parent())
+        whole = above->get_name() + ' ' + whole;
+    return fmt::format("unknown option \"{}\" of {}{}", safe_text(word), whole, nearest(word, names));
+}
+
+/// The mistake for a message, with the nearest name, of the first word that names no command and no option; empty:
+/// there is none. `words`: of the command line after the program's name.
+std::string unknown_word(const Command& program, std::span<const char* const> words) {
+    const Command* command = &program;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string word = words[i];
+        if (word == "--") return "";
+        if (word.size() > 1 && word[0] == '-') {
+            const std::string name = word[1] == '-' ? word.substr(0, word.find('=')) : word.substr(0, 2);
+            const CLI::Option* const option = command->get_option_no_throw(name);
+            if (option == nullptr) return unknown_option(*command, word.substr(0, word.find('=')));
+            if (option->get_items_expected_max() > 0 && name == word) ++i;  // its value
+            continue;
+        }
+        const std::vector<Command*>& commands = command->commands;
+        if (commands.empty()) continue;
+        const auto found = std::ranges::find(commands, word, [](const Command* one) { return one->get_name(); });
+        if (found == commands.end()) return unknown_command(*command, word);
+        command = *found;
     }
-    if (!good)
-        throw InputError(fmt::format("{}: must be the width and height in pixels, as in 1280x720 (was '{}')", option,
-                                     safe_text(text)));
-    return {width, height};
+    return "";
 }
 
-void add_values(CLI::App& command, SceneOverrides& overrides) {
-    command
-        .add_option("--method", overrides.method,
-                    "tumble: the whole simulation; notes: the course notes to the letter, for teaching")
-        ->option_text("tumble|notes");
-    command
-        .add_option("--set", overrides.set,
-                    "Any key of the scene by its path, in place of the scene's, as in\nsimulation.sleep=false or "
-                    "body.crate.restitution=0.8; may be repeated")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->type_name("PATH=VALUE");
-    command
-        .add_option_function<std::string>(
-            "--seed", [&overrides](const std::string& seed) { overrides.set.push_back("simulation.seed=" + seed); },
-            "The seed of grids and scatters, in place of the scene's")
-        ->type_name("N");
+/// The command as a shell reads it. Empty if a word has control characters or the text is too long for a message.
+std::string call_text(int argc, char** argv) {
+    std::string text;
+    for (int i = 0; i < argc; ++i) text.append(i > 0 ? " " : "").append(shell_word(argv[i]));
+    return safe_text(text, message_text_bytes / 2) == text ? text : "";
 }
 
-void add_fps(CLI::App& command, std::optional<double>& fps, const std::string& help) {
-    command
-        .add_option_function<std::string>(
-            "--fps",
-            [&fps](const std::string& text) {
-                fps = read_frame_rate(text, {"--fps", {}});
-            },
-            help)
-        ->type_name("N");
-}
+}  // namespace
 
-void add_frames_of_time(CLI::App& command, SceneOverrides& overrides) {
-    add_values(command, overrides);
-    add_fps(command, overrides.fps,
-            "Frames per second, in place of the scene's (up to 1e6), or a fraction: 24000/1001");
-    command
-        .add_option("--duration", overrides.duration, "Seconds to simulate, in place of the scene's; 0 is one frame")
-        ->type_name("S");
-}
-
-void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string& help) {
-    std::string names;
-    for (const OverlayName& overlay : overlay_names)
-        names += fmt::format("{}{}", names.empty() ? "" : ",", overlay.name);
-    command.add_option("--overlay", overrides.overlay, help + " " + names)->type_name("LIST");
-}
-
-void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what) {
-    command
-        .add_option("--vary", vary,
-                    what +
-                        " for each value of a key, side by side, as in\n"
-                        "simulation.integrator=explicit-euler,symplectic-euler; may be repeated")
-        ->take_all()
-        ->allow_extra_args(false)
-        ->type_name("PATH=V,V");
-}
-
-CLI::Validator or_standard_output() {
-    return {[](std::string& name) {
-                if (name == "-") name = "/dev/stdout";
-                return std::string();
-            },
-            ""};
-}
-
-void add_quality(CLI::App& command, VideoQuality& quality) {
-    add_choice<VideoQuality>(
-        command, "--quality", quality,
-        {{"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}},
-        "Quality of the clip. draft: fast to encode, leaves specks behind moving bodies;\n"
-        "normal: for viewing; best: looks like the frames (docs/explanation/output.md has\n"
-        "time and size). A GIF has one setting")
-        ->option_text("draft|normal|best [normal]");
+int run_command_line(int argc, char** argv) {
+    Command app("tumble", "Tumble: clips of rigid bodies that fall, bounce and come to rest, drawn without a screen.",
+                {{0, "done"}, {1, "failed while running (or interrupted)"}, {2, "wrong usage or bad input"}});
+    app.set_help_flag("-h,--help", "Print this help message and exit");
+    app.set_version_flag("--version", "tumble " TUMBLE_VERSION, "Print the version");
+    app.require_subcommand(1);
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.get_formatter()->column_width(32);
+    app.examples =
+        "  tumble doctor                                     is everything there?\n"
+        "  tumble info assets/scenes/falling_boxes.toml      bodies, shapes and settings of the scene\n"
+        "  tumble render assets/scenes/falling_boxes.toml    makes falling_boxes.mp4";
+    app.notes = "\"tumble COMMAND --help\" lists options. Exit codes: " + manual::codes_text(app.exit_codes) +
+                ". Messages and progress go to standard error.";
+    app.failure_message([&](const CLI::App*, const CLI::Error& error) {
+        const std::string unknown = unknown_word(app, std::span(argv + 1, argv + argc));
+        return fmt::format("error: {} (see \"tumble --help\" and \"tumble COMMAND --help\")\n",
+                           unknown.empty() ? safe_text(error.what(), path_text_bytes) : unknown);
+    });
+    for (const CommandEntry& entry : all_commands()) entry.add(app.add(entry.name, entry.what, entry.exit_codes));
+    LogOptions log;
+    add_log(app, log);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream asked_for, wrong;
+        const int code = app.exit(error, asked_for, wrong);
+        put_text(asked_for.str());
+        say_text(wrong.str());
+        return code == 0 ? 0 : 2;
+    }
+    begin_log(log, argc, argv);
+    Command& command = app.parsed_command();
+    command.call = call_text(argc, argv);
+    if (!command.judges) return command.run();
+    try {
+        return command.run();
+    } catch (const std::exception& error) {
+        messages().fail(error);
+        return 2;
+    }
 }
 
 }  // namespace tumble

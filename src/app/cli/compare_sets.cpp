@@ -1,8 +1,8 @@
-#include "app/cli/compare_sets.h"
+#include "app/cli/compare_command.h"
 
 #include "app/causes/explain_images.h"
-#include "app/cli/compare_scene.h"
-#include "app/cli/compare_summary.h"
+#include "app/causes/record_file.h"
+#include "app/cli/render_run.h"
 #include "app/cli/say.h"
 #include "app/compare/accepted_pictures.h"
 #include "app/compare/clip_pairs.h"
@@ -10,6 +10,7 @@
 #include "app/compare/compared_folder.h"
 #include "app/compare/compared_frames.h"
 #include "app/files/frame_folder.h"
+#include "app/files/frame_set.h"
 #include "app/files/output_plan.h"
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"
@@ -20,12 +21,14 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/make_folder.h"
+#include "output/picture_reader.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
 #include "scene/load.h"
 
 #include <fmt/format.h>
 
+#include <set>
 #include <utility>
 
 namespace tumble {
@@ -33,10 +36,66 @@ namespace {
 
 namespace fs = std::filesystem;
 
+std::optional<std::int64_t> frame_number(const std::string& name) { return number_in(name, "frame_", ".png"); }
+
+/// The frames of the references that the scene has.
+FrameSet frames_of(const NamedFiles& references, const SceneDescription& scene) {
+    std::set<std::int64_t> numbers;  // a name may have more digits than its number needs
+    for (const auto& [name, file] : references) numbers.insert(*frame_number(name));
+    const std::int64_t count = scene.frame_count();
+    FrameSet frames;
+    for (const std::int64_t number : numbers)
+        if (number < count) frames.append(number, number + 1);
+    return frames;
+}
+
+/// The size of the first reference that can be read: a broken one is a result of the comparison. Throws InputError if
+/// all are broken.
+ImageSize size_of(const NamedFiles& references) {
+    for (const auto& [name, file] : references) try {
+            return read_picture_size(file);
+        } catch (const InputError&) {
+            if (file == references.rbegin()->second) throw;
+        }
+    return {};
+}
+
 PairTolerances tolerances_of_options(const v0::CompareOptions& options) {
     PairTolerances tolerances;
     tolerances.pixels = {options.tolerance, options.fraction, options.cluster, options.window, options.shade};
     return tolerances;
+}
+
+/// The references that are frames (frame_000041.png), which a scene can be compared with. Throws InputError if there
+/// are none.
+NamedFiles frames_among(const NamedFiles& references, const std::filesystem::path& folder) {
+    NamedFiles frames;
+    for (const auto& [name, file] : references)
+        if (frame_number(name)) frames[name] = file;
+    if (frames.empty())
+        throw InputError({folder.string(), 0, 0},
+                         "the folder holds no frames of a scene (frame_000000.png, frame_000001.png, ...)");
+    return frames;
+}
+
+/// Draws the frames with the numbers of the references into `to`, at the size of the first of them. Frames beyond the
+/// end of the scene are left out.
+void draw_frames_of(const CompareCommand& command, const std::filesystem::path& scene, const NamedFiles& references,
+                    const std::filesystem::path& to) {
+    const ImageSize size = size_of(references);
+    const FrameSet frames = frames_of(references, load_scene(scene, command.overrides));
+    if (frames.empty()) return;
+    RenderCommand render;
+    render.frames_range = frames.text(std::size_t(frames.count()));
+    render.scenes = {scene};
+    render.frames = to;
+    render.overrides = command.overrides;
+    render.overrides.width = size.width;
+    render.overrides.height = size.height;
+    render.workers = command.workers;
+    render.quiet = command.quiet;
+    render.motion_record = to / folder_record_name;
+    render_to_files(render);
 }
 
 /// The comparison of a command: its operands in order, its settings, and the folder for frames that are drawn.

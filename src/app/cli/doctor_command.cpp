@@ -1,6 +1,7 @@
-#include "app/cli/commands.h"
+#include "app/cli/command.h"
 #include "app/cli/driver_check.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/process.h"
@@ -18,6 +19,10 @@
 
 namespace tumble {
 namespace {
+
+struct DoctorCommand {
+    double time_limit = 30.0;  // s for each program and driver: a driver without caches takes seconds on a busy machine
+};
 
 Finding check_shaders() {
     try {
@@ -75,8 +80,6 @@ std::string versions() {
                        EIGEN_MINOR_VERSION, png_get_libpng_ver(nullptr), CLI11_VERSION);
 }
 
-}  // namespace
-
 int run_doctor(const DoctorCommand& command) {
     TimeLimit time_limit(command.time_limit);
     put("tumble {} ({}, g++ {})\n", TUMBLE_VERSION, TUMBLE_BUILD_TYPE, __VERSION__);
@@ -98,6 +101,17 @@ int run_doctor(const DoctorCommand& command) {
     const bool able = shaders.good && osmesa.good && ffmpeg.good;
     put("{}\n", able ? "All requirements are met: tumble render works here." : "tumble render does not work here yet.");
     return able ? 0 : 1;
+}
+
+}  // namespace
+
+void add_doctor(Command& command) {
+    DoctorCommand& c = command.keep<DoctorCommand>();
+    command.add_option("--time-limit", c.time_limit, "Seconds that each program and driver may take to answer")
+        ->check(number_within(0.001, 1e6))
+        ->option_text(fmt::format("S [{:g}]", c.time_limit));
+    command.examples = "  tumble doctor";
+    command.run = [&c] { return run_doctor(c); };
 }
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
-#include "app/cli/commands.h"
+#include "app/cli/command.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
 #include "app/files/frame_folder.h"
 #include "app/files/output_plan.h"
 #include "app/pipeline/pipeline.h"
@@ -29,6 +30,16 @@ namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct EncodeCommand {
+    std::filesystem::path frames;  // folder
+    std::filesystem::path clip;
+    std::optional<double> fps;   // without this, that of the run that drew the frames, or 60
+    bool allow_missing = false;  // frames may be missing: the others follow each other
+    bool transparent = false;    // the clip keeps the alpha of the frames
+    VideoQuality quality = VideoQuality::normal;
+    bool quiet = false;
+};
 
 constexpr std::size_t waiting_frames = 4;
 constexpr double default_fps = 60.0;
@@ -138,8 +149,6 @@ void encode(const fs::path& folder, const FramesToEncode& frames, VideoWriter& v
     supervise(stages, interrupt, [&] { progress.update(done); });
 }
 
-}  // namespace
-
 void run_encode(const EncodeCommand& command) {
     const std::optional<FrameIdentity> manifest = read_manifest(manifest_path(command.frames, FrameFiles::pictures));
     const double fps = command.fps.value_or(manifest ? manifest->fps : default_fps);
@@ -167,6 +176,35 @@ void run_encode(const EncodeCommand& command) {
     if (!command.quiet)
         say("wrote {}: {} frames of {}\n", safe_path(command.clip), video.frames_in_clip(),
             size_text(format.kind, {size.width, size.height}));
+}
+
+}  // namespace
+
+void add_encode(Command& command) {
+    EncodeCommand& c = command.keep<EncodeCommand>();
+    command.add_option("frames", c.frames, "The folder with frame_000000.png, frame_000001.png and so on")
+        ->required()
+        ->check(folder_name())
+        ->type_name("DIR");
+    command.add_option("-o,--output", c.clip, "The clip to write: .mp4 .mov .mkv .webm or .gif")
+        ->required()
+        ->check(file_name("mp4 mov mkv webm gif"))
+        ->type_name("CLIP");
+    add_fps(command, c.fps,
+            "Frames per second, in place of that of the run that drew the frames (frames.json in\n"
+            "the folder; without it 60)");
+    command.add_flag("--allow-missing", c.allow_missing,
+                     "Encode the frames that are there. Without this, a folder with missing frames is refused");
+    command.add_flag("--transparent", c.transparent,
+                     "Keep the alpha of the frames (.webm and .mov); without this it is left out");
+    add_quality(command, c.quality);
+    command.add_flag("--quiet", c.quiet, "Print errors only");
+    command.examples = "  tumble encode out -o clip.mp4 --fps 30";
+    command.logs = true;
+    command.run = [&c] {
+        run_encode(c);
+        return 0;
+    };
 }
 
 }  // namespace tumble

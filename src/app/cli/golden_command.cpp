@@ -1,14 +1,21 @@
-#include "app/cli/golden_command.h"
-
-#include "app/cli/compare_summary.h"
-#include "app/cli/golden_drawing.h"
+#include "app/cli/command.h"
+#include "app/cli/compare_command.h"
+#include "app/cli/plot_command.h"
 #include "app/cli/progress.h"
+#include "app/cli/render_run.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
+#include "app/clip/drawing_settings.h"
+#include "app/clip/render_scenes.h"
+#include "app/files/frame_folder.h"
+#include "app/files/frame_set.h"
 #include "app/files/output_plan.h"
 #include "app/golden/accept.h"
 #include "app/golden/check.h"
 #include "app/golden/program_identity.h"
 #include "app/golden/references.h"
+#include "app/golden/suite_edit.h"
+#include "app/plots/variants.h"
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"
 #include "compare/difference_image.h"
@@ -21,17 +28,103 @@
 #include "output/make_folder.h"
 #include "output/temporary_file.h"
 #include "output/temporary_folder.h"
+#include "scene/hash/scene_hash.h"
 #include "scene/toml/error_text.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <system_error>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct GoldenCommand {
+    fs::path suite;
+    std::vector<std::string> cases;               // by name; empty: all
+    bool all = false;                             // accept: all cases
+    bool even_alike = false;                      // accept: also within the tolerances
+    bool force = false;                           // check: ignores images of the cache
+    std::optional<fs::path> cache;                // folder
+    std::optional<fs::path> report, json, junit;  // check: to write
+    std::optional<fs::path> failures;             // check: folder for images that differ
+    std::optional<std::string> platform;          // of the references; "none": the general ones alone
+    NewCase added;                                // add
+    int jobs = 1;                                 // cases at a time
+    bool quiet = false;
+};
+
+/// Draws golden cases as `tumble render` and `tumble plot` do.
+class SceneDrawer : public CaseDrawer {
+public:
+    std::string identity(const GoldenCase& golden) const override;
+    void draw(const GoldenCase& golden, const fs::path& folder, const DrawingWork& work) const override;
+};
+
+constexpr int plot_width = 900, plot_height = 540;  // pixels, of a plot without a size
+
+RenderCommand render_command(const GoldenCase& golden) {
+    RenderCommand command;
+    command.scenes = golden.scenes;
+    command.vary = golden.vary;
+    command.overrides = golden.overrides;
+    command.arrangement = golden.arrangement;
+    command.drawing.transparent = golden.transparent;
+    command.speed = golden.speed;
+    command.shutter = golden.shutter;
+    command.blur_samples = golden.blur_samples;
+    command.quiet = true;
+    return command;
+}
+
+PlotCommand plot_command(const GoldenCase& golden) {
+    PlotCommand command;
+    command.scenes = golden.scenes;
+    command.vary = golden.vary;
+    command.overrides = golden.overrides;
+    command.overrides.width.reset();
+    command.overrides.height.reset();
+    command.width = golden.overrides.width.value_or(plot_width);
+    command.height = golden.overrides.height.value_or(plot_height);
+    command.quantities = *golden.of;
+    command.quiet = true;
+    return command;
+}
+
+void draw_plot(const GoldenCase& golden, const fs::path& folder, const DrawingWork& work) {
+    PlotCommand command = plot_command(golden);
+    command.output = folder / golden.image_name(0);
+    command.motion_record = folder / golden.record_name();
+    command.threads = work.threads;
+    run_plot(command);
+}
+
+/// "0,44-45,89-90", with or without the frame before each one.
+std::string range_of(const std::vector<std::int64_t>& frames, bool with_neighbors) {
+    FrameSet set;
+    for (const std::int64_t frame : frames)
+        set.append(std::max(with_neighbors ? frame - 1 : frame, set.end()), frame + 1);
+    return set.text(frames.size());
+}
+
+void draw_frames(const GoldenCase& golden, const fs::path& folder, const DrawingWork& work) {
+    RenderCommand command = render_command(golden);
+    command.frames = folder / "frames";
+    command.motion_record = folder / golden.record_name();
+    command.workers = work.workers;
+    command.threads = work.threads;
+    // Dirty regions are those since the frame before, which is drawn as well.
+    const bool all = RenderScenes(command, Shutter::of(command.shutter, command.blur_samples)).shows_damage();
+    command.frames_range = all ? fmt::format("0-{}", golden.frames.back()) : range_of(golden.frames, work.neighbors);
+    render_to_files(command);
+    for (const std::int64_t frame : golden.frames)
+        fs::rename(frame_path(*command.frames, frame), folder / golden.image_name(frame));
+    fs::remove_all(*command.frames);
+}
 
 /// The named cases in the order of the suite; all of them if none is named.
 std::vector<const GoldenCase*> chosen_cases(const GoldenSuite& suite, const std::vector<std::string>& names) {
@@ -175,7 +268,30 @@ int print_accepted(const std::vector<AcceptedImage>& images, bool quiet) {
     return broken > 0 ? 2 : refused > 0 ? 1 : 0;
 }
 
-}  // namespace
+std::string SceneDrawer::identity(const GoldenCase& golden) const {
+    std::string text;
+    if (golden.of) {
+        const PlotCommand command = plot_command(golden);
+        text = fmt::format("{} {} {}\n", command.quantities, command.width, command.height);
+        for (const Variant& variant : make_variants(command.scenes, command.overrides, command.vary))
+            text += fmt::format("{} {}\n", scene_hash(load_scene(variant.scene, variant.overrides)), variant.label);
+        return text;
+    }
+    const RenderCommand command = render_command(golden);
+    const RenderScenes scenes(command, Shutter::of(command.shutter, command.blur_samples));
+    for (const ClipScene& one : scenes.scenes) text += fmt::format("{} {}\n", scene_hash(*one.scene), one.label);
+    const DrawingChoices choices{golden.shutter, golden.blur_samples, golden.transparent, command.drawing.backend};
+    for (const auto& [name, value] : drawing_settings(command, choices, scenes.composition))
+        text += fmt::format("{} {}\n", name, value);
+    return text;
+}
+
+void SceneDrawer::draw(const GoldenCase& golden, const fs::path& folder, const DrawingWork& work) const {
+    if (golden.of)
+        draw_plot(golden, folder, work);
+    else
+        draw_frames(golden, folder, work);
+}
 
 int run_golden_check(const GoldenCommand& command) {
     const GoldenSuite suite = load_suite(command.suite);
@@ -231,6 +347,139 @@ int run_golden_add(const GoldenCommand& command) {
     write_file(command.suite, text);
     if (!command.quiet) say("added the case {} to {}\n", added->name, safe_path(command.suite));
     return 0;
+}
+
+void add_suite(CLI::App& command, GoldenCommand& c) {
+    command.add_option("suite", c.suite, "The suite (TOML; docs/reference/golden-suite.md)")
+        ->check(file_name("toml"))
+        ->required()
+        ->type_name("SUITE");
+}
+
+constexpr const char* checked_platform =
+    "References of the folder NAME replace general ones; none: no folder does. By default\n"
+    "the processor: amd, intel, arm or other";
+constexpr const char* accepted_platform_help =
+    "Write references for processors of that name, in the folder NAME, in place of general\nones";
+
+void add_common(Command& command, GoldenCommand& c, const char* platform) {
+    command.judges = true;
+    c.jobs = std::min(machine_threads(), enough_workers);
+    command.add_option("--platform", c.platform, platform)->check(platform_name())->type_name("NAME");
+    command.add_option("--jobs", c.jobs, "Cases drawn at a time")
+        ->check(number_within(1, most_threads))
+        ->option_text(fmt::format("N [{}]", c.jobs));
+    command.add_flag("--quiet", c.quiet, "Print differences and errors only");
+}
+
+void add_cases(CLI::App& command, GoldenCommand& c, const std::string& help) {
+    command.add_option("cases", c.cases, help)->check(some_name())->type_name("CASE");
+}
+
+/// "0,45,90", ascending.
+std::vector<std::int64_t> read_frames(const std::string& text) {
+    std::vector<std::int64_t> frames;
+    const char *at = text.data(), *const end = at + text.size();
+    for (;;) {
+        std::int64_t frame = -1;
+        const auto [next, error] = std::from_chars(at, end, frame);
+        const bool in_order = frames.empty() || frame > frames.back();
+        if (error != std::errc() || frame < 0 || frame > limits::frames || !in_order || (next != end && *next != ','))
+            throw InputError(fmt::format("--frames: must be ascending numbers of frames, as in 0,45,90 (given '{}')",
+                                         safe_text(text)));
+        frames.push_back(frame);
+        if (next == end) return frames;
+        at = next + 1;
+    }
+}
+
+void add_check(Command& golden) {
+    Command& command = golden.add("check", "Draw the cases and compare them with their references",
+                                  {{0, "alike"}, {1, "different"}, {2, "broken"}, {3, "a reference is missing"}});
+    GoldenCommand& c = command.keep<GoldenCommand>();
+    add_suite(command, c);
+    add_cases(command, c, "Names of cases; without one: all");
+    command.add_option("--report", c.report, "Write a page with the images that differ, and the causes")
+        ->check(file_name("html"))
+        ->type_name("R.html");
+    command.add_option("--json", c.json, "Write the verdict, the figures, the limits and the causes of each image")
+        ->check(file_name("json"))
+        ->type_name("R.json");
+    command.add_option("--junit", c.junit, "Write the verdicts as JUnit XML, for CI services")
+        ->check(file_name("xml"))
+        ->type_name("R.xml");
+    command
+        .add_option("--failures", c.failures,
+                    "Write new_NAME.png and difference_NAME.png of each image that is not alike")
+        ->check(folder_name())
+        ->type_name("DIR");
+    command
+        .add_option("--cache", c.cache,
+                    "Folder of drawn images, in place of tumble/golden in $XDG_CACHE_HOME or ~/.cache: a case is\n"
+                    "drawn again only if its scene, the program, a library or a font has changed; none: all\nare "
+                    "drawn, and removed at the end")
+        ->check(folder_name())
+        ->type_name("DIR");
+    command.add_flag("--force", c.force, "Draw all cases, changed or not");
+    add_common(command, c, checked_platform);
+    command.examples =
+        "  tumble golden check golden.toml\n"
+        "  tumble golden check golden.toml falling_boxes --report report.html --junit result.xml";
+    command.logs = true;
+    command.run = [&c] { return run_golden_check(c); };
+}
+
+void add_accept(Command& golden) {
+    Command& command = golden.add("accept",
+                                  "Draw cases twice and take the images as references; an image that does not render\n"
+                                  "twice alike is refused (exit code 1)");
+    GoldenCommand& c = command.keep<GoldenCommand>();
+    add_suite(command, c);
+    add_cases(command, c, "Names of the cases to accept");
+    command.add_flag("--all", c.all, "All cases");
+    command.add_flag("--even-alike", c.even_alike,
+                     "Replace references also where the new image is within the tolerances");
+    add_common(command, c, accepted_platform_help);
+    command.examples = "  tumble golden accept golden.toml falling_boxes";
+    command.logs = true;
+    command.run = [&c] { return run_golden_accept(c); };
+}
+
+void add_add(Command& golden) {
+    Command& command = golden.add("add", "Add a case to the suite, which is made if it does not exist, and accept it");
+    GoldenCommand& c = command.keep<GoldenCommand>();
+    NewCase& added = c.added;
+    add_suite(command, c);
+    add_scene(command, added.scene);
+    command.add_option("--name", added.name, "Name of the case, in place of the scene's file name")
+        ->check(some_name())
+        ->type_name("NAME");
+    command
+        .add_option_function<std::string>(
+            "--frames", [&added](const std::string& text) { added.frames = read_frames(text); },
+            "Numbers of the frames, from 0; without this: those of [defaults], else the first one")
+        ->type_name("N,N");
+    add_size(command, added.overrides.width, added.overrides.height, "Picture size, in place of the scene's");
+    add_frames_of_time(command, added.overrides);
+    add_overlay(command, added.overrides, "Overlays of the pictures, in place of the scene's: none, or a list out of");
+    command.add_option("--plot", added.overrides.plot, "Curves of quantities in the pictures (tumble render --help)")
+        ->type_name("LIST");
+    command.add_flag("--transparent", added.transparent, "Draw the bodies alone on a transparent background");
+    add_common(command, c, accepted_platform_help);
+    command.examples = "  tumble golden add golden.toml scene.toml --frames 0,45,90 --size 160x90";
+    command.run = [&c] { return run_golden_add(c); };
+}
+
+}  // namespace
+
+void add_golden(Command& command) {
+    command.require_subcommand(1);
+    add_check(command);
+    add_accept(command);
+    add_add(command);
+    command.examples =
+        "  tumble golden add golden.toml scene.toml --frames 0,45\n"
+        "  tumble golden check golden.toml --report report.html";
 }
 
 }  // namespace tumble

@@ -1,5 +1,8 @@
 #include "app/cli/help_formatter.h"
 
+#include "app/cli/command.h"
+
+#include <algorithm>
 #include <sstream>
 
 namespace tumble {
@@ -13,8 +16,7 @@ std::string take_part(std::string& word, std::size_t columns) {
     return part;
 }
 
-}  // namespace
-
+/// The words of a text in lines of at most so many columns, where no word is longer.
 std::string in_lines(const std::string& text, std::size_t columns) {
     std::istringstream words(text);
     std::string lines;
@@ -33,24 +35,35 @@ std::string in_lines(const std::string& text, std::size_t columns) {
     return lines;
 }
 
+std::string sentence_of(const CLI::App* app) {
+    const auto* const command = static_cast<const Command*>(app);
+    return manual::sentence(command->get_description(), command->exit_codes);
+}
+
+}  // namespace
+
 std::string HelpFormatter::make_description(const CLI::App* app) const {
-    const std::string text = in_lines(Formatter::make_description(app), most_columns);
-    return text.empty() ? text : text + '\n';
+    // The exit codes of the program are in its notes.
+    const std::string text = app->get_parent() == nullptr ? app->get_description() : sentence_of(app);
+    return in_lines(text, most_columns) + '\n';
 }
 
 std::string HelpFormatter::make_subcommand(const CLI::App* command) const {
-    const std::size_t columns = most_columns - get_column_width();
     std::ostringstream out;
-    CLI::detail::format_help(out, command->get_display_name(true), in_lines(command->get_description(), columns),
-                             get_column_width());
+    CLI::detail::format_help(out, command->get_display_name(true),
+                             in_lines(sentence_of(command), most_columns - get_column_width()), get_column_width());
     return out.str();
 }
 
 std::string HelpFormatter::make_footer(const CLI::App* app) const {
-    std::istringstream footer(Formatter::make_footer(app));
+    const auto* const command = static_cast<const Command*>(app);
+    const bool several = command->examples.find('\n') != std::string::npos;
+    std::string parts[] = {command->notes, (several ? "Examples:\n" : "Example:\n") + command->examples};
+    if (app->get_parent() == nullptr) parts[1] = "Start here:\n" + command->examples, std::swap(parts[0], parts[1]);
     std::string text;
-    for (std::string line; std::getline(footer, line);)
-        text += (line.size() > most_columns ? in_lines(line, most_columns) : line) + '\n';
+    for (const std::string& part : parts)
+        for (const std::string& line : manual::lines_of(part))
+            text += (line.size() > most_columns ? in_lines(line, most_columns) : line) + '\n';
     return text;
 }
 

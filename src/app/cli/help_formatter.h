@@ -8,7 +8,7 @@
 namespace tumble {
 
 /// Breaks texts where a line is full. A line break in a text counts as a space; a list without spaces breaks after a
-/// comma. In footers only a line that is too long is broken.
+/// comma. In notes and examples only a line that is too long is broken. Precondition: each CLI::App is a Command.
 class HelpFormatter : public CLI::Formatter {
 public:
     static constexpr std::size_t most_columns = 100;
@@ -18,8 +18,5 @@ public:
     std::string make_footer(const CLI::App* app) const override;
     std::string make_option_desc(const CLI::Option* option) const override;
 };
-
-/// The words of a text in lines of at most so many columns, where no word is longer.
-std::string in_lines(const std::string& text, std::size_t columns);
 
 }  // namespace tumble

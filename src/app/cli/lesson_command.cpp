@@ -1,7 +1,8 @@
-#include "app/cli/commands.h"
-#include "app/cli/page_film.h"
+#include "app/cli/command.h"
+#include "app/cli/page_clip.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
 #include "app/files/output_plan.h"
 #include "app/lesson/lesson_page.h"
 #include "app/lesson/lesson_runs.h"
@@ -14,10 +15,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct LessonCommand {
+    std::vector<std::filesystem::path> lessons;  // Markdown
+    std::filesystem::path site;                  // folder of the pages
+    std::string title = "Lessons";               // of the contents
+    bool check = false;                          // runs and checks everything, and writes nothing
+    bool pictures = true;                        // of the stages, for print and for readers without WebGL
+    bool films = false;                          // of the stages, for readers without WebGL
+    int threads = 1;                             // runs at a time
+    int workers = 1;                             // render processes of the pictures
+    bool quiet = false;
+};
 
 constexpr const char* generator = "Tumble " TUMBLE_VERSION;
 constexpr int picture_side = 960;  // pixels, the longer one
@@ -105,8 +120,6 @@ void plan_outputs(const LessonCommand& command, const Course& course, const Less
     plan.add_below("-o", command.site, index_name);
 }
 
-}  // namespace
-
 int run_lesson(const LessonCommand& command) {
     if (command.site.empty() && !command.check)
         throw InputError("-o: give the folder of the pages, as in -o site (or --check to write nothing)");
@@ -130,6 +143,43 @@ int run_lesson(const LessonCommand& command) {
     const std::vector<SitePage> pages = make_pages(command, course, runs, page_template);
     if (!command.check) write_pages(command, pages);
     return 0;
+}
+
+}  // namespace
+
+void add_lesson(Command& command) {
+    LessonCommand& c = command.keep<LessonCommand>();
+    command.add_option("lesson", c.lessons, "The lessons (Markdown); each becomes a page")
+        ->check(file_name("md"))
+        ->required()
+        ->type_name("LESSON.md");
+    CLI::Option* site = command
+                            .add_option("-o,--output", c.site,
+                                        "The folder of the pages, which need no network: one for each lesson, and\n"
+                                        "index.html")
+                            ->check(folder_name())
+                            ->type_name("SITE");
+    command.add_option("--title", c.title, "Title of index.html")->option_text("TEXT [Lessons]");
+    command.add_flag("--check", c.check, "Run and check everything, and write nothing")->excludes(site);
+    CLI::Option* film =
+        command.add_flag("--film", c.films, "A film of each stage for readers without WebGL: larger pages");
+    command
+        .add_flag_callback(
+            "--no-pictures", [&c] { c.pictures = false; },
+            "No picture of each stage, for print and for readers without WebGL: quicker")
+        ->excludes(film);
+    c.threads = machine_threads();
+    add_workers(command, c.workers, "Render processes of films; the result is the same for any number");
+    add_run(command, c.threads, std::to_string(c.threads), c.quiet);
+    command.notes =
+        "Lessons need Node.js, and the player and the compiler of lessons, which scripts/build-web builds.\n"
+        "A question's answer or a measure that the run does not give is an error; then nothing is written.";
+    command.examples =
+        "  tumble lesson bouncing.md -o site\n"
+        "  tumble lesson lessons/*.md -o site                with links between the lessons\n"
+        "  tumble lesson bouncing.md --check --no-pictures   while writing";
+    command.logs = true;
+    command.run = [&c] { return run_lesson(c); };
 }
 
 }  // namespace tumble

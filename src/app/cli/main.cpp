@@ -1,4 +1,4 @@
-#include "app/cli/options.h"
+#include "app/cli/command_line.h"
 #include "app/cli/say.h"
 
 #include <fcntl.h>

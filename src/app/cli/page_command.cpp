@@ -1,8 +1,8 @@
-#include "app/cli/commands.h"
-#include "app/cli/export_run.h"
-#include "app/cli/page_film.h"
-#include "app/cli/page_recording.h"
+#include "app/cli/command.h"
+#include "app/cli/export_command.h"
+#include "app/cli/page_clip.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
 #include "app/files/output_plan.h"
 #include "core/error.h"
 #include "core/html_text.h"
@@ -12,6 +12,7 @@
 #include "page/player_figure.h"
 #include "page/run_html.h"
 #include "page/web_folder.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,25 @@ namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct PageCommand {
+    std::vector<std::filesystem::path> scenes;    // a run for each
+    std::vector<std::string> vary;                // "PATH=VALUE,VALUE": a run for each
+    std::vector<std::string> labels;              // of the runs; empty: made from the names and values
+    std::optional<std::filesystem::path> output;  // without this, the first scene's name with .html
+    SceneOverrides overrides;
+    std::optional<std::string> title;  // without this, the first scene's
+    std::string language = "en";
+    std::string compare;                  // of runs: single, ghost, side-by-side; empty: single
+    std::string follow;                   // body that the camera follows
+    double time = 0.0;                    // s, shown at first
+    bool film = true;                     // in the page, for readers without WebGL
+    int film_width = 0, film_height = 0;  // pixels; 0: 640 at most, with the scene's aspect
+    bool embed_glb = false;
+    int threads = 1;
+    int workers = 1;  // render processes of the film
+    bool quiet = false;
+};
 
 constexpr int film_side = 640, side_of_panels = 960;  // pixels, the longer one of the film
 constexpr const char* clip_id = "clip-1";
@@ -93,8 +113,6 @@ std::string body_html(const PageCommand& command, const PageScenes& scenes, cons
     return html;
 }
 
-}  // namespace
-
 void run_page(const PageCommand& command) {
     const PageScenes scenes = load_page_scenes(command.scenes, command.overrides, command.vary, command.labels);
     check_command(command, scenes);
@@ -130,6 +148,72 @@ void run_page(const PageCommand& command) {
             "rad)\n",
             safe_path(output), 1e-3 * double(page.size()), 1e-3 * double(base64_length(data.bytes.size())),
             1e-3 * double(film.film.size() + film.poster.size()), data.errors.position, data.errors.rotation);
+}
+
+}  // namespace
+
+void add_page(Command& command) {
+    PageCommand& c = command.keep<PageCommand>();
+    command.add_option("scene", c.scenes, "The scene files (TOML); several are runs to choose from and compare")
+        ->check(file_name("toml"))
+        ->required()
+        ->type_name("SCENE");
+    command
+        .add_option("-o,--output", c.output,
+                    "The page to write, one file that needs no network; without this the first\n"
+                    "scene's name with .html, in this folder")
+        ->check(file_name("html"))
+        ->type_name("PAGE.html");
+    add_vary(command, c.vary, "A run");
+    command
+        .add_option("--label", c.labels,
+                    "Name of a run, in place of its varied values; once for each run, in their order")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("TEXT");
+    add_choice<std::string>(command, "--compare", c.compare,
+                            {{"single", "single"}, {"ghost", "ghost"}, {"side-by-side", "side-by-side"}},
+                            "How the page shows several runs at first: one, the others as ghosts, or all");
+    add_frames_of_time(command, c.overrides);
+    add_overlay(command, c.overrides,
+                "Overlays that the page shows at first, in place of the scene's: none, or a list\nout of");
+    command
+        .add_option("--plot", c.overrides.plot,
+                    "Plots that the page shows at first, as in energy,body.ball.y (names: tumble plot\n--help)")
+        ->option_text("LIST [energy]");
+    command.add_option("--title", c.title, "Title, in place of the scene's")->type_name("TEXT");
+    command.add_option("--language", c.language, "Language of the title, for screen readers")
+        ->check(some_name())
+        ->option_text("CODE [en]");
+    command.add_option("--time", c.time, "Moment shown at first")
+        ->check(number_within(limits::duration.min, limits::duration.max))
+        ->option_text("S [0]");
+    command.add_option("--follow", c.follow, "Body that the camera follows at first")->type_name("BODY");
+    CLI::Option* no_film = command.add_flag_callback(
+        "--no-film", [&c] { c.film = false; }, "No film in the page for readers without WebGL, only a picture");
+    command
+        .add_option_function<std::string>(
+            "--film-size",
+            [&c](const std::string& text) { std::tie(c.film_width, c.film_height) = read_size(text, "--film-size"); },
+            "Size of that film; by default its longer side has 640 pixels, 960 for several runs")
+        ->excludes(no_film)
+        ->check(some_name())
+        ->type_name("WxH");
+    command.add_flag("--embed-glb", c.embed_glb, "The clip as a glTF file within the page, for download");
+    c.threads = machine_threads();
+    add_workers(command, c.workers, "Render processes of the film; the result is the same for any number");
+    add_run(command, c.threads, std::to_string(c.threads), c.quiet);
+    command.notes = "Pages need the player, which scripts/build-web builds once.";
+    command.examples =
+        "  tumble page scene.toml                            writes scene.html\n"
+        "  tumble page scene.toml --vary materials.ball.restitution=0.2,0.5,0.8 --compare ghost\n"
+        "  tumble page scene.toml -o ball.html --overlay velocity,forces --plot body.ball.y,energy\n"
+        "  tumble page scene.toml --set simulation.impacts=exact   exact between frames too";
+    command.logs = true;
+    command.run = [&c] {
+        run_page(c);
+        return 0;
+    };
 }
 
 }  // namespace tumble

@@ -1,10 +1,14 @@
+#include "app/cli/plot_command.h"
+
 #include "app/causes/record_file.h"
 #include "app/causes/run_recorder.h"
-#include "app/cli/commands.h"
+#include "app/cli/command.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
 #include "app/files/output_plan.h"
 #include "app/plots/alike_runs.h"
 #include "app/plots/plotted_run.h"
+#include "app/plots/quantities.h"
 #include "app/plots/variants.h"
 #include "app/survey/survey.h"
 #include "app/threads/interrupt.h"
@@ -13,6 +17,7 @@
 #include "output/temporary_file.h"
 #include "plot/figure.h"
 #include "scene/load.h"
+#include "scene/toml/limits.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -91,6 +96,44 @@ void run_plot(const PlotCommand& command) {
     if (command.quiet) return;
     say_text(alike.warning());
     say("wrote {}\n", safe_path(command.output));
+}
+
+void add_plot(Command& command) {
+    PlotCommand& c = command.keep<PlotCommand>();
+    command.add_option("scenes", c.scenes, "Scene files (TOML); several are drawn into one plot")
+        ->required()
+        ->check(file_name("toml"))
+        ->type_name("SCENE");
+    command.add_option("--of", c.quantities, "Quantities, separated by commas, as in energy,body.ball.y")
+        ->required()
+        ->check(some_name())
+        ->type_name("LIST");
+    command.add_option("-o,--output", c.output, "The plot to write: .svg .png or .pdf")
+        ->required()
+        ->check(file_name("svg png pdf"))
+        ->type_name("FILE");
+    command
+        .add_option(
+            "--vary", c.vary,
+            "A run for each value of a key, as in\nsimulation.integrator=explicit-euler,symplectic-euler; may be "
+            "repeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUES");
+    command.add_flag("--difference", c.difference, "Plot the difference of each run to the first one");
+    command.add_flag("--log", c.log, "Logarithmic vertical axes; of differences the absolute value");
+    command.add_option("--title", c.title, "Title, in place of the first scene's")->type_name("TEXT");
+    add_size(command, c.width, c.height, "Size in pixels (points of a PDF)")->option_text("WxH [900x540]");
+    add_frames_of_time(command, c.overrides);
+    add_run(command, c.threads, std::to_string(c.threads), c.quiet);
+    command.notes = quantity_help();
+    command.examples =
+        "  tumble plot scene.toml --of energy,contacts -o energy.svg\n"
+        "  tumble plot scene.toml --of body.ball.y --vary simulation.integrator=explicit-euler,exact -o y.png";
+    command.run = [&c] {
+        run_plot(c);
+        return 0;
+    };
 }
 
 }  // namespace tumble

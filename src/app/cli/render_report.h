@@ -1,9 +1,7 @@
 // The page about a render: --report.
 #pragma once
 
-#include "app/cli/commands.h"
-#include "app/cli/page_film.h"
-#include "app/cli/page_recording.h"
+#include "app/cli/page_clip.h"
 #include "app/cli/render_run.h"
 #include "page/page_shell.h"
 
@@ -11,8 +9,8 @@ namespace tumble {
 
 class RenderReport {
 public:
-    /// Loads the scenes and the template before the render, so that a missing player is found at once. Throws InputError
-    /// or RunError.
+    /// Loads the scenes and the template before the render, so that a missing player is found at once. Throws
+    /// InputError or RunError.
     explicit RenderReport(const RenderCommand& command);
     /// Simulates the scenes once more for the page, draws its film, and writes it.
     void write(const RenderFigures& done) const;

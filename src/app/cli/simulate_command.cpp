@@ -1,27 +1,146 @@
 #include "api/scene_data.h"
 #include "app/checkpoints/checkpoint_folder.h"
-#include "app/cli/broken_joints.h"
-#include "app/cli/commands.h"
-#include "app/cli/overlaps.h"
+#include "app/checkpoints/frame_record.h"
+#include "app/cli/command.h"
 #include "app/cli/progress.h"
-#include "app/cli/record_clip.h"
+#include "app/cli/render_command.h"
+#include "app/cli/run_notes.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
+#include "app/clip/render_scenes.h"
 #include "app/files/output_plan.h"
 #include "app/files/run_tables.h"
+#include "app/pipeline/panel_run.h"
 #include "app/threads/interrupt.h"
 #include "app/threads/wall_clock.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "render/scene/pose_filter.h"
+#include "scene/toml/limits.h"
 #include "sim/checkpoint/archive.h"
+#include "sim/frames/clip_timing.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 namespace tumble {
 namespace {
+
+struct SimulateCommand {
+    std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
+    TableFiles tables;
+    SceneOverrides overrides;
+    std::optional<std::filesystem::path> checkpoints;       // folder
+    double every = 1.0;                                     // s of the clip between two checkpoints
+    std::optional<std::filesystem::path> from_checkpoints;  // folder to go on from
+    double start = 0.0;                                     // s, scene time: earlier frames are not in the tables
+    bool motion = true;                                     // is in the folder too
+    RenderCommand clip;  // that is drawn from the checkpoints: only its panels and times
+    int threads = 1;
+    bool quiet = false;
+};
+
+/// A run of the clip as `render` simulates it, without drawing.
+struct ClipRecording {
+    Shutter shutter;
+    std::int64_t every = 1;  // frames between two checkpoints
+    int threads = 1;
+    bool records = false;  // of contacts, whether or not the clip shows them
+    bool motion = true;    // is written too: parts need no simulation
+    /// Called with each frame of the first panel and its world at the frame's first moment.
+    std::function<void(std::int64_t frame, const World& world)> each;
+};
+
+constexpr std::size_t most_motion = std::size_t(64) << 20;  // bytes of a panel that are kept until they are written
+
+/// A panel, and the memory of drawing from frame to frame.
+struct RecordedPanel {
+    RecordedPanel(RenderScenes& scenes, std::size_t index, const ClipRecording& recording)
+        : world(scenes.world(index, recording.threads)),
+          overlay(scenes.overlay(index)),
+          run({.world = &world, .end = scenes.ends[index], .overlay = overlay.get()}, recording.shutter),
+          poses(*scenes.composition.panels[index].scene),
+          observers(scenes.observers(index)),
+          needs(needs_of(observers)) {
+        if (recording.motion) motion.emplace(overlay ? MotionDetail::states : MotionDetail::poses);
+        if (recording.records && !world.records_contacts()) world.record_contacts();
+    }
+
+    void take(std::int64_t frame, std::int64_t clip_end);
+    PanelState state() const;
+
+    World world;
+    std::unique_ptr<OverlayBuilder> overlay;
+    PanelRun run;
+    std::optional<FrameRecorder> motion;
+    PoseFilter poses;
+    std::vector<SurveyObserver*> observers;
+    SurveyNeeds needs;
+    std::optional<PanelState> ended;  // state before its last frame, which later frames repeat
+};
+
+void RecordedPanel::take(std::int64_t frame, std::int64_t clip_end) {
+    const bool runs = run.runs(frame);
+    if (runs && !run.runs(frame + 1) && frame + 1 < clip_end) ended = run.save();
+    const Survey survey = runs ? Survey(world, needs) : Survey();
+    PanelPoses moments = run.next(frame);
+    if (runs)
+        for (SurveyObserver* observer : observers) observer->see(moments.front(), survey, run.records());
+    if (runs && motion) motion->add(moments, run.records());
+    for (Snapshot& moment : drawn_moments(moments)) poses.follow(moment);
+}
+
+PanelState RecordedPanel::state() const {
+    PanelState state = ended ? *ended : run.save();
+    CheckpointWriter writer;
+    writer.keep(poses);
+    state.poses.assign(writer.bytes().begin(), writer.bytes().end());
+    return state;
+}
+
+using RecordedPanels = std::vector<std::unique_ptr<RecordedPanel>>;
+
+/// Writes the motion since `first`. A panel that has ended has none.
+void add_motion(std::int64_t first, const RecordedPanels& panels, CheckpointWriting& checkpoints) {
+    for (std::size_t i = 0; i < panels.size(); ++i)
+        if (panels[i]->run.runs(first)) checkpoints.add_motion(first, i, panels[i]->motion->take());
+}
+
+/// Writes checkpoints from which the parts of the clip can be drawn, and surveys the scenes on the way. Throws what
+/// `each` throws, and RunError if a file cannot be written.
+void record_clip(RenderScenes& scenes, const ClipRecording& recording, CheckpointWriting& checkpoints) {
+    RecordedPanels panels;
+    for (std::size_t i = 0; i < scenes.scenes.size(); ++i)
+        panels.push_back(std::make_unique<RecordedPanel>(scenes, i, recording));
+    const std::int64_t end = scenes.clip_frames;
+    std::int64_t first = 0;  // of the motion that is not written yet
+    for (std::int64_t n = 0; n < end; ++n) {
+        for (const auto& panel : panels)
+            if (panel->run.runs(n)) panel->run.reach_next();
+        if (n > 0 && n % recording.every == 0) {
+            ClipState state{n, {}};
+            for (const auto& panel : panels) state.panels.push_back(panel->state());
+            checkpoints.add(state);
+        }
+        const bool full =
+            std::ranges::any_of(panels, [](const auto& p) { return p->motion && p->motion->size() > most_motion; });
+        if (recording.motion && n > 0 && (n % recording.every == 0 || full))
+            add_motion(std::exchange(first, n), panels, checkpoints);
+        recording.each(n, panels.front()->world);
+        for (const auto& panel : panels) panel->take(n, end);
+    }
+    if (recording.motion) {
+        // The motion of the last frame's surfaces ends at the frame after it.
+        if (panels.size() == 1) panels.front()->motion->add({panels.front()->run.next_start()}, nullptr);
+        add_motion(first, panels, checkpoints);
+    }
+    scenes.use_survey();
+    checkpoints.finish(scenes.survey_bytes());
+}
 
 constexpr double interrupt_period = 0.02;  // s between checks for Ctrl-C, because a frame may take only a microsecond
 
@@ -174,13 +293,155 @@ void simulate_clip(const SimulateCommand& command) {
     say_run(command, first, frames, wall_seconds() - start, broken);
 }
 
-}  // namespace
+/// The mode of impacts, or the file of their table.
+void read_impacts(const std::string& text, SimulateCommand& c) {
+    const std::filesystem::path file = text == "-" ? "/dev/stdout" : text;
+    const bool is_file =
+        file.extension() == ".csv" || file.extension() == ".npz" || text.find('/') != std::string::npos;
+    if (text == "-" || is_file)
+        c.tables.impacts = file;
+    else if (text == "stepped" || text == "exact")
+        c.overrides.impacts = text;
+    else
+        throw InputError(
+            fmt::format("--impacts: must be stepped or exact, or a file that ends with .csv or .npz (was '{}'){}",
+                        safe_text(text), did_you_mean(text, {"stepped", "exact"})));
+}
+
+/// The folders of checkpoints, and the settings of the clip that is drawn from them.
+void add_checkpoints(CLI::App& command, SimulateCommand& c) {
+    CLI::Option* const folder =
+        command
+            .add_option("--checkpoints", c.checkpoints,
+                        "Write the state of the simulation to DIR, from which parts of a clip are drawn:\n"
+                        "tumble render --from-checkpoints DIR (docs/how-to/long-renders.md)")
+            ->check(folder_name())
+            ->type_name("DIR");
+    command.add_option("--every", c.every, "Seconds of the clip between two checkpoints")
+        ->check(number_within(1e-6, limits::duration.max))
+        ->needs(folder)
+        ->option_text("S [1]");
+    command
+        .add_flag_callback(
+            "--no-motion", [&c] { c.motion = false; },
+            "Leave the motion of the frames out: DIR is smaller, but each part simulates its\nframes once more")
+        ->needs(folder);
+    CLI::Option* const from =
+        command
+            .add_option("--from-checkpoints", c.from_checkpoints,
+                        "Go on from the last checkpoint before --start, in place of the start of the scene")
+            ->check(folder_name())
+            ->excludes(folder)
+            ->type_name("DIR");
+    command.add_option("--start", c.start, "Seconds of the scene before the first rows of the tables")
+        ->check(number_within(limits::duration.min, limits::duration.max))
+        ->needs(from)
+        ->option_text("S [0]");
+    // Options of the clip: the same as the options of render.
+    const std::vector<CLI::Option*> before = command.get_options();
+    add_size(command, c.overrides.width, c.overrides.height, "Of the clip: picture size, in place of the scene's");
+    add_clip_times(command, c.clip);
+    add_panels(command, c.clip, "A panel");
+    add_text(command, c.overrides);
+    std::vector<CLI::Option*> of_clip = command.get_options();
+    std::erase_if(of_clip, [&](CLI::Option* o) { return std::find(before.begin(), before.end(), o) != before.end(); });
+    command.parse_complete_callback([of_clip, folder, from] {
+        for (const CLI::Option* const option : of_clip)
+            if (option->count() > 0 && folder->count() + from->count() == 0)
+                throw CLI::RequiresError(option->get_name(), "--checkpoints or --from-checkpoints");
+    });
+}
 
 void run_simulate(const SimulateCommand& command) {
     if (command.checkpoints) return simulate_clip(command);
     if (command.from_checkpoints) return simulate_rest(command);
     if (command.scenes.size() > 1) throw InputError("several scenes are simulated together only with --checkpoints");
     simulate_tables(command);
+}
+
+}  // namespace
+
+void add_simulate(Command& command) {
+    SimulateCommand& c = command.keep<SimulateCommand>();
+    command
+        .add_option("scene", c.scenes, "The scene file (TOML); several with --checkpoints of a clip that shows them")
+        ->check(file_name("toml"))
+        ->required()
+        ->type_name("SCENE");
+    command
+        .add_option("--trajectory", c.tables.trajectory,
+                    "CSV: one row per frame and moving body, with its center of mass, orientation\nand velocities; - "
+                    "is standard output")
+        ->check(csv_name())
+        ->transform(or_standard_output())
+        ->type_name("T.csv");
+    command
+        .add_option("--energy", c.tables.energy,
+                    "CSV: one row per frame, with energies, momenta and contacts; - is standard output")
+        ->check(csv_name())
+        ->transform(or_standard_output())
+        ->type_name("E.csv");
+    CLI::Option* step = command
+                            .add_option("--step", c.overrides.step,
+                                        "The fixed step in s, in place of the scene's; it must divide 1/fps")
+                            ->check(number())
+                            ->type_name("H");
+    command.add_option("--steps-per-frame", c.overrides.steps_per_frame, "The same as a number of steps per frame")
+        ->excludes(step)
+        ->check(number())
+        ->type_name("N");
+    offer(command.add_option("--integrator", c.overrides.integrator,
+                             "Method that advances the bodies from step to step, in place of the scene's"),
+          "symplectic-euler|explicit-euler|splitting|rk4|exact");
+    command
+        .add_option_function<std::string>(
+            "--impacts", [&c](const std::string& text) { read_impacts(text, c); },
+            "stepped: resolved in the steps; exact: each at its own time. Or a table: a row for each\nimpulse, as CSV "
+            "or "
+            ".npz; - is standard output. Give it twice for both")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->trigger_on_parse()
+        ->check(one_of("stepped|exact"))
+        ->check(file_name("csv npz"))
+        ->option_text("stepped|exact|I.csv");
+    command
+        .add_option("--contacts", c.tables.contacts,
+                    "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
+        ->check(file_name("csv npz"))
+        ->transform(or_standard_output())
+        ->type_name("C.csv");
+    command
+        .add_option("--loads", c.tables.loads,
+                    "CSV or .npz: one row per frame and dynamic body, with the force and moment of gravity,\nwind and "
+                    "[[force]]s; - is standard output")
+        ->check(file_name("csv npz"))
+        ->transform(or_standard_output())
+        ->type_name("L.csv");
+    command
+        .add_option(
+            "--joints", c.tables.joints,
+            "CSV or .npz: one row per frame and joint, with coordinates, speeds, force and torque,\ngap, limits "
+            "and breaking; - is standard output")
+        ->check(file_name("csv npz"))
+        ->transform(or_standard_output())
+        ->type_name("J.csv");
+    offer(command.add_option("--impact-law", c.overrides.impact_law, "Rule for several contacts at once"),
+          "propagating|simultaneous");
+    add_frames_of_time(command, c.overrides);
+    add_checkpoints(command, c);
+    c.threads = machine_threads();
+    add_run(command, c.threads, std::to_string(c.threads), c.quiet);
+    command.examples =
+        "  tumble simulate scene.toml --checkpoints states --every 10\n"
+        "  tumble simulate scene.toml --from-checkpoints states --start 50 --energy e.csv\n"
+        "  tumble simulate scene.toml --trajectory t.csv --energy e.csv\n"
+        "  tumble simulate scene.toml --energy e.csv --fps 1000 --steps-per-frame 1   every step is a row";
+    command.logs = true;
+    command.run = [&c] {
+        run_simulate(c);
+        return 0;
+    };
 }
 
 }  // namespace tumble

@@ -1,6 +1,7 @@
-#include "app/cli/commands.h"
+#include "app/cli/command.h"
 #include "app/cli/progress.h"
 #include "app/cli/say.h"
+#include "app/cli/shared_options.h"
 #include "app/files/output_plan.h"
 #include "app/sweep/manifest.h"
 #include "app/sweep/read_plan.h"
@@ -17,12 +18,25 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <string_view>
 
 namespace tumble {
 namespace {
+
+struct SweepCommand {
+    std::filesystem::path plan;
+    std::optional<std::filesystem::path> folder;
+    std::vector<std::string> set;    // "PATH=VALUE", for all samples
+    std::vector<std::int64_t> only;  // samples to make again
+    int workers = 1;                 // processes
+    bool dry_run = false;            // prints the plan's size and first samples
+    bool stop = false;               // at the first sample that fails
+    bool quiet = false;
+};
 
 constexpr std::int64_t shown_samples = 6, shown_failures = 20;
 
@@ -100,7 +114,33 @@ void plan_outputs(const SweepPlan& plan, const std::filesystem::path& folder) {
     });
 }
 
-}  // namespace
+/// "3,17,20-23" to numbers.
+std::vector<std::int64_t> read_indices(std::string_view text) {
+    std::vector<std::int64_t> indices;
+    const auto fail = [&] {
+        throw InputError(
+            fmt::format("--only: must be indices of samples, as in 3,17,20-23 (given '{}')", safe_text(text)));
+    };
+    const char* at = text.data();
+    const char* const end = text.data() + text.size();
+    const auto number = [&] {
+        std::int64_t value = 0;
+        const auto [next, error] = std::from_chars(at, end, value);
+        if (error != std::errc() || value < 0) fail();
+        at = next;
+        return value;
+    };
+    constexpr std::int64_t most = 1'000'000;  // indices of a range
+    for (;;) {
+        const std::int64_t first = number();
+        std::int64_t last = first;
+        if (at != end && *at == '-') ++at, last = number();
+        if (last < first || last - first >= most) fail();
+        for (std::int64_t i = first; i <= last; ++i) indices.push_back(i);
+        if (at == end) return indices;
+        if (*at++ != ',') fail();
+    }
+}
 
 int run_sweep(const SweepCommand& command) {
     const double start = wall_seconds();
@@ -139,6 +179,43 @@ int run_sweep(const SweepCommand& command) {
     }
     if (!command.quiet) print_result(counts, options.folder, wall_seconds() - start);
     return counts.failed > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void add_sweep(Command& command) {
+    SweepCommand& c = command.keep<SweepCommand>();
+    command.add_option("plan", c.plan, "The plan (TOML; docs/reference/sweep-plan.md)")
+        ->check(file_name("toml"))
+        ->required()
+        ->type_name("PLAN");
+    command
+        .add_option("-o,--output", c.folder,
+                    "The folder of the samples and their manifest.jsonl. Samples that are there are kept, so\n"
+                    "that the same command goes on after an interruption, or with a longer plan")
+        ->check(folder_name())
+        ->type_name("DIR");
+    command.add_flag("--dry-run", c.dry_run, "Print the size of the plan and its first samples, and write nothing");
+    command
+        .add_option_function<std::string>(
+            "--only", [&c](const std::string& text) { c.only = read_indices(text); },
+            "Make these samples again, as in 3,17,20-23, and no others")
+        ->type_name("INDICES");
+    command.add_flag("--stop", c.stop, "Stop at the first sample that fails; without this the others are made");
+    command
+        .add_option("--set", c.set,
+                    "Any key of the scene by its path, for all samples, as in simulation.duration=2; may be\nrepeated")
+        ->take_all()
+        ->allow_extra_args(false)
+        ->type_name("PATH=VALUE");
+    add_workers(command, c.workers, "Processes, one per core; the result is the same for any number", most_threads);
+    command.add_flag("--quiet", c.quiet, "Print errors only");
+    command.examples =
+        "  tumble sweep plan.toml --dry-run                  how many samples, and which\n"
+        "  tumble sweep plan.toml -o data                    writes data/000000 ... and data/manifest.jsonl\n"
+        "  tumble sweep plan.toml -o data --only 17          makes one sample again";
+    command.logs = true;
+    command.run = [&c] { return run_sweep(c); };
 }
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// The drawing that the golden commands need. The command line implements it (app/cli/golden_drawing.h).
+// The drawing that the golden commands need. The command line implements it (app/cli/golden_command.cpp).
 #pragma once
 
 #include "app/golden/suite.h"

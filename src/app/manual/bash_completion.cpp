@@ -99,13 +99,13 @@ complete -F _PROGRAM PROGRAM
 )sh";
 
 /// The case of a value: variables for _PROGRAM_offer.
-std::string assignments(const ValueHint& hint) {
+std::string assignments(const ValueKind& kind) {
     std::string text = "takes=yes";
-    if (!hint.words.empty())
-        text += fmt::format(" {}=\"{}\"", hint.word_list ? "list" : "words", joined(hint.words, " "));
-    if (hint.files)
-        text += fmt::format(" kind=files endings=\"{}\"", joined(hint.endings, "|"));
-    else if (hint.folders)
+    if (!kind.words.empty())
+        text += fmt::format(" {}=\"{}\"", kind.word_list ? "list" : "words", joined(kind.words, " "));
+    if (kind.files)
+        text += fmt::format(" kind=files endings=\"{}\"", joined(kind.endings, "|"));
+    else if (kind.folders)
         text += " kind=folders";
     return text;
 }
@@ -120,14 +120,14 @@ void add_bash_command(const CommandText& command, const std::string& path, std::
             options.push_back(name);
             pattern += fmt::format("{}'{} {}'", pattern.empty() ? "" : " | ", path, name);
         }
-        if (option.takes_value()) values += fmt::format("        {}) {} ;;\n", pattern, assignments(option.hint));
+        if (option.takes_value()) values += fmt::format("        {}) {} ;;\n", pattern, assignments(option.kind));
     }
     names += fmt::format("        '{}') commands=\"{}\" options=\"{}\" ;;\n", path, joined(commands, " "),
                          joined(options, " "));
     for (std::size_t i = 0; i < command.arguments.size(); ++i) {
         const OptionText& argument = command.arguments[i];
         const std::string place = argument.repeated ? "@'*" : fmt::format("@{}'", i + 1);
-        values += fmt::format("        '{} {}) {} ;;\n", path, place, assignments(argument.hint));
+        values += fmt::format("        '{} {}) {} ;;\n", path, place, assignments(argument.kind));
     }
     for (const CommandText& part : command.commands)
         add_bash_command(part, path.empty() ? part.name : path + ' ' + part.name, names, values);

@@ -32,17 +32,17 @@ std::string fish_quoted(const std::string& text) {
 }
 
 /// The offers for a value, as options of fish's `complete`.
-std::string offers(const ValueHint& hint) {
+std::string offers(const ValueKind& kind) {
     std::vector<std::string> sources;
-    if (hint.word_list && !hint.words.empty())
-        sources.push_back("(__fish_append , " + joined(hint.words, " ") + ")");
-    else if (!hint.words.empty())
-        sources.push_back(joined(hint.words, " "));
-    if (!hint.endings.empty())
-        sources.push_back("(__PROGRAM_files " + joined(hint.endings, " ") + ")");
-    else if (hint.files)
+    if (kind.word_list && !kind.words.empty())
+        sources.push_back("(__fish_append , " + joined(kind.words, " ") + ")");
+    else if (!kind.words.empty())
+        sources.push_back(joined(kind.words, " "));
+    if (!kind.endings.empty())
+        sources.push_back("(__PROGRAM_files " + joined(kind.endings, " ") + ")");
+    else if (kind.files)
         sources.emplace_back("(__fish_complete_path)");
-    else if (hint.folders)
+    else if (kind.folders)
         sources.emplace_back("(__fish_complete_directories)");
     return sources.empty() ? "-x" : "-x -a " + fish_quoted(joined(sources, " "));
 }
@@ -56,14 +56,15 @@ void add_fish_command(const CommandText& command, const std::string& program, co
         for (const std::string& name : option.names)
             lines +=
                 name.starts_with("--") ? fmt::format(" -l {}", name.substr(2)) : fmt::format(" -s {}", name.substr(1));
-        if (option.takes_value()) lines += fmt::format(" {}", offers(option.hint));
+        if (option.takes_value()) lines += fmt::format(" {}", offers(option.kind));
         lines += fmt::format(" -d {}\n", fish_quoted(short_help(option.help)));
     }
     // Arguments of one command are of one kind, or the shell offers all kinds.
     for (const OptionText& argument : command.arguments)
-        if (!argument.hint.empty()) lines += begin + " " + offers(argument.hint) + "\n";
+        if (!argument.kind.offers_nothing()) lines += begin + " " + offers(argument.kind) + "\n";
     for (const CommandText& part : command.commands) {
-        lines += fmt::format("{} -a {} -d {}\n", begin, part.name, fish_quoted(short_help(part.description)));
+        lines += fmt::format("{} -a {} -d {}\n", begin, part.name,
+                             fish_quoted(short_help(sentence(part.description, part.exit_codes))));
         const std::string part_path = path.empty() ? part.name : path + ' ' + part.name;
         paths.push_back(fish_quoted(part_path));
         add_fish_command(part, program, part_path, lines, paths);

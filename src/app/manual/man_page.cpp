@@ -1,17 +1,90 @@
 #include "app/manual/man_page.h"
 
-#include "app/manual/help_footer.h"
-#include "app/manual/roff.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <utility>
 
 namespace tumble::manual {
 namespace {
 
 constexpr int section = 1;  // of the manual: commands of users
+
+/// A line that begins with a control character is text all the same.
+std::string guarded(const std::string& line) {
+    return !line.empty() && (line[0] == '.' || line[0] == '\'') ? "\\&" + line : line;
+}
+
+/// Lines of one list without spaces, "a,b," and "c,d", become one: a filled paragraph would put a space between them.
+std::vector<std::string> with_whole_lists(const std::vector<std::string>& lines) {
+    std::vector<std::string> whole;
+    for (const std::string& line : lines) {
+        const std::size_t comma = line.substr(0, line.find(' ')).find(',');
+        if (!whole.empty() && whole.back().ends_with(',') && comma != std::string::npos && comma + 1 < line.size())
+            whole.back() += line;
+        else
+            whole.push_back(line);
+    }
+    return whole;
+}
+
+/// Characters that roff would take for markup are escaped.
+std::string roff(const std::string& text) {
+    std::string out;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        const char next = i + 1 < text.size() ? text[i + 1] : ' ';
+        if (c == '\\')
+            out += "\\e";
+        else if (c == '-')
+            out += "\\-";
+        else if (c == '"')
+            out += "\\(dq";
+        else if (c == '\'')
+            out += "\\(aq";
+        else if (c == '`')
+            out += "\\(ga";
+        else if (c == '^')
+            out += "\\(ha";
+        else if (c == '~')
+            out += "\\(ti";
+        else
+            out += c;
+        if (c == ',' && std::isspace(static_cast<unsigned char>(next)) == 0) out += "\\:";  // long lists may break
+    }
+    return guarded(out);
+}
+
+/// The same for a file, option or command that users copy: hyphens are not typographic ones.
+std::string roff_code(const std::string& text) { return "\\fB" + roff(text) + "\\fR"; }
+
+/// Lines as they are.
+std::string roff_lines(const std::vector<std::string>& lines) {
+    std::string out = ".nf\n";
+    for (const std::string& line : lines) out += roff(line) + '\n';
+    return out + ".fi\n";
+}
+
+/// Lines of a help text as filled paragraphs. Indented lines and lists keep their line breaks.
+std::string roff_paragraphs(const std::vector<std::string>& lines) {
+    std::string out;
+    std::vector<std::string> indented;
+    const auto finish = [&] {
+        if (!indented.empty()) out += roff_lines(indented);
+        indented.clear();
+    };
+    for (const std::string& line : with_whole_lists(lines)) {
+        if (line.starts_with(' ')) {
+            indented.push_back(line);
+            continue;
+        }
+        finish();
+        out += line.empty() ? ".PP\n" : roff(line) + '\n';
+    }
+    finish();
+    return out;
+}
 
 using Rows = std::vector<std::pair<std::string, std::string>>;
 
@@ -52,21 +125,17 @@ const Rows& files() {
     return rows;
 }
 
-/// A description may have several lines in the help.
-std::string one_line(const CommandText& command) { return roff(replaced(command.description, "\n", " ")); }
-
 std::string heading(const std::string& title) { return ".SH " + title + '\n'; }
 
 /// The name of the value in italics, its default as it is.
-std::string value_text(const std::string& value) {
-    const std::size_t space = std::min(value.find(' '), value.size());
-    return "\\fI" + roff(value.substr(0, space)) + "\\fR" + roff(value.substr(space));
+std::string value_text(const OptionText& option) {
+    return "\\fI" + roff(option.value) + "\\fR" + (option.usual.empty() ? "" : roff(" [" + option.usual + ']'));
 }
 
 std::string option_names(const OptionText& option) {
     std::string text;
     for (const std::string& name : option.names) text += (text.empty() ? "" : ", ") + roff_code(name);
-    return option.takes_value() ? text + ' ' + value_text(option.value) : text;
+    return option.takes_value() ? text + ' ' + value_text(option) : text;
 }
 
 std::string help_text(const OptionText& option) {
@@ -85,8 +154,7 @@ std::string option_entries(const std::vector<OptionText>& options) {
 
 std::string argument_entries(const std::vector<OptionText>& arguments) {
     std::string text;
-    for (const OptionText& argument : arguments)
-        text += ".TP\n" + value_text(argument.value) + '\n' + help_text(argument);
+    for (const OptionText& argument : arguments) text += ".TP\n" + value_text(argument) + '\n' + help_text(argument);
     return text;
 }
 
@@ -95,10 +163,10 @@ std::string usage(const std::string& path, const CommandText& command) {
     std::string text = roff_code(path);
     if (!command.options.empty()) text += " [\\fIOPTIONS\\fR]";
     for (const OptionText& option : command.options)
-        if (option.required) text += ' ' + roff_code(option.names.front()) + ' ' + value_text(option.value);
+        if (option.required) text += ' ' + roff_code(option.names.front()) + ' ' + value_text(option);
     if (!command.commands.empty()) text += " \\fICOMMAND\\fR [...]";
     for (const OptionText& argument : command.arguments) {
-        const std::string value = value_text(argument.value) + (argument.repeated ? "..." : "");
+        const std::string value = value_text(argument) + (argument.repeated ? "..." : "");
         text += ' ' + (argument.required ? value : '[' + value + ']');
     }
     return text + '\n';
@@ -110,11 +178,9 @@ std::string rows_text(const Rows& rows, const char* font) {
     return text;
 }
 
-std::string text_of(const CommandText& command) { return command.description + ".\n" + command.footer; }
-
 /// All help texts of a command and its commands.
 std::string all_text_of(const CommandText& command) {
-    std::string text = text_of(command);
+    std::string text = command.description + command.notes;
     for (const OptionText& option : command.options) text += option.help + '\n';
     for (const CommandText& part : command.commands) text += all_text_of(part);
     return text;
@@ -131,8 +197,8 @@ std::string nested_exit_codes(const std::string& path, const CommandText& comman
     std::string text;
     for (const CommandText& part : command.commands) {
         const std::string part_path = path + ' ' + part.name;
-        if (const std::vector<ExitCode> codes = exit_codes_in(text_of(part)); !codes.empty())
-            text += fmt::format(".PP\nOf {}:\n{}", roff_code(part_path), code_entries(codes));
+        if (!part.exit_codes.empty())
+            text += fmt::format(".PP\nOf {}:\n{}", roff_code(part_path), code_entries(part.exit_codes));
         text += nested_exit_codes(part_path, part);
     }
     return text;
@@ -140,8 +206,8 @@ std::string nested_exit_codes(const std::string& path, const CommandText& comman
 
 /// The codes of the command, else those of the program; then those of its own commands.
 std::string exit_status(const CommandText& program, const CommandText& command, const std::string& path) {
-    const std::vector<ExitCode> own = exit_codes_in(text_of(command));
-    std::string text = heading("EXIT STATUS") + code_entries(own.empty() ? exit_codes_in(text_of(program)) : own);
+    const std::string text =
+        heading("EXIT STATUS") + code_entries(command.exit_codes.empty() ? program.exit_codes : command.exit_codes);
     return &command == &program ? text : text + nested_exit_codes(path, command);
 }
 
@@ -155,10 +221,6 @@ std::string environment_of(const CommandText& command) {
     return heading("ENVIRONMENT") + rows_text(rows, "\\fB");
 }
 
-std::string examples(const std::vector<std::string>& lines) {
-    return lines.empty() ? std::string() : heading("EXAMPLES") + roff_lines(lines);
-}
-
 std::string title(const std::string& name, const std::string& version) {
     std::string capitals;
     for (const char c : name) capitals += c >= 'a' && c <= 'z' ? char(c - 'a' + 'A') : c;
@@ -169,15 +231,16 @@ std::string title(const std::string& name, const std::string& version) {
 
 std::string reference(const std::string& name) { return "\\fB" + roff(name) + "\\fR(1)"; }
 
-std::string sentence(const CommandText& command) { return one_line(command) + ".\n"; }
+std::string sentence_of(const CommandText& command) {
+    return roff(replaced(sentence(command.description, command.exit_codes), "\n", " ")) + ".\n";
+}
 
 /// A command of a command, as in "golden check": a part of its page.
 std::string nested_command(const std::string& path, const CommandText& command) {
-    const HelpFooter footer = read_footer(command.footer);
     std::string text = fmt::format(".SS {}\n{}", roff(path), usage(path, command));
-    text += ".PP\n" + sentence(command) + roff_paragraphs(footer.notes);
+    text += ".PP\n" + sentence_of(command) + roff_paragraphs(lines_of(command.notes));
     text += argument_entries(command.arguments) + option_entries(command.options);
-    if (!footer.examples.empty()) text += ".PP\nExamples:\n" + roff_lines(footer.examples);
+    if (!command.examples.empty()) text += ".PP\nExamples:\n" + roff_lines(lines_of(command.examples));
     for (const CommandText& part : command.commands) text += nested_command(path + ' ' + part.name, part);
     return text;
 }
@@ -185,15 +248,14 @@ std::string nested_command(const std::string& path, const CommandText& command) 
 /// The common part of the pages of the program and of a command. `commands`: the section about the commands, if any.
 std::string page_body(const CommandText& program, const CommandText& command, const std::string& path,
                       const std::string& commands) {
-    const HelpFooter footer = read_footer(command.footer);
     std::string text = heading("SYNOPSIS") + usage(path, command);
-    text += heading("DESCRIPTION") + sentence(command);
-    if (!footer.notes.empty()) text += ".PP\n" + roff_paragraphs(footer.notes);
+    text += heading("DESCRIPTION") + (&command == &program ? roff(command.description) + ".\n" : sentence_of(command));
+    if (!command.notes.empty()) text += ".PP\n" + roff_paragraphs(lines_of(command.notes));
     if (!command.arguments.empty()) text += heading("ARGUMENTS") + argument_entries(command.arguments);
     if (!command.options.empty()) text += heading("OPTIONS") + option_entries(command.options);
     text += commands + exit_status(program, command, path) + environment_of(command);
     text += heading("FILES") + rows_text(files(), "\\fI");
-    return text + examples(footer.examples);
+    return command.examples.empty() ? text : text + heading("EXAMPLES") + roff_lines(lines_of(command.examples));
 }
 
 ManPage command_page(const CommandText& program, const CommandText& command, const std::string& version) {
@@ -202,8 +264,7 @@ ManPage command_page(const CommandText& program, const CommandText& command, con
     if (!command.commands.empty()) commands = heading("COMMANDS");
     for (const CommandText& part : command.commands) commands += nested_command(path + ' ' + part.name, part);
     std::string text = title(name, version) + heading("NAME");
-    const std::string what = command.description.substr(0, command.description.find(": exit code"));
-    text += fmt::format("{} \\- {}\n", roff(name), roff(replaced(what, "\n", " ")));
+    text += fmt::format("{} \\- {}\n", roff(name), roff(replaced(command.description, "\n", " ")));
     text += page_body(program, command, path, commands);
     text += heading("SEE ALSO") + reference(program.name);
     for (const CommandText& other : program.commands)
@@ -215,7 +276,7 @@ ManPage program_page(const CommandText& program, const std::string& version) {
     std::string commands = heading("COMMANDS"), others;
     for (const CommandText& command : program.commands) {
         const std::string page = reference(program.name + '-' + command.name);
-        commands += fmt::format(".TP\n{}\n{}", page, sentence(command));
+        commands += fmt::format(".TP\n{}\n{}", page, sentence_of(command));
         others += (others.empty() ? "" : ",\n") + page;
     }
     std::string text = title(program.name, version) + heading("NAME");

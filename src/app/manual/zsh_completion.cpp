@@ -12,27 +12,26 @@ std::string zsh_quoted(std::string text, bool in_brackets) {
     return replaced(replaced(std::move(text), ":", "\\:"), "'", "'\\''");
 }
 
-std::string files_action(const ValueHint& hint) {
-    if (hint.folders && !hint.files) return "_files -/";
-    if (hint.endings.empty()) return "_files";
-    return fmt::format("_files -g \"*.({})(-.)\"", joined(hint.endings, "|"));
+std::string files_action(const ValueKind& kind) {
+    if (kind.folders && !kind.files) return "_files -/";
+    if (kind.endings.empty()) return "_files";
+    return fmt::format("_files -g \"*.({})(-.)\"", joined(kind.endings, "|"));
 }
 
 /// The action that completes a value: the last part of a specification of _arguments.
-std::string action(const ValueHint& hint) {
-    const bool paths = hint.files || hint.folders;
-    if (hint.empty()) return " ";
-    if (hint.words.empty()) return files_action(hint);
-    const std::string words = joined(hint.words, " ");
-    if (hint.word_list) return fmt::format("_values -s , value {}", words);
+std::string action(const ValueKind& kind) {
+    const bool paths = kind.files || kind.folders;
+    if (kind.offers_nothing()) return " ";
+    if (kind.words.empty()) return files_action(kind);
+    const std::string words = joined(kind.words, " ");
+    if (kind.word_list) return fmt::format("_values -s , value {}", words);
     if (!paths) return fmt::format("({})", words);
     return fmt::format("_alternative \"words\\:word\\:({})\" \"files\\:file\\:{}\"", words,
-                       replaced(replaced(files_action(hint), "\"", "\\\""), ":", "\\:"));
+                       replaced(replaced(files_action(kind), "\"", "\\\""), ":", "\\:"));
 }
 
 std::string value_name(const OptionText& option) {
-    const std::string& text = option.value.empty() ? option.names.front() : option.value;
-    return zsh_quoted(text.substr(0, text.find(' ')), false);
+    return zsh_quoted(option.value.empty() ? option.names.front() : option.value, false);
 }
 
 /// A specification of an option: "'(-o --output)'{-o,--output=}'[help]:CLIP:_files'".
@@ -45,13 +44,13 @@ std::string option_line(const OptionText& option) {
     std::string text = forms.size() == 1 ? before + forms.front() : fmt::format("{}{{{}}}", before, joined(forms, ","));
     text += fmt::format("'[{}]", zsh_quoted(short_help(option.help), true));
     if (option.takes_value())
-        text += fmt::format(":{}:{}", value_name(option), replaced(action(option.hint), "'", "'\\''"));
+        text += fmt::format(":{}:{}", value_name(option), replaced(action(option.kind), "'", "'\\''"));
     return text + "'";
 }
 
 std::string argument_line(const OptionText& argument, std::size_t place) {
     const std::string where = argument.repeated ? "*" : fmt::format("{}{}", place, argument.required ? "" : ":");
-    return fmt::format("'{}:{}:{}'", where, value_name(argument), action(argument.hint));
+    return fmt::format("'{}:{}:{}'", where, value_name(argument), action(argument.kind));
 }
 
 /// The function of a command, after those of its commands.
@@ -60,7 +59,8 @@ std::string function_of(const CommandText& command, const std::string& name) {
     for (const CommandText& part : command.commands) {
         const std::string part_name = name + '_' + replaced(part.name, "-", "_");
         text += function_of(part, part_name);
-        list += fmt::format("        '{}:{}'\n", part.name, zsh_quoted(short_help(part.description), false));
+        list += fmt::format("        '{}:{}'\n", part.name,
+                            zsh_quoted(short_help(sentence(part.description, part.exit_codes)), false));
         cases += fmt::format("                {}) {} && ret=0 ;;\n", part.name, part_name);
     }
     for (const OptionText& option : command.options) lines += fmt::format(" \\\n        {}", option_line(option));

@@ -1,6 +1,7 @@
-// Joints that have broken in a run, for its summary.
+// Notes about a run: bodies that overlap at its start, and joints that broke.
 #pragma once
 
+#include "scene/description/description.h"
 #include "sim/world.h"
 
 #include <string>
@@ -8,6 +9,11 @@
 
 namespace tumble {
 
+/// Lines that name bodies that overlap at the start: the contact pushes them apart, with energy out of nothing. Empty
+/// where there are none. Precondition: the world is at time 0.
+std::string overlap_warning(const SceneDescription& scene, const World& world);
+
+/// A joint that has broken in a run.
 struct BrokenJoint {
     double time = 0.0;  // s
     std::string name;
