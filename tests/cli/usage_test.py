@@ -59,7 +59,7 @@ class WrongUsage(program.ProgramTest):
                 (["render", "--sped=2"], 'unknown option "--sped" of tumble render (did you mean "--speed"?)'),
                 (["render", "scene.toml", "-fps", "2"], 'unknown option "-fps" of tumble render (did you mean "--fps"?)'),
                 (["render", "--set", "--sped", "--quite", "scene.toml"], 'unknown option "--quite" of tumble render (did you mean "--quiet"?)'),
-                (["golden", "check", "a.toml", "--rport", "r"], 'unknown option "--rport" of golden check (did you mean "--report"?)'),
+                (["golden", "check", "a.toml", "--rport", "r"], 'unknown option "--rport" of tumble golden check (did you mean "--report"?)'),
                 (["--verson"], 'unknown option "--verson" of tumble (did you mean "--version"?)'),
                 (["render", "scene.toml", "--qqqqqq"], 'unknown option "--qqqqqq" of tumble render (see'),
                 (["render", "scene.toml", "--quality", "darft"], "must be one of draft, normal, best (was 'darft') (did you mean \"draft\"?)"),

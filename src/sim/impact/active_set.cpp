@@ -61,7 +61,7 @@ bool spread_evenly(const Eigen::MatrixXd& b, const Eigen::VectorXd& sum, Eigen::
 }  // namespace
 
 ActiveSet::ActiveSet(const std::vector<VelocityRow>& rows, std::size_t bodies, std::size_t exact)
-    : rows_(rows), exact_(exact), parent_(bodies), place_(bodies, VelocityRow::none) {}
+    : rows_(rows), exact_(exact), joined_(bodies), place_(bodies, VelocityRow::none) {}
 
 bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& multipliers,
                       const VelocityBound& bound) {
@@ -82,26 +82,20 @@ bool ActiveSet::solve(const std::vector<Demand>& demands, std::vector<double>& m
     return met;
 }
 
-std::uint32_t ActiveSet::root(std::uint32_t body) {
-    while (parent_[body] != body) body = parent_[body] = parent_[parent_[body]];
-    return body;
-}
-
 // In the order of their first demands.
 void ActiveSet::find_components(const std::vector<Demand>& demands) {
     const auto bodies_of = [&](const Demand& d) { return std::array{rows_[d.row].a, rows_[d.row].b}; };
     for (const Demand& d : demands)
         for (const std::uint32_t body : bodies_of(d))
-            if (body != VelocityRow::none) parent_[body] = body;
+            if (body != VelocityRow::none) joined_.separate(body);
     for (const Demand& d : demands) {
         const auto [a, b] = bodies_of(d);
-        if (a != VelocityRow::none && b != VelocityRow::none)
-            parent_[std::max(root(a), root(b))] = std::min(root(a), root(b));
+        if (a != VelocityRow::none && b != VelocityRow::none) joined_.join(a, b);
     }
     component_count_ = 0;
     for (std::uint32_t i = 0; i < demands.size(); ++i) {
         const auto [a, b] = bodies_of(demands[i]);
-        std::uint32_t& part = place_[root(a != VelocityRow::none ? a : b)];
+        std::uint32_t& part = place_[joined_.root(a != VelocityRow::none ? a : b)];
         if (part == VelocityRow::none) {
             part = std::uint32_t(component_count_++);
             if (components_.size() < component_count_) components_.emplace_back();

@@ -15,6 +15,7 @@
 // of more than tuning::projection_contacts are solved approximately, by projected Gauss-Seidel.
 #pragma once
 
+#include "core/disjoint_sets.h"
 #include "sim/impact/settings.h"
 #include "sim/impact/velocity_row.h"
 
@@ -53,7 +54,6 @@ private:
     using Index = Eigen::Index;
 
     void find_components(const std::vector<Demand>& demands);
-    std::uint32_t root(std::uint32_t body);
     bool solve_component(const std::vector<Demand>& demands, std::vector<double>& multipliers);
     void place_bodies();
     bool active_set();
@@ -74,7 +74,7 @@ private:
     const std::vector<VelocityRow>& rows_;
     std::size_t exact_;
     double work_ = 0.0;
-    std::vector<std::uint32_t> parent_;  // by body of the cluster: union-find over the demands
+    DisjointSets joined_;  // bodies of the cluster, by the demands
     std::vector<std::vector<std::uint32_t>>
         components_;  // demands of the components; the first component_count_ of them are in use
     std::size_t component_count_ = 0;
