@@ -3,14 +3,6 @@
 namespace tumble::v0 {
 namespace {
 
-std::string name_of(JointType type) {
-    return choice(type, "JointType",
-                  std::array{"fixed", "hinge", "ball", "slider", "universal", "cylindrical", "planar", "distance",
-                             "6dof", "gear"});
-}
-
-std::string name_of(JointFrame frame) { return choice(frame, "JointFrame", std::array{"world", "first", "second"}); }
-
 bool given(const std::array<std::string, 2>& names) { return !names[0].empty() || !names[1].empty(); }
 
 /// Writes the tables of a joint: `table` is the name of one in the file, `element` in the spec.
@@ -97,8 +89,7 @@ private:
         lines_.header(fmt::format("[{}]", table), element);
         lines_.set("speed", motor->speed);
         lines_.set("target", motor->target);
-        if (motor->interpolation != Interpolation::smooth)
-            lines_.name("interpolation", v0::name_of(motor->interpolation));
+        if (motor->interpolation != Interpolation::smooth) lines_.name("interpolation", name_of(motor->interpolation));
         lines_.set("stiffness", motor->stiffness);
         lines_.set("damping", motor->damping);
         lines_.set("max_force", motor->max_force);
@@ -125,8 +116,6 @@ private:
 };
 
 }  // namespace
-
-std::string name_of(Interpolation form) { return choice(form, "Interpolation", std::array{"smooth", "linear"}); }
 
 void write_joint(const Joint& joint, std::size_t index, SpecLines& lines) {
     JointWriter(lines).write(joint, fmt::format("joints[{}]", index));

@@ -10,6 +10,4 @@ namespace tumble::v0 {
 
 void write_joint(const Joint& joint, std::size_t index, SpecLines& lines);
 
-std::string name_of(Interpolation form);
-
 }  // namespace tumble::v0

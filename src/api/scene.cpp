@@ -1,6 +1,7 @@
 #include "tumble/scene.h"
 
 #include "api/convert.h"
+#include "api/enum_names.h"
 #include "api/guard.h"
 #include "api/scene_data.h"
 #include "api/spec_text.h"

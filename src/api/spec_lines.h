@@ -1,8 +1,7 @@
 // The lines of a SceneSpec's text, and the element that one of them describes.
 #pragma once
 
-#include "core/error.h"
-#include "tumble/spec.h"
+#include "api/enum_names.h"
 
 #include <fmt/format.h>
 
@@ -12,14 +11,6 @@
 #include <string_view>
 
 namespace tumble::v0 {
-
-/// The name of the scene file. Throws InputError for a value without one.
-template <class Enum, std::size_t n>
-std::string choice(Enum value, const char* type, const std::array<const char*, n>& names) {
-    const auto i = static_cast<std::size_t>(value);
-    if (i >= n) throw InputError(fmt::format("{} has no enumerator of value {}", type, static_cast<long long>(value)));
-    return names[i];
-}
 
 /// Values in the spelling of TOML.
 std::string text_of(const std::string& text);

@@ -11,17 +11,6 @@
 namespace tumble::v0 {
 namespace {
 
-std::string name_of(ContactSolver solver) {
-    return choice(solver, "ContactSolver", std::array{"by-island", "soft", "direct"});
-}
-std::string name_of(RotationForm form) { return choice(form, "RotationForm", std::array{"quaternion", "matrix"}); }
-std::string name_of(Method method) { return choice(method, "Method", std::array{"tumble", "notes"}); }
-std::string name_of(PairRule rule) {
-    return choice(rule, "PairRule", std::array{"average", "minimum", "multiply", "maximum", "geometric"});
-}
-std::string name_of(BodyType type) { return choice(type, "BodyType", std::array{"dynamic", "fixed", "kinematic"}); }
-std::string name_of(Pattern pattern) { return choice(pattern, "Pattern", std::array{"plain", "grid", "checker"}); }
-
 class SpecWriter : public SpecLines {
 public:
     using SpecLines::SpecLines;
@@ -59,9 +48,9 @@ private:
         set("gravity", s.gravity);
         name("method", name_of(s.method));
         if (s.push_out) set("push_out", s.push_out);
-        name("integrator", v0::name_of(s.integrator));
-        name("impacts", v0::name_of(s.impacts));
-        name("impact_law", v0::name_of(s.impact_law));
+        name("integrator", name_of(s.integrator));
+        name("impacts", name_of(s.impacts));
+        name("impact_law", name_of(s.impact_law));
         name("contact_solver", name_of(s.contact_solver));
         name("rotation", name_of(s.rotation));
         set("sleep", s.sleep);
@@ -85,7 +74,7 @@ private:
         set("up", c.up);
         set("vertical_fov", c.vertical_fov);
         if (!c.keyframes.empty() || c.interpolation != Interpolation::smooth)
-            name("interpolation", v0::name_of(c.interpolation));
+            name("interpolation", name_of(c.interpolation));
         set("orbit", c.orbit);
         if (!c.follow.empty()) set("follow", c.follow);
         for (std::size_t i = 0; i < c.keyframes.size(); ++i) {
@@ -138,8 +127,8 @@ private:
         write_pose(b.position, b.rotation);
         if (b.velocity != Vec3{}) set("velocity", b.velocity);
         if (b.angular_velocity != Vec3{}) set("angular_velocity", b.angular_velocity);
-        if (b.integrator) name("integrator", v0::name_of(*b.integrator));
-        if (b.interpolation != Interpolation::smooth) name("interpolation", v0::name_of(b.interpolation));
+        if (b.integrator) name("integrator", name_of(*b.integrator));
+        if (b.interpolation != Interpolation::smooth) name("interpolation", name_of(b.interpolation));
         if (b.scale)
             value("scale", "scale", fmt::format("[{}, {}]", text_of(b.scale->smallest), text_of(b.scale->largest)));
         if (!b.colors.empty()) {
@@ -259,13 +248,6 @@ private:
 };
 
 }  // namespace
-
-std::string name_of(Integrator integrator) {
-    return choice(integrator, "Integrator",
-                  std::array{"explicit-euler", "symplectic-euler", "splitting", "rk4", "exact"});
-}
-std::string name_of(ImpactMode mode) { return choice(mode, "ImpactMode", std::array{"stepped", "exact"}); }
-std::string name_of(ImpactLaw law) { return choice(law, "ImpactLaw", std::array{"propagating", "simultaneous"}); }
 
 SpecText spec_text(const SceneSpec& spec) {
     SpecWriter writer(0);

@@ -22,9 +22,4 @@ SpecText spec_text(const SceneSpec& spec);
 /// The element that the line describes ("bodies[2].shape.radius"); lines count from 1. Empty for other lines.
 std::string element_of_line(const SceneSpec& spec, int line);
 
-/// Names of the scene file.
-std::string name_of(Integrator integrator);
-std::string name_of(ImpactMode mode);
-std::string name_of(ImpactLaw law);
-
 }  // namespace tumble::v0

@@ -2,6 +2,7 @@
 
 #include "overlay/overlay_builder.h"
 #include "page/prediction.h"
+#include "scene/fields/choices.h"
 
 #include <algorithm>
 #include <array>
@@ -47,16 +48,6 @@ struct ShapeForm {
 
 Json shape_json(const Shape& shape, const Appearance& look, MeshTable& meshes) {
     return std::visit(ShapeForm{look, meshes}, shape);
-}
-
-const char* type_name(BodyType type) {
-    if (type == BodyType::dynamic) return "dynamic";
-    return type == BodyType::fixed ? "fixed" : "kinematic";
-}
-
-const char* pattern_name(Pattern pattern) {
-    if (pattern == Pattern::plain) return "plain";
-    return pattern == Pattern::grid ? "grid" : "checker";
 }
 
 Json inertia_json(const Mat3& inertia) {
@@ -123,12 +114,12 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
         const Appearance& look = body.appearance;
         const bool dynamic = body.type == BodyType::dynamic;
         bodies.push_back({{"name", body.name},
-                          {"type", type_name(body.type)},
+                          {"type", name_of(body.type)},
                           {"shape", shape_json(body.shape, look, meshes)},
                           {"color", to_string(look.color)},
                           {"roughness", look.roughness},
                           {"metallic", look.metallic},
-                          {"pattern", pattern_name(look.pattern)},
+                          {"pattern", name_of(look.pattern)},
                           {"visible", look.visible},
                           {"mass", dynamic ? report.mass : 0.0},
                           {"inertia", inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()))},
@@ -181,8 +172,6 @@ Json make_camera(const PageRun& run, ArrayStore& arrays) {
 }
 
 Json make_overlays(const PageRun& run) {
-    constexpr std::array<const char*, arrow_quantity_count> quantities{
-        "force", "impulse", "velocity", "omega", "momentum", "angular-momentum", "torque"};
     const OverlayDescription& overlay = run.scene.overlay;
     Json show = Json::array(), bodies = Json::array(), scale, color, points = Json::array();
     for (const OverlayName& name : overlay_names)
@@ -190,9 +179,9 @@ Json make_overlays(const PageRun& run) {
     const std::vector<char> shown = shown_bodies(run.scene);
     for (std::size_t i = 0; i < shown.size(); ++i)
         if (shown[i] != 0) bodies.push_back(i);
-    for (std::size_t q = 0; q < quantities.size(); ++q) {
-        scale[quantities[q]] = run.scales[q];
-        color[quantities[q]] = to_string(arrow_color(overlay, ArrowQuantity(q)));
+    for (const auto& [name, quantity] : choices<ArrowQuantity>) {
+        scale[name] = run.scales[std::size_t(quantity)];
+        color[name] = to_string(arrow_color(overlay, quantity));
     }
     for (const TrailPoint& point : overlay.trail_points)
         points.push_back({{"body", point.body},

@@ -2,6 +2,7 @@
 
 #include "core/fnv_hash.h"
 #include "core/frame_rate.h"
+#include "scene/fields/choices.h"
 #include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
@@ -47,30 +48,6 @@ struct ShapeText {
 };
 
 std::string shape_text(const Shape& shape) { return std::visit(ShapeText(), shape); }
-
-const char* pattern_text(Pattern pattern) {
-    switch (pattern) {
-        case Pattern::plain:
-            return "plain";
-        case Pattern::grid:
-            return "grid";
-        case Pattern::checker:
-            return "checker";
-    }
-    return "";
-}
-
-const char* type_text(BodyType type) {
-    switch (type) {
-        case BodyType::dynamic:
-            return "dynamic";
-        case BodyType::fixed:
-            return "fixed";
-        case BodyType::kinematic:
-            return "kinematic";
-    }
-    return "";
-}
 
 /// Text of a restitution or a friction in pairs.
 std::string surface_text(double value) { return value < 0.0 ? "of the other body" : fmt::format("{}", value); }
@@ -122,13 +99,13 @@ std::string overlay_style_text(const OverlayDescription& o) {
 
 void add_simulation(const SimulationSettings& s, ValueMap& values) {
     values["gravity"] = text_of(s.gravity);
-    values["method"] = s.method == SimulationMethod::notes ? "notes" : "tumble";
+    values["method"] = name_of(s.method);
     values["push_out"] = s.push_out ? "true" : "false";
     values["integrator"] = fmt::format("{}", int(s.integrator));
-    values["impacts"] = s.impacts == ImpactMode::exact ? "exact" : "stepped";
-    values["impact_law"] = s.impact_law == ImpactLaw::simultaneous ? "simultaneous" : "propagating";
+    values["impacts"] = name_of(s.impacts);
+    values["impact_law"] = name_of(s.impact_law);
     values["contact_solver"] = fmt::format("{}", int(s.contact_solver));
-    values["rotation form"] = s.rotation == RotationForm::matrix ? "matrix" : "quaternion";
+    values["rotation form"] = name_of(s.rotation);
     values["sleep"] = s.sleep ? "true" : "false";
     values["seed"] = fmt::format("{}", s.seed);
     values["steps_per_frame"] = fmt::format("{}", s.steps_per_frame);
@@ -143,9 +120,9 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     kind.look["color"] = to_string(look.color);
     kind.look["roughness"] = fmt::format("{}", look.roughness);
     kind.look["metallic"] = fmt::format("{}", look.metallic);
-    kind.look["pattern"] = pattern_text(look.pattern);
+    kind.look["pattern"] = name_of(look.pattern);
     kind.look["visible"] = look.visible ? "true" : "false";
-    kind.matter["type"] = type_text(body.type);
+    kind.matter["type"] = name_of(body.type);
     kind.matter["restitution"] = surface_text(body.restitution_in_pair());
     kind.matter["friction"] = surface_text(body.friction_in_pair());
     if (body.type == BodyType::dynamic) {

@@ -1,7 +1,7 @@
 #include "app/composition/make_composition.h"
 
 #include "core/safe_text.h"
-#include "scene/keys/settings.h"
+#include "scene/fields/choices.h"
 
 #include <fmt/format.h>
 
@@ -28,10 +28,9 @@ std::vector<std::string> mode_of(const ClipScene& clip_scene) {
     const SimulationSettings& simulation = clip_scene.scene->simulation;
     std::vector<std::string> mode;
     if (simulation.method == SimulationMethod::notes) mode.emplace_back("method notes");
-    for (const auto& choice : integrator_choices(simulation.method))
-        if (choice.value == simulation.integrator) mode.emplace_back(choice.name);
+    mode.emplace_back(name_of(simulation.integrator));
     if (simulation.method != SimulationMethod::notes)
-        mode.emplace_back(simulation.impacts == ImpactMode::exact ? "impacts exact" : "impacts stepped");
+        mode.push_back(fmt::format("impacts {}", name_of(simulation.impacts)));
     mode.push_back(step_text(clip_scene.timing));
     mode.push_back(fmt::format("seed {}", simulation.seed));
     return mode;

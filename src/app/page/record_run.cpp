@@ -2,7 +2,7 @@
 
 #include "app/plots/plotted_run.h"
 #include "render/camera/camera_animation.h"
-#include "scene/keys/settings.h"
+#include "scene/fields/choices.h"
 #include "sim/world.h"
 
 #include <algorithm>
@@ -158,19 +158,13 @@ std::vector<Quantity> joint_quantities_of(const std::string& plot, const SceneDe
     return quantities;
 }
 
-std::string integrator_name(const SimulationSettings& simulation) {
-    for (const auto& choice : integrator_choices(simulation.method))
-        if (choice.value == simulation.integrator) return std::string(choice.name);
-    return {};
-}
-
 }  // namespace
 
 PageRun record_run(const SceneDescription& scene, const RecordSettings& settings, Interrupt& interrupt) {
     PageRun run;
     run.label = settings.label;
     run.scene = scene;
-    run.integrator = integrator_name(scene.simulation);
+    run.integrator = name_of(scene.simulation.integrator);
     run.frames = scene.frame_count();
     run.bodies.resize(scene.bodies.size());
     World world(scene, settings.threads);

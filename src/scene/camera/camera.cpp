@@ -1,6 +1,7 @@
 #include "scene/camera/camera.h"
 
 #include "scene/camera/default_camera.h"
+#include "scene/fields/choices.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/motion.h"
 #include "scene/toml/limits.h"
@@ -103,7 +104,7 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
     table->read("orbit", camera.orbit, limits::orbit);
-    table->read<Interpolation>("interpolation", camera.interpolation, interpolations);
+    table->read<Interpolation>("interpolation", camera.interpolation, choices<Interpolation>);
     if (const auto keyframes = table->find("keyframes")) {
         camera.keyframes = read_keyframes(*keyframes, camera);
         camera.eye = camera.keyframes.front().eye;

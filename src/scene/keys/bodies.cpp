@@ -1,9 +1,9 @@
 #include "scene/keys/bodies.h"
 
 #include "core/safe_text.h"
+#include "scene/fields/choices.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/motion.h"
-#include "scene/keys/settings.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -13,12 +13,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr Choice<BodyType> body_types[] = {
-    {"dynamic", BodyType::dynamic},
-    {"fixed", BodyType::fixed},
-    {"kinematic", BodyType::kinematic},
-};
 
 Material read_material(const TomlTable& table, const Materials& materials) {
     Material material;
@@ -114,7 +108,7 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
                            "scale",
                            "colors"});
         BodyType type = BodyType::dynamic;
-        table.read<BodyType>("type", type, body_types);
+        table.read<BodyType>("type", type, choices<BodyType>);
         const ShapeRequest shape = read_shape(table.require("shape"), type, sources.folder, sources.meshes);
         const BodyDescription model = read_body_model(table, type, shape.shape, sources);
         const auto copies = read_copies(table, type, shape);

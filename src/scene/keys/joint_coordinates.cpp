@@ -1,7 +1,8 @@
 #include "scene/keys/joint_coordinates.h"
 
 #include "core/deterministic_math.h"
-#include "scene/keys/motion.h"
+#include "scene/fields/choices.h"
+
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -116,7 +117,7 @@ JointMotor read_motor(const TomlValue& value, const CoordinateUnit& unit) {
             motor.targets = {{0.0, table.require("target").number(unit.value) * unit.in_si}};
         else
             motor.targets = read_targets(table.require("keyframes"), unit);
-        table.read<Interpolation>("interpolation", motor.interpolation, interpolations);
+        table.read<Interpolation>("interpolation", motor.interpolation, choices<Interpolation>);
         motor.stiffness = table.require("stiffness").number(limits::stiffness);
         table.read("damping", motor.damping, limits::damping);
     }

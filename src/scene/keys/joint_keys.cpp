@@ -1,5 +1,7 @@
 #include "scene/keys/joint_keys.h"
 
+#include "scene/fields/choices.h"
+
 #include <fmt/format.h>
 
 #include <string>
@@ -7,13 +9,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr Choice<JointType> joint_types[] = {
-    {"fixed", JointType::fixed},   {"hinge", JointType::hinge},         {"ball", JointType::ball},
-    {"slider", JointType::slider}, {"universal", JointType::universal}, {"cylindrical", JointType::cylindrical},
-    {"planar", JointType::planar}, {"distance", JointType::distance},   {"6dof", JointType::six_dof},
-    {"gear", JointType::gear},
-};
 
 // -- Keys of each type
 
@@ -79,7 +74,7 @@ constexpr KeyOfTypes joint_keys[] = {
 
 std::string names_of(unsigned types) {
     std::vector<std::string_view> names;
-    for (const auto& choice : joint_types)
+    for (const auto& choice : choices<JointType>)
         if (types & bit(choice.value)) names.push_back(choice.name);
     return quoted_list(names);
 }
@@ -89,24 +84,18 @@ void expect_keys_of(const TomlTable& table, JointType type) {
         if ((known.types & bit(type)) || !table.has(known.key)) continue;
         table.find(known.key)->origin().fail(
             fmt::format("is a key of joints of another type: {} (given in a joint of type \"{}\")",
-                        names_of(known.types), type_name(type)));
+                        names_of(known.types), name_of(type)));
     }
 }
 
 }  // namespace
-
-std::string_view type_name(JointType type) {
-    for (const auto& choice : joint_types)
-        if (choice.value == type) return choice.name;
-    return "";
-}
 
 JointType read_joint_type(const TomlTable& table) {
     std::vector<std::string_view> known;
     for (const KeyOfTypes& key : joint_keys) known.push_back(key.key);
     table.expect_keys(known);
     const TomlValue value = table.require("type");
-    const JointType type = value.choice<JointType>(joint_types);
+    const JointType type = value.choice<JointType>(choices<JointType>);
     expect_keys_of(table, type);
     return type;
 }

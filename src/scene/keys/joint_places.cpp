@@ -2,6 +2,7 @@
 
 #include "core/deterministic_math.h"
 #include "core/rotation.h"
+#include "scene/fields/choices.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/shape.h"
 
@@ -21,14 +22,6 @@ Vec3 across(const Vec3& x) {
 }
 
 namespace {
-
-enum class GivenFrame { world, first, second };
-
-constexpr Choice<GivenFrame> given_frames[] = {
-    {"world", GivenFrame::world},
-    {"first", GivenFrame::first},
-    {"second", GivenFrame::second},
-};
 
 bool needs_axis(JointType type) {
     return type == JointType::hinge || type == JointType::slider || type == JointType::universal ||
@@ -86,10 +79,10 @@ private:
     }
 
     void read_frame() {
-        GivenFrame frame = GivenFrame::world;
-        table_.read<GivenFrame>("frame", frame, given_frames);
-        if (frame == GivenFrame::first) given_in_ = first_;
-        if (frame == GivenFrame::second) given_in_ = second_;
+        JointFrame frame = JointFrame::world;
+        table_.read<JointFrame>("frame", frame, choices<JointFrame>);
+        if (frame == JointFrame::first) given_in_ = first_;
+        if (frame == JointFrame::second) given_in_ = second_;
         if (table_.has("frame") && !table_.has("anchor") && !table_.has("axis"))
             table_.find("frame")->origin().fail("is the frame of anchor and axis, and there is neither");
     }

@@ -2,6 +2,7 @@
 
 #include "core/deterministic_math.h"
 #include "core/safe_text.h"
+#include "scene/fields/choices.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/joint_coordinates.h"
 #include "scene/keys/joint_keys.h"
@@ -298,7 +299,7 @@ void read_geared(const TomlTable& table, const std::vector<JointDescription>& jo
         const JointDescription& joint = find_joint(side[s], joints);
         if (joint.type != JointType::hinge && joint.type != JointType::slider) {
             side[s].fail(fmt::format("must name a hinge or a slider: a gear couples no joint of type \"{}\"",
-                                     type_name(joint.type)));
+                                     name_of(joint.type)));
         }
         gear.geared[s] = std::size_t(&joint - joints.data());
     }

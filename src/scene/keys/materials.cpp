@@ -1,18 +1,13 @@
 #include "scene/keys/materials.h"
 
 #include "core/safe_text.h"
+#include "scene/fields/choices.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
 namespace tumble {
 namespace {
-
-constexpr Choice<Pattern> patterns[] = {
-    {"plain", Pattern::plain},
-    {"grid", Pattern::grid},
-    {"checker", Pattern::checker},
-};
 
 constexpr Color default_color{0xcf, 0x9a, 0x5b};        // light wood: contrasts with ground and sky
 constexpr Color default_plane_color{0xd6, 0xd8, 0xda};  // light gray, on which shadows and grid lines are visible
@@ -34,7 +29,7 @@ Material read_material_keys(const TomlTable& table) {
     table.read("friction", material.friction, limits::friction);
     table.read("roughness", material.roughness, limits::fraction);
     table.read("metallic", material.metallic, limits::fraction);
-    if (const auto value = table.find("pattern")) material.pattern = value->choice<Pattern>(patterns);
+    if (const auto value = table.find("pattern")) material.pattern = value->choice<Pattern>(choices<Pattern>);
     return material;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/keys/motion.h"
 
 #include "core/deterministic_math.h"
+#include "scene/fields/choices.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -82,7 +83,7 @@ void read_motion(const TomlTable& table, BodyDescription& body) {
         }
         return;
     }
-    table.read<Interpolation>("interpolation", body.interpolation, interpolations);
+    table.read<Interpolation>("interpolation", body.interpolation, choices<Interpolation>);
     if (const auto keyframes = table.find("keyframes")) {
         body.keyframes = read_keyframes(*keyframes, body);
         body.position = body.keyframes.front().position;

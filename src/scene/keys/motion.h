@@ -6,12 +6,6 @@
 
 namespace tumble {
 
-/// Interpolations of keyframes, of bodies and of the camera.
-inline constexpr Choice<Interpolation> interpolations[] = {
-    {"smooth", Interpolation::smooth},
-    {"linear", Interpolation::linear},
-};
-
 /// Reads position, rotation, velocity, angular_velocity, keyframes and interpolation into a body whose type is known.
 /// With keyframes, its pose is that of the first one.
 void read_motion(const TomlTable& table, BodyDescription& body);

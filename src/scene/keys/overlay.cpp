@@ -1,5 +1,6 @@
 #include "scene/keys/overlay.h"
 
+#include "scene/fields/choices.h"
 #include "scene/keys/body_index.h"
 #include "scene/toml/limits.h"
 
@@ -9,18 +10,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr Choice<PlotPlace> plot_places[] = {
-    {"inset", PlotPlace::inset},
-    {"beside", PlotPlace::beside},
-    {"below", PlotPlace::below},
-};
-constexpr Choice<ArrowQuantity> arrow_quantities[] = {
-    {"force", ArrowQuantity::force},       {"impulse", ArrowQuantity::impulse},
-    {"velocity", ArrowQuantity::velocity}, {"omega", ArrowQuantity::omega},
-    {"momentum", ArrowQuantity::momentum}, {"angular-momentum", ArrowQuantity::angular_momentum},
-    {"torque", ArrowQuantity::torque},
-};
 
 void add_overlay(std::string_view name, const SourcePosition& origin, OverlaySet& set) {
     const auto known = std::find_if(overlay_names.begin(), overlay_names.end(),
@@ -75,8 +64,10 @@ void read_by_quantity(const TomlTable& table, std::string_view key,
     auto by_quantity = table.find_table(key);
     if (!by_quantity) return;
     by_quantity->set_title(fmt::format("[overlay.{}]", key));
-    by_quantity->expect_keys({"force", "impulse", "velocity", "omega", "momentum", "angular-momentum", "torque"});
-    for (const auto& quantity : arrow_quantities)
+    std::vector<std::string_view> names;
+    for (const auto& quantity : choices<ArrowQuantity>) names.push_back(quantity.name);
+    by_quantity->expect_keys(names);
+    for (const auto& quantity : choices<ArrowQuantity>)
         if (const auto value = by_quantity->find(quantity.name)) values[std::size_t(quantity.value)] = read(*value);
 }
 
@@ -110,7 +101,7 @@ void read_table(const TomlTable& table, const std::vector<BodyDescription>& bodi
             if (!overlay.plot.empty()) overlay.plot += ',';
             overlay.plot += quantity.text();
         }
-    table.read<PlotPlace>("plot_place", overlay.plot_place, plot_places);
+    table.read<PlotPlace>("plot_place", overlay.plot_place, choices<PlotPlace>);
 }
 
 void read_captions(const TomlTable& root, std::vector<Caption>& captions) {
@@ -139,7 +130,7 @@ OverlayDescription read_overlay(const TomlTable& root, const std::vector<BodyDes
     }
     if (overrides.plot) overlay.plot = *overrides.plot == "none" ? "" : *overrides.plot;
     if (overrides.plot_place)
-        overlay.plot_place = chosen<PlotPlace>(*overrides.plot_place, plot_places, {"--plot-place", {}});
+        overlay.plot_place = chosen<PlotPlace>(*overrides.plot_place, choices<PlotPlace>, {"--plot-place", {}});
     return overlay;
 }
 

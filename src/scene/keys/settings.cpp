@@ -1,6 +1,7 @@
 #include "scene/keys/settings.h"
 
 #include "core/frame_rate.h"
+#include "scene/fields/choices.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -9,40 +10,6 @@
 
 namespace tumble {
 namespace {
-
-constexpr Choice<IntegratorKind> integrators[] = {
-    {"symplectic-euler", IntegratorKind::symplectic_euler},
-    {"explicit-euler", IntegratorKind::explicit_euler},
-    {"exact", IntegratorKind::exact},
-    {"splitting", IntegratorKind::splitting},
-    {"rk4", IntegratorKind::runge_kutta_4},
-};
-constexpr Choice<SimulationMethod> methods[] = {
-    {"tumble", SimulationMethod::tumble},
-    {"notes", SimulationMethod::notes},
-};
-constexpr Choice<ImpactMode> impact_modes[] = {
-    {"stepped", ImpactMode::stepped},
-    {"exact", ImpactMode::exact},
-};
-constexpr Choice<ContactSolverChoice> contact_solvers[] = {
-    {"by-island", ContactSolverChoice::by_island},
-    {"soft", ContactSolverChoice::soft},
-    {"direct", ContactSolverChoice::direct},
-};
-constexpr Choice<ImpactLaw> impact_laws[] = {
-    {"propagating", ImpactLaw::propagating},
-    {"simultaneous", ImpactLaw::simultaneous},
-};
-constexpr Choice<RotationForm> rotation_forms[] = {
-    {"quaternion", RotationForm::quaternion},
-    {"matrix", RotationForm::matrix},
-};
-
-constexpr Choice<PairRule> pair_rules[] = {
-    {"average", PairRule::average}, {"minimum", PairRule::minimum},     {"multiply", PairRule::multiply},
-    {"maximum", PairRule::maximum}, {"geometric", PairRule::geometric},
-};
 
 /// A given value and its source.
 template <class Value>
@@ -83,13 +50,13 @@ void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeR
         if (time.step) value->fail("and step exclude each other: give one of them");
     }
     table.read("gravity", settings.gravity, limits::acceleration);
-    table.read<SimulationMethod>("method", settings.method, methods);
+    table.read<SimulationMethod>("method", settings.method, choices<SimulationMethod>);
     table.read("push_out", settings.push_out);
-    table.read<IntegratorKind>("integrator", settings.integrator, integrators);
-    table.read<ImpactMode>("impacts", settings.impacts, impact_modes);
-    table.read<ImpactLaw>("impact_law", settings.impact_law, impact_laws);
-    table.read<ContactSolverChoice>("contact_solver", settings.contact_solver, contact_solvers);
-    table.read<RotationForm>("rotation", settings.rotation, rotation_forms);
+    table.read<IntegratorKind>("integrator", settings.integrator, choices<IntegratorKind>);
+    table.read<ImpactMode>("impacts", settings.impacts, choices<ImpactMode>);
+    table.read<ImpactLaw>("impact_law", settings.impact_law, choices<ImpactLaw>);
+    table.read<ContactSolverChoice>("contact_solver", settings.contact_solver, choices<ContactSolverChoice>);
+    table.read<RotationForm>("rotation", settings.rotation, choices<RotationForm>);
     table.read("sleep", settings.sleep);
     if (const auto value = table.find("integrator")) sources.integrator = value->origin();
     if (const auto value = table.find("impacts")) sources.impacts = value->origin();
@@ -152,12 +119,15 @@ void apply_overrides(const SceneOverrides& overrides, SimulationSettings& simula
         time.steps_per_frame = {checked(*overrides.steps_per_frame, 1, limits::steps_per_frame, origin), origin};
     }
     if (overrides.integrator) {
-        simulation.integrator = chosen<IntegratorKind>(*overrides.integrator, integrators, {"--integrator", {}});
+        simulation.integrator =
+            chosen<IntegratorKind>(*overrides.integrator, choices<IntegratorKind>, {"--integrator", {}});
     }
-    if (overrides.method) simulation.method = chosen<SimulationMethod>(*overrides.method, methods, {"--method", {}});
-    if (overrides.impacts) simulation.impacts = chosen<ImpactMode>(*overrides.impacts, impact_modes, {"--impacts", {}});
+    if (overrides.method)
+        simulation.method = chosen<SimulationMethod>(*overrides.method, choices<SimulationMethod>, {"--method", {}});
+    if (overrides.impacts)
+        simulation.impacts = chosen<ImpactMode>(*overrides.impacts, choices<ImpactMode>, {"--impacts", {}});
     if (overrides.impact_law) {
-        simulation.impact_law = chosen<ImpactLaw>(*overrides.impact_law, impact_laws, {"--impact-law", {}});
+        simulation.impact_law = chosen<ImpactLaw>(*overrides.impact_law, choices<ImpactLaw>, {"--impact-law", {}});
     }
     if (overrides.width) {
         output.width = static_cast<int>(checked(*overrides.width, 1, limits::image_side, {"--size", {}}));
@@ -211,10 +181,6 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
 
 }  // namespace
 
-std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method) {
-    return std::span(integrators).first(method == SimulationMethod::notes ? 2 : std::size(integrators));
-}
-
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output) {
     TimeRequest time;
@@ -245,8 +211,8 @@ PairRules read_contact(const TomlTable& root) {
     PairRules rules;
     if (const auto table = root.find_table("contact")) {
         table->expect_keys({"restitution_rule", "friction_rule"});
-        table->read<PairRule>("restitution_rule", rules.restitution, pair_rules);
-        table->read<PairRule>("friction_rule", rules.friction, pair_rules);
+        table->read<PairRule>("restitution_rule", rules.restitution, choices<PairRule>);
+        table->read<PairRule>("friction_rule", rules.friction, choices<PairRule>);
     }
     return rules;
 }

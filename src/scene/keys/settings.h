@@ -7,7 +7,6 @@
 #include "scene/toml/toml_reader.h"
 
 #include <optional>
-#include <span>
 
 namespace tumble {
 
@@ -18,8 +17,5 @@ void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, S
 LightDescription read_light(const TomlTable& root);
 std::optional<WindDescription> read_wind(const TomlTable& root);
 PairRules read_contact(const TomlTable& root);
-
-/// The integrators that a method has, by their names in a file.
-std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method);
 
 }  // namespace tumble

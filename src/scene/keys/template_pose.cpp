@@ -2,8 +2,8 @@
 
 #include "core/deterministic_math.h"
 #include "core/safe_text.h"
+#include "scene/fields/choices.h"
 #include "scene/keys/joint_coordinates.h"
-#include "scene/keys/joint_keys.h"
 #include "scene/keys/template_kinematics.h"
 #include "scene/toml/limits.h"
 
@@ -51,7 +51,7 @@ PoseChanges read_changes(const TomlValue& pose, const SceneTemplate& content, co
         const JointDescription& joint = content.joints[j];
         if (!has_one_coordinate(joint)) {
             value.origin().fail(
-                fmt::format("is for hinges and sliders (given a joint of type \"{}\")", type_name(joint.type)));
+                fmt::format("is for hinges and sliders (given a joint of type \"{}\")", name_of(joint.type)));
         }
         const CoordinateUnit& unit = unit_of(joint);
         const JointAxis& axis = axis_of(joint);

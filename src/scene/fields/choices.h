@@ -1,0 +1,134 @@
+// Names of enumerators in scene files, one list for each enum, in the order of messages. The reader, the C++ interface,
+// pages and motion records have the names from here.
+#pragma once
+
+#include "scene/description/description.h"
+#include "scene/fields/enumerators.h"
+#include "scene/toml/range.h"
+
+#include <array>
+#include <span>
+#include <string_view>
+
+namespace tumble {
+
+/// Frame in which a file gives the places of a joint: the world, or one of its bodies at the start.
+enum class JointFrame { world, first, second };
+
+template <class Enum>
+inline constexpr auto choices = std::array<Choice<Enum>, 0>{};
+
+template <>
+inline constexpr auto choices<IntegratorKind> = std::to_array<Choice<IntegratorKind>>({
+    {"symplectic-euler", IntegratorKind::symplectic_euler},  // the method of the notes has the first two
+    {"explicit-euler", IntegratorKind::explicit_euler},
+    {"exact", IntegratorKind::exact},
+    {"splitting", IntegratorKind::splitting},
+    {"rk4", IntegratorKind::runge_kutta_4},
+});
+template <>
+inline constexpr auto choices<SimulationMethod> = std::to_array<Choice<SimulationMethod>>({
+    {"tumble", SimulationMethod::tumble},
+    {"notes", SimulationMethod::notes},
+});
+template <>
+inline constexpr auto choices<ImpactMode> = std::to_array<Choice<ImpactMode>>({
+    {"stepped", ImpactMode::stepped},
+    {"exact", ImpactMode::exact},
+});
+template <>
+inline constexpr auto choices<ImpactLaw> = std::to_array<Choice<ImpactLaw>>({
+    {"propagating", ImpactLaw::propagating},
+    {"simultaneous", ImpactLaw::simultaneous},
+});
+template <>
+inline constexpr auto choices<ContactSolverChoice> = std::to_array<Choice<ContactSolverChoice>>({
+    {"by-island", ContactSolverChoice::by_island},
+    {"soft", ContactSolverChoice::soft},
+    {"direct", ContactSolverChoice::direct},
+});
+template <>
+inline constexpr auto choices<RotationForm> = std::to_array<Choice<RotationForm>>({
+    {"quaternion", RotationForm::quaternion},
+    {"matrix", RotationForm::matrix},
+});
+template <>
+inline constexpr auto choices<PairRule> = std::to_array<Choice<PairRule>>({
+    {"average", PairRule::average},
+    {"minimum", PairRule::minimum},
+    {"multiply", PairRule::multiply},
+    {"maximum", PairRule::maximum},
+    {"geometric", PairRule::geometric},
+});
+template <>
+inline constexpr auto choices<BodyType> = std::to_array<Choice<BodyType>>({
+    {"dynamic", BodyType::dynamic},
+    {"fixed", BodyType::fixed},
+    {"kinematic", BodyType::kinematic},
+});
+template <>
+inline constexpr auto choices<Pattern> = std::to_array<Choice<Pattern>>({
+    {"plain", Pattern::plain},
+    {"grid", Pattern::grid},
+    {"checker", Pattern::checker},
+});
+template <>
+inline constexpr auto choices<Interpolation> = std::to_array<Choice<Interpolation>>({
+    {"smooth", Interpolation::smooth},
+    {"linear", Interpolation::linear},
+});
+template <>
+inline constexpr auto choices<JointType> = std::to_array<Choice<JointType>>({
+    {"fixed", JointType::fixed},
+    {"hinge", JointType::hinge},
+    {"ball", JointType::ball},
+    {"slider", JointType::slider},
+    {"universal", JointType::universal},
+    {"cylindrical", JointType::cylindrical},
+    {"planar", JointType::planar},
+    {"distance", JointType::distance},
+    {"6dof", JointType::six_dof},
+    {"gear", JointType::gear},
+});
+template <>
+inline constexpr auto choices<JointFrame> = std::to_array<Choice<JointFrame>>({
+    {"world", JointFrame::world},
+    {"first", JointFrame::first},
+    {"second", JointFrame::second},
+});
+template <>
+inline constexpr auto choices<PlotPlace> = std::to_array<Choice<PlotPlace>>({
+    {"inset", PlotPlace::inset},
+    {"beside", PlotPlace::beside},
+    {"below", PlotPlace::below},
+});
+template <>
+inline constexpr auto choices<ArrowQuantity> = std::to_array<Choice<ArrowQuantity>>({
+    {"force", ArrowQuantity::force},
+    {"impulse", ArrowQuantity::impulse},
+    {"velocity", ArrowQuantity::velocity},
+    {"omega", ArrowQuantity::omega},
+    {"momentum", ArrowQuantity::momentum},
+    {"angular-momentum", ArrowQuantity::angular_momentum},
+    {"torque", ArrowQuantity::torque},
+});
+
+/// True for enums with names, which are then complete.
+template <class Enum>
+concept Named = !choices<Enum>.empty() && choices<Enum>.size() == enumerator_count<Enum>();
+
+/// The name of an enumerator; empty for a value that has none.
+template <Named Enum>
+constexpr std::string_view name_of(Enum value) {
+    for (const Choice<Enum>& choice : choices<Enum>)
+        if (choice.value == value) return choice.name;
+    return {};
+}
+
+/// The integrators of a method.
+inline std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method) {
+    return std::span(choices<IntegratorKind>)
+        .first(method == SimulationMethod::notes ? 2 : choices<IntegratorKind>.size());
+}
+
+}  // namespace tumble
