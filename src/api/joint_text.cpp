@@ -1,5 +1,7 @@
 #include "api/joint_text.h"
 
+#include "scene/fields/joint_fields.h"
+
 namespace tumble::v0 {
 namespace {
 
@@ -12,8 +14,8 @@ public:
 
     void write(const Joint& j, const std::string& element) {
         lines_.header("[[joint]]", element);
-        if (!j.name.empty()) lines_.name("name", j.name);
-        lines_.name("type", name_of(j.type));
+        if (!j.name.empty()) lines_.set("name", j.name);
+        lines_.set("type", j.type);
         if (given(j.bodies) || j.type != JointType::gear) lines_.set("bodies", j.bodies);
         if (given(j.joints) || j.type == JointType::gear) lines_.set("joints", j.joints);
         lines_.set("ratio", j.ratio);
@@ -43,7 +45,7 @@ private:
         lines_.set("axis", j.axis);
         lines_.set("second_axis", j.second_axis);
         lines_.set("axes", j.axes);
-        if (j.frame != JointFrame::world) lines_.name("frame", name_of(j.frame));
+        if (j.frame != JointFrame::world) lines_.set("frame", j.frame);
         if (j.snap) lines_.set("snap", j.snap);
         lines_.set("start_angle", j.start_angle);
         lines_.set("start_position", j.start_position);
@@ -77,11 +79,7 @@ private:
     void write_spring(const std::optional<JointSpring>& spring, const std::string& table, const std::string& element) {
         if (!spring) return;
         lines_.header(fmt::format("[{}]", table), element);
-        lines_.set("stiffness", spring->stiffness);
-        lines_.set("damping", spring->damping);
-        lines_.set("frequency", spring->frequency);
-        lines_.set("damping_ratio", spring->damping_ratio);
-        lines_.set("rest", spring->rest);
+        write_fields<tumble::JointSpring>(lines_, *spring);
     }
 
     void write_motor(const std::optional<JointMotor>& motor, const std::string& table, const std::string& element) {
@@ -89,15 +87,14 @@ private:
         lines_.header(fmt::format("[{}]", table), element);
         lines_.set("speed", motor->speed);
         lines_.set("target", motor->target);
-        if (motor->interpolation != Interpolation::smooth) lines_.name("interpolation", name_of(motor->interpolation));
+        if (motor->interpolation != Interpolation::smooth) lines_.set("interpolation", motor->interpolation);
         lines_.set("stiffness", motor->stiffness);
         lines_.set("damping", motor->damping);
         lines_.set("max_force", motor->max_force);
         lines_.set("max_torque", motor->max_torque);
         for (std::size_t k = 0; k < motor->keyframes.size(); ++k) {
             lines_.header(fmt::format("[[{}.keyframes]]", table), fmt::format("{}.keyframes[{}]", element, k));
-            lines_.set("time", motor->keyframes[k].time);
-            lines_.set("value", motor->keyframes[k].value);
+            write_fields<JointTarget>(lines_, motor->keyframes[k]);
         }
     }
 

@@ -1,6 +1,9 @@
 #include "api/spec_text.h"
 
 #include "api/joint_text.h"
+#include "scene/fields/body_fields.h"
+#include "scene/fields/camera_fields.h"
+#include "scene/fields/settings_fields.h"
 
 #include <fmt/format.h>
 
@@ -22,8 +25,7 @@ public:
         write(spec.output);
         write(spec.camera);
         header("[light]", "light");
-        set("direction", spec.light.direction);
-        set("shadows", spec.light.shadows);
+        write_fields<LightDescription>(*this, spec.light);
         if (spec.wind) write(*spec.wind);
         write(spec.contact);
         for (std::size_t i = 0; i < spec.bodies.size(); ++i) write(spec.bodies[i], i);
@@ -40,21 +42,8 @@ public:
 private:
     void write(const SimulationSettings& s) {
         header("[simulation]", "simulation");
-        set("duration", s.duration);
-        if (s.step)
-            set("step", *s.step);
-        else
-            value("steps_per_frame", "steps_per_frame", std::to_string(s.steps_per_frame));
-        set("gravity", s.gravity);
-        name("method", name_of(s.method));
-        if (s.push_out) set("push_out", s.push_out);
-        name("integrator", name_of(s.integrator));
-        name("impacts", name_of(s.impacts));
-        name("impact_law", name_of(s.impact_law));
-        name("contact_solver", name_of(s.contact_solver));
-        name("rotation", name_of(s.rotation));
-        set("sleep", s.sleep);
-        value("seed", "seed", std::to_string(s.seed));
+        if (s.step) set("step", *s.step);
+        write_fields<tumble::SimulationSettings>(*this, s, false, {s.step ? "steps_per_frame" : ""});
     }
 
     void write(const OutputSettings& o) {
@@ -63,41 +52,27 @@ private:
         line(fmt::format("    {},", o.width), prefix(), "width");
         line(fmt::format("    {},", o.height), prefix(), "height");
         line("]", prefix(), "height");
-        set("fps", o.fps);
-        value("samples", "samples", std::to_string(o.samples));
+        write_fields<tumble::OutputSettings>(*this, o);
     }
 
     void write(const Camera& c) {
         header("[camera]", "camera");
-        set("eye", c.eye);
-        set("target", c.target);
-        set("up", c.up);
-        set("vertical_fov", c.vertical_fov);
-        if (!c.keyframes.empty() || c.interpolation != Interpolation::smooth)
-            name("interpolation", name_of(c.interpolation));
-        set("orbit", c.orbit);
-        if (!c.follow.empty()) set("follow", c.follow);
+        write_fields<CameraDescription>(*this, c, true);
         for (std::size_t i = 0; i < c.keyframes.size(); ++i) {
             header("[[camera.keyframes]]", fmt::format("camera.keyframes[{}]", i));
-            set("time", c.keyframes[i].time);
-            set("eye", c.keyframes[i].eye);
-            set("target", c.keyframes[i].target);
-            set("vertical_fov", c.keyframes[i].vertical_fov);
+            write_fields<tumble::CameraKeyframe>(*this, c.keyframes[i]);
         }
     }
 
     void write(const PairRules& c) {
         if (c.restitution_rule == PairRule::maximum && c.friction_rule == PairRule::geometric) return;  // the defaults
         header("[contact]", "contact");
-        name("restitution_rule", name_of(c.restitution_rule));
-        name("friction_rule", name_of(c.friction_rule));
+        write_fields<tumble::PairRules>(*this, c);
     }
 
     void write(const Wind& w) {
         header("[wind]", "wind");
-        set("velocity", w.velocity);
-        set("density", w.density);
-        set("drag", w.drag);
+        write_fields<WindDescription>(*this, w);
     }
 
     // A table of its own, because a body may have the mass in place of its material's density.
@@ -105,13 +80,7 @@ private:
         if (!m.color && !m.density && !m.restitution && !m.friction && !m.roughness && !m.metallic && !m.pattern)
             return false;
         header(fmt::format("[materials.body{}]", body), fmt::format("bodies[{}].material", body));
-        set("color", m.color);
-        set("density", m.density);
-        set("restitution", m.restitution);
-        set("friction", m.friction);
-        set("roughness", m.roughness);
-        set("metallic", m.metallic);
-        if (m.pattern) name("pattern", name_of(*m.pattern));
+        write_fields<tumble::Material>(*this, m);
         return true;
     }
 
@@ -119,16 +88,8 @@ private:
         const std::string prefix = fmt::format("bodies[{}]", i);
         const bool material = write(b.material, i);
         header("[[body]]", prefix);
-        if (!b.name.empty()) set("name", b.name);
-        if (b.type != BodyType::dynamic) name("type", name_of(b.type));
+        write_fields<BodyDescription>(*this, b, true);
         if (material) value("material", "material", fmt::format("\"body{}\"", i));
-        set("mass", b.mass);
-        if (!b.visible) set("visible", b.visible);
-        write_pose(b.position, b.rotation);
-        if (b.velocity != Vec3{}) set("velocity", b.velocity);
-        if (b.angular_velocity != Vec3{}) set("angular_velocity", b.angular_velocity);
-        if (b.integrator) name("integrator", name_of(*b.integrator));
-        if (b.interpolation != Interpolation::smooth) name("interpolation", name_of(b.interpolation));
         if (b.scale)
             value("scale", "scale", fmt::format("[{}, {}]", text_of(b.scale->smallest), text_of(b.scale->largest)));
         if (!b.colors.empty()) {
@@ -138,9 +99,7 @@ private:
         }
         for (std::size_t k = 0; k < b.keyframes.size(); ++k) {
             header("[[body.keyframes]]", fmt::format("{}.keyframes[{}]", prefix, k));
-            set("time", b.keyframes[k].time);
-            set("position", b.keyframes[k].position);
-            set("rotation", b.keyframes[k].rotation);
+            write_fields<tumble::Keyframe>(*this, b.keyframes[k]);
         }
         write(b.shape, "body.shape", prefix + ".shape");
         if (b.grid) write(*b.grid, prefix + ".grid");
@@ -149,23 +108,12 @@ private:
 
     void write(const Grid& grid, const std::string& prefix) {
         header("[body.grid]", prefix);
-        value("count", "count", fmt::format("[{}, {}, {}]", grid.count[0], grid.count[1], grid.count[2]));
-        set("spacing", grid.spacing);
-        set("jitter", grid.jitter);
-        set("tilt", grid.tilt);
+        write_fields<GridRequest>(*this, grid);
     }
 
     void write(const Scatter& scatter, const std::string& prefix) {
         header("[body.scatter]", prefix);
-        value("count", "count", std::to_string(scatter.count));
-        set("size", scatter.size);
-        value("rotation", "random_rotation", scatter.random_rotation ? "\"random\"" : "\"none\"");
-        set("clearance", scatter.clearance);
-    }
-
-    void write_pose(const Vec3& position, const Rotation& rotation) {
-        if (position != Vec3{}) set("position", position);
-        if (rotation != Rotation{}) set("rotation", rotation);
+        write_fields<ScatterRequest>(*this, scatter);
     }
 
     void write(const Shape& shape, const std::string& table, const std::string& prefix) {
@@ -207,34 +155,21 @@ private:
             const CompoundPart& part = compound.parts[i];
             const std::string name = fmt::format("{}.parts[{}]", prefix, i);
             header(fmt::format("[[{}.parts]]", table), name);
-            write_pose(part.position, part.rotation);
-            set("density", part.density);
-            set("color", part.color);
+            write_fields<tumble::CompoundPart>(*this, part, true);
             write(part.shape, table + ".parts.shape", name + ".shape");
         }
     }
 
     void write(const Force& f, std::size_t i) {
         header("[[force]]", fmt::format("forces[{}]", i));
-        set("body", f.body);
-        set("point", f.point);
-        set("force", f.force);
-        if (f.body_frame) value("frame", "body_frame", "\"body\"");
-        set("start", f.start);
-        if (f.end != std::numeric_limits<double>::infinity()) set("end", f.end);  // a file leaves it out
+        write_fields<ForceDescription>(*this, f);
     }
 
     void write(const Cord& c, std::size_t i) {
         header("[[cord]]", fmt::format("cords[{}]", i));
-        if (c.joint.empty()) {
-            set("body", c.body);
-            set("point", c.point);
-            set("anchor", c.anchor);
-        } else {
-            set("joint", c.joint);
-        }
-        set("radius", c.radius);
-        set("color", c.color);
+        if (c.joint.empty()) return write_fields<CordDescription>(*this, c);
+        set("joint", c.joint);
+        write_fields<CordDescription>(*this, c, false, {"body", "point", "anchor"});
     }
 
     std::size_t index_of(const std::shared_ptr<const TriangleMesh::Arrays>& arrays) {

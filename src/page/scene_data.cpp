@@ -2,7 +2,7 @@
 
 #include "overlay/overlay_builder.h"
 #include "page/prediction.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/body_fields.h"
 
 #include <algorithm>
 #include <array>
@@ -63,6 +63,15 @@ std::vector<std::int64_t> whole_numbers(std::span<const double> values, double q
     return whole;
 }
 
+/// Adds the fields of a struct.
+struct JsonFields : FieldVisitor {
+    void operator()(Color value, std::string_view key, const auto&, const About& = {}) { json[key] = to_string(value); }
+    void operator()(Pattern value, std::string_view key, const auto&, const About& = {}) { json[key] = name_of(value); }
+    void operator()(auto value, std::string_view key, const auto&, const About& = {}) { json[key] = value; }
+
+    Json& json;
+};
+
 Json mesh_json(const MeshAsset& asset, ArrayStore& arrays) {
     Bounds bounds;
     for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
@@ -113,19 +122,15 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
         const BodyReport& report = run.reports[i];
         const Appearance& look = body.appearance;
         const bool dynamic = body.type == BodyType::dynamic;
-        bodies.push_back({{"name", body.name},
-                          {"type", name_of(body.type)},
-                          {"shape", shape_json(body.shape, look, meshes)},
-                          {"color", to_string(look.color)},
-                          {"roughness", look.roughness},
-                          {"metallic", look.metallic},
-                          {"pattern", name_of(look.pattern)},
-                          {"visible", look.visible},
-                          {"mass", dynamic ? report.mass : 0.0},
-                          {"inertia", inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()))},
-                          {"center_of_mass", vector_json(report.center_of_mass)},
-                          {"restitution", surface_json(body.restitution_in_pair())},
-                          {"friction", surface_json(body.friction_in_pair())}});
+        Json& one = bodies.emplace_back(
+            Json{{"name", body.name}, {"type", name_of(body.type)}, {"shape", shape_json(body.shape, look, meshes)}});
+        JsonFields fields{{}, one};
+        visit_fields(Of<Appearance>(), fields, look);
+        one["mass"] = dynamic ? report.mass : 0.0;
+        one["inertia"] = inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()));
+        one["center_of_mass"] = vector_json(report.center_of_mass);
+        one["restitution"] = surface_json(body.restitution_in_pair());
+        one["friction"] = surface_json(body.friction_in_pair());
     }
     return bodies;
 }

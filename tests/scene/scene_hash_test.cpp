@@ -1,7 +1,7 @@
 // The hash of a scene: equal for equal content, different after a change of any key of the format.
 #include "scene/hash/scene_hash.h"
 
-#include "scene/fields/choices.h"
+#include "scene/all_fields.h"
 #include "scene/load.h"
 #include "scene/scene_changes.h"
 
@@ -378,17 +378,12 @@ TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
         changed_keys.insert(keys);
     }
     const std::regex call("expect_keys\\(\\s*\\{([^}]*)\\}\\)"), word("\"([^\"]*)\"");
-    const std::regex of_type("\\{\"([a-z_]*)\", (all_types|of_)");  // joint_keys.cpp
     for (const auto& entry : fs::recursive_directory_iterator(source / "src/scene")) {
         if (entry.path().extension() != ".cpp") continue;
         std::ifstream file(entry.path());
         std::stringstream content;
         content << file.rdbuf();
         const std::string text = content.str();
-        std::set<std::string> of_joints;
-        for (std::sregex_iterator one(text.begin(), text.end(), of_type), end; one != end; ++one)
-            of_joints.insert((*one)[1]);
-        if (!of_joints.empty()) known_keys.insert(of_joints);
         for (std::sregex_iterator one(text.begin(), text.end(), call), end; one != end; ++one) {
             const std::string list = (*one)[1];
             std::set<std::string> keys;
@@ -396,6 +391,10 @@ TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
             known_keys.insert(keys);
         }
     }
+    for_all_fields([&]<class Struct>(const char*) {
+        KeyList list = std::is_same_v<Struct, BodyDescription> ? list_keys<Struct, Material>() : list_keys<Struct>();
+        known_keys.emplace(list.keys.begin(), list.keys.end());
+    });
     std::set<std::string> quantities;
     for (const auto& choice : choices<ArrowQuantity>) quantities.emplace(choice.name);
     known_keys.insert(quantities);  // scale and color of [overlay]

@@ -2,12 +2,14 @@
 
 #include "core/fnv_hash.h"
 #include "core/frame_rate.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/body_fields.h"
+#include "scene/fields/settings_fields.h"
 #include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <concepts>
 #include <string>
 #include <variant>
 #include <vector>
@@ -17,6 +19,32 @@ namespace {
 
 std::string text_of(const Vec3& v) { return fmt::format("[{}, {}, {}]", v.x(), v.y(), v.z()); }
 std::string text_of(const Quat& q) { return fmt::format("[{}, {}, {}, {}]", q.w(), q.x(), q.y(), q.z()); }
+std::string text_of(Color color) { return to_string(color); }
+std::string text_of(std::integral auto value) { return fmt::format("{}", value); }
+std::string text_of(std::floating_point auto value) { return fmt::format("{}", value); }
+/// A name; records have numbers of these three.
+template <Named Enum>
+std::string text_of(Enum value) {
+    constexpr bool numbered =
+        std::same_as<Enum, IntegratorKind> || std::same_as<Enum, ContactSolverChoice> || std::same_as<Enum, PairRule>;
+    return numbered ? fmt::format("{}", int(value)) : std::string(name_of(value));
+}
+
+/// Adds the fields of a struct.
+struct FieldValues : FieldVisitor {
+    void operator()(const auto& value, std::string_view key, const auto&, const About& = {}) {
+        values[fmt::format("{}{}", prefix, key)] = text_of(value);
+    }
+
+    ValueMap& values;
+    std::string_view prefix;
+};
+
+template <HasFields Struct>
+void add_fields(const Struct& from, ValueMap& values, std::string_view prefix = "") {
+    FieldValues visitor{{}, values, prefix};
+    visit_fields(Of<Struct>(), visitor, from);
+}
 
 /// Text that is too long to be shown: two of them are the same or not.
 std::string digest_text(const std::string& text) {
@@ -98,17 +126,10 @@ std::string overlay_style_text(const OverlayDescription& o) {
 }
 
 void add_simulation(const SimulationSettings& s, ValueMap& values) {
-    values["gravity"] = text_of(s.gravity);
-    values["method"] = name_of(s.method);
-    values["push_out"] = s.push_out ? "true" : "false";
-    values["integrator"] = fmt::format("{}", int(s.integrator));
-    values["impacts"] = name_of(s.impacts);
-    values["impact_law"] = name_of(s.impact_law);
-    values["contact_solver"] = fmt::format("{}", int(s.contact_solver));
-    values["rotation form"] = name_of(s.rotation);
-    values["sleep"] = s.sleep ? "true" : "false";
-    values["seed"] = fmt::format("{}", s.seed);
-    values["steps_per_frame"] = fmt::format("{}", s.steps_per_frame);
+    add_fields(s, values);
+    values.erase("duration");
+    values["rotation form"] = text_of(s.rotation);
+    values.erase("rotation");
 }
 
 }  // namespace
@@ -117,11 +138,7 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     BodyKind kind;
     const Appearance& look = body.appearance;
     kind.look["shape"] = shape_text(body.shape);
-    kind.look["color"] = to_string(look.color);
-    kind.look["roughness"] = fmt::format("{}", look.roughness);
-    kind.look["metallic"] = fmt::format("{}", look.metallic);
-    kind.look["pattern"] = name_of(look.pattern);
-    kind.look["visible"] = look.visible ? "true" : "false";
+    add_fields(look, kind.look);
     kind.matter["type"] = name_of(body.type);
     kind.matter["restitution"] = surface_text(body.restitution_in_pair());
     kind.matter["friction"] = surface_text(body.friction_in_pair());
@@ -141,12 +158,8 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
 ValueMap values_of(const SceneDescription& scene) {
     ValueMap values;
     add_simulation(scene.simulation, values);
-    if (scene.contact != PairRules{}) {
-        values["restitution_rule"] = fmt::format("{}", int(scene.contact.restitution));
-        values["friction_rule"] = fmt::format("{}", int(scene.contact.friction));
-    }
-    values["light.direction"] = text_of(scene.light.direction);
-    values["light.shadows"] = scene.light.shadows ? "true" : "false";
+    if (scene.contact != PairRules{}) add_fields(scene.contact, values);
+    add_fields(scene.light, values, "light.");
     if (scene.wind)
         values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) values["forces"] = forces_text(scene);

@@ -1,9 +1,9 @@
 #include "scene/camera/camera.h"
 
 #include "scene/camera/default_camera.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/camera_fields.h"
 #include "scene/keys/body_index.h"
-#include "scene/keys/motion.h"
+#include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -51,16 +51,12 @@ std::vector<CameraKeyframe> read_keyframes(const TomlValue& value, const CameraD
     std::vector<CameraKeyframe> keyframes;
     for (TomlTable& table : value.tables(" { time, eye, target }")) {
         table.set_title("a keyframe of the camera");
-        table.expect_keys({"time", "eye", "target", "vertical_fov"});
-        CameraKeyframe key{0.0, camera.eye, camera.target, camera.vertical_fov};
-        const TomlValue time = table.require("time");
-        key.time = time.number(limits::time);
+        const CameraKeyframe key =
+            read_all_fields(table, CameraKeyframe{0.0, camera.eye, camera.target, camera.vertical_fov});
         if (!keyframes.empty() && key.time <= keyframes.back().time) {
-            time.fail(fmt::format("must come after the keyframe before, at {} s", number_text(keyframes.back().time)));
+            table.require("time").fail(
+                fmt::format("must come after the keyframe before, at {} s", number_text(keyframes.back().time)));
         }
-        table.read("eye", key.eye, limits::coordinate);
-        table.read("target", key.target, limits::coordinate);
-        table.read("vertical_fov", key.vertical_fov, limits::field_of_view);
         check_view(key.eye, key.target, camera.up, {table.find("eye"), table.find("target"), std::nullopt}, table);
         keyframes.push_back(key);
     }
@@ -93,18 +89,15 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     const auto table = root.find_table("camera");
     if (!table) return default_camera(scene, lens, duration);
 
-    table->expect_keys({"eye", "target", "up", "vertical_fov", "keyframes", "interpolation", "orbit", "follow"});
+    table->expect_keys(list_keys<CameraDescription>().keys);
+    read_fields(*table, lens);
     const ViewKeys given{table->find("eye"), table->find("target"), table->find("up")};
-    if (given.up) lens.up = given.up->direction();
-    table->read("vertical_fov", lens.vertical_fov, limits::field_of_view);
 
     CameraDescription camera = lens;
     // a camera that follows a body needs no view of the whole throw
     if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
-    table->read("orbit", camera.orbit, limits::orbit);
-    table->read<Interpolation>("interpolation", camera.interpolation, choices<Interpolation>);
     if (const auto keyframes = table->find("keyframes")) {
         camera.keyframes = read_keyframes(*keyframes, camera);
         camera.eye = camera.keyframes.front().eye;

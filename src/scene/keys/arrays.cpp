@@ -2,6 +2,7 @@
 
 #include "core/deterministic_math.h"
 #include "scene/keys/random.h"
+#include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/shape.h"
 
@@ -18,21 +19,13 @@
 namespace tumble {
 namespace {
 
-constexpr Choice<bool> scatter_rotations[] = {{"random", true}, {"none", false}};
-
 // Number of sizes of meshes and compounds between the ends of `scale`: copies of one size share their data.
 constexpr int mesh_sizes = 9;
-
-/// A number for all three axes, or one for each.
-Vec3 number_or_vector(const TomlValue& value, const Range& range) {
-    return value.is_number() ? Vec3(Vec3::Constant(value.number(range))) : value.vector(range);
-}
 
 GridRequest read_grid(const TomlValue& value) {
     TomlTable table = value.table();
     table.set_title("a grid");
-    table.expect_keys({"count", "spacing", "jitter", "tilt"});
-    GridRequest grid;
+    GridRequest grid = read_all_fields<GridRequest>(table);
     const TomlValue count = table.require("count");
     const auto along = count.items(3, "whole numbers");
     std::int64_t product = 1;
@@ -41,22 +34,13 @@ GridRequest read_grid(const TomlValue& value) {
         product *= grid.count[i];
         if (product > limits::bodies) count.fail(fmt::format("makes more than {} bodies", limits::bodies));
     }
-    grid.spacing = number_or_vector(table.require("spacing"), limits::size);
-    if (const auto jitter = table.find("jitter")) grid.jitter = number_or_vector(*jitter, limits::size_or_zero);
-    table.read("tilt", grid.tilt, limits::tilt);
     return grid;
 }
 
 ScatterRequest read_scatter(const TomlValue& value) {
     TomlTable table = value.table();
     table.set_title("a scatter");
-    table.expect_keys({"count", "size", "rotation", "clearance"});
-    ScatterRequest scatter;
-    scatter.count = static_cast<int>(table.require("count").integer(1, limits::bodies));
-    scatter.size = table.require("size").vector(limits::size_or_zero);
-    table.read<bool>("rotation", scatter.random_rotation, scatter_rotations);
-    table.read("clearance", scatter.clearance, limits::size_or_zero);
-    return scatter;
+    return read_all_fields<ScatterRequest>(table);
 }
 
 void read_scale(const TomlTable& body, const ShapeRequest& shape, CopiesRequest& request) {

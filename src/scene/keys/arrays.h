@@ -2,7 +2,7 @@
 // is random, without contact between its copies.
 #pragma once
 
-#include "scene/description/description.h"
+#include "scene/fields/body_fields.h"
 #include "scene/keys/shapes.h"
 #include "scene/toml/toml_reader.h"
 
@@ -12,20 +12,6 @@
 #include <vector>
 
 namespace tumble {
-
-struct GridRequest {
-    std::array<int, 3> count{1, 1, 1};  // along x, y, z
-    Vec3 spacing = Vec3::Zero();        // m between neighbors' origins
-    Vec3 jitter = Vec3::Zero();         // m: largest displacement of a copy to either side
-    double tilt = 0.0;                  // degrees: largest rotation of a copy about a random axis
-};
-
-struct ScatterRequest {
-    int count = 1;
-    Vec3 size = Vec3::Zero();  // m, of the box that contains the copies' origins
-    bool random_rotation = true;
-    double clearance = 0.0;  // m between the copies' bounding spheres
-};
 
 struct CopiesRequest {
     std::variant<GridRequest, ScatterRequest> arrangement;

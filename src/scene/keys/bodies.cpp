@@ -1,9 +1,9 @@
 #include "scene/keys/bodies.h"
 
 #include "core/safe_text.h"
-#include "scene/fields/choices.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/motion.h"
+#include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -15,16 +15,10 @@ namespace tumble {
 namespace {
 
 Material read_material(const TomlTable& table, const Materials& materials) {
-    Material material;
+    Material material, own;
     if (const auto name = table.find("material")) material = find_material(materials, *name);
-    return material.overridden_by(read_material_keys(table));
-}
-
-void read_mass(const TomlTable& table, BodyDescription& body) {
-    table.read("mass", body.mass, limits::mass);
-    if (body.mass && table.has("density")) {
-        table.find("density")->origin().fail("and mass exclude each other: give one of them");
-    }
+    read_fields(table, own);
+    return overridden(material, own);
 }
 
 /// Names the bodies of one table: its name, copies with their number, or their index in the list of all bodies.
@@ -57,12 +51,12 @@ BodyDescription read_body_model(const TomlTable& table, BodyType type, const Sha
     BodyDescription body;
     body.type = type;
     body.shape = shape;
-    table.read("name", body.name);
+    read_fields(table, body);
     if (table.has("name") && body.name.empty()) table.find("name")->fail("must not be empty");
     apply_material(read_material(table, sources.materials), body);
-    table.read("visible", body.appearance.visible);
-    read_mass(table, body);
-    read_motion(table, body);
+    if (body.mass && table.has("density"))
+        table.find("density")->origin().fail("and mass exclude each other: give one of them");
+    check_motion(table, body);
     if (const auto name = table.find("integrator"))
         body.integrator = name->choice(integrator_choices(sources.settings.method));
     return body;
@@ -81,32 +75,10 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
     if (!list) return bodies;
     BodyNames names({});
     std::uint64_t number = 0;
+    const std::vector<std::string_view> known = list_keys<BodyDescription, Material>().keys;
     for (TomlTable& table : list->tables("; write [[body]] for each")) {
         table.set_title("[[body]]");
-        table.expect_keys({"name",
-                           "type",
-                           "shape",
-                           "material",
-                           "color",
-                           "roughness",
-                           "metallic",
-                           "pattern",
-                           "visible",
-                           "density",
-                           "mass",
-                           "restitution",
-                           "friction",
-                           "position",
-                           "rotation",
-                           "velocity",
-                           "angular_velocity",
-                           "keyframes",
-                           "interpolation",
-                           "integrator",
-                           "grid",
-                           "scatter",
-                           "scale",
-                           "colors"});
+        table.expect_keys(known);
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, choices<BodyType>);
         const ShapeRequest shape = read_shape(table.require("shape"), type, sources.folder, sources.meshes);

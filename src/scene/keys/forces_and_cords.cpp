@@ -1,24 +1,20 @@
 #include "scene/keys/forces_and_cords.h"
 
 #include "core/safe_text.h"
+#include "scene/fields/body_fields.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/joint_pins.h"
 #include "scene/keys/joints.h"
-#include "scene/toml/limits.h"
+#include "scene/keys/read_fields.h"
 
 #include <fmt/format.h>
-
-#include <limits>
 
 namespace tumble {
 namespace {
 
-constexpr Choice<bool> force_frames[] = {{"world", false}, {"body", true}};
-
 void read_place_of_cord(const TomlTable& table, const BodyIndex& bodies, CordDescription& cord) {
     cord.body = bodies.find(table.require("body"));
-    table.read("point", cord.point, limits::coordinate);
-    cord.anchor = table.require("anchor").vector(limits::coordinate);
+    table.require("anchor");
 }
 
 /// From the anchor of the one side to that of the other; the first end is a body.
@@ -50,19 +46,14 @@ void read_forces(const TomlTable& root, SceneDescription& scene) {
     const BodyIndex bodies(scene.bodies);
     for (TomlTable& table : list->tables("; write [[force]] for each")) {
         table.set_title("[[force]]");
-        table.expect_keys({"body", "point", "force", "frame", "start", "end"});
-        ForceDescription force;
-        force.end = std::numeric_limits<double>::infinity();
+        ForceDescription initial;
+        initial.end = infinity;
+        ForceDescription force = read_all_fields(table, initial);
         const TomlValue body = table.require("body");
         force.body = bodies.find(body);
         if (scene.bodies[force.body].type != BodyType::dynamic) {
             body.fail("must be a dynamic body: no force moves another");
         }
-        table.read("point", force.point, limits::coordinate);
-        force.force = table.require("force").vector(limits::force);
-        table.read<bool>("frame", force.body_frame, force_frames);
-        table.read("start", force.start, limits::time);
-        table.read("end", force.end, limits::time);
         if (force.end <= force.start) {
             table.find(table.has("end") ? "end" : "start")
                 ->fail(fmt::format("makes the force end before it starts, at {} s", number_text(force.start)));
@@ -92,14 +83,11 @@ void read_cords(const TomlTable& root, SceneDescription& scene) {
     const BodyIndex bodies(scene.bodies);
     for (TomlTable& table : list->tables("; write [[cord]] for each")) {
         table.set_title("[[cord]]");
-        table.expect_keys({"body", "point", "anchor", "joint", "radius", "color"});
-        CordDescription cord;
+        CordDescription cord = read_all_fields<CordDescription>(table);
         if (const auto joint = table.find("joint"))
             read_place_from_joint(table, *joint, scene.joints, cord);
         else
             read_place_of_cord(table, bodies, cord);
-        table.read("radius", cord.radius, limits::size);
-        table.read("color", cord.color);
         scene.cords.push_back(cord);
     }
 }

@@ -1,7 +1,8 @@
 #include "scene/keys/joint_coordinates.h"
 
 #include "core/deterministic_math.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/joint_fields.h"
+#include "scene/keys/read_fields.h"
 
 #include "scene/toml/limits.h"
 
@@ -27,12 +28,10 @@ std::vector<JointTarget> read_targets(const TomlValue& value, const CoordinateUn
     std::vector<JointTarget> targets;
     for (TomlTable& table : value.tables(" { time, value }")) {
         table.set_title("a keyframe of a motor");
-        table.expect_keys({"time", "value"});
-        const TomlValue time = table.require("time");
-        JointTarget target;
-        target.time = time.number(limits::time);
+        JointTarget target = read_all_fields<JointTarget>(table);
         if (!targets.empty() && target.time <= targets.back().time) {
-            time.fail(fmt::format("must come after the keyframe before, at {} s", number_text(targets.back().time)));
+            table.require("time").fail(
+                fmt::format("must come after the keyframe before, at {} s", number_text(targets.back().time)));
         }
         target.value = table.require("value").number(unit.value) * unit.in_si;
         targets.push_back(target);
@@ -89,13 +88,8 @@ void check_start(const TomlValue& limits, const std::array<double, 2>& range, co
 JointSpring read_spring(const TomlValue& value, const CoordinateUnit& unit, double rest) {
     TomlTable table = value.table();
     table.set_title("a spring");
-    table.expect_keys({"stiffness", "damping", "frequency", "damping_ratio", "rest"});
+    JointSpring spring = read_all_fields<JointSpring>(table);
     check_ways_of_spring(table, value);
-    JointSpring spring;
-    table.read("stiffness", spring.stiffness, limits::stiffness);
-    table.read("damping", spring.damping, limits::damping);
-    table.read("frequency", spring.frequency, limits::frequency);
-    table.read("damping_ratio", spring.damping_ratio, limits::damping_ratio);
     spring.rest = rest;
     if (const auto given = table.find("rest")) spring.rest = given->number(unit.value) * unit.in_si;
     return spring;
@@ -104,10 +98,8 @@ JointSpring read_spring(const TomlValue& value, const CoordinateUnit& unit, doub
 JointMotor read_motor(const TomlValue& value, const CoordinateUnit& unit) {
     TomlTable table = value.table();
     table.set_title("a motor");
-    table.expect_keys(
-        {"speed", "target", "keyframes", "interpolation", "stiffness", "damping", "max_torque", "max_force"});
+    JointMotor motor = read_all_fields<JointMotor>(table);
     const std::string_view way = way_of_motor(table, value);
-    JointMotor motor;
     if (way == "speed") {
         motor.speed = table.require("speed").number(unit.speed);
         for (const char* key : {"stiffness", "damping"})
@@ -117,9 +109,7 @@ JointMotor read_motor(const TomlValue& value, const CoordinateUnit& unit) {
             motor.targets = {{0.0, table.require("target").number(unit.value) * unit.in_si}};
         else
             motor.targets = read_targets(table.require("keyframes"), unit);
-        table.read<Interpolation>("interpolation", motor.interpolation, choices<Interpolation>);
-        motor.stiffness = table.require("stiffness").number(limits::stiffness);
-        table.read("damping", motor.damping, limits::damping);
+        table.require("stiffness");
     }
     if (const auto interpolation = table.find("interpolation"); interpolation && way != "keyframes")
         interpolation->origin().fail("is for a motor with keyframes");
@@ -161,12 +151,11 @@ void read_free_form_coordinate(const TomlValue& value, const CoordinateUnit& uni
     } else if (value.is_table()) {
         TomlTable table = value.table();
         table.set_title("a coordinate");
-        table.expect_keys({"limits", "limit_restitution", "spring", "motor", "friction"});
+        table.expect_keys(list_keys<JointAxis>().keys);
+        read_fields(table, axis);
         read_coordinate(table, {"limits", "spring", "motor", "friction"}, unit, start, axis);
-        if (const auto restitution = table.find("limit_restitution")) {
+        if (const auto restitution = table.find("limit_restitution"))
             if (axis.motion != Motion::limited) restitution->origin().fail("needs limits (not given)");
-            axis.restitution = restitution->number(limits::restitution);
-        }
     } else {
         value.fail("must be \"free\", \"locked\", [lower, upper] or a table");
     }

@@ -2,12 +2,12 @@
 
 #include "core/deterministic_math.h"
 #include "core/safe_text.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/joint_fields.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/joint_coordinates.h"
 #include "scene/keys/joint_keys.h"
 #include "scene/keys/joint_places.h"
-#include "scene/toml/limits.h"
+#include "scene/keys/read_fields.h"
 
 #include <fmt/format.h>
 
@@ -233,9 +233,7 @@ void read_coordinates(const JointTable& given, JointDescription& joint) {
 
 // -- Keys of all types
 
-void read_bearing(const TomlTable& table, JointDescription& joint) {
-    table.read("friction_coefficient", joint.friction_coefficient, limits::friction);
-    table.read("bearing_radius", joint.bearing_radius, limits::size);
+void check_bearing(const TomlTable& table, const JointDescription& joint) {
     const auto coefficient = table.find("friction_coefficient"), radius = table.find("bearing_radius");
     if (radius && !coefficient) radius->origin().fail("needs a friction_coefficient (not given)");
     const bool only_slides = joint.type == JointType::slider || joint.type == JointType::planar;
@@ -243,10 +241,7 @@ void read_bearing(const TomlTable& table, JointDescription& joint) {
         coefficient->origin().fail("needs a bearing_radius for joints that turn (not given)");
 }
 
-void read_breaking(const TomlTable& table, JointDescription& joint) {
-    table.read("break_force", joint.break_force, limits::strength_force);
-    table.read("break_torque", joint.break_torque, limits::strength_torque);
-    table.read("break_impulse", joint.break_impulse, limits::strength_impulse);
+void check_breaking(const TomlTable& table, const JointDescription& joint) {
     if (joint.type != JointType::distance || joint.move[0].motion != Motion::locked || joint.length > 0.0) return;
     for (const char* key : {"break_force", "break_impulse"})
         if (const auto value = table.find(key))
@@ -268,10 +263,9 @@ void read_span(const TomlTable& table, JointDescription& joint) {
 void read_laws(const JointTable& given, JointDescription& joint) {
     joint.collide = joint.type == JointType::distance;
     read_coordinates(given, joint);
-    read_bearing(given.table, joint);
-    read_breaking(given.table, joint);
-    given.table.read("collide", joint.collide);
-    given.table.read("visible", joint.visible);
+    read_fields(given.table, joint);
+    check_bearing(given.table, joint);
+    check_breaking(given.table, joint);
     read_span(given.table, joint);
 }
 

@@ -1,8 +1,7 @@
 #include "scene/keys/materials.h"
 
 #include "core/safe_text.h"
-#include "scene/fields/choices.h"
-#include "scene/toml/limits.h"
+#include "scene/keys/read_fields.h"
 
 #include <fmt/format.h>
 
@@ -14,23 +13,15 @@ constexpr Color default_plane_color{0xd6, 0xd8, 0xda};  // light gray, on which 
 
 }  // namespace
 
-Material Material::overridden_by(const Material& over) const {
+Material overridden(const Material& material, const Material& over) {
     const auto either = [](const auto& mine, const auto& theirs) { return theirs ? theirs : mine; };
-    return {either(color, over.color),       either(density, over.density),     either(restitution, over.restitution),
-            either(friction, over.friction), either(roughness, over.roughness), either(metallic, over.metallic),
-            either(pattern, over.pattern)};
-}
-
-Material read_material_keys(const TomlTable& table) {
-    Material material;
-    if (const auto value = table.find("color")) material.color = value->color();
-    table.read("density", material.density, limits::density);
-    table.read("restitution", material.restitution, limits::restitution);
-    table.read("friction", material.friction, limits::friction);
-    table.read("roughness", material.roughness, limits::fraction);
-    table.read("metallic", material.metallic, limits::fraction);
-    if (const auto value = table.find("pattern")) material.pattern = value->choice<Pattern>(choices<Pattern>);
-    return material;
+    return {either(material.color, over.color),
+            either(material.density, over.density),
+            either(material.restitution, over.restitution),
+            either(material.friction, over.friction),
+            either(material.roughness, over.roughness),
+            either(material.metallic, over.metallic),
+            either(material.pattern, over.pattern)};
 }
 
 Materials read_materials(const TomlTable& root) {
@@ -40,8 +31,7 @@ Materials read_materials(const TomlTable& root) {
     for (const auto& [name, value] : table->entries()) {
         TomlTable entry = value.table();
         entry.set_title(fmt::format("[materials.{}]", name));
-        entry.expect_keys({"color", "density", "restitution", "friction", "roughness", "metallic", "pattern"});
-        materials.emplace(name, read_material_keys(entry));
+        materials.emplace(name, read_all_fields<Material>(entry));
     }
     return materials;
 }

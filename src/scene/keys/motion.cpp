@@ -1,7 +1,8 @@
 #include "scene/keys/motion.h"
 
 #include "core/deterministic_math.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/body_fields.h"
+#include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -33,9 +34,7 @@ Quat rotation_from_numbers(const TomlValue& value) {
     return q.normalized();
 }
 
-void read_velocities(const TomlTable& table, BodyDescription& body) {
-    table.read("velocity", body.velocity, limits::velocity);
-    table.read("angular_velocity", body.angular_velocity, limits::angular_velocity);
+void check_velocities(const TomlTable& table, const BodyDescription& body) {
     if (body.type == BodyType::dynamic) return;
     for (const char* key : {"velocity", "angular_velocity"}) {
         const auto value = table.find(key);
@@ -49,15 +48,11 @@ std::vector<Keyframe> read_keyframes(const TomlValue& value, const BodyDescripti
     std::vector<Keyframe> keyframes;
     for (TomlTable& table : value.tables(" { time, position, rotation }")) {
         table.set_title("a keyframe");
-        table.expect_keys({"time", "position", "rotation"});
-        Keyframe key{0.0, body.position, body.rotation};
-        const TomlValue time = table.require("time");
-        key.time = time.number(limits::time);
+        const Keyframe key = read_all_fields(table, Keyframe{0.0, body.position, body.rotation});
         if (!keyframes.empty() && key.time <= keyframes.back().time) {
-            time.fail(fmt::format("must come after the keyframe before, at {} s", number_text(keyframes.back().time)));
+            table.require("time").fail(
+                fmt::format("must come after the keyframe before, at {} s", number_text(keyframes.back().time)));
         }
-        table.read("position", key.position, limits::coordinate);
-        if (const auto rotation = table.find("rotation")) key.rotation = read_rotation(*rotation);
         keyframes.push_back(key);
     }
     if (keyframes.empty()) value.fail("must hold at least one keyframe");
@@ -73,17 +68,14 @@ Quat read_rotation(const TomlValue& value) {
     return rotation_about_axis(table);
 }
 
-void read_motion(const TomlTable& table, BodyDescription& body) {
-    table.read("position", body.position, limits::coordinate);
-    if (const auto rotation = table.find("rotation")) body.rotation = read_rotation(*rotation);
-    read_velocities(table, body);
+void check_motion(const TomlTable& table, BodyDescription& body) {
+    check_velocities(table, body);
     if (body.type != BodyType::kinematic) {
         for (const char* key : {"keyframes", "interpolation"}) {
             if (const auto value = table.find(key)) value->origin().fail("is for bodies of type \"kinematic\"");
         }
         return;
     }
-    table.read<Interpolation>("interpolation", body.interpolation, choices<Interpolation>);
     if (const auto keyframes = table.find("keyframes")) {
         body.keyframes = read_keyframes(*keyframes, body);
         body.position = body.keyframes.front().position;

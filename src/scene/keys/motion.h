@@ -6,9 +6,9 @@
 
 namespace tumble {
 
-/// Reads position, rotation, velocity, angular_velocity, keyframes and interpolation into a body whose type is known.
-/// With keyframes, its pose is that of the first one.
-void read_motion(const TomlTable& table, BodyDescription& body);
+/// Checks the motion of a body whose fields are read, and reads its keyframes. With keyframes, its pose is that of the
+/// first one.
+void check_motion(const TomlTable& table, BodyDescription& body);
 
 /// `[w, x, y, z]`, of unit length (a norm within 1e-3 of 1 is normalized), or `{ axis = [...], angle = degrees }`.
 Quat read_rotation(const TomlValue& value);

@@ -1,8 +1,8 @@
 #include "scene/keys/overlay.h"
 
-#include "scene/fields/choices.h"
+#include "scene/fields/overlay_fields.h"
 #include "scene/keys/body_index.h"
-#include "scene/toml/limits.h"
+#include "scene/keys/read_fields.h"
 
 #include <fmt/format.h>
 
@@ -48,11 +48,8 @@ void read_trail_points(const TomlTable& table, const BodyIndex& index, std::vect
     const auto list = table.find("trail_points");
     if (!list) return;
     for (const TomlTable& one : list->tables("; write trail_points = [{ body = \"ball\", point = [0, 0, 0] }]")) {
-        one.expect_keys({"body", "point", "color"});
-        TrailPoint point;
+        TrailPoint point = read_all_fields<TrailPoint>(one);
         point.body = index.find(one.require("body"));
-        one.read("point", point.point, limits::coordinate);
-        if (const auto color = one.find("color")) point.color = color->color();
         points.push_back(point);
     }
 }
@@ -71,28 +68,22 @@ void read_by_quantity(const TomlTable& table, std::string_view key,
         if (const auto value = by_quantity->find(quantity.name)) values[std::size_t(quantity.value)] = read(*value);
 }
 
-void read_span(const TomlTable& table, double& start, double& end) {
-    table.read("start", start, limits::time);
-    table.read("end", end, limits::time);
+void check_span(const TomlTable& table, double start, double end) {
     if (end <= start)
         table.find(table.has("end") ? "end" : "start")
             ->fail(fmt::format("makes the time span end before it starts, at {} s", number_text(start)));
 }
 
 void read_table(const TomlTable& table, const std::vector<BodyDescription>& bodies, OverlayDescription& overlay) {
-    table.expect_keys({"show", "bodies", "start", "end", "impulse_time", "trail_time", "trail_points", "ghost_every",
-                       "legend", "scale", "color", "plot", "plot_place"});
+    table.expect_keys(list_keys<OverlayDescription>().keys);
+    read_fields(table, overlay);
     if (const auto show = table.find("show"))
         for (const TomlValue& name : show->items()) add_overlay(name.text(), name.origin(), overlay.show);
     const BodyIndex index(bodies);
     if (const auto list = table.find("bodies"))
         for (const TomlValue& name : list->items()) add_bodies(name, bodies, index, overlay.bodies);
-    read_span(table, overlay.start, overlay.end);
-    table.read("impulse_time", overlay.impulse_time, limits::time);
-    table.read("trail_time", overlay.trail_time, limits::time);
+    check_span(table, overlay.start, overlay.end);
     read_trail_points(table, index, overlay.trail_points);
-    if (const auto every = table.find("ghost_every")) overlay.ghost_every = int(every->integer(1, limits::frames));
-    table.read("legend", overlay.legend);
     read_by_quantity(table, "scale", overlay.scale,
                      [](const TomlValue& value) { return value.number(limits::arrow_scale); });
     read_by_quantity(table, "color", overlay.color, [](const TomlValue& value) { return value.color(); });
@@ -101,7 +92,6 @@ void read_table(const TomlTable& table, const std::vector<BodyDescription>& bodi
             if (!overlay.plot.empty()) overlay.plot += ',';
             overlay.plot += quantity.text();
         }
-    table.read<PlotPlace>("plot_place", overlay.plot_place, choices<PlotPlace>);
 }
 
 void read_captions(const TomlTable& root, std::vector<Caption>& captions) {
@@ -109,10 +99,8 @@ void read_captions(const TomlTable& root, std::vector<Caption>& captions) {
     if (!list) return;
     for (TomlTable& table : list->tables("; write [[caption]] for each")) {
         table.set_title("[[caption]]");
-        table.expect_keys({"text", "start", "end"});
-        Caption caption;
-        caption.text = table.require("text").text();
-        read_span(table, caption.start, caption.end);
+        Caption caption = read_all_fields<Caption>(table);
+        check_span(table, caption.start, caption.end);
         captions.push_back(std::move(caption));
     }
 }

@@ -1,7 +1,8 @@
 #include "scene/keys/settings.h"
 
 #include "core/frame_rate.h"
-#include "scene/fields/choices.h"
+#include "scene/fields/settings_fields.h"
+#include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -24,10 +25,6 @@ struct TimeRequest {
     std::optional<Given<std::int64_t>> steps_per_frame;
 };
 
-void read_time(const TomlTable& table, std::string_view key, std::optional<Given<double>>& target, const Range& range) {
-    if (const auto value = table.find(key)) target = {value->number(range), value->origin()};
-}
-
 void override_number(const std::optional<double>& given, const char* option, std::optional<Given<double>>& target,
                      const Range& range) {
     if (!given) return;
@@ -40,30 +37,23 @@ struct MethodSources {
     SourcePosition integrator, impacts, push_out;
 };
 
+/// A value that its table has, and its source.
+template <class Value>
+std::optional<Given<Value>> given_in(const TomlTable& table, std::string_view key, const auto& value) {
+    if (const auto found = table.find(key)) return Given<Value>{Value(value), found->origin()};
+    return std::nullopt;
+}
+
 void read_simulation(const TomlTable& table, SimulationSettings& settings, TimeRequest& time, MethodSources& sources) {
-    table.expect_keys({"duration", "steps_per_frame", "step", "gravity", "method", "push_out", "integrator", "impacts",
-                       "impact_law", "contact_solver", "rotation", "sleep", "seed"});
-    read_time(table, "duration", time.duration, limits::duration);
-    read_time(table, "step", time.step, limits::step);
-    if (const auto value = table.find("steps_per_frame")) {
-        time.steps_per_frame = {value->integer(1, limits::steps_per_frame), value->origin()};
-        if (time.step) value->fail("and step exclude each other: give one of them");
-    }
-    table.read("gravity", settings.gravity, limits::acceleration);
-    table.read<SimulationMethod>("method", settings.method, choices<SimulationMethod>);
-    table.read("push_out", settings.push_out);
-    table.read<IntegratorKind>("integrator", settings.integrator, choices<IntegratorKind>);
-    table.read<ImpactMode>("impacts", settings.impacts, choices<ImpactMode>);
-    table.read<ImpactLaw>("impact_law", settings.impact_law, choices<ImpactLaw>);
-    table.read<ContactSolverChoice>("contact_solver", settings.contact_solver, choices<ContactSolverChoice>);
-    table.read<RotationForm>("rotation", settings.rotation, choices<RotationForm>);
-    table.read("sleep", settings.sleep);
+    settings = read_all_fields<SimulationSettings>(table);
+    time.duration = given_in<double>(table, "duration", settings.duration);
+    time.steps_per_frame = given_in<std::int64_t>(table, "steps_per_frame", settings.steps_per_frame);
+    if (const auto value = table.find("step")) time.step = {value->number(limits::step), value->origin()};
+    if (time.step && time.steps_per_frame)
+        table.find("steps_per_frame")->fail("and step exclude each other: give one of them");
     if (const auto value = table.find("integrator")) sources.integrator = value->origin();
     if (const auto value = table.find("impacts")) sources.impacts = value->origin();
     if (const auto value = table.find("push_out")) sources.push_out = value->origin();
-    if (const auto value = table.find("seed")) {
-        settings.seed = static_cast<std::uint64_t>(value->integer(0, std::numeric_limits<std::int64_t>::max()));
-    }
 }
 
 void check_samples(std::int64_t samples, const SourcePosition& origin) {
@@ -71,7 +61,7 @@ void check_samples(std::int64_t samples, const SourcePosition& origin) {
 }
 
 void read_output(const TomlTable& table, OutputSettings& output, TimeRequest& time) {
-    table.expect_keys({"size", "fps", "samples"});
+    table.expect_keys(list_keys<OutputSettings>().keys);
     if (const auto value = table.find("size")) {
         const auto side = value->items(2, "whole numbers, width and height");
         output.width = static_cast<int>(side[0].integer(1, limits::image_side));
@@ -198,34 +188,19 @@ void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, S
 }
 
 LightDescription read_light(const TomlTable& root) {
-    LightDescription light;
-    if (const auto table = root.find_table("light")) {
-        table->expect_keys({"direction", "shadows"});
-        if (const auto value = table->find("direction")) light.direction = value->direction();
-        table->read("shadows", light.shadows);
-    }
-    return light;
+    const auto table = root.find_table("light");
+    return table ? read_all_fields<LightDescription>(*table) : LightDescription{};
 }
 
 PairRules read_contact(const TomlTable& root) {
-    PairRules rules;
-    if (const auto table = root.find_table("contact")) {
-        table->expect_keys({"restitution_rule", "friction_rule"});
-        table->read<PairRule>("restitution_rule", rules.restitution, choices<PairRule>);
-        table->read<PairRule>("friction_rule", rules.friction, choices<PairRule>);
-    }
-    return rules;
+    const auto table = root.find_table("contact");
+    return table ? read_all_fields<PairRules>(*table) : PairRules{};
 }
 
 std::optional<WindDescription> read_wind(const TomlTable& root) {
     const auto table = root.find_table("wind");
     if (!table) return std::nullopt;
-    WindDescription wind;
-    table->expect_keys({"velocity", "density", "drag"});
-    table->read("velocity", wind.velocity, limits::velocity);
-    table->read("density", wind.density, limits::air_density);
-    table->read("drag", wind.drag, limits::drag);
-    return wind;
+    return read_all_fields<WindDescription>(*table);
 }
 
 }  // namespace tumble

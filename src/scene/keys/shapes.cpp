@@ -1,7 +1,8 @@
 #include "scene/keys/shapes.h"
 
 #include "core/safe_text.h"
-#include "scene/keys/motion.h"
+#include "scene/fields/body_fields.h"
+#include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -134,16 +135,11 @@ ShapeRequest read_supplied_mesh(const TomlTable& table, BodyType type, const Tom
 
 CompoundPart read_part(TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
     table.set_title("a part");
-    table.expect_keys({"shape", "position", "rotation", "density", "color"});
+    CompoundPart part = read_all_fields<CompoundPart>(table);
     const TomlValue shape = table.require("shape");
     if (const auto kind = shape.table().find("type"); kind && kind->text() == "plane")
         kind->fail("\"plane\" is endless and cannot be part of a body");
-    CompoundPart part;
     part.shape = read_shape(shape, type, folder, meshes).shape;
-    table.read("position", part.position, limits::coordinate);
-    if (const auto rotation = table.find("rotation")) part.rotation = read_rotation(*rotation);
-    table.read("density", part.density, limits::density);
-    if (const auto color = table.find("color")) part.color = color->color();
     return part;
 }
 

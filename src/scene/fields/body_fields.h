@@ -1,0 +1,174 @@
+// Fields of [materials.NAME], [[body]] with its keyframes and parts, [[force]] and [[cord]].
+#pragma once
+
+#include "scene/fields/choices.h"
+#include "scene/fields/field.h"
+#include "scene/toml/limits.h"
+
+#include <array>
+#include <optional>
+
+namespace tumble {
+
+/// Properties given by a material, or by a body itself. Missing ones stay empty, because the defaults of planes differ.
+struct Material {
+    std::optional<Color> color;
+    std::optional<double> density;  // kg/m^3
+    std::optional<double> restitution;
+    std::optional<double> friction;
+    std::optional<double> roughness;
+    std::optional<double> metallic;
+    std::optional<Pattern> pattern;
+};
+
+template <class Visitor, class Self>
+void visit_fields(Of<Material>, Visitor& field, Self& self) {
+    field(self.color, "color", ByType(), {{}, "`\"#cf9a5b\"`, planes `\"#d6d8da\"`"});
+    field(self.density, "density", limits::density, {{}, "1000"});
+    field(self.restitution, "restitution", limits::restitution,
+          {"ratio of normal speeds after and before an impact. The default is for dynamic bodies; fixed and kinematic "
+           "ones "
+           "take that of the other body. A pair uses the larger of two values, or another [rule](#contact)",
+           "0.5"});
+    field(self.friction, "friction", limits::friction,
+          {"Coulomb's coefficient. Default as for the restitution. A pair uses √(a·b) of two values, or another "
+           "[rule](#contact)",
+           "0"});
+    field(self.roughness, "roughness", limits::fraction, {"0: mirror, 1: matte", "0.6"});
+    field(self.metallic, "metallic", limits::fraction, {"1: metal", "0"});
+    field(self.pattern, "pattern", ByType(), {{}, "`\"plain\"`, planes `\"grid\"`"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<Appearance>, Visitor& field, Self& self) {
+    field(self.color, "color", ByType());
+    field(self.roughness, "roughness", limits::fraction);
+    field(self.metallic, "metallic", limits::fraction);
+    field(self.pattern, "pattern", ByType());
+    field(self.visible, "visible", ByType());
+}
+
+/// A body of the interface has its visibility itself, that of a description in its appearance.
+auto& visibility_in(auto& body) {
+    if constexpr (requires { body.appearance; })
+        return body.appearance.visible;
+    else
+        return body.visible;
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
+    field(self.name, "name", ByType(),
+          {"for tables of results, forces and cords", "its index in the list", "unique, not empty"});
+    field(self.type, "type", ByType(),
+          {"`\"dynamic\"` moves by forces and contacts; `\"fixed\"` never moves; `\"kinematic\"` follows its keyframes "
+           "and "
+           "ignores forces and contacts"});
+    field(self.shape, "shape", Required(ByCode()), {.text = "see [shapes](#shapes)", .type = "table"});
+    field.key("material", {"its keys in the body's own table override it", "none: the defaults",
+                           "a material of the file", "string"});
+    field.alias(visibility_in(self), "visible", ByType(), {"an invisible body is simulated and not drawn"});
+    if constexpr (requires { self.density; }) field.inner(self.density);
+    field(self.mass, "mass", limits::mass, {"in place of the density; only for dynamic bodies", "from the density"});
+    if constexpr (requires { self.restitution; }) {
+        field.instead(self.restitution, self.restitution_in_pair());
+        field.instead(self.friction, self.friction_in_pair());
+    }
+    field(self.position, "position", limits::coordinate,
+          {"of the body's origin: the center of a box or sphere, the origin of a mesh file or of a compound's parts"});
+    field(self.rotation, "rotation", ByType(), {"see [rotations](#rotations)"});
+    field(self.velocity, "velocity", limits::velocity, {"of the center of mass, at time 0; dynamic bodies"});
+    field(self.angular_velocity, "angular_velocity", limits::angular_velocity,
+          {"world frame, at time 0; dynamic bodies"});
+    field(self.integrator, "integrator", ByCode(),
+          {"for comparisons in one scene; the option `--integrator` replaces it for every body",
+           "the simulation's",
+           {},
+           "string"});
+    field(self.keyframes, "keyframes", ByCode(), {"see [keyframes](#keyframes)", "none", {}, "array of tables"});
+    field(self.interpolation, "interpolation", ByType(), {"see [keyframes](#keyframes)"});
+    for (const char* one : {"grid", "scatter", "scale", "colors"})
+        field.key(one, {"see [many bodies from one table](#many-bodies-from-one-table)", "none"});
+    if constexpr (requires { self.appearance; }) field.shown(self.appearance);
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<Keyframe>, Visitor& field, Self& self) {
+    field(self.time, "time", Required(limits::time), {"each later than the one before"});
+    field(self.position, "position", limits::coordinate, {"of the body's origin", "the body's"});
+    field(self.rotation, "rotation", ByType(), {{}, "the body's"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<CompoundPart>, Visitor& field, Self& self) {
+    field(self.shape, "shape", Required(ByCode()),
+          {.text =
+               "a box, a sphere, a mesh (which collides as its convex hull, in fixed bodies too), or a compound (whose "
+               "parts become parts of this body); not a plane",
+           .type = "table"});
+    field(self.position, "position", limits::coordinate, {"of the part's origin, in the body's frame"});
+    field(self.rotation, "rotation", ByType(), {"of the part, in the body's frame"});
+    field(self.density, "density", limits::density, {{}, "the body's"});
+    field(self.color, "color", ByType(), {.standard = "the body's", .picture = true});
+}
+
+struct GridRequest {
+    std::array<int, 3> count{1, 1, 1};  // along x, y, z
+    Vec3 spacing = Vec3::Zero();        // m between neighbors' origins
+    Vec3 jitter = Vec3::Zero();         // m: largest displacement of a copy to either side
+    double tilt = 0.0;                  // degrees: largest rotation of a copy about a random axis
+};
+
+template <class Visitor, class Self>
+void visit_fields(Of<GridRequest>, Visitor& field, Self& self) {
+    field(self.count, "count", Required(ByCode()), {"along x, y, z", {}, "1 and up", "three whole numbers"});
+    field(self.spacing, "spacing", Required(NumberOrVector{limits::size}), {"between the origins of neighbors"});
+    field(self.jitter, "jitter", NumberOrVector{limits::size_or_zero},
+          {"largest random displacement of each copy, in both directions", "0"});
+    field(self.tilt, "tilt", limits::tilt, {"largest random rotation of each copy, about a random axis"});
+}
+
+struct ScatterRequest {
+    int count = 1;
+    Vec3 size = Vec3::Zero();  // m, of the box that contains the copies' origins
+    bool random_rotation = true;
+    double clearance = 0.0;  // m between the copies' bounding spheres
+};
+
+template <class Visitor, class Self>
+void visit_fields(Of<ScatterRequest>, Visitor& field, Self& self) {
+    field(self.count, "count", Required(Whole{1, limits::bodies}));
+    field(self.size, "size", Required(limits::size_or_zero), {"of the box in which the copies' origins lie"});
+    field(self.random_rotation, "rotation", Words{"random", "none", true},
+          {"`\"random\"`: a uniformly random rotation; `\"none\"`: the body's `rotation`"});
+    field(self.clearance, "clearance", limits::size_or_zero, {"between the bounding spheres"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<ForceDescription>, Visitor& field, Self& self) {
+    field(
+        self.body, "body", Required(ByCode()),
+        {.text = "the body's name (or its index, as text); for copies, one of them: `\"crate.0\"`", .type = "string"});
+    field(self.point, "point", limits::coordinate, {"in the body's frame, from its origin"});
+    field(self.force, "force", Required(limits::force));
+    field(self.body_frame, "frame", Words{"world", "body"},
+          {"`\"body\"`: the force turns with the body, like a thruster"});
+    field(self.start, "start", limits::time);
+    field(self.end, "end", limits::time, {{}, "none: the force does not end", "after `start`"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<CordDescription>, Visitor& field, Self& self) {
+    field(self.body, "body", ByCode(), {"as in a force", "required without `joint`", {}, "string"});
+    field(self.point, "point", limits::coordinate, {"in the body's frame, from its origin"});
+    field(self.anchor, "anchor", limits::coordinate, {"world frame", "required without `joint`"});
+    field(self.radius, "radius", limits::size);
+    field(self.color, "color", ByType());
+    field.key("joint", {"a joint's name, in place of body, point and anchor", "none", {}, "string"});
+    if constexpr (requires { self.anchor_body; }) {
+        field.since(self.joint.has_value(), self.joint);
+        field.since(self.joint.has_value(), self.anchor_body);
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,45 @@
+// Fields of [camera] and its keyframes.
+#pragma once
+
+#include "scene/fields/choices.h"
+#include "scene/fields/field.h"
+#include "scene/toml/limits.h"
+
+namespace tumble {
+
+template <class Visitor, class Self>
+void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
+    field(self.eye, "eye", ByCode(), {"the position of the camera", "chosen", "±1e9", "vector, m"});
+    field(self.target, "target", ByCode(), {"the point at the center of the frame", "chosen", "±1e9", "vector, m"});
+    field(self.up, "up", Direction(),
+          {"the direction that is up in the frame; when a moving camera passes straight over its target, the view "
+           "turns by "
+           "half a turn"});
+    field(self.vertical_fov, "vertical_fov", limits::field_of_view,
+          {"the angle between the top and the bottom of the frame"});
+    field.section("motion");
+    field(self.keyframes, "keyframes", ByCode(),
+          {"positions at given times; constant before the first and after the last", "none", {}, "array of tables"});
+    field(self.interpolation, "interpolation", ByType(), {"as for [bodies](#keyframes); only with keyframes"});
+    field(self.orbit, "orbit", limits::orbit,
+          {"turns the eye about the target, around `up`; positive: counterclockwise seen from above"});
+    field(self.follow, "follow", ByCode(),
+          {"eye and target move with the body's center of mass (not with its rotation), so that the body keeps its "
+           "position "
+           "in the frame; without a `target`, the camera looks at the body",
+           "none", "the name of a body that is not fixed", "string"});
+    if constexpr (requires { self.follow_start; }) {
+        field.inner(self.follow_start);
+        field.inner(self.follow_start_rotation);
+    }
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<CameraKeyframe>, Visitor& field, Self& self) {
+    field(self.time, "time", Required(limits::time), {"each later than the one before"});
+    field(self.eye, "eye", limits::coordinate, {{}, "the camera's"});
+    field(self.target, "target", limits::coordinate, {{}, "the camera's"});
+    field(self.vertical_fov, "vertical_fov", limits::field_of_view, {"zoom", "the camera's"});
+}
+
+}  // namespace tumble

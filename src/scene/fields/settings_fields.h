@@ -1,0 +1,79 @@
+// Fields of [simulation], [output], [light], [wind] and [contact].
+#pragma once
+
+#include "scene/fields/choices.h"
+#include "scene/fields/field.h"
+#include "scene/toml/limits.h"
+
+namespace tumble {
+
+template <class Visitor, class Self>
+void visit_fields(Of<SimulationSettings>, Visitor& field, Self& self) {
+    field(self.duration, "duration", limits::duration, {"0 gives a single frame"});
+    field(self.steps_per_frame, "steps_per_frame", Whole{1, limits::steps_per_frame},
+          {"the fixed step is 1 / (fps · steps_per_frame)"});
+    field.key("step", {"the step, in place of `steps_per_frame`", "none", "above 0", "number, s"});
+    field(self.gravity, "gravity", limits::acceleration);
+    field(self.method, "method", ByType(),
+          {"`\"notes\"`: the course notes to the letter, for teaching; see "
+           "[the method of the notes](../explanation/physics.md#the-method-of-the-notes)"});
+    field(self.push_out, "push_out", ByType(),
+          {"with `method = \"notes\"` only: overlapping bodies are moved apart in each step"});
+    field(self.integrator, "integrator", ByType(), {"see [integrators](#integrators)"});
+    field(
+        self.impacts, "impacts", ByType(),
+        {"`\"stepped\"` (time-stepping): impacts are resolved at the step that finds them, hits of balls at their own "
+         "times within it. `\"exact\"` (event-driven): each impact is resolved at its own time, and ballistic motion "
+         "is "
+         "exact whatever the integrator"});
+    field(self.impact_law, "impact_law", ByType(), {"the law for impacts with several contacts"});
+    field(
+        self.contact_solver, "contact_solver", ByType(),
+        {"`\"by-island\"`: each island (group of touching bodies) gets one of two solvers by a "
+         "[rule](../explanation/contact-solver.md#solver-selection). `\"soft\"` and `\"direct\"`: that solver for all "
+         "islands, for comparisons; `\"soft\"` takes [sweeps](scene-joints.md#joints-in-sweeps) for joined bodies too, "
+         "`\"direct\"` none"});
+    field(self.rotation, "rotation", ByType(), {"the representation of rotations in the state"});
+    field(self.sleep, "sleep", ByType(), {"islands at rest are not simulated until something touches them"});
+    field(self.seed, "seed", Whole{0, INT64_MAX}, {"seed of the random numbers of grids and scatters"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<OutputSettings>, Visitor& field, Self& self) {
+    field.key("size", {"width and height", "`[1280, 720]`", "1 to 16384 each", "two whole numbers, pixels"});
+    field(self.fps, "fps", ByCode(),
+          {"a fraction has two whole numbers from 1 to 1,000,000: `\"24000/1001\"`",
+           {},
+           "1e-9 to 1e6",
+           "number, frames/s; or a fraction as text"});
+    field.shown(self.width);
+    field.shown(self.height);
+    field(self.samples, "samples", ByCode(),
+          {.text = "1: aliased edges; 2 or 4: antialiased edges", .type = "1, 2 or 4", .picture = true});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<LightDescription>, Visitor& field, Self& self) {
+    field(
+        self.direction, "direction", Direction(),
+        {"the direction in which the light travels. If the light comes from below a fixed plane with a slope below 60 "
+         "degrees, only ambient sky light is left"});
+    field(self.shadows, "shadows", ByType());
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<WindDescription>, Visitor& field, Self& self) {
+    field(self.velocity, "velocity", limits::velocity);
+    field(self.density, "density", limits::air_density);
+    field(self.drag, "drag", limits::drag, {"drag coefficient"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<PairRules>, Visitor& field, Self& self) {
+    auto& [restitution, friction] = self;
+    field(restitution, "restitution_rule", ByType(),
+          {"how the restitution of a pair follows from those of its two bodies"});
+    field(friction, "friction_rule", ByType(), {"the same of the friction"});
+}
+
+}  // namespace tumble

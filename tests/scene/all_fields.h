@@ -1,0 +1,39 @@
+// All structs with fields, by their tables in docs/reference.
+#pragma once
+
+#include "scene/fields/body_fields.h"
+#include "scene/fields/camera_fields.h"
+#include "scene/fields/joint_fields.h"
+#include "scene/fields/overlay_fields.h"
+#include "scene/fields/settings_fields.h"
+
+namespace tumble {
+
+/// Calls `use.operator()<Struct>(table)` for each.
+void for_all_fields(auto&& use) {
+    use.template operator()<SimulationSettings>("simulation");
+    use.template operator()<OutputSettings>("output");
+    use.template operator()<CameraDescription>("camera");
+    use.template operator()<CameraKeyframe>("camera keyframe");
+    use.template operator()<LightDescription>("light");
+    use.template operator()<WindDescription>("wind");
+    use.template operator()<PairRules>("contact");
+    use.template operator()<Material>("material");
+    use.template operator()<BodyDescription>("body");
+    use.template operator()<Keyframe>("body keyframe");
+    use.template operator()<CompoundPart>("part");
+    use.template operator()<GridRequest>("grid");
+    use.template operator()<ScatterRequest>("scatter");
+    use.template operator()<ForceDescription>("force");
+    use.template operator()<CordDescription>("cord");
+    use.template operator()<OverlayDescription>("overlay");
+    use.template operator()<TrailPoint>("trail point");
+    use.template operator()<Caption>("caption");
+    use.template operator()<JointDescription>("joint");
+    use.template operator()<JointAxis>("joint coordinate");
+    use.template operator()<JointSpring>("spring");
+    use.template operator()<JointMotor>("motor");
+    use.template operator()<JointTarget>("motor keyframe");
+}
+
+}  // namespace tumble
