@@ -43,7 +43,7 @@ const std::map<std::string, Layer> layers = {
      {{"core/", "scene/description/", "sim/snapshot/", "gltf/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"page",
-     {{"core/", "scene/description/", "sim/snapshot/", "overlay/", "page/"},
+     {{"core/", "scene/description/", "scene/fields/", "sim/snapshot/", "overlay/", "page/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"api",
      {{"core/", "scene/", "sim/", "render/", "output/", "compare/", "api/", "tumble/"},

@@ -22,19 +22,19 @@ namespace {
 /// Marks the bytes of the members that have fields.
 struct Coverage : FieldVisitor {
     void operator()(const auto& member, std::string_view, const auto&, const About& = {}) { add(member); }
-    void inner(const auto& member) { add(member); }
-    void shown(const auto& member) { add(member); }
+    void inner(const auto&... members) { (add(members), ...); }
+    void shown(const auto&... members) { (add(members), ...); }
     void instead(const auto& member, const auto&) { add(member); }
-    void since(bool, const auto& member) { add(member); }
+    void since(bool, const auto&... members) { (add(members), ...); }
     void add(const auto& member) {
         const auto offset = std::size_t(reinterpret_cast<const std::byte*>(&member) - start);
-        ++members;
+        ++count;
         std::fill_n(covered.begin() + std::ptrdiff_t(offset), sizeof member, true);
     }
 
     const std::byte* start;
     std::vector<bool> covered;
-    std::size_t members = 0;
+    std::size_t count = 0;
 };
 
 /// GCC 12 takes some padding of two large structs for members: their members are counted. 0: any number.
@@ -55,7 +55,7 @@ TEST(SceneFields, EveryMemberOfADescriptionHasAField) {
         Coverage coverage{{}, reinterpret_cast<const std::byte*>(&one), std::vector<bool>(sizeof one, false), 0};
         visit_fields(Of<Struct>(), coverage, one);
         if (const std::size_t members = number_of_members(one)) {
-            EXPECT_EQ(coverage.members, members) << table;
+            EXPECT_EQ(coverage.count, members) << table;
             return;
         }
         // All bytes but the padding between members; the object has its own bytes back before its end.
@@ -251,8 +251,9 @@ TEST(SceneFields, TheReferenceHasTheirTables) {
         }
         made += text.substr(done);
         if (write) std::ofstream(page) << made;
-        EXPECT_TRUE(write || made == text)
-            << name << " is not current: run TUMBLE_WRITE_REFERENCE=1 scripts/test -R scene_fields";
+        EXPECT_TRUE(write || made == text) << name
+                                           << " is not current: run TUMBLE_WRITE_REFERENCE=1 "
+                                              "build/release/tests/scene/scene_tests scene_fields_test.cpp";
     }
     for (const char* in_text : {"joint coordinate", "trail point", "motor keyframe"}) found.insert(in_text);
     for (const auto& [table, text] : tables)

@@ -166,8 +166,7 @@ void visit_fields(Of<CordDescription>, Visitor& field, Self& self) {
     field(self.color, "color", ByType());
     field.key("joint", {"a joint's name, in place of body, point and anchor", "none", {}, "string"});
     if constexpr (requires { self.anchor_body; }) {
-        field.since(self.joint.has_value(), self.joint);
-        field.since(self.joint.has_value(), self.anchor_body);
+        field.since(self.joint.has_value(), self.joint, self.anchor_body);
     }
 }
 

@@ -29,8 +29,7 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
            "in the frame; without a `target`, the camera looks at the body",
            "none", "the name of a body that is not fixed", "string"});
     if constexpr (requires { self.follow_start; }) {
-        field.inner(self.follow_start);
-        field.inner(self.follow_start_rotation);
+        field.inner(self.follow_start, self.follow_start_rotation);
     }
 }
 

@@ -19,99 +19,73 @@ template <class Enum>
 inline constexpr auto choices = std::array<Choice<Enum>, 0>{};
 
 template <>
-inline constexpr auto choices<IntegratorKind> = std::to_array<Choice<IntegratorKind>>({
-    {"symplectic-euler", IntegratorKind::symplectic_euler},  // the method of the notes has the first two
-    {"explicit-euler", IntegratorKind::explicit_euler},
-    {"exact", IntegratorKind::exact},
-    {"splitting", IntegratorKind::splitting},
-    {"rk4", IntegratorKind::runge_kutta_4},
-});
+inline constexpr auto choices<IntegratorKind> =
+    std::to_array<Choice<IntegratorKind>>({{"symplectic-euler", IntegratorKind::symplectic_euler},
+                                           {"explicit-euler", IntegratorKind::explicit_euler},
+                                           {"exact", IntegratorKind::exact},
+                                           {"splitting", IntegratorKind::splitting},
+                                           {"rk4", IntegratorKind::runge_kutta_4}});
 template <>
-inline constexpr auto choices<SimulationMethod> = std::to_array<Choice<SimulationMethod>>({
-    {"tumble", SimulationMethod::tumble},
-    {"notes", SimulationMethod::notes},
-});
+inline constexpr auto choices<SimulationMethod> =
+    std::to_array<Choice<SimulationMethod>>({{"tumble", SimulationMethod::tumble}, {"notes", SimulationMethod::notes}});
 template <>
-inline constexpr auto choices<ImpactMode> = std::to_array<Choice<ImpactMode>>({
-    {"stepped", ImpactMode::stepped},
-    {"exact", ImpactMode::exact},
-});
+inline constexpr auto choices<ImpactMode> = std::to_array<Choice<ImpactMode>>({{"stepped", ImpactMode::stepped},
+                                                                               {"exact", ImpactMode::exact}});
 template <>
-inline constexpr auto choices<ImpactLaw> = std::to_array<Choice<ImpactLaw>>({
-    {"propagating", ImpactLaw::propagating},
-    {"simultaneous", ImpactLaw::simultaneous},
-});
+inline constexpr auto choices<ImpactLaw> = std::to_array<Choice<ImpactLaw>>(
+    {{"propagating", ImpactLaw::propagating}, {"simultaneous", ImpactLaw::simultaneous}});
 template <>
-inline constexpr auto choices<ContactSolverChoice> = std::to_array<Choice<ContactSolverChoice>>({
-    {"by-island", ContactSolverChoice::by_island},
-    {"soft", ContactSolverChoice::soft},
-    {"direct", ContactSolverChoice::direct},
-});
+inline constexpr auto choices<ContactSolverChoice> =
+    std::to_array<Choice<ContactSolverChoice>>({{"by-island", ContactSolverChoice::by_island},
+                                                {"soft", ContactSolverChoice::soft},
+                                                {"direct", ContactSolverChoice::direct}});
 template <>
-inline constexpr auto choices<RotationForm> = std::to_array<Choice<RotationForm>>({
-    {"quaternion", RotationForm::quaternion},
-    {"matrix", RotationForm::matrix},
-});
+inline constexpr auto choices<RotationForm> =
+    std::to_array<Choice<RotationForm>>({{"quaternion", RotationForm::quaternion}, {"matrix", RotationForm::matrix}});
 template <>
-inline constexpr auto choices<PairRule> = std::to_array<Choice<PairRule>>({
-    {"average", PairRule::average},
-    {"minimum", PairRule::minimum},
-    {"multiply", PairRule::multiply},
-    {"maximum", PairRule::maximum},
-    {"geometric", PairRule::geometric},
-});
+inline constexpr auto choices<PairRule> = std::to_array<Choice<PairRule>>({{"average", PairRule::average},
+                                                                           {"minimum", PairRule::minimum},
+                                                                           {"multiply", PairRule::multiply},
+                                                                           {"maximum", PairRule::maximum},
+                                                                           {"geometric", PairRule::geometric}});
 template <>
-inline constexpr auto choices<BodyType> = std::to_array<Choice<BodyType>>({
-    {"dynamic", BodyType::dynamic},
-    {"fixed", BodyType::fixed},
-    {"kinematic", BodyType::kinematic},
-});
+inline constexpr auto choices<BodyType> = std::to_array<Choice<BodyType>>({{"dynamic", BodyType::dynamic},
+                                                                           {"fixed", BodyType::fixed},
+                                                                           {"kinematic", BodyType::kinematic}});
 template <>
-inline constexpr auto choices<Pattern> = std::to_array<Choice<Pattern>>({
-    {"plain", Pattern::plain},
-    {"grid", Pattern::grid},
-    {"checker", Pattern::checker},
-});
+inline constexpr auto choices<Pattern> =
+    std::to_array<Choice<Pattern>>({{"plain", Pattern::plain}, {"grid", Pattern::grid}, {"checker", Pattern::checker}});
 template <>
-inline constexpr auto choices<Interpolation> = std::to_array<Choice<Interpolation>>({
-    {"smooth", Interpolation::smooth},
-    {"linear", Interpolation::linear},
-});
+inline constexpr auto choices<Interpolation> =
+    std::to_array<Choice<Interpolation>>({{"smooth", Interpolation::smooth}, {"linear", Interpolation::linear}});
 template <>
-inline constexpr auto choices<JointType> = std::to_array<Choice<JointType>>({
-    {"fixed", JointType::fixed},
-    {"hinge", JointType::hinge},
-    {"ball", JointType::ball},
-    {"slider", JointType::slider},
-    {"universal", JointType::universal},
-    {"cylindrical", JointType::cylindrical},
-    {"planar", JointType::planar},
-    {"distance", JointType::distance},
-    {"6dof", JointType::six_dof},
-    {"gear", JointType::gear},
-});
+inline constexpr auto choices<JointType> = std::to_array<Choice<JointType>>({{"fixed", JointType::fixed},
+                                                                             {"hinge", JointType::hinge},
+                                                                             {"ball", JointType::ball},
+                                                                             {"slider", JointType::slider},
+                                                                             {"universal", JointType::universal},
+                                                                             {"cylindrical", JointType::cylindrical},
+                                                                             {"planar", JointType::planar},
+                                                                             {"distance", JointType::distance},
+                                                                             {"6dof", JointType::six_dof},
+                                                                             {"gear", JointType::gear}});
 template <>
-inline constexpr auto choices<JointFrame> = std::to_array<Choice<JointFrame>>({
-    {"world", JointFrame::world},
-    {"first", JointFrame::first},
-    {"second", JointFrame::second},
-});
+inline constexpr auto choices<JointFrame> = std::to_array<Choice<JointFrame>>({{"world", JointFrame::world},
+                                                                               {"first", JointFrame::first},
+                                                                               {"second", JointFrame::second}});
 template <>
-inline constexpr auto choices<PlotPlace> = std::to_array<Choice<PlotPlace>>({
-    {"inset", PlotPlace::inset},
-    {"beside", PlotPlace::beside},
-    {"below", PlotPlace::below},
-});
+inline constexpr auto choices<PlotPlace> = std::to_array<Choice<PlotPlace>>({{"inset", PlotPlace::inset},
+                                                                             {"beside", PlotPlace::beside},
+                                                                             {"below", PlotPlace::below}});
 template <>
-inline constexpr auto choices<ArrowQuantity> = std::to_array<Choice<ArrowQuantity>>({
-    {"force", ArrowQuantity::force},
-    {"impulse", ArrowQuantity::impulse},
-    {"velocity", ArrowQuantity::velocity},
-    {"omega", ArrowQuantity::omega},
-    {"momentum", ArrowQuantity::momentum},
-    {"angular-momentum", ArrowQuantity::angular_momentum},
-    {"torque", ArrowQuantity::torque},
-});
+inline constexpr auto choices<ArrowQuantity> =
+    std::to_array<Choice<ArrowQuantity>>({{"force", ArrowQuantity::force},
+                                          {"impulse", ArrowQuantity::impulse},
+                                          {"velocity", ArrowQuantity::velocity},
+                                          {"omega", ArrowQuantity::omega},
+                                          {"momentum", ArrowQuantity::momentum},
+                                          {"angular-momentum", ArrowQuantity::angular_momentum},
+                                          {"torque", ArrowQuantity::torque}});
 
 /// True for enums with names, which are then complete.
 template <class Enum>
@@ -125,7 +99,7 @@ constexpr std::string_view name_of(Enum value) {
     return {};
 }
 
-/// The integrators of a method.
+/// The integrators of a method: that of the notes has the first two.
 inline std::span<const Choice<IntegratorKind>> integrator_choices(SimulationMethod method) {
     return std::span(choices<IntegratorKind>)
         .first(method == SimulationMethod::notes ? 2 : choices<IntegratorKind>.size());

@@ -56,24 +56,20 @@ Required(Rule) -> Required<Rule>;
 /// Texts of the reference. Without a default, a range or a type they follow from the member and its rule.
 struct About {
     std::string_view text = {}, standard = {}, range = {}, type = {};
-    bool picture = false;        // the motion does not depend on it
     std::uint32_t joints = ~0u;  // bits of the types of joint that have it
+    bool picture = false;        // the motion does not depend on it
 };
 
 /// Base of visitors. Derived ones have `operator()(member, key, rule, about)`.
 struct FieldVisitor {
     void section(std::string_view) {}                 // a table of its own in the reference, from here on
     void key(std::string_view, const About& = {}) {}  // read by code into members that follow
-    template <class Member>
-    void alias(Member&, std::string_view, auto, const About& = {}) {}  // a part of a member that is hashed as a whole
-    template <class Member>
-    void inner(const Member&) {}  // follows from several keys
-    template <class Member>
-    void shown(const Member&) {}  // the same; the motion does not depend on it
-    template <class Member>
-    void instead(const Member&, const auto&) {}  // hashed as this value
-    template <class Member>
-    void since(bool, const Member&) {}  // hashed where the condition holds: other scenes keep their hash
+    // A part of a member that is hashed as a whole.
+    void alias(const auto&, std::string_view, const auto&, const About& = {}) {}
+    void inner(const auto&...) {}              // follow from several keys
+    void shown(const auto&...) {}              // the same; the motion does not depend on them
+    void instead(const auto&, const auto&) {}  // hashed as this value
+    void since(bool, const auto&...) {}        // hashed where the condition holds: other scenes keep their hash
 };
 
 template <class Struct>

@@ -1,4 +1,4 @@
-// Fields of [[joint]], its springs, motors and coordinates, and the keys of [[chain]] and [[instance]].
+// Fields of [[joint]], and of its springs, motors and coordinates.
 #pragma once
 
 #include "scene/fields/choices.h"
@@ -20,187 +20,116 @@ void visit_fields(Of<JointDescription>, Visitor& field, Self& self) {
 
     field(self.name, "name", ByCode(),
           {"for tables, cords and poses", "`joint N` with its index", "unique, not empty", "string"});
-    field(self.type, "type", Required(ByCode()), {.text = "see [types](#types-of-joints)", .type = "string"});
-    field.key("bodies", {.text = "as in a force; `\"world\"` for the world. The second one moves relative to the first",
-                         .standard = "required, but for a [gear](#gears)",
-                         .range = "two different ones, one of them dynamic",
-                         .type = "two strings",
-                         .joints = placed});
-    field.inner(self.first);
-    field.inner(self.second);
+    field(self.type, "type", Required(ByCode()), {"see [types](#types-of-joints)", {}, {}, "string"});
+    field.key("bodies",
+              {"as in a force; `\"world\"` for the world. The second one moves relative to the first",
+               "required, but for a [gear](#gears)", "two different ones, one of them dynamic", "two strings", placed});
+    field.inner(self.first, self.second);
 
     field.section("places");
-    field.key("anchor",
-              {.standard = "required; the origin of the second body for `\"fixed\"`, `\"slider\"` and `\"planar\"`",
-               .range = "±1e9",
-               .type = "vector, m",
-               .joints = placed & ~bits_of(distance)});
-    field.key(
-        "axis",
-        {.text = "the axis of a hinge or a slider, the normal of a plane, the twist axis of a ball, x of `\"6dof\"`",
-         .standard = "required for hinge, slider, universal, cylindrical, planar and for a ball with limits",
-         .range = "not zero",
-         .type = "vector",
-         .joints = with_axis});
-    field.key("second_axis", {.text = "the axis in the second body; y of `\"6dof\"`",
-                              .standard = "required for `\"universal\"`",
-                              .range = "square to `axis` within 1e-6 rad",
-                              .type = "vector",
-                              .joints = bits_of(universal, six_dof)});
-    field.key(
-        "frame",
-        {.text =
-             "the frame of the three above; `\"first\"` or `\"second\"`: in the frame of that body, from its origin",
-         .standard = "`\"world\"`",
-         .type = "string",
-         .joints = placed & ~bits_of(distance)});
-    field.key("anchors", {.text = "in place of `anchor`: one in the frame of each body, from its origin",
-                          .range = "within 1e-6 of the smaller body's size at the start",
-                          .type = "two vectors, m",
-                          .joints = placed});
-    field.key(
-        "axes",
-        {.text = "in place of `axis`: one in the frame of each body. Universal: the first axis, and the second one "
-                 "square to it. Ball: the angle between them is the swing at the start",
-         .range = "parallel within 1e-6 rad",
-         .type = "two vectors",
-         .joints = with_axis});
-    field.key(
-        "snap",
-        {.text = "accepts a gap of the anchors or the axes, and a start outside of limits; the simulation closes it",
-         .standard = "false",
-         .type = "boolean",
-         .joints = placed});
-    field.key("start_angle", {.text = "hinge, cylindrical: the angle at the start",
-                              .standard = "0",
-                              .range = "±180",
-                              .type = "number, degrees",
-                              .joints = angles});
+    field.key("anchor", {{},
+                         "required; the origin of the second body for `\"fixed\"`, `\"slider\"` and `\"planar\"`",
+                         "±1e9",
+                         "vector, m",
+                         placed & ~bits_of(distance)});
+    field.key("axis",
+              {"the axis of a hinge or a slider, the normal of a plane, the twist axis of a ball, x of `\"6dof\"`",
+               "required for hinge, slider, universal, cylindrical, planar and for a ball with limits", "not zero",
+               "vector", with_axis});
+    field.key("second_axis", {"the axis in the second body; y of `\"6dof\"`", "required for `\"universal\"`",
+                              "square to `axis` within 1e-6 rad", "vector", bits_of(universal, six_dof)});
+    field.key("frame",
+              {"the frame of the three above; `\"first\"` or `\"second\"`: in the frame of that body, from its origin",
+               "`\"world\"`",
+               {},
+               "string",
+               placed & ~bits_of(distance)});
+    field.key("anchors", {"in place of `anchor`: one in the frame of each body, from its origin",
+                          {},
+                          "within 1e-6 of the smaller body's size at the start",
+                          "two vectors, m",
+                          placed});
+    field.key("axes", {"in place of `axis`: one in the frame of each body. Universal: the first axis, and the second "
+                       "one square to it. Ball: the angle between them is the swing at the start",
+                       {},
+                       "parallel within 1e-6 rad",
+                       "two vectors",
+                       with_axis});
+    field.key("snap",
+              {"accepts a gap of the anchors or the axes, and a start outside of limits; the simulation closes it",
+               "false",
+               {},
+               "boolean",
+               placed});
+    field.key("start_angle", {"hinge, cylindrical: the angle at the start", "0", "±180", "number, degrees", angles});
     field.key("start_position",
-              {.text = "slider, cylindrical: the displacement at the start; with `anchors` their places give it",
-               .standard = "0",
-               .range = "±1e9",
-               .type = "number, m",
-               .joints = slides});
-    field.inner(self.anchor_first);
-    field.inner(self.anchor_second);
-    field.inner(self.frame_first);
-    field.inner(self.frame_second);
+              {"slider, cylindrical: the displacement at the start; with `anchors` their places give it", "0", "±1e9",
+               "number, m", slides});
+    field.inner(self.anchor_first, self.anchor_second, self.frame_first, self.frame_second);
 
     field.section("coordinates");
-    field.key("limits", {.text = "the start is inside",
-                         .standard = "none",
-                         .range = "±36,000 degrees, ±1e9 m; lower < upper",
-                         .type = "`[lower, upper]`, degrees or m",
-                         .joints = one_axis | bits_of(universal)});
-    field.key("turn_limits",
-              {.text = "of the angle of a cylindrical joint", .standard = "none", .joints = bits_of(cylindrical)});
-    field.key("second_limits",
-              {.text = "of the angle about the second axis", .standard = "none", .joints = bits_of(universal)});
-    field.key(
-        "limit_restitution",
-        {.text = "of an impact at a limit", .standard = "0", .range = "0 to 1", .type = "number", .joints = limited});
-    field.key("twist", {.text = "limits of the angle about x",
-                        .standard = "none",
-                        .range = "±180",
-                        .type = "`[lower, upper]`, degrees",
-                        .joints = bits_of(ball)});
-    field.key("spring", {.text = "see [springs and motors](#springs-and-motors)",
-                         .standard = "none",
-                         .type = "table",
-                         .joints = limited});
-    field.key("turn_spring",
-              {.text = "of the angle", .standard = "none", .type = "table", .joints = bits_of(cylindrical)});
-    field.key("motor", {.text = "see [springs and motors](#springs-and-motors)",
-                        .standard = "none",
-                        .type = "table",
-                        .joints = one_axis | bits_of(distance)});
-    field.key("turn_motor",
-              {.text = "of the angle", .standard = "none", .type = "table", .joints = bits_of(cylindrical)});
-    field.key(
-        "friction",
-        {.text =
-             "largest force of dry friction. Hinges, sliders and universal joints of trees in flight keep the order of "
-             "the `integrator` with it ([Friction in flight](../explanation/joints.md#friction-in-flight))",
-         .standard = "0",
-         .range = "0 to 1e15",
-         .type = "number, N or N m",
-         .joints = limited | bits_of(planar)});
-    field.key("turn_friction", {.text = "of the angle",
-                                .standard = "0",
-                                .range = "0 to 1e15",
-                                .type = "number, N m",
-                                .joints = bits_of(cylindrical)});
+    field.key("limits", {"the start is inside", "none", "±36,000 degrees, ±1e9 m; lower < upper",
+                         "`[lower, upper]`, degrees or m", one_axis | bits_of(universal)});
+    field.key("turn_limits", {"of the angle of a cylindrical joint", "none", {}, {}, bits_of(cylindrical)});
+    field.key("second_limits", {"of the angle about the second axis", "none", {}, {}, bits_of(universal)});
+    field.key("limit_restitution", {"of an impact at a limit", "0", "0 to 1", "number", limited});
+    field.key("twist", {"limits of the angle about x", "none", "±180", "`[lower, upper]`, degrees", bits_of(ball)});
+    field.key("spring", {"see [springs and motors](#springs-and-motors)", "none", {}, "table", limited});
+    field.key("turn_spring", {"of the angle", "none", {}, "table", bits_of(cylindrical)});
+    field.key("motor",
+              {"see [springs and motors](#springs-and-motors)", "none", {}, "table", one_axis | bits_of(distance)});
+    field.key("turn_motor", {"of the angle", "none", {}, "table", bits_of(cylindrical)});
+    field.key("friction",
+              {"largest force of dry friction. Hinges, sliders and universal joints of trees in flight keep the order "
+               "of the `integrator` with it ([Friction in flight](../explanation/joints.md#friction-in-flight))",
+               "0", "0 to 1e15", "number, N or N m", limited | bits_of(planar)});
+    field.key("turn_friction", {"of the angle", "0", "0 to 1e15", "number, N m", bits_of(cylindrical)});
     for (const char* one : {"move_x", "move_y", "move_z", "turn_x", "turn_y", "turn_z"})
-        field.key(
-            one,
-            {.text = "a coordinate of a `\"6dof\"` joint", .standard = "`\"locked\"`", .joints = bits_of(six_dof)});
-    field.inner(self.move);
-    field.inner(self.turn);
+        field.key(one, {"a coordinate of a `\"6dof\"` joint", "`\"locked\"`", {}, {}, bits_of(six_dof)});
+    field.inner(self.move, self.turn);
     field(self.swing, "swing", ByCode(),
-          {.text = "half angle of the cone of the x axis, or half angles about y and z",
-           .standard = "none",
-           .range = "above 0, below 180",
-           .type = "number or two numbers, degrees",
-           .joints = bits_of(ball)});
+          {"half angle of the cone of the x axis, or half angles about y and z", "none", "above 0, below 180",
+           "number or two numbers, degrees", bits_of(ball)});
     field(self.length, "length", ByCode(),
-          {.text = "a rod; it must be the distance at the start, or needs `snap`",
-           .standard = "the distance at the start",
-           .range = "0 to 1e9",
-           .type = "number, m",
-           .joints = bits_of(distance)});
+          {"a rod; it must be the distance at the start, or needs `snap`", "the distance at the start", "0 to 1e9",
+           "number, m", bits_of(distance)});
     for (const char* one : {"min_length", "max_length"})
-        field.key(one, {.text = "`max_length` alone is a rope",
-                        .standard = "none",
-                        .range = "0 to 1e9",
-                        .type = "number, m",
-                        .joints = bits_of(distance)});
+        field.key(one, {"`max_length` alone is a rope", "none", "0 to 1e9", "number, m", bits_of(distance)});
     field(self.friction_coefficient, "friction_coefficient", limits::friction,
-          {.text = "friction of a bearing: coefficient times load, times radius for an angle",
-           .standard = "none",
-           .joints = bearings});
+          {"friction of a bearing: coefficient times load, times radius for an angle", "none", {}, {}, bearings});
     field(self.bearing_radius, "bearing_radius", limits::size,
-          {.text = "with a `friction_coefficient`", .standard = "none", .joints = bearings & ~bits_of(slider)});
+          {"with a `friction_coefficient`", "none", {}, {}, bearings & ~bits_of(slider)});
 
     field.section("strength");
     field(self.break_force, "break_force", limits::strength_force,
           {"the joint breaks where it carries more, as a mean over a step; trees with `exact` or `rk4` at the "
            "[moment](../explanation/joints.md#breaks-in-flight), but for `break_impulse`",
            "none"});
-    field(self.break_torque, "break_torque", limits::strength_torque,
-          {.standard = "none", .joints = ~bits_of(distance)});
-    field(self.break_impulse, "break_impulse", limits::strength_impulse, {.standard = "none", .joints = placed});
+    field(self.break_torque, "break_torque", limits::strength_torque, {{}, "none", {}, {}, ~bits_of(distance)});
+    field(self.break_impulse, "break_impulse", limits::strength_impulse, {{}, "none", {}, {}, placed});
     field(self.collide, "collide", ByType(),
           {"true if the two bodies collide with each other", "false; true for `\"distance\"`"});
     field.key("enabled", {"the joint holds in this span", "the whole clip", "0 to 1e9, `until` after `from`",
                           "`[from]` or `[from, until]`, s"});
-    field.inner(self.start);
-    field.inner(self.end);
+    field.inner(self.start, self.end);
 
     field.section("gear");
-    field.key("joints", {.text = "names of joints, before or after the gear, or of a chain or an instance",
-                         .standard = "required",
-                         .range = "hinges or sliders, two different ones",
-                         .type = "two strings",
-                         .joints = bits_of(gear)});
-    field.key("ratio", {.text = "two hinges: dimensionless. Slider and hinge: m/rad; hinge and slider: rad/m",
-                        .standard = "required",
-                        .range = "±1e9, not 0",
-                        .type = "number: unit of θ₁ over unit of θ₂",
-                        .joints = bits_of(gear)});
-    field.since(self.type == gear, self.geared);
-    field.since(self.type == gear, self.ratio);
+    field.key("joints", {"names of joints, before or after the gear, or of a chain or an instance", "required",
+                         "hinges or sliders, two different ones", "two strings", bits_of(gear)});
+    field.key("ratio", {"two hinges: dimensionless. Slider and hinge: m/rad; hinge and slider: rad/m", "required",
+                        "±1e9, not 0", "number: unit of θ₁ over unit of θ₂", bits_of(gear)});
+    field.since(self.type == gear, self.geared, self.ratio);
 
     field.section("strength");
-    field(
-        self.visible, "visible", ByType(),
-        {.text =
-             "the joint is drawn, without effect on the motion. Hinge: its axle; universal: its cross; ball: a pin; "
-             "slider "
-             "and cylindrical: a rod over the way of the limits; distance: a [cord](scene-format.md#cord) between its "
-             "anchors",
-         .picture = true,
-         .joints = one_axis | bits_of(ball, universal, distance)});
+    field(self.visible, "visible", ByType(),
+          {"the joint is drawn, without effect on the motion. Hinge: its axle; universal: its cross; ball: a pin; "
+           "slider and cylindrical: a rod over the way of the limits; distance: a [cord](scene-format.md#cord) between "
+           "its anchors",
+           {},
+           {},
+           {},
+           one_axis | bits_of(ball, universal, distance),
+           true});
 }
 
 template <class Visitor, class Self>
@@ -234,15 +163,14 @@ void visit_fields(Of<JointMotor>, Visitor& field, Self& self) {
 template <class Visitor, class Self>
 void visit_fields(Of<JointTarget>, Visitor& field, Self& self) {
     field(self.time, "time", Required(limits::time), {"each later than the one before"});
-    field(self.value, "value", Required(ByCode()), {.range = "as limits", .type = "number, m or degrees"});
+    field(self.value, "value", Required(ByCode()), {{}, {}, "as limits", "number, m or degrees"});
 }
 
 template <class Visitor, class Self>
 void visit_fields(Of<JointAxis>, Visitor& field, Self& self) {
     field.inner(self.motion);
     field.key("limits");
-    field.inner(self.lower);
-    field.inner(self.upper);
+    field.inner(self.lower, self.upper);
     field(self.restitution, "limit_restitution", limits::restitution);
     field(self.spring, "spring", ByCode());
     field(self.motor, "motor", ByCode());

@@ -46,8 +46,7 @@ void visit_fields(Of<OutputSettings>, Visitor& field, Self& self) {
            {},
            "1e-9 to 1e6",
            "number, frames/s; or a fraction as text"});
-    field.shown(self.width);
-    field.shown(self.height);
+    field.shown(self.width, self.height);
     field(self.samples, "samples", ByCode(),
           {.text = "1: aliased edges; 2 or 4: antialiased edges", .type = "1, 2 or 4", .picture = true});
 }

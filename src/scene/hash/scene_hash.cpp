@@ -45,13 +45,13 @@ public:
     void operator()(const auto& value, std::string_view, const auto&, const About& about = {}) {
         if (all_ || !about.picture) add_value(value);
     }
-    void inner(const auto& value) { add_value(value); }
-    void shown(const auto& value) {
-        if (all_) add_value(value);
+    void inner(const auto&... values) { add_all(values...); }
+    void shown(const auto&... values) {
+        if (all_) add_all(values...);
     }
     void instead(const auto&, const auto& value) { add_value(value); }
-    void since(bool condition, const auto& value) {
-        if (condition) add_value(value);
+    void since(bool condition, const auto&... values) {
+        if (condition) add_all(values...);
     }
 
     template <class T>
