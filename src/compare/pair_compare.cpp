@@ -1,8 +1,12 @@
 #include "compare/pair_compare.h"
 
-#include "compare/perceptual_figures.h"
+#include "compare/comparison.h"
+#include "compare/metrics/flip.h"
+#include "compare/metrics/ssim.h"
+#include "compare/tolerances.h"
 #include "core/check.h"
 #include "core/error.h"
+#include "core/image.h"
 #include "core/safe_text.h"
 #include "output/picture_reader.h"
 
@@ -10,12 +14,45 @@
 
 #include <array>
 #include <fstream>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
+
+struct PerceptualFigure {
+    RuleFigure figure;
+    std::string reason;  // a sentence, for a figure beyond its limit
+};
+
+PerceptualFigure ssim_figure(const Image& reference, const Image& image, double limit) {
+    const SsimResult found = ssim(reference, image);
+    const RuleFigure figure{"ssim", found.mean, limit, found.mean >= limit, found.x, found.y};
+    return {figure,
+            fmt::format("rule ssim: the structural similarity is {:.6g} (at least {:.6g} is needed; key ssim); the "
+                        "lowest at x {}, y {}",
+                        found.mean, limit, found.x, found.y)};
+}
+
+PerceptualFigure flip_figure(const Image& reference, const Image& image, double limit) {
+    const FlipResult found = flip(reference, image);
+    const RuleFigure figure{"flip", found.mean, limit, found.mean <= limit, found.x, found.y};
+    return {figure, fmt::format("rule flip: the mean perceptual error is {:.6g} (at most {:.6g} may be; key flip); the "
+                                "largest at x {}, y {}",
+                                found.mean, limit, found.x, found.y)};
+}
+
+/// ssim and flip, as far as they have a limit. Precondition: the sizes are equal.
+std::vector<PerceptualFigure> perceptual_figures(const Image& reference, const Image& image,
+                                                 const PairTolerances& tolerances) {
+    std::vector<PerceptualFigure> figures;
+    if (tolerances.ssim) figures.push_back(ssim_figure(reference, image, *tolerances.ssim));
+    if (tolerances.flip) figures.push_back(flip_figure(reference, image, *tolerances.flip));
+    return figures;
+}
 
 /// A picture from top to bottom.
 class ComparedRows {

@@ -1,6 +1,5 @@
 // Manual pages, completions and JSON from the description of the commands.
-#include "app/manual/completion.h"
-#include "app/manual/man_page.h"
+#include "app/manual/manual.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

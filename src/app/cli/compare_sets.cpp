@@ -6,7 +6,6 @@
 #include "app/cli/say.h"
 #include "app/compare/accepted_pictures.h"
 #include "app/compare/clip_pairs.h"
-#include "app/compare/compare_input.h"
 #include "app/compare/compared_folder.h"
 #include "app/compare/compared_frames.h"
 #include "app/files/frame_folder.h"
@@ -28,7 +27,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <set>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 namespace tumble {
@@ -58,6 +61,22 @@ ImageSize size_of(const NamedFiles& references) {
             if (file == references.rbegin()->second) throw;
         }
     return {};
+}
+
+enum class CompareInput { picture, folder, clip, scene };
+
+constexpr std::string_view clip_endings[] = {".mp4", ".mov", ".mkv", ".webm", ".gif", ".avi", ".m4v"};
+
+/// By its name, and by the file system for a folder. Throws InputError if a file or folder does not exist.
+CompareInput compare_input(const std::filesystem::path& path) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (std::filesystem::is_directory(status)) return CompareInput::folder;
+    if (!std::filesystem::exists(status)) throw InputError({path.string(), 0, 0}, "there is no such file or folder");
+    const std::string ending = path.extension().string();
+    if (ending == ".toml") return CompareInput::scene;
+    const bool clip = std::find(std::begin(clip_endings), std::end(clip_endings), ending) != std::end(clip_endings);
+    return clip ? CompareInput::clip : CompareInput::picture;
 }
 
 PairTolerances tolerances_of_options(const v0::CompareOptions& options) {

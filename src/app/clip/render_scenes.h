@@ -6,9 +6,10 @@
 #include "app/composition/make_composition.h"
 #include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
-#include "app/survey/scale_observer.h"
+#include "app/survey/survey.h"
 #include "app/threads/interrupt.h"
 #include "overlay/overlay_builder.h"
+#include "overlay/overlay_scales.h"
 #include "scene/load.h"
 #include "sim/frames/clip_timing.h"
 #include "sim/world.h"
@@ -20,6 +21,15 @@
 #include <vector>
 
 namespace tumble {
+
+/// The sizes of arrows over a clip, for their scales.
+struct ScaleObserver : SurveyObserver {
+    explicit ScaleObserver(const SceneDescription& scene) : sizes(scene) {}
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) override {
+        sizes.add(snapshot, records);
+    }
+    ScaleSurvey sizes;
+};
 
 class RenderScenes {
 public:

@@ -1,12 +1,13 @@
-// Makes frames from the images of their panels, with text and plot. Only changed regions are made anew: a frame is the same
-// to the last byte whichever frame was composed before it.
+// Makes frames from the images of their panels, with text and plot. Only changed regions are made anew: a frame is the
+// same to the last byte whichever frame was composed before it.
 #pragma once
 
 #include "app/composition/composition.h"
-#include "app/composition/plot_layer.h"
+#include "app/composition/stamp.h"
 #include "app/composition/text_layer.h"
 #include "core/image.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,24 @@ namespace tumble {
 struct PanelImage {
     const Image& image;
     const std::vector<Rectangle>& changed;  // where it may differ from the image of the previous frame
+};
+
+/// The plot of a clip: drawn once, but for the cursor at the frame's time.
+class PlotLayer {
+public:
+    explicit PlotLayer(const ClipPlot& plot);
+
+    /// Moves the cursor to that time (s), and appends the regions that differ from those of the previous call.
+    void update(double time, std::vector<Rectangle>& changed);
+
+    /// Appends the stamps to draw, from back to front.
+    void add_stamps(std::vector<const Stamp*>& stamps) const;
+
+private:
+    ClipPlot plot_;
+    FigurePlaces places_;
+    Stamp curves_, cursor_;
+    std::optional<double> time_;  // s, of the cursor
 };
 
 class FrameComposer {

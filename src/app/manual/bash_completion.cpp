@@ -1,4 +1,4 @@
-#include "app/manual/completion.h"
+#include "app/manual/manual.h"
 
 #include <fmt/format.h>
 

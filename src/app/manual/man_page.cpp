@@ -1,4 +1,4 @@
-#include "app/manual/man_page.h"
+#include "app/manual/manual.h"
 
 #include <fmt/format.h>
 

@@ -1,20 +1,91 @@
 #include "app/sweep/sample_maker.h"
 
-#include "app/sweep/resolved_scene.h"
+#include "api/scene_data.h"
+#include "app/files/run_tables.h"
 #include "app/sweep/sample_clip.h"
-#include "app/sweep/sample_tables.h"
+#include "app/sweep/sample_folder.h"
+#include "app/sweep/sweep_plan.h"
+#include "app/sweep/toml_json.h"
 #include "output/confined_path.h"
+#include "scene/description/description.h"
 #include "scene/hash/scene_hash.h"
+#include "scene/toml/set_values.h"
+#include "scene/toml/toml_text.h"
 
 #include <fmt/format.h>
 
 #include <unistd.h>
 
+#include <filesystem>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace tumble {
+namespace {
 
 namespace fs = std::filesystem;
+
+/// The name of a mesh file for a scene in another folder.
+void move_mesh(toml::table& shape, const fs::path& from, const fs::path& to) {
+    toml::value<std::string>* file = shape["file"].as_string();
+    if (file == nullptr || shape["type"].value<std::string>() != "mesh") return;
+    const fs::path name(file->get());
+    if (name.empty() || name.is_absolute()) return;
+    file->get() = fs::absolute(from / name).lexically_normal().lexically_relative(fs::absolute(to).lexically_normal());
+}
+
+void move_meshes(toml::node& node, const fs::path& from, const fs::path& to) {
+    if (toml::table* table = node.as_table()) {
+        move_mesh(*table, from, to);
+        for (auto&& [key, inner] : *table) move_meshes(inner, from, to);
+    } else if (toml::array* array = node.as_array()) {
+        for (toml::node& inner : *array) move_meshes(inner, from, to);
+    }
+}
+
+/// As TOML, for `tumble render`, or as JSON for other programs. `folder`: where the text will be; names of mesh files
+/// become relative to it. Throws InputError.
+std::string resolved_scene(const std::string& text, const fs::path& scene, const std::vector<std::string>& assignments,
+                           const fs::path& folder, SceneForm form) {
+    toml::table document = parse_toml(text, scene.string());
+    set_values(document, assignments);
+    move_meshes(document, scene.parent_path(), folder);
+    if (form == SceneForm::json) return json_of(document).dump(2) + "\n";
+    return toml_document_text(document);
+}
+
+/// The assignment of a title, for a scene without one: a copy under another file name shows the same title.
+std::vector<std::string> title_assignment(const std::string& text, const fs::path& scene) {
+    const toml::table document = parse_toml(text, scene.string());
+    if (document.contains("title")) return {};
+    return {"title=" + toml_string(scene.stem().string())};
+}
+
+/// Simulates the scene and writes the requested tables.
+void write_tables(const SceneDescription& description, const SampleOutputs& outputs, SampleFolder& folder) {
+    const std::string ending = outputs.arrays ? ".npz" : ".csv";
+    TableFiles files;
+    if (outputs.trajectory) files.trajectory = folder.path() / "trajectory.csv";
+    if (outputs.energy) files.energy = folder.path() / "energy.csv";
+    if (outputs.impacts) files.impacts = folder.path() / ("impacts" + ending);
+    if (outputs.contacts) files.contacts = folder.path() / ("contacts" + ending);
+    if (outputs.loads) files.loads = folder.path() / ("loads" + ending);
+    if (outputs.joints) files.joints = folder.path() / ("joints" + ending);
+    const v0::Scene scene = v0::make_scene(description, {});
+    World world(description, 1);
+    RunTables tables(files, scene);
+    if (tables.needs_records()) world.record_contacts();
+    const std::int64_t frames = scene.frame_count();
+    for (std::int64_t n = 0; n < frames; ++n) {
+        if (n > 0) world.advance_frame();
+        tables.add(n, world);
+    }
+    tables.finish();
+    for (const std::filesystem::path& file : files.all()) folder.add(file.filename().string());
+}
+
+}  // namespace
 
 SampleMaker::SampleMaker(const SweepPlan& plan, std::string scene, fs::path folder)
     : plan_(plan), text_(std::move(scene)), title_(title_assignment(text_, plan.scene)), folder_(std::move(folder)) {}
