@@ -32,6 +32,7 @@ const std::map<std::string, std::string> known = {
     {"render/aov/aov_renderer.cpp", "planes: one normal"},
     {"render/passes/plane_pass.cpp", "planes: drawn by a pass of their own"},
     {"render/scene/large_receivers.h", "planes: bodies fall onto them"},
+    {"render/shadow/shadow_cascades.cpp", "planes: hide bodies behind them"},
     {"render/scene/plane_patch.cpp", "planes: drawn as the part in view"},
     {"render/scene/plane_patch.h", "planes: drawn as the part in view"},
     {"scene/camera/camera_visibility.cpp",

@@ -10,7 +10,7 @@
 #include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "output/table_writer.h"
-#include "scene/keys/joint_keys.h"
+#include "scene/fields/choices.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>
@@ -102,18 +102,6 @@ std::string simulation_cost(const SceneDescription& scene, World& world) {
 
 constexpr std::size_t listed_bodies = 24;  // a screenful; the groups summarize all bodies
 
-const char* type_text(BodyType type) {
-    switch (type) {
-        case BodyType::dynamic:
-            return "dynamic";
-        case BodyType::fixed:
-            return "fixed";
-        case BodyType::kinematic:
-            return "kinematic";
-    }
-    return "";
-}
-
 /// The kind of shape, for the groups, and its dimensions, for the list.
 struct ShapeText {
     std::string kind, measures;
@@ -180,7 +168,7 @@ void print_groups(const SceneDescription& scene, const World& world) {
     }
     put("\n{} bodies\n", scene.bodies.size());
     for (const auto& [key, group] : groups) {
-        put("  {:>7} {} {}", group.count, type_text(key.first), key.second);
+        put("  {:>7} {} {}", group.count, name_of(key.first), key.second);
         if (key.first == BodyType::dynamic) put(", {:.6g} kg in total", group.mass);
         put("\n");
     }
@@ -196,8 +184,8 @@ void print_bodies(const SceneDescription& scene, const World& world) {
         const BodyReport report = world.report(i);
         const ShapeText shape = shape_text(body.shape);
         const bool moves = body.type == BodyType::dynamic;
-        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), type_text(body.type),
-            shape.kind, shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
+        put("  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", safe_text(body.name), name_of(body.type), shape.kind,
+            shape.measures, moves ? fmt::format("{:.5g}", report.mass) : "-",
             moves ? vector_text(report.principal_inertia) : "-",
             report.hull_vertices > 0 ? std::to_string(report.hull_vertices) : "-");
     }
@@ -227,7 +215,7 @@ void print_joints(const SceneDescription& scene, const World& world) {
     std::map<JointType, std::size_t> types;
     for (const JointDescription& joint : scene.joints) ++types[joint.type];
     put("\n{}\n", count_text(scene.joints.size(), "joint", "joints"));
-    for (const auto& [type, count] : types) put("  {:>7} {}\n", count, type_name(type));
+    for (const auto& [type, count] : types) put("  {:>7} {}\n", count, name_of(type));
     const JointReport report = world.joint_report();
     const auto name = [&](std::size_t joint) { return safe_text(scene.joints[joint].name); };
     put("  freedom   {}{} of {}\n", report.counted ? "" : "at least ",
@@ -275,7 +263,7 @@ void write_bodies(const std::filesystem::path& file, const SceneDescription& sce
         const BodyReport report = world.report(i);
         const Vec3& c = report.center_of_mass;
         const Mat3& inertia = report.inertia;
-        table.text(body.name).text(type_text(body.type)).number(body.type == BodyType::dynamic ? report.mass : 0.0);
+        table.text(body.name).text(name_of(body.type)).number(body.type == BodyType::dynamic ? report.mass : 0.0);
         table.number(c.x()).number(c.y()).number(c.z());
         table.number(inertia(0, 0)).number(inertia(1, 1)).number(inertia(2, 2));
         table.number(inertia(0, 1)).number(inertia(0, 2)).number(inertia(1, 2));

@@ -87,7 +87,7 @@ bool hidden(const std::vector<PlaneShape>& planes, const Vec3& eye, const Render
             const Quat& rotation) {
     return std::any_of(planes.begin(), planes.end(), [&](const PlaneShape& plane) {
         const Vec3 normal = rotation.conjugate() * plane.normal;
-        const double reach = proxy.kind == DrawKind::box ? normal.cwiseAbs().dot(proxy.half_size) : proxy.bound_radius;
+        const double reach = std::min(normal.cwiseAbs().dot(proxy.half_extent), proxy.bound_radius);
         constexpr double rounding = 1e-6;  // of the size: a face may lie in the plane
         return plane.normal.dot(eye) > plane.offset &&
                plane.normal.dot(center) + reach <= plane.offset + rounding * proxy.bound_radius;
@@ -181,7 +181,8 @@ CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderSc
         z.add(z_axis_.dot(target), 0.5 * view.target_distance());
     }
     const double pixel = view.pixel_size() * (distances.empty() ? view.target_distance() : lower_median(distances));
-    const double softest = texels * std::min(least_texel_of_ao_radius * scene.typical_ao_radius, softest_pixels * pixel);
+    const double softest =
+        texels * std::min(least_texel_of_ao_radius * scene.typical_ao_radius, softest_pixels * pixel);
     size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least, finest_pixels * pixel * texels});
     if (size_ < filtered_by_pixel * pixel * texels) filter_ = pixel_filter;
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;

@@ -216,6 +216,10 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
                 start();
                 continue;
             }
+            if (!found) {
+                std::fill(push_.begin(), push_.end(), 0.0);
+                predict_ends(island, false);
+            }
             consistent_ = found;
             return found && last < rounding ? Closing::closed : Closing::stuck;
         }
