@@ -32,7 +32,8 @@ struct ShadowFilter {
 inline constexpr double least_pixel_step = 1.5, most_pixel_step = 8.0;
 
 inline constexpr ShadowFilter texel_filter{false, 2.0, 2.83, 2.2, 4.0, 6.0};
-inline constexpr ShadowFilter pixel_filter{true, 0.5 * most_pixel_step + 1.0, 0.5 * most_pixel_step + 1.42, 1.6, 4.0, 7.5};
+inline constexpr ShadowFilter pixel_filter{true, 0.5 * most_pixel_step + 1.0, 0.5 * most_pixel_step + 1.42, 1.6, 4.0,
+                                           7.5};
 
 struct ShadowCascades {
     int texels = 1;  // across each map
