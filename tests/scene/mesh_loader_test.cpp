@@ -4,9 +4,14 @@
 #include "scene/mesh/mesh_normals.h"
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 namespace tumble::mesh_loader_test {
 namespace {
@@ -304,6 +309,77 @@ TEST_F(MeshLoader, TheCacheSharesEqualScales) {
     EXPECT_TRUE(two->mesh.bounds().max.isApprox(2.0 * one->mesh.bounds().max));
     EXPECT_NEAR(cache.load(asset("gem.obj"), 2.0).closedness.signed_volume,
                 8.0 * cache.load(asset("gem.obj"), 1.0).closedness.signed_volume, 1e-12);
+}
+
+// The cube of 8 m^3 in files as programs write them, each against the letter of its format.
+TEST_F(MeshLoader, ReadsFilesAsProgramsWriteThem) {
+    const auto volume = [&](const std::string& name, const std::string& text) {
+        const LoadedMesh mesh = load_mesh(write(name, text));
+        EXPECT_TRUE(mesh.closedness.closed()) << name;
+        return mesh.closedness.signed_volume;
+    };
+    const std::string cube = cube_points() + cube_faces();
+    EXPECT_DOUBLE_EQ(volume("mark.obj", "\xef\xbb\xbf" + cube), 8.0);
+    std::string little = "\xff\xfe", big = "\xfe\xff";
+    for (const char c : cube) {
+        little += {c, '\0'};
+        big += {'\0', c};
+    }
+    EXPECT_DOUBLE_EQ(volume("little.obj", little), 8.0);
+    EXPECT_DOUBLE_EQ(volume("big.obj", big), 8.0);
+    std::string named = cube_faces();  // normals that the file does not hold
+    for (std::size_t at = 0; (at = named.find_first_of("12345678", at)) != named.npos; at += 4)
+        named.insert(at + 1, "//1");
+    EXPECT_DOUBLE_EQ(volume("normals.obj", cube_points() + named), 8.0);
+    EXPECT_DOUBLE_EQ(volume("curve.obj", cube_points() + "cstype bezier\n" + cube_faces()), 8.0);
+
+    std::string facets;
+    const LoadedMesh solid = load_mesh(write("cube.obj", cube));
+    for (const auto& t : solid.asset->mesh.triangles) {
+        facets += "FACET NORMAL 0 0 0\nOUTER LOOP\n";
+        for (const std::uint32_t v : t) {
+            const Vec3& p = solid.asset->mesh.vertices[v];
+            facets += fmt::format("VERTEX {} {} {}\n", p.x(), p.y(), p.z());
+        }
+        facets += "ENDLOOP\nENDFACET\n";
+    }
+    EXPECT_DOUBLE_EQ(volume("capitals.stl", "SOLID CUBE\n" + facets + "ENDSOLID CUBE\n"), 8.0);
+    std::string binary(80, ' ');
+    const auto put = [&](const auto& value) { binary.append(reinterpret_cast<const char*>(&value), sizeof value); };
+    put(std::uint32_t(solid.asset->mesh.triangles.size()));
+    for (const auto& t : solid.asset->mesh.triangles) {
+        for (int i = 0; i < 3; ++i) put(0.0f);
+        for (const std::uint32_t v : t)
+            for (int i = 0; i < 3; ++i) put(float(solid.asset->mesh.vertices[v][i]));
+        put(std::uint16_t(0));
+    }
+    EXPECT_DOUBLE_EQ(volume("more.stl", binary + "made by a program"), 8.0);
+
+    const std::string vertices = "element vertex 8\nproperty float x\nproperty float y\nproperty float z\n";
+    std::string rows;
+    for (std::size_t i = 0; i < 8; ++i)
+        rows += fmt::format("{} {} {} 0.5 7\n", i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+    EXPECT_DOUBLE_EQ(
+        volume("columns.ply", "ply\nformat ascii 1.0\n" + vertices +
+                                  "element face 6\nproperty list uchar int vertex_indices\nend_header\n" + rows +
+                                  "4 0 2 3 1\n4 4 5 7 6\n4 0 1 5 4\n4 2 6 7 3\n4 0 4 6 2\n4 1 3 7 5\n"),
+        8.0);
+    EXPECT_DOUBLE_EQ(
+        volume("strips.ply", "ply\nformat ascii 1.0\n" + vertices +
+                                 "element tristrips 1\nproperty list int int vertex_indices\nend_header\n" + rows +
+                                 "20 3 2 1 0 5 4 7 6 3 2 -1 0 2 4 6 -1 1 5 3 7\n"),
+        8.0);
+}
+
+// A file may be a library without scenes: its nodes that are no child are drawn.
+TEST_F(MeshLoader, AGltfWithoutScenesHasItsRoots) {
+    std::ifstream file(asset("egg.gltf"));
+    std::string text((std::istreambuf_iterator<char>(file)), {});
+    nlohmann::json document = nlohmann::json::parse(text);
+    document.erase("scenes");
+    document.erase("scene");
+    const LoadedMesh mesh = load_mesh(write("egg.gltf", document.dump()));
+    EXPECT_EQ(mesh.asset->mesh.triangles.size(), load_mesh(asset("egg.gltf")).asset->mesh.triangles.size());
 }
 
 }  // namespace

@@ -50,9 +50,8 @@ public:
     SceneReader(const Json& document, GltfBuffers& buffers) : document_(document), buffers_(buffers) {}
 
     MeshFile read() {
-        const auto scene = find_whole(document_, "scene").value_or(0);
         std::vector<Visit> open;
-        push(whole_numbers(require_item(document_, "scenes", scene), "nodes"), {}, open);
+        push(roots(), {}, open);
         while (!open.empty()) {  // depth first, with an explicit stack, because a file may have any depth
             const Visit visit = open.back();
             open.pop_back();
@@ -69,6 +68,23 @@ private:
         std::uint64_t node;
         MeshTransform parent;
     };
+
+    /// The nodes of the scene; without scenes, all nodes that are no child.
+    std::vector<std::uint64_t> roots() const {
+        if (find_member(document_, "scenes"))
+            return whole_numbers(require_item(document_, "scenes", find_whole(document_, "scene").value_or(0)),
+                                 "nodes");
+        std::vector<std::uint64_t> result;
+        const Json* nodes = find_member(document_, "nodes");
+        if (!nodes || !nodes->is_array()) return result;
+        std::vector<char> is_child(nodes->size(), 0);
+        for (const Json& node : *nodes)
+            for (const std::uint64_t child : whole_numbers(node, "children"))
+                if (child < is_child.size()) is_child[child] = 1;
+        for (std::size_t i = 0; i < is_child.size(); ++i)
+            if (!is_child[i]) result.push_back(i);
+        return result;
+    }
 
     /// The nodes of glTF form a forest: each is visited once, so there are neither cycles nor branches that double.
     void push(const std::vector<std::uint64_t>& nodes, const MeshTransform& parent, std::vector<Visit>& open) {

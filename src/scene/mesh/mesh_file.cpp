@@ -45,6 +45,20 @@ MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& fo
     }
 }
 
+/// Text without a byte-order mark, from UTF-16 too. Letters beyond ASCII stand in names only.
+std::string plain_text(std::string bytes) {
+    if (bytes.starts_with("\xef\xbb\xbf")) return bytes.substr(3);
+    const bool little = bytes.starts_with("\xff\xfe");
+    if (!little && !bytes.starts_with("\xfe\xff")) return bytes;
+    std::string text;
+    for (std::size_t i = 2; i + 1 < bytes.size(); i += 2) {
+        const auto low = static_cast<unsigned char>(bytes[i + (little ? 0 : 1)]),
+                   high = static_cast<unsigned char>(bytes[i + (little ? 1 : 0)]);
+        text += high == 0 && low < 0x80 ? char(low) : '?';
+    }
+    return text;
+}
+
 MeshFile read_bytes(const std::filesystem::path& file, const std::string& extension, MeshImports imports) {
     const bool gltf = extension == ".gltf" || extension == ".glb";
     const bool own = gltf || extension == ".obj" || extension == ".stl" || extension == ".ply";
@@ -55,8 +69,8 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
     if (bytes.empty()) throw MeshError("is empty");
     if (!own) return import(bytes, extension, imports);
     if (gltf) return read_any_gltf(bytes, file.parent_path(), extension, imports);
-    if (extension == ".obj") return read_obj(bytes);
-    return extension == ".stl" ? read_stl(bytes) : read_ply(bytes);
+    if (extension == ".obj") return read_obj(plain_text(bytes));
+    return extension == ".stl" ? read_stl(bytes) : read_ply(plain_text(bytes));
 }
 
 }  // namespace

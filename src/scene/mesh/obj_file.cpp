@@ -13,18 +13,20 @@
 namespace tumble {
 namespace {
 
-/// Calls visit(keyword, tokens) for every line that is not part of a curve or surface.
+/// Calls visit(keyword, tokens) for every line that is not part of a curve or surface. A curve without an end is a single
+/// line: some programs write no more.
 template <class Visit>
 void visit_lines(std::string_view bytes, const Visit& visit) {
     TextTokens tokens(bytes);
     bool in_curve = false;
+    const std::size_t last_end = bytes.rfind("\nend");
     do {
         const std::string_view keyword = tokens.token();
         if (keyword.empty()) continue;
         if (in_curve)
             in_curve = keyword != "end";
         else if (keyword == "cstype")
-            in_curve = true;
+            in_curve = last_end != bytes.npos && std::size_t(keyword.data() - bytes.data()) < last_end;
         else
             visit(keyword, tokens);
     } while (tokens.next_line());
@@ -107,7 +109,8 @@ private:
             mesh_.add_position(transform_.point(points_.positions[v]));
         }
         result.position = number_[v];
-        if (second != token.npos && second + 1 < token.size()) {
+        const bool names_normal = second != token.npos && second + 1 < token.size();
+        if (names_normal && !points_.normals.empty()) {  // some programs name normals that they do not write
             const std::size_t n = index(token.substr(second + 1), normals_seen_, points_.normals.size(), "normal");
             result.normal = transform_.normal(points_.normals[n]);
         }

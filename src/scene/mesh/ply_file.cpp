@@ -130,6 +130,20 @@ public:
 
     double next(Type type) { return encoding_ == Encoding::text ? next_token() : next_binary(type); }
 
+    /// Lines of text with anything on them that are left.
+    std::uint64_t lines_left() const {
+        std::uint64_t lines = 0;
+        bool blank = true;
+        for (const char c : data_.substr(at_)) {
+            if (c == '\n') blank = true;
+            if (!blank || std::strchr(" \t\r\n", c)) continue;
+            blank = false;
+            ++lines;
+        }
+        return lines;
+    }
+    void skip_line() { at_ = std::min(data_.find('\n', at_), data_.size()); }
+
 private:
     double next_token() {
         while (at_ < data_.size() && std::strchr(" \t\r\n", data_[at_])) ++at_;
@@ -224,6 +238,29 @@ std::optional<std::array<std::size_t, 3>> triple(const Element& element, const s
     return result;
 }
 
+MeshFile::Corner corner_of(double index, const std::vector<Vec3>& normals, const MeshFile& mesh) {
+    const std::size_t v = whole(index, double(mesh.positions.size()), "a face with a vertex");
+    return {static_cast<std::uint32_t>(v), normals.empty() ? Vec3(Vec3::Zero()) : normals[v]};
+}
+
+/// Strips of triangles, each ended by -1; every second triangle is wound the other way.
+void add_strips(const std::vector<double>& indices, const std::vector<Vec3>& normals, MeshFile& mesh) {
+    std::vector<MeshFile::Corner> strip;
+    for (const double index : indices) {
+        if (index == -1.0) {
+            strip.clear();
+            continue;
+        }
+        strip.push_back(corner_of(index, normals, mesh));
+        const std::size_t n = strip.size();
+        if (n < 3) continue;
+        if (n % 2 == 1)
+            mesh.add_triangle({strip[n - 3], strip[n - 2], strip[n - 1]});
+        else
+            mesh.add_triangle({strip[n - 2], strip[n - 3], strip[n - 1]});
+    }
+}
+
 }  // namespace
 
 MeshFile read_ply(std::string_view bytes) {
@@ -232,12 +269,18 @@ MeshFile read_ply(std::string_view bytes) {
 
     MeshFile mesh;
     std::vector<Vec3> normals;  // one per vertex, or none at all
+    // A row for each line may have more columns than the header names.
+    std::uint64_t rows = 0;
+    for (const Element& element : header.elements)
+        if (!element.properties.empty()) rows += std::min(element.count, std::uint64_t(bytes.size()));
+    const bool row_per_line = header.encoding == Encoding::text && body.lines_left() == rows;
     for (const Element& element : header.elements) {
         const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
         const auto position = triple(element, {"x", "y", "z"}), normal = triple(element, {"nx", "ny", "nz"});
         auto corners = property_index(element, "vertex_indices", true);
         if (!corners) corners = property_index(element, "vertex_index", true);
         if (is_vertex && !position) throw MeshError("has vertices without x, y and z");
+        const bool is_strip = element.name == "tristrips" && corners;
         if (is_face && !corners) throw MeshError("has faces without vertex_indices");
         if (element.properties.empty() && element.count > 0) continue;  // empty rows
 
@@ -246,6 +289,7 @@ MeshFile read_ply(std::string_view bytes) {
         std::vector<MeshFile::Corner> polygon;
         for (std::uint64_t row = 0; row < element.count; ++row) {
             read_row(body, element, scalar, list);
+            if (row_per_line) body.skip_line();
             if (is_vertex) {
                 const auto& [x, y, z] = *position;
                 mesh.add_position({scalar[x], scalar[y], scalar[z]});
@@ -253,12 +297,10 @@ MeshFile read_ply(std::string_view bytes) {
                     normals.push_back(unit_or_zero({scalar[(*normal)[0]], scalar[(*normal)[1]], scalar[(*normal)[2]]}));
             } else if (is_face) {
                 polygon.clear();
-                for (const double index : list[*corners]) {
-                    const std::size_t v = whole(index, double(mesh.positions.size()), "a face with a vertex");
-                    polygon.push_back(
-                        {static_cast<std::uint32_t>(v), normals.empty() ? Vec3(Vec3::Zero()) : normals[v]});
-                }
+                for (const double index : list[*corners]) polygon.push_back(corner_of(index, normals, mesh));
                 mesh.add_polygon(polygon);
+            } else if (is_strip) {
+                add_strips(list[*corners], normals, mesh);
             }
         }
     }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstring>
@@ -37,6 +38,12 @@ void add_last_three(MeshFile& mesh) {
     mesh.add_triangle({{{next - 3, Vec3::Zero()}, {next - 2, Vec3::Zero()}, {next - 1, Vec3::Zero()}}});
 }
 
+/// Keywords may have capitals.
+bool is_word(std::string_view token, std::string_view lower) {
+    return std::equal(token.begin(), token.end(), lower.begin(), lower.end(),
+                      [](char given, char wanted) { return (given | 0x20) == wanted; });
+}
+
 MeshFile read_text(std::string_view bytes) {
     MeshFile mesh;
     const MeshTransform in_place;
@@ -47,19 +54,19 @@ MeshFile read_text(std::string_view bytes) {
             throw MeshError(fmt::format("has a facet of {} corners before line {}", corners, tokens.line()));
     };
     for (std::string_view token = tokens.next(); !token.empty(); token = tokens.next()) {
-        if (token == "solid") {
+        if (is_word(token, "solid")) {
             end_facet();
             mesh.begin_object();
             tokens.skip_name();
-        } else if (token == "facet") {
+        } else if (is_word(token, "facet")) {
             end_facet();
             corners = 0;
-        } else if (token == "vertex" && corners < 3) {
+        } else if (is_word(token, "vertex") && corners < 3) {
             std::array<float, 3> point{};
             for (float& coordinate : point) coordinate = mesh_number(tokens.next(), tokens.line());
             mesh.add_position(in_place.point(point));
             if (++corners == 3) add_last_three(mesh);
-        } else if (token == "endsolid") {
+        } else if (is_word(token, "endsolid")) {
             end_facet();
             tokens.skip_name();
         }
@@ -68,10 +75,11 @@ MeshFile read_text(std::string_view bytes) {
     return mesh;
 }
 
-MeshFile read_binary(std::string_view bytes) {
+MeshFile read_binary(std::string_view bytes, std::uint32_t facets) {
     MeshFile mesh;
     const MeshTransform in_place;
-    for (std::size_t at = binary_header_bytes + count_bytes; at < bytes.size(); at += facet_bytes) {
+    std::size_t at = binary_header_bytes + count_bytes;
+    for (std::uint32_t facet = 0; facet < facets; ++facet, at += facet_bytes) {
         for (std::size_t corner = 0; corner < 3; ++corner) {
             std::array<float, 3> point{};
             std::memcpy(point.data(), bytes.data() + at + normal_bytes + corner * sizeof point, sizeof point);
@@ -85,19 +93,24 @@ MeshFile read_binary(std::string_view bytes) {
 }  // namespace
 
 MeshFile read_stl(std::string_view bytes) {
-    // Binary files may begin with "solid" as well, so the length decides.
+    // Binary files may begin with "solid" as well, so the length decides. Some have bytes of their program behind the facets.
     std::uint32_t facets = 0;
     const bool long_enough = bytes.size() >= binary_header_bytes + count_bytes;
     if (long_enough) std::memcpy(&facets, bytes.data() + binary_header_bytes, sizeof facets);
-    if (long_enough && bytes.size() == binary_header_bytes + count_bytes + facets * facet_bytes)
-        return read_binary(bytes);
-    if (Tokens(bytes).next() == "solid") return read_text(bytes);
+    const std::uint64_t binary_bytes = binary_header_bytes + count_bytes + std::uint64_t(facets) * facet_bytes;
+    if (long_enough && bytes.size() == binary_bytes) return read_binary(bytes, facets);
+    const std::string_view text = bytes.starts_with("\xef\xbb\xbf") ? bytes.substr(3) : bytes;
+    if (is_word(Tokens(text).next(), "solid")) {
+        MeshFile mesh = read_text(text);
+        if (!mesh.triangles.empty() || !long_enough || facets == 0 || bytes.size() < binary_bytes) return mesh;
+    }
+    if (long_enough && facets > 0 && bytes.size() > binary_bytes) return read_binary(bytes, facets);
     if (!long_enough)
         throw MeshError("is no STL file: it does not begin with \"solid\" and is too short for a binary one");
     throw MeshError(
         fmt::format("is no STL file: it does not begin with \"solid\", and a binary one of {} facets would have {} "
                     "bytes (it has {})",
-                    facets, binary_header_bytes + count_bytes + facets * facet_bytes, bytes.size()));
+                    facets, binary_bytes, bytes.size()));
 }
 
 }  // namespace tumble
