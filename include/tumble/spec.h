@@ -26,6 +26,8 @@ enum class ContactSolver { by_island, soft, direct };
 enum class RotationForm { quaternion, matrix };
 enum class BodyType { dynamic, fixed, kinematic };
 enum class Pattern { plain, grid, checker };
+/// The matter that gives a mesh its mass and inertia: the volume that it encloses, its convex hull, or its surface.
+enum class MassFrom { solid, hull, shell };
 
 struct SimulationSettings {
     double duration = 5.0;          // s
@@ -103,14 +105,16 @@ struct Sphere {
 struct Mesh {
     std::string file;  // relative to SceneSpec::folder
     double scale = 1.0;
-    bool objects_are_parts = false;  // each object of the file is a part with a convex hull of its own
+    bool objects_are_parts = false;          // each object of the file is a part with a convex hull of its own
+    std::optional<MassFrom> mass_from = {};  // else solid if it encloses a volume, a shell if it is flat, and its hull
+    std::optional<double> thickness = {};    // m, of a shell
 };
 
 /// Indices of three vertices from 0, counterclockwise seen from outside.
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// A triangle mesh from memory, with the repairs and the normals of a mesh file. The arrays are copied once, and copies
-/// of the struct share them: bodies with one mesh take the memory of one. That of a dynamic body must be closed.
+/// of the struct share them: bodies with one mesh take the memory of one.
 struct TriangleMesh {
     struct Arrays {
         std::vector<Vec3> vertices;  // m at scale 1, body frame
@@ -125,6 +129,8 @@ struct TriangleMesh {
 
     std::shared_ptr<const Arrays> arrays;
     double scale = 1.0;
+    std::optional<MassFrom> mass_from = {};  // as in Mesh
+    std::optional<double> thickness = {};    // m, of a shell
 };
 
 struct CompoundPart;

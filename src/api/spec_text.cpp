@@ -136,16 +136,22 @@ private:
         shape_type("sphere");
         set("radius", sphere.radius);
     }
+    void write_mass(const auto& mesh) {
+        if (mesh.mass_from) value("mass_from", "mass_from", text_of(name_of(*mesh.mass_from)));
+        if (mesh.thickness) set("thickness", *mesh.thickness);
+    }
     void write_shape(const Mesh& mesh, const std::string&, const std::string&) {
         shape_type("mesh");
         set("file", mesh.file);
         set("scale", mesh.scale);
         if (mesh.objects_are_parts) value("parts", "objects_are_parts", "\"objects\"");
+        write_mass(mesh);
     }
     void write_shape(const TriangleMesh& mesh, const std::string&, const std::string& prefix) {
         shape_type("mesh");
         value("memory", "arrays", std::to_string(index_of(mesh.arrays)));
         set("scale", mesh.scale);
+        write_mass(mesh);
         if (made.first_mesh.empty()) made.first_mesh = prefix;
     }
     void write_shape(const Compound& compound, const std::string& table, const std::string& prefix) {

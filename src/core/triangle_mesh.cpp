@@ -33,6 +33,7 @@ Closedness closedness(const TriangleMesh& mesh) {
     for (auto edge = uses.begin(); edge != uses.end();) {
         const auto end = std::upper_bound(edge, uses.end(), *edge);
         const auto upward = std::count_if(edge, end, [](const Use& use) { return use.upward; });
+        if (2 * upward != end - edge) ++result.unbalanced_edges;
         if (end - edge == 1)
             ++result.open_edges;
         else if (end - edge != 2 || upward != 1)

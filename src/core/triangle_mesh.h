@@ -20,10 +20,13 @@ struct TriangleMesh {
 
 /// Properties of the edges.
 struct Closedness {
-    std::size_t open_edges = 0;     // used by one triangle only
-    std::size_t crowded_edges = 0;  // used by more than two triangles, or twice in the same direction
-    double signed_volume = 0.0;     // m^3; negative if the faces are oriented inward
+    std::size_t open_edges = 0;        // used by one triangle only
+    std::size_t crowded_edges = 0;     // used by more than two triangles, or twice in the same direction
+    std::size_t unbalanced_edges = 0;  // used more often in one direction than in the other
+    double signed_volume = 0.0;        // m^3; negative if the faces are oriented inward
     bool closed() const { return open_edges == 0 && crowded_edges == 0; }
+    /// The volume does not depend on the origin: of closed meshes, and of such that touch at edges or share faces.
+    bool has_volume() const { return unbalanced_edges == 0; }
 };
 
 /// A mesh is closed if every edge is used once in each direction.

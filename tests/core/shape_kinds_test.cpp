@@ -43,6 +43,7 @@ const std::map<std::string, std::string> known = {
     {"sim/event_driven/local_frame.cpp", "half-spaces: sorted by their planes"},
     {"sim/event_driven/neighbor_boxes.cpp", "half-spaces: not in a tree of bounds"},
     // Compounds are taken apart; the data of meshes is shared.
+    {"app/cli/run_notes.cpp", "meshes: the source of their mass"},
     {"overlay/overlay_painter.cpp", "parts of compounds"},
     {"render/aov/shape_instance.cpp", "parts of compounds; copies share their mesh"},
     {"render/scene/compound_expansion.cpp", "parts of compounds"},

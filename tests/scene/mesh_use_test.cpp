@@ -2,6 +2,13 @@
 #include "core/error.h"
 #include "mesh_files.h"
 #include "scene/load.h"
+#include "sim/geometry/shapes/shape.h"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
 
 namespace tumble::mesh_use_test {
 namespace {
@@ -17,6 +24,10 @@ protected:
             return text.substr(path.size());
         }
         return "no error";
+    }
+    MeshShape mesh_of(const std::string& body_lines) const {
+        return std::get<MeshShape>(
+            parse_scene("format = 1\n[[body]]\n" + body_lines, folder() / "scene.toml").bodies[0].shape);
     }
 };
 
@@ -45,33 +56,80 @@ TEST_F(MeshUse, AMissingOrBrokenFileIsAnErrorAtItsName) {
               ":3:33: error: file must not be empty (given \"\")");
 }
 
-TEST_F(MeshUse, AnOpenMeshMayBeFixedButNotDynamic) {
+// A box of 2 m without its lid.
+TEST_F(MeshUse, AnOpenMeshHasTheMassOfItsHullOrOfItsSurface) {
     write("open.obj", cube_points() + "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-    const std::string shape = "shape = { type = \"mesh\", file = \"open.obj\" }";
-    EXPECT_EQ(error_of(shape),
-              ":3:33: error: file is an open mesh: 4 of its edges belong to one triangle only, so it encloses no "
-              "volume and has no mass; close it, or use it with type = \"fixed\" (given \"open.obj\")");
-    EXPECT_EQ(error_of("type = \"fixed\"\n" + shape), "no error");
-    EXPECT_EQ(error_of("type = \"kinematic\"\n" + shape), "no error");
+    const auto shape = [](const std::string& keys) {
+        return "shape = { type = \"mesh\", file = \"open.obj\"" + keys + " }";
+    };
+    const MeshShape guessed = mesh_of(shape(""));
+    EXPECT_EQ(guessed.mass_from, MassFrom::hull);
+    EXPECT_FALSE(guessed.chosen);
+    EXPECT_NEAR(mass_properties(guessed, 2.0).mass, 16.0, 1e-12);
+    const MeshShape shell = mesh_of(shape(", mass_from = \"shell\", thickness = 0.01"));
+    EXPECT_TRUE(shell.chosen);
+    const MassProperties p = mass_properties(shell, 100.0);  // 20 m^2 of 1 kg/m^2
+    EXPECT_NEAR(p.mass, 20.0, 1e-12);
+    EXPECT_NEAR(p.center_of_mass.z(), -4.0 / 20.0, 1e-12);  // the floor has 4 kg at -1 m
+    // Four walls, 1 m from the axis, and the floor: m w^2/12 + m d^2, m (w^2 + w^2)/12.
+    EXPECT_NEAR(p.inertia(2, 2), 4.0 * 4.0 * (4.0 / 12.0 + 1.0) + 4.0 * 8.0 / 12.0, 1e-12);
+    EXPECT_EQ(
+        error_of(shape(", mass_from = \"solid\"")),
+        ":3:57: error: mass_from \"solid\" needs a closed mesh, and this one is open: 4 of its edges belong to one "
+        "triangle only, so it encloses no volume; take \"hull\" or \"shell\", or close it (given \"solid\")");
+    EXPECT_NE(error_of(shape(", mass_from = \"hull\", thickness = 0.1")).find("thickness is a key of shells"),
+              std::string::npos);
+    for (const char* type : {"fixed", "kinematic"})
+        EXPECT_EQ(error_of(std::string("type = \"") + type + "\"\n" + shape("")), "no error");
+}
+
+TEST_F(MeshUse, AFlatMeshIsASheetAndCollidesAsAPlate) {
+    write("sheet.obj", "v 0 0 0\nv 0 0 2\nv 1 0 2\nv 1 0 0\nf 1 2 3 4\n");
+    const std::string shape = "shape = { type = \"mesh\", file = \"sheet.obj\"";
+    const MeshShape sheet = mesh_of(shape + " }");
+    EXPECT_EQ(sheet.mass_from, MassFrom::shell);
+    EXPECT_DOUBLE_EQ(sheet.thickness, 0.02);
+    const MassProperties p = mass_properties(sheet, 100.0);
+    EXPECT_NEAR(p.mass, 4.0, 1e-12);
+    EXPECT_NEAR(p.inertia(0, 0), 4.0 * 4.0 / 12.0, 1e-12);
+    EXPECT_NEAR(p.inertia(1, 1), 4.0 * 5.0 / 12.0, 1e-12);
+    EXPECT_NE(error_of(shape + ", mass_from = \"hull\" }").find("needs a mesh that is not flat"), std::string::npos);
+    ColliderCache cache;
+    const CollisionShape plate = make_collider(Shape(sheet), {false, p.center_of_mass, 100.0}, cache);
+    const Bounds bounds = world_bounds(plate, Pose{});
+    EXPECT_TRUE(bounds.max.isApprox(Vec3(0.5, 0.01, 1.0), 1e-12)) << bounds.max.transpose();
+    EXPECT_TRUE(bounds.min.isApprox(Vec3(-0.5, -0.01, -1.0), 1e-12)) << bounds.min.transpose();
+}
+
+// Solids that touch at an edge or share a face enclose a volume; faces that are listed twice do not count twice.
+TEST_F(MeshUse, TheVolumeOfSolidsThatTouchIsTheirSum) {
+    write("hinge.obj",
+          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 0 -1\n"  // two tetrahedra on one edge
+          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 2\nf 1 2 6\nf 1 6 5\nf 2 5 6\n");
+    std::string faces, backs;  // triangles
+    std::istringstream quads(cube_faces());
+    std::string f;
+    for (int a, b, c, d; quads >> f >> a >> b >> c >> d;) {
+        faces += fmt::format("f {} {} {}\nf {} {} {}\n", a, b, c, a, c, d);
+        backs += fmt::format("f {} {} {}\nf {} {} {}\n", a, c, b, a, d, c);
+    }
+    write("twice.obj", cube_points() + faces + faces);
+    write("both_sides.obj", cube_points() + faces + backs);
+    const auto loaded = [&](const std::string& file) {
+        return mesh_of("shape = { type = \"mesh\", file = \"" + file + "\" }");
+    };
+    EXPECT_NEAR(mass_properties(loaded("hinge.obj"), 1.0).mass, 2.0 / 6.0, 1e-12);
+    for (const char* file : {"twice.obj", "both_sides.obj"}) {
+        const MeshShape mesh = loaded(file);
+        EXPECT_EQ(mesh.mass_from, MassFrom::solid) << file;
+        EXPECT_EQ(mesh.asset->doubled_faces, 12u) << file;
+        EXPECT_NEAR(mass_properties(mesh, 1.0).mass, 8.0, 1e-12) << file;
+    }
 }
 
 TEST_F(MeshUse, FacesThatDisagreeAreTurned) {
     write("turned.obj", cube_points() + "f 1 4 3 2\nf 8 7 6 5\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
     EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"turned.obj\" }"), "no error");
-}
-
-TEST_F(MeshUse, FacesThatMeetByFoursAreNoSolid) {
-    write("hinge.obj",
-          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 0 -1\n"  // two tetrahedra on one edge
-          "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 1 5 2\nf 1 2 6\nf 1 6 5\nf 2 5 6\n");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"hinge.obj\" }").find("more than two triangles meet"),
-              std::string::npos);
-}
-
-TEST_F(MeshUse, AClosedSheetIsNoSolid) {
-    write("sheet.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\nf 3 2 1\n");
-    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"sheet.obj\" }").find("encloses no volume"),
-              std::string::npos);
 }
 
 TEST_F(MeshUse, ScaleIsLimited) {

@@ -261,6 +261,8 @@ const std::vector<std::vector<Change>> own_tables = {
       "type = \"box\", size = [1, 1, 1]", true},
      {"file", "name = \"stone\"", "gem.obj", "torus.obj", true},
      {"scale", "name = \"stone\"", "scale = 0.7", "scale = 0.75", true},
+     {"mass_from", "name = \"stone\"", "scale = 0.7", "scale = 0.7, mass_from = \"hull\"", true},
+     {"thickness", "name = \"stone\"", "scale = 0.7", "scale = 0.7, mass_from = \"shell\", thickness = 0.1", true},
      {"parts", "name = \"stone\"", "scale = 0.7", "scale = 0.7, parts = \"objects\"", true}},
     {{"type", "name = \"table\"", "", "", true},  // by the shapes above
      {"parts", "name = \"table\"", "parts = [", "parts = [{ shape = { type = \"sphere\", radius = 1 } }, ", true}},
@@ -315,7 +317,11 @@ const std::vector<std::vector<Change>> own_tables = {
     {{"text", "[[caption]]", "Hello", "Good bye", false},
      {"start", "[[caption]]", "start = 0.2", "start = 0.25", false},
      {"end", "[[caption]]", "end = 0.3", "", false}},
-    {{"type", "", "", "", true}, {"memory", "", "", "", true}, {"scale", "", "", "", true}},  // MeshesInMemory
+    {{"type", "", "", "", true},
+     {"memory", "", "", "", true},
+     {"scale", "", "", "", true},
+     {"mass_from", "", "", "", true},
+     {"thickness", "", "", "", true}},  // MeshesInMemory
 };
 
 std::vector<std::vector<Change>> all_tables() {

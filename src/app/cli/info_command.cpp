@@ -281,7 +281,7 @@ void run_info(const InfoCommand& command) {
     World world(scene);
     if (command.bodies) write_bodies(*command.bodies, scene, world);
     if (command.bodies == "/dev/stdout") return;
-    say_text(overlap_warning(scene, world));
+    say_text(start_notes(scene, world));
     print_head(scene);
     print_groups(scene, world);
     print_bodies(scene, world);

@@ -127,7 +127,7 @@ struct ClipMotion {
     void say_overlaps_at_start(const RenderScenes& scenes) const {
         std::set<std::string> said;  // panels often show one scene with other values
         for (std::size_t i = 0; i < worlds.size() && !state; ++i)
-            if (worlds[i]) said.insert(overlap_warning(*scenes.scenes[i].scene, *worlds[i]));
+            if (worlds[i]) said.insert(start_notes(*scenes.scenes[i].scene, *worlds[i]));
         for (const std::string& lines : said) say_text(lines);
     }
     void say_broken_joints(const RenderScenes& scenes) const {

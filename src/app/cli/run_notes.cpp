@@ -7,6 +7,9 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <filesystem>
+#include <set>
+#include <variant>
 
 namespace tumble {
 namespace {
@@ -14,7 +17,38 @@ namespace {
 constexpr double named_share = 0.01;  // of the smaller body's thickness: more than hand-written numbers round
 constexpr std::size_t most_overlaps = 6, most_broken = 12;  // lines; the others are counted
 
-}  // namespace
+/// The meshes of a shape, those of its parts too.
+void add_meshes(const Shape& shape, std::vector<MeshShape>& meshes) {
+    if (const auto* mesh = std::get_if<MeshShape>(&shape)) meshes.push_back(*mesh);
+    if (const auto* compound = std::get_if<CompoundShape>(&shape))
+        for (const CompoundPart& part : *compound->parts) add_meshes(part.shape, meshes);
+}
+
+std::string mesh_notes(const SceneDescription& scene) {
+    std::vector<MeshShape> meshes;
+    for (const BodyDescription& body : scene.bodies) add_meshes(body.shape, meshes);
+    std::string lines;
+    std::set<std::string> said;
+    for (const MeshShape& mesh : meshes) {
+        const std::string file = safe_text(std::filesystem::path(mesh.asset->file).filename().string());
+        std::string line;
+        if (mesh.asset->doubled_faces > 0)
+            line += fmt::format("note: mesh \"{}\": {} faces that are listed twice were dropped\n", file,
+                                mesh.asset->doubled_faces);
+        if (!mesh.chosen && mesh.mass_from == MassFrom::hull)
+            line += fmt::format(
+                "note: mesh \"{}\" is open and encloses no volume: its mass is that of its convex hull "
+                "(mass_from = \"hull\"; \"shell\" takes its surface)\n",
+                file);
+        if (!mesh.chosen && mesh.mass_from == MassFrom::shell)
+            line += fmt::format(
+                "note: mesh \"{}\" is flat: its mass is that of a sheet {:.3g} m thick (mass_from = "
+                "\"shell\", thickness)\n",
+                file, mesh.thickness);
+        if (!line.empty() && said.insert(line).second) lines += line;
+    }
+    return lines;
+}
 
 std::string overlap_warning(const SceneDescription& scene, const World& world) {
     std::vector<Overlap> overlaps = world.overlaps();
@@ -31,6 +65,12 @@ std::string overlap_warning(const SceneDescription& scene, const World& world) {
         lines +=
             fmt::format("warning: {} more pairs of bodies overlap at the start\n", overlaps.size() - most_overlaps);
     return lines + "         contact pushes them apart, which gives them energy: move them, or join them\n";
+}
+
+}  // namespace
+
+std::string start_notes(const SceneDescription& scene, const World& world) {
+    return mesh_notes(scene) + overlap_warning(scene, world);
 }
 
 std::vector<BrokenJoint> broken_joints(const SceneDescription& scene, const World& world) {

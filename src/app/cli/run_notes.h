@@ -1,4 +1,4 @@
-// Notes about a run: bodies that overlap at its start, and joints that broke.
+// Notes about a run: meshes without a volume, bodies that overlap at its start, and joints that broke.
 #pragma once
 
 #include "scene/description/description.h"
@@ -9,9 +9,10 @@
 
 namespace tumble {
 
-/// Lines that name bodies that overlap at the start: the contact pushes them apart, with energy out of nothing. Empty
-/// where there are none. Precondition: the world is at time 0.
-std::string overlap_warning(const SceneDescription& scene, const World& world);
+/// Lines that name meshes whose mass is not that of a volume, because they have none, and faces that were dropped; and bodies
+/// that overlap at the start: the contact pushes them apart, with energy out of nothing. Empty where there are none.
+/// Precondition: the world is at time 0.
+std::string start_notes(const SceneDescription& scene, const World& world);
 
 /// A joint that has broken in a run.
 struct BrokenJoint {

@@ -196,7 +196,7 @@ void simulate_tables(const SimulateCommand& command) {
     {
         RunMonitor monitor(frames, command.quiet);
         World world(description, command.threads);
-        if (!command.quiet) say_text(overlap_warning(description, world));
+        if (!command.quiet) say_text(start_notes(description, world));
         RunTables tables(command.tables, scene);
         if (tables.needs_records()) world.record_contacts();
         for (std::int64_t n = 0; n < frames; ++n) {

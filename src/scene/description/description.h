@@ -103,8 +103,9 @@ enum class BodyType { dynamic, fixed, kinematic };
 
 /// Content of a mesh file, in the file's frame times the body's scale. Shared by the bodies that use it.
 struct MeshAsset {
-    std::string file;   // resolved path
-    TriangleMesh mesh;  // welded: for masses, hulls and contact
+    std::string file;               // resolved path
+    std::size_t doubled_faces = 0;  // dropped: listed twice, or once for each side
+    TriangleMesh mesh;              // welded: for masses, hulls and contact
     struct Vertex {
         float position[3];
         float normal[3];  // unit; computed if the file has none
@@ -123,8 +124,13 @@ struct BoxShape {
 struct SphereShape {
     double radius;  // m
 };
+/// The matter that gives a mesh its mass and inertia: the volume that it encloses, its convex hull, or its surface.
+enum class MassFrom : std::uint8_t { solid, hull, shell };
 struct MeshShape {
     std::shared_ptr<const MeshAsset> asset;
+    MassFrom mass_from = MassFrom::solid;
+    double thickness = 0.0;  // m, of a shell
+    bool chosen = true;      // false: mass_from follows from the mesh, which has no volume of its own
 };
 struct CompoundPart;
 /// Several shapes that form one body, such as a table, a ring or an L. Shared by the bodies that use it.

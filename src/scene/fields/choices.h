@@ -56,6 +56,9 @@ template <>
 inline constexpr auto choices<Pattern> =
     std::to_array<Choice<Pattern>>({{"plain", Pattern::plain}, {"grid", Pattern::grid}, {"checker", Pattern::checker}});
 template <>
+inline constexpr auto choices<MassFrom> =
+    std::to_array<Choice<MassFrom>>({{"solid", MassFrom::solid}, {"hull", MassFrom::hull}, {"shell", MassFrom::shell}});
+template <>
 inline constexpr auto choices<Interpolation> =
     std::to_array<Choice<Interpolation>>({{"smooth", Interpolation::smooth}, {"linear", Interpolation::linear}});
 template <>

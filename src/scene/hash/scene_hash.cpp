@@ -100,7 +100,7 @@ private:
         add_all(vertices, triangles);
     }
     void add_value(const MeshAsset& asset) {
-        const auto& [file, mesh, vertices, indices] = asset;
+        const auto& [file, doubled, mesh, vertices, indices] = asset;
         add_value(mesh);
         add_all(vertices, indices);
     }
@@ -117,8 +117,9 @@ private:
         add_value(radius);
     }
     void add_value(const MeshShape& mesh) {
-        const auto& [asset] = mesh;
+        const auto& [asset, mass_from, thickness, chosen] = mesh;
         add_shared(asset);
+        if (mass_from != MassFrom::solid) add_all(mass_from, thickness);  // other scenes keep their hash
     }
     void add_value(const CompoundShape& compound) {
         const auto& [parts] = compound;

@@ -2,8 +2,10 @@
 
 #include "core/safe_text.h"
 #include "scene/fields/body_fields.h"
+#include "scene/fields/choices.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
+#include "sim/geometry/shapes/hull.h"
 
 #include <fmt/format.h>
 
@@ -35,26 +37,53 @@ PlaneShape read_plane(const TomlTable& table) {
     return plane;
 }
 
-/// A dynamic body's mass and inertia are those of the volume enclosed by its mesh, so it must enclose one. `which`:
-/// empty, or the object of the file.
-void require_solid(const LoadedMesh& mesh, const TomlValue& file, const std::string& which = {}) {
+/// Fails where the mesh encloses no volume. `which`: empty, or the object of the file.
+void require_solid(const LoadedMesh& mesh, const TomlValue& origin, const std::string& which) {
+    if (mesh.encloses()) return;
     const Closedness& c = mesh.closedness;
-    if (c.open_edges > 0) {
-        file.fail(
-            fmt::format("{}is an open mesh: {} of its edges belong to one triangle only, so it encloses no volume and "
-                        "has no mass; close it, or use it with type = \"fixed\"",
-                        which, c.open_edges));
+    std::string why = "encloses no volume";
+    if (c.open_edges > 0)
+        why =
+            fmt::format("is open: {} of its edges belong to one triangle only, so it encloses no volume", c.open_edges);
+    else if (c.unbalanced_edges > 0)
+        why = fmt::format("is not a proper surface: at {} of its edges the triangles disagree on which side is out",
+                          c.unbalanced_edges);
+    origin.fail(fmt::format("\"solid\" needs a closed mesh, and {}this one {}; take \"hull\" or \"shell\", or close it",
+                            which, why));
+}
+
+bool is_flat(const TriangleMesh& mesh) {
+    try {
+        make_hull(mesh.vertices, Vec3::Zero());
+        return false;
+    } catch (const InputError&) {
+        return true;
     }
-    if (c.crowded_edges > 0) {
-        file.fail(
-            fmt::format("{}is not a proper surface: at {} of its edges more than two triangles meet or two disagree "
-                        "on which side is out; repair it, or use it with type = \"fixed\"",
-                        which, c.crowded_edges));
+}
+
+/// The shape of a loaded mesh. The mass of a moving body is that of the enclosed volume; of a mesh without one, that of its
+/// hull, and of a flat mesh that of a shell. The key mass_from chooses another.
+MeshShape shape_of(const LoadedMesh& mesh, const TomlTable& table, BodyType type, const std::string& which = {}) {
+    MeshShape shape{mesh.asset};
+    const auto thickness = table.find("thickness");
+    if (const auto given = table.find("mass_from")) {
+        shape.mass_from = given->choice<MassFrom>(choices<MassFrom>);
+        if (type == BodyType::dynamic && shape.mass_from == MassFrom::solid) require_solid(mesh, *given, which);
+        if (type == BodyType::dynamic && shape.mass_from == MassFrom::hull && is_flat(mesh.asset->mesh))
+            given->fail(fmt::format("\"hull\" needs a mesh that is not flat{}: take \"shell\"",
+                                    which.empty() ? "" : " " + which));
+    } else if (type == BodyType::dynamic && !mesh.encloses()) {
+        shape.mass_from = is_flat(mesh.asset->mesh) || thickness ? MassFrom::shell : MassFrom::hull;
+        shape.chosen = thickness.has_value();
     }
-    const double extent = mesh.asset->mesh.bounds().extent().norm();
-    // of the bounds' diagonal cubed; a closed surface without volume has less, a hair has more
-    constexpr double rounding = 1e-12;
-    if (c.signed_volume <= rounding * extent * extent * extent) file.fail(which + "is a mesh that encloses no volume");
+    if (thickness && shape.mass_from != MassFrom::shell)
+        thickness->origin().fail("is a key of shells: give it with mass_from = \"shell\"");
+    constexpr double usual_thickness = 0.01;  // of the length: a sheet
+    shape.thickness = thickness ? thickness->number(limits::size)
+                      : shape.mass_from == MassFrom::shell
+                          ? usual_thickness * mesh.asset->mesh.bounds().extent().maxCoeff()
+                          : 0.0;
+    return shape;
 }
 
 void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
@@ -76,10 +105,9 @@ CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValu
     auto made = std::make_shared<std::vector<CompoundPart>>();
     const auto scale = table.find("scale");
     for (const LoadedMesh& object : objects) {
-        if (type == BodyType::dynamic) require_solid(object, file, fmt::format("(object {}) ", made->size() + 1));
         check_mesh_size(object, scale ? *scale : file);
         CompoundPart part;
-        part.shape = MeshShape{object.asset};
+        part.shape = shape_of(object, table, type, fmt::format("(object {}) ", made->size() + 1));
         made->push_back(std::move(part));
     }
     return {std::move(made)};
@@ -89,10 +117,9 @@ CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValu
 void load_whole(const TomlTable& table, BodyType type, const TomlValue& origin, ShapeRequest& request,
                 MeshCache& meshes) {
     const LoadedMesh& mesh = meshes.load(request.mesh, request.mesh_scale);
-    if (type == BodyType::dynamic) require_solid(mesh, origin);
     const auto scale = table.find("scale");
     check_mesh_size(mesh, scale ? *scale : origin);
-    request.shape = MeshShape{mesh.asset};
+    request.shape = shape_of(mesh, table, type);
 }
 
 ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesystem::path& folder, MeshCache& meshes) {
@@ -121,7 +148,7 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
 
 /// A mesh of a scene that is built in code. No file has the key "memory".
 ShapeRequest read_supplied_mesh(const TomlTable& table, BodyType type, const TomlValue& memory, MeshCache& meshes) {
-    table.expect_keys({"type", "memory", "scale"});
+    table.expect_keys({"type", "memory", "scale", "mass_from", "thickness"});
     ShapeRequest request;
     table.read("scale", request.mesh_scale, limits::mesh_scale);
     request.mesh = MeshSource(std::size_t(memory.integer(0, std::numeric_limits<std::int64_t>::max())));
@@ -205,14 +232,18 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
     table.set_title("a mesh");
     if (meshes.has_supplier())
         if (const auto memory = table.find("memory")) return read_supplied_mesh(table, type, *memory, meshes);
-    table.expect_keys({"type", "file", "scale", "parts"});
+    table.expect_keys({"type", "file", "scale", "parts", "mass_from", "thickness"});
     return read_mesh(table, type, folder, meshes);
 }
 
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
     if (factor == 1.0) return request.shape;
-    if (std::holds_alternative<MeshShape>(request.shape))
-        return MeshShape{meshes.load(request.mesh, request.mesh_scale * factor).asset};
+    if (const auto* mesh = std::get_if<MeshShape>(&request.shape)) {
+        MeshShape larger = *mesh;
+        larger.asset = meshes.load(request.mesh, request.mesh_scale * factor).asset;
+        larger.thickness *= factor;
+        return larger;
+    }
     return meshes.enlarged(request.shape, factor);
 }
 

@@ -98,6 +98,13 @@ LoadedMesh scaled(const LoadedMesh& mesh, double scale) {
 
 }  // namespace
 
+bool LoadedMesh::encloses() const {
+    const double extent = asset->mesh.bounds().extent().norm();
+    constexpr double rounding =
+        1e-12;  // of the diagonal cubed; a closed surface without volume has less, a hair has more
+    return closedness.has_volume() && closedness.signed_volume > rounding * extent * extent * extent;
+}
+
 std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
     Bounds bounds;
     for (const Vec3& p : positions) bounds.add(p);
@@ -121,6 +128,35 @@ std::vector<std::uint32_t> weld(const std::vector<Vec3>& positions) {
 
 namespace {
 
+/// The triangles that repeat the corners of an earlier one: in the same order, or with `both_sides` in any.
+std::vector<char> repeated(const std::vector<std::array<std::uint32_t, 3>>& triangles, bool both_sides) {
+    std::vector<std::pair<std::array<std::uint32_t, 3>, std::size_t>> sorted;
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+        std::array<std::uint32_t, 3> corners = triangles[t];
+        if (both_sides)
+            std::sort(corners.begin(), corners.end());
+        else
+            std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        sorted.push_back({corners, t});
+    }
+    std::sort(sorted.begin(), sorted.end());
+    std::vector<char> result(triangles.size(), 0);
+    for (std::size_t i = 1; i < sorted.size(); ++i)
+        if (sorted[i].first == sorted[i - 1].first) result[sorted[i].second] = 1;
+    return result;
+}
+
+/// Drops the marked ones; returns their number.
+template <class T>
+std::size_t drop(std::vector<T>& values, const std::vector<char>& marked) {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (!marked[i]) values[kept++] = values[i];
+    const std::size_t dropped = values.size() - kept;
+    values.resize(kept);
+    return dropped;
+}
+
 LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     const std::vector<std::uint32_t> same = weld(read.positions);
 
@@ -132,8 +168,29 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
         triangles.push_back(welded);
         corners.push_back(t);
     }
+    // A face that is listed twice counts twice in a volume. One that is listed for each side encloses none, but two solids
+    // may share a face.
+    const std::vector<char> again = repeated(triangles, false);
+    std::size_t doubled = drop(triangles, again);
+    drop(corners, again);
     TriangleMesh whole = compact(read.positions, triangles);
     LoadedMesh result{nullptr, closedness(whole)};
+    if (!result.closedness.closed()) {
+        const std::vector<char> backs = repeated(triangles, true);
+        std::vector<std::array<std::uint32_t, 3>> fronts = triangles;
+        if (const std::size_t more = drop(fronts, backs); more > 0) {
+            TriangleMesh single = compact(read.positions, fronts);
+            const std::vector<char> to_flip = triangles_to_flip(single);
+            for (std::size_t t = 0; t < fronts.size(); ++t)
+                if (to_flip[t]) std::swap(single.triangles[t][1], single.triangles[t][2]);
+            if (closedness(single).has_volume()) {
+                whole = compact(read.positions, fronts);
+                result.closedness = closedness(whole);
+                drop(corners, backs);
+                doubled += more;
+            }
+        }
+    }
 
     const auto flip = [&](std::size_t t) {
         std::swap(whole.triangles[t][1], whole.triangles[t][2]);
@@ -167,6 +224,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
 
     auto asset = std::make_shared<MeshAsset>();
     asset->file = file.string();
+    asset->doubled_faces = doubled;
     asset->mesh = compact(whole.vertices, kept);
     fill_drawing(kept_corners, *asset);
     result.asset = std::move(asset);
@@ -256,7 +314,10 @@ Simple MeshCache::larger(const Simple& shape, double factor) {
 MeshShape MeshCache::larger(const MeshShape& shape, double factor) {
     auto& larger = larger_meshes_[{shape.asset.get(), factor}];
     if (!larger.made) larger = {shape.asset, scaled(LoadedMesh{shape.asset, {}}, factor).asset};
-    return {larger.made};
+    MeshShape result = shape;
+    result.asset = larger.made;
+    result.thickness *= factor;
+    return result;
 }
 
 CompoundShape MeshCache::larger(const CompoundShape& shape, double factor) {

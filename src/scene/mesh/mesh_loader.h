@@ -19,6 +19,8 @@ namespace tumble {
 struct LoadedMesh {
     std::shared_ptr<const MeshAsset> asset;
     Closedness closedness;  // of the surface before triangles without area were dropped; its volume is in m^3
+    /// True if it has a volume, and that is more than rounding.
+    bool encloses() const;
 };
 
 /// The mesh in memory of that index, as from a file. May throw MeshError.

@@ -25,6 +25,7 @@
 #include <map>
 #include <memory>
 #include <span>
+#include <tuple>
 #include <variant>
 
 namespace tumble {
@@ -100,8 +101,8 @@ struct ColliderCache {
         std::shared_ptr<const Compound> made;
     };
     std::map<std::array<double, 3>, std::shared_ptr<const Polyhedron>> boxes;  // by edge lengths: each takes 2 KB
-    // By the address of their data: looked up only, never iterated.
-    std::map<const MeshAsset*, Mesh> meshes;
+    // By the address of their data: looked up only, never iterated. The source of the mass decides their origin.
+    std::map<std::tuple<const MeshAsset*, MassFrom, double>, Mesh> meshes;
     std::map<const void*, Whole> compounds;
 };
 

@@ -161,8 +161,72 @@ MassProperties mesh_mass(const TriangleMesh& mesh, double density) {
     return p;
 }
 
+namespace {
+
+/// A plate along the triangles, thin beside their size.
+MassProperties shell_mass(const TriangleMesh& mesh, double thickness, double density) {
+    const Vec3 apex = mesh.bounds().center();
+    double area = 0.0;
+    Vec3 first = Vec3::Zero();   // integral of x dA
+    Mat3 second = Mat3::Zero();  // integral of x x^T dA
+    for (const auto& t : mesh.triangles) {
+        const Vec3 a = mesh.vertices[t[0]] - apex, b = mesh.vertices[t[1]] - apex, c = mesh.vertices[t[2]] - apex;
+        const double one = 0.5 * (b - a).cross(c - a).norm();
+        const Vec3 sum = a + b + c;
+        area += one;
+        first += one / 3.0 * sum;
+        second += one / 12.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+    }
+    const double per_area = density * thickness;  // kg/m^2
+    const Vec3 center = first / area;
+    const Mat3 covariance = per_area * (second - area * center * center.transpose());
+    return {per_area * area, apex + center, covariance.trace() * Mat3::Identity() - covariance};
+}
+
+/// The surface of a convex polyhedron.
+TriangleMesh triangles_of(const Polyhedron& hull) {
+    TriangleMesh mesh;
+    mesh.vertices = hull.vertices;
+    for (const Polyhedron::Face& face : hull.faces)
+        for (std::size_t i = 2; i < face.vertices.size(); ++i)
+            mesh.triangles.push_back({face.vertices[0], face.vertices[i - 1], face.vertices[i]});
+    return mesh;
+}
+
+/// The corners by which a moving mesh collides. A shell that is flatter than its thickness gets both sides: its hull
+/// alone would have no volume.
+std::vector<Vec3> hull_points(const MeshShape& shape) {
+    const std::vector<Vec3>& vertices = shape.asset->mesh.vertices;
+    if (shape.mass_from != MassFrom::shell) return vertices;
+    const PrincipalInertia inertia = principal_inertia(shell_mass(shape.asset->mesh, 1.0, 1.0).inertia);
+    Eigen::Index across = 0;  // a plate has its largest moment about its normal
+    inertia.moments.maxCoeff(&across);
+    const Vec3 normal = inertia.axes * Vec3::Unit(across);
+    double low = infinity, high = -infinity;
+    for (const Vec3& v : vertices) {
+        low = std::min(low, normal.dot(v));
+        high = std::max(high, normal.dot(v));
+    }
+    if (high - low >= shape.thickness) return vertices;
+    std::vector<Vec3> both;
+    for (const double side : {-0.5, 0.5})
+        for (const Vec3& v : vertices) both.push_back(v + side * shape.thickness * normal);
+    return both;
+}
+
+}  // namespace
+
 MassProperties mass_properties(const MeshShape& mesh, double density) {
-    return closedness(mesh.asset->mesh).closed() ? mesh_mass(mesh.asset->mesh, density) : MassProperties{};
+    const TriangleMesh& surface = mesh.asset->mesh;
+    switch (mesh.mass_from) {
+        case MassFrom::shell:
+            return shell_mass(surface, mesh.thickness, density);
+        case MassFrom::hull:
+            return mesh_mass(triangles_of(make_hull(surface.vertices, Vec3::Zero())), density);
+        case MassFrom::solid:
+            break;
+    }
+    return closedness(surface).has_volume() ? mesh_mass(surface, density) : MassProperties{};
 }
 
 /// Moeller and Trumbore 1997, Fast, Minimum Storage Ray/Triangle Intersection.
@@ -187,14 +251,14 @@ double first_hit(const MeshShape& shape, const Vec3& from, const Vec3& direction
 
 CollisionShape make_collider(const MeshShape& mesh, const ColliderRequest& request, ColliderCache& cache) {
     const MeshAsset& asset = *mesh.asset;
-    ColliderCache::Mesh& made = cache.meshes[&asset];
+    ColliderCache::Mesh& made = cache.meshes[{&asset, mesh.mass_from, mesh.thickness}];
     try {
         if (request.fixed) {
             if (!made.surface)
                 made.surface = std::make_shared<CollisionMesh>(make_collision_mesh(asset.mesh, request.origin));
             return made.surface;
         }
-        if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(asset.mesh.vertices, request.origin));
+        if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(hull_points(mesh), request.origin));
         return made.hull;
     } catch (const InputError& error) {
         const std::string what = error.what();
