@@ -1,5 +1,5 @@
-// Depth by which points are moved towards the sun. Texels of the kernel beyond a lit wall are nearer to the sun than the
-// point before it: without that they would darken the foot of the wall, in teeth.
+// Shift of a point's depth towards the sun. Before a lit wall, some texels of the kernel lie on the wall, nearer to the
+// sun than the point: without the shift they would darken the foot of the wall in teeth.
 float shadow_lift(bool near) {
     return shadow_texels.z * (near ? shadow_texels.x : shadow_texels.y) * length(shadow_z.xyz);
 }

@@ -1,5 +1,5 @@
-// Enums of the interface and those of the scene's description, which have as many enumerators in the same order, and the
-// names of the scene file (scene/fields/choices.h).
+// Each enum of the interface has the enumerators of an enum of the scene's description, in the same order. Their names in
+// scene files are in scene/fields/choices.h.
 #pragma once
 
 #include "core/error.h"

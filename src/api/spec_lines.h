@@ -62,7 +62,8 @@ private:
     std::string prefix_;
 };
 
-/// Writes the fields of a struct of the interface, by those of the description (scene/fields). Sparse: without defaults.
+/// Writes the fields of a struct of the interface, as scene/fields declares them for the description. Sparse: without
+/// defaults.
 template <class Public>
 struct FieldWriter : FieldVisitor {
     template <class T, class Rule>

@@ -136,7 +136,7 @@ TEST_F(Compounds, MistakesAreErrorsAtTheirPlace) {
     expect_error(head + "[ { shape = { type = \"sphere\", radius = 1 }, rotation = @[1, 1, 0, 0] } ] }", "rotation");
     expect_error("shape = { type = \"mesh\", file = \"cube.obj\", parts = @\"groups\" }", "parts");
     expect_error("shape = { type = \"mesh\", file = \"open.obj\", parts = \"objects\", mass_from = @\"solid\" }",
-                 "(object 2) this one is open: 4 of its edges");
+                 "object 2 of the file is open: 4 of its edges");
     expect_error("shape = { type = \"mesh\", file = @\"none.obj\", parts = \"objects\" }", "does not exist");
     std::string many = head + "@[ ";
     for (int i = 0; i < 513; ++i) many += "{ shape = { type = \"sphere\", radius = 1 } }, ";

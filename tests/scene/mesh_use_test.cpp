@@ -93,7 +93,8 @@ TEST_F(MeshUse, AFlatMeshIsASheetAndCollidesAsAPlate) {
     EXPECT_NEAR(p.mass, 4.0, 1e-12);
     EXPECT_NEAR(p.inertia(0, 0), 4.0 * 4.0 / 12.0, 1e-12);
     EXPECT_NEAR(p.inertia(1, 1), 4.0 * 5.0 / 12.0, 1e-12);
-    EXPECT_NE(error_of(shape + ", mass_from = \"hull\" }").find("needs a mesh that is not flat"), std::string::npos);
+    EXPECT_NE(error_of(shape + ", mass_from = \"hull\" }").find("needs a mesh with a volume, and this one is flat"),
+              std::string::npos);
     ColliderCache cache;
     const CollisionShape plate = make_collider(Shape(sheet), {false, p.center_of_mass, 100.0}, cache);
     const Bounds bounds = world_bounds(plate, Pose{});

@@ -14,7 +14,7 @@ namespace tumble {
 
 class Command : public CLI::App {
 public:
-    /// `what`: one sentence without its full stop. `codes`: if they are others than those of the program.
+    /// `what`: one sentence without its full stop. `codes`: empty for the exit codes of the program.
     Command(const std::string& name, const std::string& what, std::vector<manual::ExitCode> codes,
             Command* parent = nullptr)
         : CLI::App(what, name, parent), exit_codes(std::move(codes)) {}

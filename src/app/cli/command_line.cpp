@@ -25,7 +25,7 @@ struct CommandEntry {
     const char* name;
     const char* what;  // one sentence without its full stop
     void (*add)(Command& command);
-    std::vector<manual::ExitCode> exit_codes = {};  // if they are others than those of the program
+    std::vector<manual::ExitCode> exit_codes = {};  // empty: the exit codes of the program
 };
 
 /// In the order of the help.

@@ -39,7 +39,7 @@ using ExitCode = std::pair<int, std::string>;
 struct CommandText {
     std::string name;                  // "render"
     std::string description;           // one sentence without its full stop
-    std::vector<ExitCode> exit_codes;  // if they are others than those of the program
+    std::vector<ExitCode> exit_codes;  // empty: the exit codes of the program
     std::string notes, examples;       // lines below the options in the help
     std::vector<OptionText> arguments, options;
     std::vector<CommandText> commands;

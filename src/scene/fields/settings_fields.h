@@ -71,7 +71,7 @@ template <class Visitor, class Self>
 void visit_fields(Of<PairRules>, Visitor& field, Self& self) {
     auto& [restitution, friction] = self;
     field(restitution, "restitution_rule", ByType(),
-          {"how the restitution of a pair follows from those of its two bodies"});
+          {"how the restitution of a pair follows from the restitutions of its two bodies"});
     field(friction, "friction_rule", ByType(), {"the same of the friction"});
 }
 

@@ -37,7 +37,7 @@ PlaneShape read_plane(const TomlTable& table) {
     return plane;
 }
 
-/// Fails where the mesh encloses no volume. `which`: empty, or the object of the file.
+/// Fails where the mesh encloses no volume. `which`: "this one", or the object of the file.
 void require_solid(const LoadedMesh& mesh, const TomlValue& origin, const std::string& which) {
     if (mesh.encloses()) return;
     const Closedness& c = mesh.closedness;
@@ -48,8 +48,8 @@ void require_solid(const LoadedMesh& mesh, const TomlValue& origin, const std::s
     else if (c.unbalanced_edges > 0)
         why = fmt::format("is not a proper surface: at {} of its edges the triangles disagree on which side is out",
                           c.unbalanced_edges);
-    origin.fail(fmt::format("\"solid\" needs a closed mesh, and {}this one {}; take \"hull\" or \"shell\", or close it",
-                            which, why));
+    origin.fail(
+        fmt::format("\"solid\" needs a closed mesh, and {} {}; take \"hull\" or \"shell\", or close it", which, why));
 }
 
 bool is_flat(const TriangleMesh& mesh) {
@@ -63,15 +63,15 @@ bool is_flat(const TriangleMesh& mesh) {
 
 /// The shape of a loaded mesh. The mass of a moving body is that of the enclosed volume; of a mesh without one, that of its
 /// hull, and of a flat mesh that of a shell. The key mass_from chooses another.
-MeshShape shape_of(const LoadedMesh& mesh, const TomlTable& table, BodyType type, const std::string& which = {}) {
+MeshShape shape_of(const LoadedMesh& mesh, const TomlTable& table, BodyType type,
+                   const std::string& which = "this one") {
     MeshShape shape{mesh.asset};
     const auto thickness = table.find("thickness");
     if (const auto given = table.find("mass_from")) {
         shape.mass_from = given->choice<MassFrom>(choices<MassFrom>);
         if (type == BodyType::dynamic && shape.mass_from == MassFrom::solid) require_solid(mesh, *given, which);
         if (type == BodyType::dynamic && shape.mass_from == MassFrom::hull && is_flat(mesh.asset->mesh))
-            given->fail(fmt::format("\"hull\" needs a mesh that is not flat{}: take \"shell\"",
-                                    which.empty() ? "" : " " + which));
+            given->fail(fmt::format("\"hull\" needs a mesh with a volume, and {} is flat: take \"shell\"", which));
     } else if (type == BodyType::dynamic && !mesh.encloses()) {
         shape.mass_from = is_flat(mesh.asset->mesh) || thickness ? MassFrom::shell : MassFrom::hull;
         shape.chosen = thickness.has_value();
@@ -107,7 +107,7 @@ CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValu
     for (const LoadedMesh& object : objects) {
         check_mesh_size(object, scale ? *scale : file);
         CompoundPart part;
-        part.shape = shape_of(object, table, type, fmt::format("(object {}) ", made->size() + 1));
+        part.shape = shape_of(object, table, type, fmt::format("object {} of the file", made->size() + 1));
         made->push_back(std::move(part));
     }
     return {std::move(made)};
