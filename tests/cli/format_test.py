@@ -48,7 +48,7 @@ class Format(unittest.TestCase):
             run = check(folder)
             self.assertEqual(run.returncode, 1, run.stderr)
             self.assertIn("501 lines", run.stderr)
-            long.write_text("int f();\n" * 500)
+            long.write_text("int f();\n" * 600)
             self.expect(check(folder), 0)
 
 

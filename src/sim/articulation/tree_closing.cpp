@@ -11,6 +11,17 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Largest energy of the impulses at one end of a stage, as a share of the kinetic one: in singular positions they would be
+/// blows, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
+constexpr double closure_energy = 0.01;
+
+/// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the
+/// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
+constexpr double joint_singular = 0.2;
+
+}  // namespace
 
 // rad/s
 double TreeFlight::fastest_turn(const Vector& y) const {
@@ -41,7 +52,7 @@ double TreeFlight::most_energy(double h) const {
         sum += node.mass * link.center_velocity().squaredNorm() + w.dot(node.inertia_at(link.rotation) * w);
     }
     const double speed = tuning::joint_rounding * step_->length / h;
-    return 0.5 * tuning::closure_energy * sum + mass * speed * speed;
+    return 0.5 * closure_energy * sum + mass * speed * speed;
 }
 
 // Impulses of the rows at the places of `at`, and their mean speeds: adds them to the account and to the sums of y.
@@ -89,7 +100,7 @@ double TreeFlight::fit_closures(Vector& y, double time, bool counts) {
 bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
     if (!closures_.any_rows()) return stage(y, h, time, counts);
     const double turn = std::abs(h) * fastest_turn(y), closed = closures_.place_rounding();
-    closures_.set_compliance(tuning::joint_singular * turn * turn * turn * turn);
+    closures_.set_compliance(joint_singular * turn * turn * turn * turn);
     if (fitted_.size() != coordinates_ || fitted_ != y.head(coordinates_)) load_closures(y);
     at_start_ = closures_;
     if (counts) account_->begin_stage();

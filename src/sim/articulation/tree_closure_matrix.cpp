@@ -1,11 +1,18 @@
 // TreeClosures: the dense equations G M^-1 G^T l = b of the rows.
-#include "sim/articulation/settings.h"
 #include "sim/articulation/tree_closures.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Share of its compliance below which a row is redundant; and compliance added to all, as a share of the largest, whose
+/// error refinement removes. Not fitted: between rounding and the ratio of masses.
+constexpr double closure_redundant = 1e-10;
+constexpr double closure_compliance = 1e-12;
+
+}  // namespace
 
 // Rows that do not depend on those before them, by a Cholesky factorization with pivots: redundant ones hold by themselves.
 // They stay the same within a step, between whose ends they are not redundant to the last digit.
@@ -19,10 +26,10 @@ void TreeClosures::choose() {
     std::vector<std::size_t> order;
     for (;;) {
         std::size_t next = m;
-        double most = tuning::closure_redundant;
+        double most = closure_redundant;
         for (std::size_t i = 0; i < m; ++i) {
             const double own = matrix_[i * m + i];
-            if (used_[i] || !(own > tuning::closure_compliance * largest) || !(rest[i] > most * own)) continue;
+            if (used_[i] || !(own > closure_compliance * largest) || !(rest[i] > most * own)) continue;
             most = rest[i] / own;
             next = i;
         }
@@ -46,7 +53,7 @@ void TreeClosures::factor() {
     const std::size_t m = rows_.size();
     double largest = 0.0;
     for (std::size_t i = 0; i < m; ++i) largest = std::max(largest, matrix_[i * m + i]);
-    const double added = std::max(compliance_, tuning::closure_compliance) * largest;
+    const double added = std::max(compliance_, closure_compliance) * largest;
     factor_.assign(m * m, 0.0);
     for (std::size_t i = 0; i < m; ++i) {
         if (!used_[i]) {

@@ -9,6 +9,13 @@
 #include <limits>
 
 namespace tumble {
+namespace {
+
+/// Load over strength of a joint at both ends of a part of a step, above which its largest load between them is looked for.
+/// Not fitted: a part is half a radian of the motion.
+constexpr double tree_near_break = 0.8;
+
+}  // namespace
 
 bool TreeFlight::begin_laws() {
     double fastest = 0.0;
@@ -143,7 +150,7 @@ std::size_t TreeFlight::event_within(const Part& part, const Vector& end, const 
         if (share > 0.0 && happens(friction_.count() + k, share)) return friction_.count() + k;
     }
     for (std::size_t k = first_weak(); k < events(); ++k) {
-        const double near = tuning::tree_near_break - 1.0, before = excess_at(k, y_), after = excess_at(k, end);
+        const double near = tree_near_break - 1.0, before = excess_at(k, y_), after = excess_at(k, end);
         if (before < near || after < near) continue;
         const double middle = excess_at(k, y_ + go(part, 0.5 * size));
         const double bend = 2.0 * (before + after - 2.0 * middle), slope = 4.0 * middle - 3.0 * before - after;

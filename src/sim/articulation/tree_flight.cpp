@@ -13,6 +13,20 @@
 namespace tumble {
 namespace {
 
+/// Error of a step of the extrapolation, as a share of a radian, of the tree's mean radius and of its fastest rate: below,
+/// its results are as near to each other as rounding allows. Related test: TreeFlight.ADoublePendulumToTheLastDigits.
+constexpr double tree_tolerance = 2e-15;
+
+/// Error in units of that tolerance which may be rounding. Related test: TreeFlight.LightLinksBetweenHeavyBodies.
+constexpr double tree_rounding = 1e5;
+
+/// Error of the energy in a step of Verlet's method, as a share of the kinetic energy, above which the substeps are halved.
+/// Related test: Verlet.FastFreeTreesKeepTheirEnergy.
+constexpr double verlet_energy = 1e-4;
+
+/// Substeps beyond which passes that do not close the joints leave the step to the rows. Not fitted: a bound of the cost.
+constexpr int closure_substeps = 64;
+
 constexpr int pushed_numbers = 7;  // by body
 
 // m / length where a coordinate is a displacement.
@@ -154,8 +168,8 @@ bool TreeFlight::keeps_energy() {
     const double scale = std::max({energy_, now, 0.5 * start_.mass * fall * fall});
     const double error = std::abs(now - energy_ - work), last = last_error_;
     last_error_ = error;
-    strains_energy_ = error > 0.1 * tuning::verlet_energy * scale;
-    coarse_ = error > tuning::verlet_energy * scale && error < 0.5 * last;
+    strains_energy_ = error > 0.1 * verlet_energy * scale;
+    coarse_ = error > verlet_energy * scale && error < 0.5 * last;
     return !coarse_;
 }
 
@@ -266,7 +280,7 @@ double TreeFlight::extrapolate(const Vector& first, double h, double scale, Vect
         if (k == 0) continue;
         const double now = error_of(change - before, scale);
         if (!std::isfinite(now)) return infinity;
-        error = now * std::min(1.0, now / last) / tuning::tree_tolerance;
+        error = now * std::min(1.0, now / last) / tree_tolerance;
         last = now;
         if (k >= 2 && error <= 1.0) break;
     }
@@ -312,7 +326,7 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
         if (exact) {
             double error = extrapolate(first, size, scale, change), last = infinity;
             // An error that half a step does not make much smaller is rounding: of masses far apart.
-            while (!(error <= 1.0) && !(error > 0.25 * last && error < tuning::tree_rounding)) {
+            while (!(error <= 1.0) && !(error > 0.25 * last && error < tree_rounding)) {
                 if (size < least) return false;
                 last = error;
                 size *= 0.5;
@@ -483,7 +497,7 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, TreeMethod me
     for (;;) {
         const Outcome outcome = fly(step, method, substeps);
         if (outcome != Outcome::declined || !coarse_) return outcome;
-        if (2 * substeps > (closures_.empty() ? tuning::joint_swing_substeps : tuning::closure_substeps))
+        if (2 * substeps > (closures_.empty() ? tuning::joint_swing_substeps : closure_substeps))
             return Outcome::declined;
         const double phase = swing_ * substeps;
         do substeps *= 2;

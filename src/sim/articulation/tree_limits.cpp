@@ -9,6 +9,14 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Angle, rad, that a ball may be beyond its limit; and the turn, rad, over which the rate of the limit's direction is found.
+/// Not fitted: rounding of the angles, and of their differences.
+constexpr double limit_of_ball = 1e-12;
+constexpr double limit_difference = 1e-3;
+
+}  // namespace
 
 bool TreeLimits::find(const JointTree& tree, const TreeStep& step, TreeClosures& closures) {
     list_.clear();
@@ -106,7 +114,7 @@ double TreeLimits::curve_of_ball(const Limit& limit, const ForwardDynamics& dyna
     const Vec3 w = Vec3::Map(speeds + limit.speed_at);
     const double fastest = dynamics.link(limit.node).velocity.turn.norm() + w.norm();
     if (!(fastest > 0.0)) return 0.0;
-    const double d = tuning::limit_difference / fastest;
+    const double d = limit_difference / fastest;
     const auto difference = [&](double ahead) {
         return (inward_of_ball(limit, dynamics, ahead) - inward_of_ball(limit, dynamics, -ahead)).dot(w);
     };
@@ -163,7 +171,7 @@ double TreeLimits::excess(std::size_t k, const ForwardDynamics& dynamics, const 
     const Limit& limit = list_[k];
     if (limit.held) return net_effort(limit, dynamics) - tuning::friction_let_go * limit.load;
     // The coordinate of a ball cannot be set to its limit.
-    if (limit.ball) return limit.rests ? -infinity : -room(limit, dynamics, q) - tuning::limit_of_ball;
+    if (limit.ball) return limit.rests ? -infinity : -room(limit, dynamics, q) - limit_of_ball;
     return -room(limit, dynamics, q) - tuning::tree_event_located * limit.size;
 }
 

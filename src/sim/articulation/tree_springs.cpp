@@ -8,6 +8,12 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Largest rate of a damper times the step in a flight by Verlet's method: speeds that fall faster would change their sign.
+constexpr double joint_flight_damper = 2.0;
+
+}  // namespace
 bool TreeSprings::find(const JointTree& tree, const TreeStep& step, double stage) {
     list_.clear();
     dampers_ = 0;
@@ -41,7 +47,7 @@ bool TreeSprings::find(const JointTree& tree, const TreeStep& step, double stage
             law.most = most;
             law.motor = motor;
             law.stiff = stage * std::sqrt(stiffness * gives) > tuning::joint_flight_spring ||
-                        stage * damping * gives > tuning::joint_flight_damper;
+                        stage * damping * gives > joint_flight_damper;
             if (damping > 0.0 || law.stiff || motor) law.heat = dampers_++;
             stiff_ = stiff_ || law.stiff;
             fastest_ = std::max(fastest_, std::sqrt(stiffness * gives) + damping * gives);

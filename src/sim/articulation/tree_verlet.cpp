@@ -16,6 +16,19 @@
 namespace tumble {
 namespace {
 
+/// Change of the speeds at the end of a stage of Verlet's method that ends its passes, as a share of the fastest one: of second
+/// order, and in compositions. Related test:
+/// Verlet.OrdersWithBallsAndFreeTrees; and rounding.
+constexpr double verlet_tolerance = 1e-8;
+constexpr double verlet_rounding = 1e-15;
+
+/// Share of the last change above which a pass does not converge, and the change that is then rounding. Not fitted.
+constexpr double verlet_contraction = 0.5;
+constexpr double verlet_stall = 1e-11;
+
+/// Passes beyond which the next step is tried with no fewer substeps. Not fitted: the number changes the cost alone.
+constexpr int verlet_easy_passes = 10;
+
 void turn_quaternion(double* q, const double* speed, double h) {
     const Quat turned = from_rotation_vector(h * Vec3(speed[0], speed[1], speed[2])) * Quat(q[3], q[0], q[1], q[2]);
     for (int k = 0; k < 4; ++k) q[k] = turned.coeffs()[k];
@@ -88,7 +101,7 @@ double TreeFlight::take_pass(const double* speeds, double h) {
 
 // Moves y by h seconds. With `counts` the forces of the stage, which begins at `time` (s, in the step), go to the account.
 bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
-    const double tolerance = stages_.size() == 1 ? tuning::verlet_tolerance : tuning::verlet_rounding;
+    const double tolerance = stages_.size() == 1 ? verlet_tolerance : verlet_rounding;
     const Vec3 base = tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity);
     middle_ = y;
     double* speeds = middle_.data() + coordinates_;
@@ -115,11 +128,11 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
         // The next pass would change them by less than this.
         const double next = pass == 0 ? change : change * std::min(1.0, change / last);
         if (next <= tolerance) {
-            if (pass >= tuning::verlet_easy_passes) swing_ = std::max(swing_, tuning::joint_easy_swing);
+            if (pass >= verlet_easy_passes) swing_ = std::max(swing_, tuning::joint_easy_swing);
             break;
         }
-        if (pass > 1 && change > tuning::verlet_contraction * last) {
-            if (change < tuning::verlet_stall) break;
+        if (pass > 1 && change > verlet_contraction * last) {
+            if (change < verlet_stall) break;
             coarse_ = true;
             return false;
         }

@@ -11,6 +11,20 @@
 namespace tumble {
 namespace {
 
+/// Gaps below this share of the bodies' sizes are rounding,
+constexpr double impact_gap = 1e-13;
+
+/// At gaps below this share of the smaller body, the separating axis is that of the meeting features. It lies
+/// between the rounding of the search for the nearest points and the use of its result. Not fitted.
+constexpr double impact_near = 1e-7;
+
+/// Points within this share of a feature belong to it. Not fitted: below `impact_near`, above rounding.
+constexpr double impact_feature = 1e-8;
+
+/// Poses that a search evaluates before it returns its bound: 4 to 70 are usual (spins up to 100 rad/s). Not
+/// fitted: a bound of the cost.
+constexpr int impact_evaluations = 400;
+
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using MeshRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
@@ -163,7 +177,7 @@ void pose_half_space(SupportPoints& points, const HalfSpace& space, const Motion
 
 double gap_rounding(const Body& body, const Vec3& position) {
     const double size = std::isfinite(body.radius) ? body.radius : 0.0;
-    return tuning::impact_gap * size + tuning::impact_position_rounding * position.cwiseAbs().maxCoeff();
+    return impact_gap * size + tuning::impact_position_rounding * position.cwiseAbs().maxCoeff();
 }
 
 struct ImpactSearch::Pair {
@@ -224,9 +238,9 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
     prepare(b_, pair.b, horizon);
     b_.radius -= pair.overlap;
     const double own_change = a_.acceleration_change;
-    const double near = tuning::impact_near * pair.size;
+    const double near = impact_near * pair.size;
     double t = from;
-    for (int round = 0; round < tuning::impact_evaluations; ++round) {
+    for (int round = 0; round < impact_evaluations; ++round) {
         if (!(t < horizon)) return {};
         const Motion motion_a = motion_of(pair.a, t), motion_b = motion_of(pair.b, t);
         pose(b_, pair.b, t, motion_b);
@@ -257,7 +271,7 @@ TimeOfImpact ImpactSearch::search(const Pair& pair, double from, double horizon)
         double safe = 0.0;
         for (const Vec3& normal : normals_) {
             const TrackedAxis axis = pair.plane ? TrackedAxis{normal, a_.angular_velocity.cross(normal)}
-                                                : tracking_axis(a_, b_, normal, tuning::impact_feature * pair.size);
+                                                : tracking_axis(a_, b_, normal, impact_feature * pair.size);
             const SeparationBound bound = bound_separation(a_, b_, axis, horizon - t, 2.0 * pair.scale.touch);
             if (bound.gap > 0.0) safe = std::max(safe, bound.safe_time);
             if (bound.gap <= best.gap) continue;

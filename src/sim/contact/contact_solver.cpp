@@ -1,7 +1,6 @@
 #include "sim/contact/contact_solver.h"
 
 #include "sim/contact/model/rigid_mode.h"
-#include "sim/contact/settings.h"
 #include "sim/threads/settings.h"
 
 #include <algorithm>
@@ -9,6 +8,68 @@
 
 namespace tumble {
 namespace {
+
+/// Levels of a pile from which on the substeps of its island are divided by two, and by four: high piles of soft
+/// contacts buckle (bench_stability "stack"). Related test: Towers.AStackOfAHundredStands.
+constexpr int soft_high_pile = 32;
+constexpr int soft_very_high_pile = 64;
+
+/// Substeps are divided too where a body would sink by more than this share of its radius under its weight: g d^2
+/// in a substep d. Related test: ContactHardInput.SmallBodiesDoNotSinkIntoEachOther.
+constexpr double soft_sag = 3e-3;
+
+/// Steps for which a load estimate of an island holds. Limits the cost.
+constexpr int soft_load_age = 8;
+
+/// Manifolds of small islands that are solved together through all substeps: their rows (360 bytes each) stay in
+/// the second-level cache of a core. Not fitted: follows from the size of the cache.
+constexpr std::size_t soft_batch_manifolds = 256;
+
+/// The same of nets, manifolds and joints: each color of a batch should fill some vectors of the kernel's lanes.
+constexpr std::size_t soft_batch_of_nets = 512;
+
+/// Islands with a body that turns by more than this in a step, rad, are solved softly, in substeps. Free islands
+/// are excluded: the direct solver keeps their angular momentum. Related tests:
+/// Rolling.WheelsOfCornersStayOnTheGround and ContactEnergy.FastTumblingPlanksGainNothing.
+constexpr double direct_turn = 0.03;
+
+/// Pairs of bodies in contact in the whole scene, and their points, up to which all islands are solved directly: a rack of
+/// 15 balls on a table has 47 of both, 32 boxes on boxes have 128 points. Limit the cost. Related test:
+/// Rack.RollsApartAsItsMirrorImageWithoutRestitution.
+constexpr std::size_t direct_few_pairs = 48;
+constexpr std::size_t direct_few_points = 128;
+
+/// Larger islands are solved directly if a body carries this many times its own mass,
+constexpr double direct_load_ratio = 16.0;
+
+/// and remain so down to this share of that ratio. Not fitted: a hysteresis; without it a heap may change the
+/// solver in each step and rock.
+constexpr double direct_stay = 0.8;
+
+/// In scenes of more manifolds than the first number, the ratio is the second: hundreds of columns of 20 stand in
+/// the soft solver as well, in half the time (bench_contact "towers").
+constexpr std::size_t direct_many_manifolds = 4096;
+constexpr double direct_load_ratio_of_many = 64.0;
+
+/// Largest number of bodies of an island that is solved directly. Not fitted: a bound of the cost.
+constexpr std::size_t direct_most_bodies = 512;
+
+/// Block operations (6 x 6, about 0.1 microseconds) of one factorization that an island may take: per manifold, in
+/// any case, and all islands together in a step (a millisecond). Limits the cost. Related: bench_contact "towers".
+constexpr std::size_t direct_work_each = 30;
+constexpr std::size_t direct_work_free = 50;
+constexpr std::size_t direct_budget = 8000;
+
+/// Islands per unit of parallel work of the direct solver. No result depends on it.
+constexpr std::size_t direct_parallel_grain = 4;
+
+/// Factor of the number of substeps of nets: gaps are as its inverse square, and the sweeps are a small part of the cost.
+/// 1, 2 or 4.
+constexpr int net_substeps = 2;
+
+/// Steps for which a net stays with the direct solver after it has touched joined bodies that sweeps do not know. Not
+/// fitted: a hysteresis, against a change of the solver in each bounce.
+constexpr int net_wait = 30;
 
 // Clears the results of the last solve.
 void forget(Joint& joint) {
@@ -31,7 +92,7 @@ ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
       soft_(bodies) {}
 
 void ContactSolver::look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
-    const double most = tuning::direct_turn / problem.settings.h;
+    const double most = direct_turn / problem.settings.h;
     pool.for_bodies(islands.bodies(), tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = problem.bodies[i];
         gains_[i] = (body.velocity - problem.before[i].velocity).squaredNorm() / (body.radius * body.radius);
@@ -78,7 +139,7 @@ JointWay ContactSolver::way_of(const ContactProblem& problem, const ContactIslan
     const IslandWay& way = problem.ways[island];
     if (way.way == JointWay::free) return way.way;
     int& wait = memory_[islands.bodies(island)[0]].wait;
-    if (way.net && way.way == JointWay::direct) wait = tuning::net_wait;
+    if (way.net && way.way == JointWay::direct) wait = net_wait;
     if (way.way != JointWay::sweeps || wait == 0 || --wait == 0) return way.way;
     return JointWay::direct;
 }
@@ -96,17 +157,16 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     // Hysteresis: between the solvers the bodies are lifted out of their soft contacts and sink back in, and a heap
     // that alternates would rock without end. So directly solved scenes stay so a little beyond the limit.
     const auto few = [&](std::size_t most) { return few_ ? most * 5 / 4 : most; };
-    const std::size_t pairs = few(tuning::direct_few_pairs), points = few(tuning::direct_few_points);
+    const std::size_t pairs = few(direct_few_pairs), points = few(direct_few_points);
     for (std::size_t k = 0; k < islands.size() && all_pairs <= pairs; ++k) all_pairs += islands.touching_pairs(k);
     if (all_pairs <= pairs)
         for (const Manifold& m : problem.manifolds) all_points += std::size_t(m.count);
     few_ = all_pairs <= pairs && all_points <= points;
-    const double enough =
-        all_manifolds > tuning::direct_many_manifolds ? tuning::direct_load_ratio_of_many : tuning::direct_load_ratio;
+    const double enough = all_manifolds > direct_many_manifolds ? direct_load_ratio_of_many : direct_load_ratio;
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
-        const bool precise = effort_ == Effort::precisely && bodies.size() <= tuning::direct_most_bodies;
+        const bool precise = effort_ == Effort::precisely && bodies.size() <= direct_most_bodies;
         if (!islands.joints(k).empty()) {
             const JointWay way = way_of(problem, islands, k);
             if (way == JointWay::sweeps) swept_[k] = projection_.closes(bodies) ? Swept::closed : Swept::open;
@@ -134,13 +194,13 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
             direct_.push_back(k);
             continue;
         }
-        if (bodies.size() <= tuning::direct_most_bodies) {
-            const double needed = memory.direct ? tuning::direct_stay * enough : enough;
+        if (bodies.size() <= direct_most_bodies) {
+            const double needed = memory.direct ? direct_stay * enough : enough;
             const double ratio = load(problem, islands, k, 0, needed).ratio;
             if (free || few_ || ratio >= needed) {
                 if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
                 memory.work = memory.solver->factor_work(problem, bodies, manifolds);
-                if (memory.work <= tuning::direct_work_each * manifolds.size() + tuning::direct_work_free) {
+                if (memory.work <= direct_work_each * manifolds.size() + direct_work_free) {
                     const std::size_t expected = memory.work * std::size_t(1 + memory.factorizations);
                     candidates_.push_back({k, ratio / (needed / enough), memory.direct ? expected / 2 : expected});
                     continue;
@@ -153,7 +213,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& l, const Candidate& r) {
         return l.load_ratio != r.load_ratio ? l.load_ratio > r.load_ratio : l.island < r.island;
     });
-    std::size_t budget = tuning::direct_budget;
+    std::size_t budget = direct_budget;
     for (const Candidate& c : candidates_) {
         if (c.work <= budget) {
             budget -= c.work;
@@ -172,14 +232,14 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
 // their own weight, because the sag of a spring is the same for any size.
 int ContactSolver::substep_multiplier(const ContactProblem& problem, const ContactIslands& islands,
                                       std::size_t island) {
-    if (swept_[island] != Swept::no) return problem.ways[island].entangled ? tuning::net_substeps : 1;
-    const int levels = load(problem, islands, island, tuning::soft_load_age, tuning::soft_high_pile).levels;
+    if (swept_[island] != Swept::no) return problem.ways[island].entangled ? net_substeps : 1;
+    const int levels = load(problem, islands, island, soft_load_age, soft_high_pile).levels;
     const double h = problem.settings.h, n = substeps_of(h);
     double square = 0.0;  // of the sag of the smallest body, in its radii, over the step
     for (const std::uint32_t i : islands.bodies(island)) square = std::max(square, gains_[i]);
     const double sag = h / (n * n) * std::sqrt(square);
-    if (levels > tuning::soft_very_high_pile || sag > 4.0 * tuning::soft_sag) return 4;
-    return levels > tuning::soft_high_pile || sag > tuning::soft_sag ? 2 : 1;
+    if (levels > soft_very_high_pile || sag > 4.0 * soft_sag) return 4;
+    return levels > soft_high_pile || sag > soft_sag ? 2 : 1;
 }
 
 // Batches soft islands by equal substep multiplier, each batch no larger than a cache, or one large island. Returns
@@ -204,7 +264,7 @@ bool ContactSolver::make_batches(const ContactIslands& islands, const ContactPro
             const bool net = kind != Swept::no;
             const auto joints = net ? islands.joints(softly_[s]) : std::span<const std::uint32_t>{};
             std::size_t& current = open[std::size_t(kind)];
-            const std::size_t most = net ? tuning::soft_batch_of_nets : tuning::soft_batch_manifolds;
+            const std::size_t most = net ? soft_batch_of_nets : soft_batch_manifolds;
             const auto size = [](const SoftSolver::Batch& b) { return b.manifolds.size() + b.joints.size(); };
             if (current == SIZE_MAX || size(batches_[current]) + manifolds.size() + joints.size() > most) {
                 if (batches_used_ == batches_.size()) batches_.emplace_back();
@@ -236,7 +296,7 @@ void ContactSolver::solve(const ContactProblem& step, const ContactIslands& isla
     look_at_bodies(problem, islands, pool);
     choose(problem, islands);
     failed_.assign(direct_.size(), 0);
-    pool.for_each(direct_.size(), tuning::direct_parallel_grain, [&](std::size_t k, std::size_t) {
+    pool.for_each(direct_.size(), direct_parallel_grain, [&](std::size_t k, std::size_t) {
         const auto bodies = islands.bodies(direct_[k]);
         Memory& memory = memory_[bodies[0]];
         if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
@@ -248,7 +308,7 @@ void ContactSolver::solve(const ContactProblem& step, const ContactIslands& isla
         Memory& memory = memory_[islands.bodies(direct_[k])[0]];
         // The first solve after a landing may be expensive. An island that is expensive again, or always, is left to
         // the soft solver.
-        const bool hard = memory.work * std::size_t(1 + memory.factorizations) > 2 * tuning::direct_budget;
+        const bool hard = memory.work * std::size_t(1 + memory.factorizations) > 2 * direct_budget;
         const bool first = !memory.direct && memory.failures == 0;
         memory.direct = failed_[k] == 0;
         if (hard && first) memory.factorizations = 1;
@@ -329,7 +389,7 @@ void ContactSolver::leave_sweeps(const ContactProblem& problem, const ContactIsl
         for (const std::uint32_t j : islands.joints(k)) forget(problem.joints->joints()[problem.joints->active()[j]]);
         Memory& memory = memory_[bodies[0]];
         memory.lost = 0.0;
-        memory.wait = tuning::net_wait;
+        memory.wait = net_wait;
         swept_[k] = Swept::no;
         if (!memory.solver) memory.solver = std::make_unique<DirectSolver>();
         memory.solver->solve(problem, bodies, islands.manifolds(k), islands.joints(k));
@@ -347,7 +407,7 @@ void ContactSolver::close_clamped(const ContactProblem& problem, const ContactIs
 void ContactSolver::close_swept(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
     if (std::all_of(swept_.begin(), swept_.end(), [](Swept swept) { return swept == Swept::no; })) return;
     projection_.prepare(std::size_t(pool.size()));
-    pool.for_each(islands.size(), tuning::direct_parallel_grain, [&](std::size_t k, std::size_t thread) {
+    pool.for_each(islands.size(), direct_parallel_grain, [&](std::size_t k, std::size_t thread) {
         if (swept_[k] == Swept::no) return;
         const Vec3 gained = projection_.close(islands.bodies(k), problem.bodies, problem.settings.h, thread);
         if (islands.is_free(k)) keep_angular_momentum(islands.bodies(k), problem.bodies, 0.0, gained);

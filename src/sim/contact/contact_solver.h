@@ -15,12 +15,20 @@
 #include "sim/contact/model/contact_islands.h"
 #include "sim/contact/model/load_estimate.h"
 #include "sim/contact/projection/projection.h"
-#include "sim/contact/settings.h"
 #include "sim/contact/soft/soft_solver.h"
 #include "sim/joints/joint_way.h"
 
 #include <memory>
 #include <vector>
+
+namespace tumble::tuning {
+
+/// Steps until the direct solver is tried again after a failure. Each further failure doubles them, this many times
+/// at most. Not fitted: a bound of the cost of failures.
+inline constexpr int direct_wait = 6;
+inline constexpr int direct_most_failures = 8;
+
+}  // namespace tumble::tuning
 
 namespace tumble {
 

@@ -16,6 +16,21 @@
 namespace tumble {
 namespace {
 
+/// A contact point without a partner of the same features takes the impulse of an old point up to this distance
+/// away (share of the smaller radius): corners that change places on a rocking box carry the same load. Related
+/// test: NarrowPhaseManifold.TakesTheNearestPointWhenFeaturesChange.
+constexpr double matching_distance = 0.1;
+
+/// Shapes of many corners are searched for missed points while their motion since the last search is below this
+/// share of the radius: such a body rocks. A body that rolls over its corners has new points in each step. Related
+/// test: ContactRest.ACoinLiesDown.
+constexpr double missed_motion = 0.05;
+
+/// Angle of a body in a step, rad, above which several corners of a cylinder of 64 corners may reach the other surface
+/// (tuning::fast_rotation_turn is that of 200 corners). Above it, the points of a body on a plane are those that it rolls on.
+/// Related test: Rolling.WheelsOfCornersStayOnTheGround.
+constexpr double rolling_turn = 0.1;
+
 // Entries prefetched ahead of use: processing that many takes about as long as one fetch from memory.
 constexpr std::size_t ahead = 6;
 
@@ -322,15 +337,14 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
     found.scratch.reduced.clear();
     found.scratch.before = std::span(manifolds_).subspan(entry.first, remembers_ ? entry.count : 0);
     found.scratch.displacement = h * (b.velocity - a.velocity);
-    found.scratch.turning =
-        h * a.spin > tuning::rolling_turn * a.radius || h * b.spin > tuning::rolling_turn * b.radius;
+    found.scratch.turning = h * a.spin > rolling_turn * a.radius || h * b.spin > rolling_turn * b.radius;
     collide(*a.collider, *b.collider, {a.pose, b.pose, reach, found.scratch, found.manifolds});
     last.axis = std::uint16_t(found.scratch.axis);
     last.gap = rounded_down(found.scratch.gap);
     for (std::size_t k = begin; k < found.manifolds.size(); ++k) {
         const Manifold& m = found.manifolds[k];
         if (!remembers_ || m.count + m.reduced <= 2 * Manifold::capacity) continue;
-        last.sank = moved < tuning::missed_motion * radius &&
+        last.sank = moved < missed_motion * radius &&
                     (last.sank || missed(std::span(manifolds_).subspan(entry.first, entry.count), m,
                                          reduced(m, found.scratch), radius));
     }
@@ -365,7 +379,7 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
         while (old < old_end && earlier(manifolds_[old], *m)) ++old;
         if (old < old_end && !earlier(*m, manifolds_[old])) {
             bring();
-            match_impulses(manifolds_[old++], tuning::matching_distance * radius, *m);
+            match_impulses(manifolds_[old++], matching_distance * radius, *m);
             if (old < old_end && manifolds_[old].part == m->part && alone) {
                 bring();
                 transfer_impulses(manifolds_[old], *m);

@@ -1,6 +1,5 @@
 #include "sim/detection/spatial_sort.h"
 
-#include "sim/detection/settings.h"
 #include "sim/math/kd_split.h"
 
 #include <algorithm>
@@ -10,9 +9,14 @@
 namespace tumble {
 namespace {
 
+/// Number of moving bodies from which on bodies are sorted by place in memory (spatial_sort.h), and number of
+/// bodies in a vertical column. Limits the cost.
+constexpr std::size_t ordered_bodies = 512;
+constexpr std::size_t ordered_column = 32;
+
 // `upward`: index of the axis nearest to gravity's, -1 without gravity.
 void cut(std::span<PlacedBody> items, int upward) {
-    if (items.size() <= tuning::ordered_column) {
+    if (items.size() <= ordered_column) {
         std::sort(items.begin(), items.end(), PlacedBody::before(upward >= 0 ? upward : longest_side(items)));
         return;
     }
@@ -32,7 +36,7 @@ std::vector<std::uint32_t> put_in_memory_order(std::vector<Body>& bodies, const 
         else
             order.push_back(i);
     }
-    if (movers.size() < tuning::ordered_bodies) {
+    if (movers.size() < ordered_bodies) {
         order.resize(bodies.size());
         std::iota(order.begin(), order.end(), 0u);
         return order;

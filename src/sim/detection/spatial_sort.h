@@ -14,7 +14,7 @@ namespace tumble {
 /// along gravity (m/s^2), because falling bodies stay above those that they fall on, each ordered by height. Columns
 /// are cut at the median across gravity, of the longer side first (k-d tree, Bentley 1975); without gravity along any
 /// side.
-/// With fewer than tuning::ordered_bodies moving ones all bodies stay in the scene's order: they fit a core's cache in
+/// With fewer than ordered_bodies moving ones all bodies stay in the scene's order: they fit a core's cache in
 /// any order, and a mirrored scene's motion stays the mirror image.
 std::vector<std::uint32_t> put_in_memory_order(std::vector<Body>& bodies, const Vec3& gravity);
 

@@ -11,6 +11,11 @@
 namespace tumble {
 namespace {
 
+/// A contact is neutral if its relative acceleration, and its relative velocity over the step, are below this share of the
+/// acceleration that presses its held body. Not fitted: above rounding and the speed that a landing leaves, far below a
+/// motion. Tests: tests/physics/pressed_row_test.cpp.
+constexpr double neutral_share = 1e-3;
+
 // Acceleration (m/s^2) of the body's point at `arm`: with its support where it has one.
 Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<Body>& bodies, const FreeMotion& free,
                             const Supports& supports) {
@@ -24,7 +29,7 @@ Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<
 // True if the bodies have no relative motion at the contact: its acceleration (m/s^2, along the normal) and its velocity
 // are small beside the acceleration that presses the held body, and that acceleration times h (s).
 bool neutral(const Contact& c, const Body& a, const Body& b, double acceleration, const Support& held, double h) {
-    const double least = tuning::neutral_share * held.pressing;
+    const double least = neutral_share * held.pressing;
     if (!(std::abs(acceleration) < least)) return false;
     const Vec3 v = b.velocity + b.angular_velocity.cross(c.arm_b) - a.velocity - a.angular_velocity.cross(c.arm_a);
     return v.norm() <= least * h;
@@ -37,7 +42,7 @@ double holding(const Contact& c, const Gap& gap, const std::vector<Body>& bodies
     const double part = relative_velocity(c, bodies[c.a], bodies[c.b]);
     double pressing = -pressing_acceleration(c, gap, bodies, free, supports);
     // Bodies between others have no forces of their own, or weaker ones: the load of the last step is still there.
-    const double load = c.load_speed / free.h, nothing = tuning::neutral_share * load;
+    const double load = c.load_speed / free.h, nothing = neutral_share * load;
     const double opening = bodies[c.a].dynamic() && bodies[c.b].dynamic() ? load : nothing;
     if (pressing < nothing && pressing > -opening) pressing = load;
     // Before the first solve any contact without relative motion may carry a part of the load of its held body.

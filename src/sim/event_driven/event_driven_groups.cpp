@@ -11,6 +11,15 @@
 namespace tumble {
 namespace {
 
+/// A group of joined bodies is at rest, and stepped, if gravity gives its fastest point less than this share of g h in a
+/// step. Not fitted: rounding of a hanging chain against the first step of a pendulum.
+constexpr double group_rest = 0.01;
+
+/// Half the length, in steps, of the first path on which a flying group's time of impact is found again, and the factor to
+/// a longer one. The path's error is of the order of the fourth power of its length. Not fitted.
+constexpr double refine_first = 1e-3;
+constexpr double refine_longer = 30.0;
+
 // Bounds of the body on the path up to time `span`: its bounds in the middle, moved along with the center and turned.
 Bounds swept_bounds(const Body& body, const Trajectory& path, double span) {
     const Motion middle = path.at(0.5 * span);
@@ -61,7 +70,7 @@ bool EventDrivenMotion::fly_group(std::uint32_t group, std::vector<Body>& bodies
 
 // At the start of a step. Groups at rest are stepped: they fall asleep.
 void EventDrivenMotion::take_off_groups(std::vector<Body>& bodies, const ForceField& forces, std::int64_t step) {
-    const double rest = tuning::group_rest * settings_.gravity.norm() * h_;
+    const double rest = group_rest * settings_.gravity.norm() * h_;
     for (std::uint32_t g = 0; g < groups_.groups().size(); ++g) {
         const std::vector<std::uint32_t>& members = groups_.groups()[g].bodies;
         const bool flying = bodies[members[0]].flying;
@@ -175,7 +184,7 @@ std::optional<ImpactCluster::Whereabouts> EventDrivenMotion::whereabouts(std::ui
 // other, a longer one is tried, up to the whole trajectory.
 TimeOfImpact EventDrivenMotion::refine(std::uint32_t i, std::uint32_t j, const TimeOfImpact& found,
                                        const std::vector<Body>& bodies, const EventTime& now, double limit) {
-    for (double window = tuning::refine_first * h_;; window *= tuning::refine_longer) {
+    for (double window = refine_first * h_;; window *= refine_longer) {
         const double from = std::max(0.0, found.time - window), to = std::min(limit, found.time + window);
         Trajectory paths[2];
         MovingBody moving[2];

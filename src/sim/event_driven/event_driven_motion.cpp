@@ -19,6 +19,29 @@
 #include <limits>
 
 namespace tumble {
+namespace {
+
+/// Hops shorter than this, s, are not followed (Zeno limit): the contact closes. A bouncing ball comes to rest
+/// within this over 1 - e of its closed-form time; its remaining speed is below g times this. Related test:
+/// SettlingBall.RestsAtItsTimeAtAnyStep and bench_accuracy "ball coming to rest".
+constexpr double shortest_hop = 1e-7;
+
+/// Impacts at intervals below this, s, are in a row. After `impacts_before_zeno_growth` of them a body is coming to
+/// rest: the shortest hop that is followed doubles with every eight impacts. e = 0.9 needs about 90 from a
+/// millisecond down. Related tests: Zeno.TiltedBoxesComeToRestOnAFace and Zeno.FlatBoxRestsWhenABallDoes.
+constexpr double impact_row_interval = 1e-3;
+constexpr int impacts_before_zeno_growth = 128;
+
+/// Impacts in a row from which on hops of invisible size count as contact. Related test: Zeno.FlatBoxRestsWhenABallDoes.
+constexpr int impacts_before_zeno_check = 16;
+
+/// Neighbors up to which the box of a body in the search for neighbors grows (event_driven_motion.h),
+constexpr std::size_t few_neighbors = 6;
+
+/// and this margin, radii. Measured on 216 balls, crowded and scattered (bench_accuracy "crowds").
+constexpr double box_margin = 0.3;
+
+}  // namespace
 
 EventDrivenMotion::EventDrivenMotion(const std::vector<Body>& bodies, const SimulationSettings& settings, double fps)
     : settings_(settings),
@@ -188,12 +211,12 @@ void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, co
         if (part < 1.0) f.boxed_until = later(now, part * time);
         return;
     }
-    neighbor_boxes_.enclose(i, f.path.swept(t, t + time).grown(r + tuning::box_margin * r));
+    neighbor_boxes_.enclose(i, f.path.swept(t, t + time).grown(r + box_margin * r));
     // Larger boxes last longer but have more neighbors.
     const std::size_t neighbors = neighbor_boxes_.moving(i).size();
-    if (neighbors < tuning::few_neighbors)
+    if (neighbors < few_neighbors)
         f.box_displacement = std::min(1.5 * f.box_displacement, tuning::longest_box_displacement);
-    else if (neighbors > 3 * tuning::few_neighbors)
+    else if (neighbors > 3 * few_neighbors)
         f.box_displacement = std::max(f.box_displacement / 1.5, tuning::shortest_box_displacement);
 }
 
@@ -289,7 +312,7 @@ void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& b
     BodyEvent& f = events_[i];
     f.since_impact = f.impacts_in_row > 0 ? clock_.between(f.last_impact, now) : h_;
     f.last_impact = now;
-    f.impacts_in_row = f.since_impact < tuning::impact_row_interval ? f.impacts_in_row + 1 : 1;
+    f.impacts_in_row = f.since_impact < impact_row_interval ? f.impacts_in_row + 1 : 1;
     const std::int64_t frame = now.step / settings_.steps_per_frame;
     if (frame != frame_) {
         frame_ = frame;
@@ -305,15 +328,15 @@ void EventDrivenMotion::count_impact(std::uint32_t i, const std::vector<Body>& b
 
 // Zeno limit: hops are followed down to a fixed duration; in a long run of impacts the limit increases, up to the step.
 double EventDrivenMotion::zeno_limit(std::uint32_t i) const {
-    const int excess = std::max(0, events_[i].impacts_in_row - tuning::impacts_before_zeno_growth) / 8;
-    return std::min(h_, std::ldexp(tuning::shortest_hop, std::min(excess, 60)));
+    const int excess = std::max(0, events_[i].impacts_in_row - impacts_before_zeno_growth) / 8;
+    return std::min(h_, std::ldexp(shortest_hop, std::min(excess, 60)));
 }
 
 // True if the body's last hop was below the Zeno limit, for any cause of its return. Measured, because the formula of a
 // contact's acceleration does not include edges that rotate against each other.
 bool EventDrivenMotion::below_zeno_limit(std::uint32_t i, const std::vector<Body>& bodies, double speed) const {
     const BodyEvent& f = events_[i];
-    return f.impacts_in_row > tuning::impacts_before_zeno_check && f.since_impact < zeno_limit(i) &&
+    return f.impacts_in_row > impacts_before_zeno_check && f.since_impact < zeno_limit(i) &&
            speed * f.since_impact < tuning::impact_touch * bodies[i].radius;
 }
 
@@ -436,8 +459,7 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
         BodyEvent& f = events_[i];
         f.event = BodyEvent::Event::recheck;
         const double harmless = harmless_time(moving_body(i, bodies, now), moving_body(j, bodies, now));
-        queue_.set(
-            i, later(now, std::min({h_, harmless, std::ldexp(tuning::shortest_hop, std::min(f.impacts_in_row, 60))})));
+        queue_.set(i, later(now, std::min({h_, harmless, std::ldexp(shortest_hop, std::min(f.impacts_in_row, 60))})));
         return;
     }
     for (const std::uint32_t k : cluster_.impulse_receivers()) {

@@ -21,13 +21,24 @@
 #include "sim/event_driven/group_flights.h"
 #include "sim/event_driven/impact_cluster.h"
 #include "sim/event_driven/neighbor_boxes.h"
-#include "sim/event_driven/settings.h"
 #include "sim/impact/impacts.h"
 #include "sim/snapshot/contact_records.h"
 
 #include <limits>
 #include <optional>
 #include <vector>
+
+namespace tumble::tuning {
+
+/// Largest number of impacts in a frame per body: far beyond any clip (a million hits of each body per second). Not
+/// fitted.
+inline constexpr std::int64_t impacts_in_frame = 20000;
+
+/// The box of a ballistic body in the neighbor search covers a displacement between these bounds, radii.
+inline constexpr double shortest_box_displacement = 0.75;
+inline constexpr double longest_box_displacement = 40.0;
+
+}  // namespace tumble::tuning
 
 namespace tumble {
 

@@ -1,12 +1,17 @@
 #include "sim/geometry/collide.h"
 
-#include "sim/geometry/settings.h"
-
 #include <algorithm>
 #include <type_traits>
 
 namespace tumble {
 namespace {
+
+/// A contact of a part of a compound lies on an internal seam where all points at `seam_probe` (share of the part's
+/// size) along its normal lie in other parts, or outside them by at most `seam_tolerance` (same share): far above
+/// rounding, below any real edge. Not fitted. Related tests: PairMemory.InternalEdgesAreFlat and
+/// Compound.InternalEdgesBetweenPartsAreSmooth.
+constexpr double seam_probe = 1e-3;
+constexpr double seam_tolerance = 1e-5;
 
 using CompoundRef = std::shared_ptr<const Compound>;
 
@@ -27,13 +32,12 @@ bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Man
     return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
                // Measured from the body's own surface: in a deep overlap, the point halfway between the surfaces is inside it
                // anyway.
-               const Vec3 probe =
-                   pose.to_body(point.position + (tuning::seam_probe * size - 0.5 * point.separation) * outward);
+               const Vec3 probe = pose.to_body(point.position + (seam_probe * size - 0.5 * point.separation) * outward);
                bool inside = false;
-               whole.tree.query(Bounds{probe, probe}.grown(tuning::seam_tolerance * size), [&](std::uint32_t other) {
+               whole.tree.query(Bounds{probe, probe}.grown(seam_tolerance * size), [&](std::uint32_t other) {
                    const Compound::Part& part = whole.parts[other];
-                   inside = inside || (other != k && contains(part.collider, part.place.to_body(probe),
-                                                              tuning::seam_tolerance * size));
+                   inside = inside ||
+                            (other != k && contains(part.collider, part.place.to_body(probe), seam_tolerance * size));
                });
                return inside;
            });

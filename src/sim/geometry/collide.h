@@ -31,7 +31,7 @@ struct CollisionScratch {
     double gap = 0.0;
     // m, world: displacement of B relative to A in the coming step; selects one of two faces that the shapes slide over
     Vec3 displacement = Vec3::Zero();
-    bool turning = false;  // true if one of the bodies rotates fast (tuning::rolling_turn)
+    bool turning = false;  // true if one of the bodies rotates fast (rolling_turn (narrow_phase.cpp))
     bool on_ball = false;  // true if a manifold found lies on a ball. Cleared by the caller, as is gap
     // The pair's manifolds of the last step, and the part index of the present one (Manifold::part): a manifold on B's
     // face stays on B's face when A's face separates equally well.

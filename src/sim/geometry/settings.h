@@ -15,10 +15,6 @@ inline constexpr double parallel_edges = 1e-8;
 /// surface in the step. Related test: Rolling.WheelsOfCornersStayOnTheGround.
 inline constexpr double fast_rotation_turn = 0.03;
 
-/// The same for a cylinder of 64 corners. Above it, the points of a body on a plane are those that it rolls on.
-/// Related: the same test.
-inline constexpr double rolling_turn = 0.1;
-
 /// A point that the reduction of a manifold to four points left out counts as missed under two conditions: it
 /// overlaps by more than `sunk_overlap` (share of the smaller radius), and it lies deeper than the deepest kept
 /// point by more than `sunk_overlap` plus `sunk_share` of that point's depth. Smaller values give heaps of aligned
@@ -26,13 +22,6 @@ inline constexpr double rolling_turn = 0.1;
 /// 1000"). Test: PairMemory.NoReducedPointSinksUndetected.
 inline constexpr double sunk_overlap = 1e-5;
 inline constexpr double sunk_share = 0.1;
-
-/// A contact of a part of a compound lies on an internal seam where all points at `seam_probe` (share of the part's
-/// size) along its normal lie in other parts, or outside them by at most `seam_tolerance` (same share): far above
-/// rounding, below any real edge. Not fitted. Related tests: PairMemory.InternalEdgesAreFlat and
-/// Compound.InternalEdgesBetweenPartsAreSmooth.
-inline constexpr double seam_probe = 1e-3;
-inline constexpr double seam_tolerance = 1e-5;
 
 /// Contacts at gaps below this share of the smaller body take part in one event-driven impact, with the touching
 /// contacts of the same faces. Not fitted: far above rounding, and below the tolerance of resting contact.

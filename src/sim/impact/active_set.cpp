@@ -8,6 +8,29 @@
 namespace tumble {
 namespace {
 
+/// Impulses are distributed over contacts whose rows are dependent to the first value (rounding of lever arms of
+/// some hundred meters), or clearly independent by the second. In between, rounding would decide the distribution.
+/// Related test: ActiveSet.SpreadsOverDependentRows.
+constexpr double projection_spread_dependent = 1e-12;
+constexpr double projection_spread_independent = 1e-3;
+
+/// Most rows over which impulses are distributed with the least sum of squares among those that only push, with the most
+/// Newton steps, the relative error of their sum, and the least second derivative. Beyond, the distribution stops short
+/// of that. Limits the cost; not fitted: rounding.
+constexpr std::size_t projection_even_rows = 128;
+constexpr int projection_even_steps = 30;
+constexpr double projection_even_rounding = 1e-14;
+constexpr double projection_even_least = 1e-10;
+
+/// A row whose multiplier falls slower than this, relative to the rising one, does not block it: rounding. Not
+/// fitted: rounding.
+constexpr double projection_weight = 1e-13;
+
+/// Sweeps of projected Gauss-Seidel, and the relative change at which it has converged. Related test:
+/// ActiveSet.SweepsApproximateTheExactSolution.
+constexpr int projection_sweeps = 400;
+constexpr double projection_sweep_tolerance = 1e-14;
+
 // x = A^-1 x by Cholesky, A is overwritten; returns false when A is not positive definite. Eigen's solver splits into
 // blocks by the size of the processor's cache, which would change the last digits.
 bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
@@ -41,11 +64,11 @@ bool spread_evenly(const Eigen::MatrixXd& b, const Eigen::VectorXd& sum, Eigen::
         }
         return 0.5 * square - at.dot(sum);
     };
-    for (int step = 0; step < tuning::projection_even_steps; ++step) {
+    for (int step = 0; step < projection_even_steps; ++step) {
         even = b.lazyProduct(c).cwiseMax(0.0);
         Eigen::VectorXd turn = sum - b.transpose().lazyProduct(even);
-        if (turn.norm() <= tuning::projection_even_rounding * sum.norm()) return true;
-        Eigen::MatrixXd gram = tuning::projection_even_least * Eigen::MatrixXd::Identity(b.cols(), b.cols());
+        if (turn.norm() <= projection_even_rounding * sum.norm()) return true;
+        Eigen::MatrixXd gram = projection_even_least * Eigen::MatrixXd::Identity(b.cols(), b.cols());
         for (Eigen::Index k = 0; k < b.rows(); ++k)
             if (even[k] > 0.0) gram += b.row(k).transpose().lazyProduct(b.row(k));
         const Eigen::VectorXd down = turn;
@@ -191,7 +214,7 @@ bool ActiveSet::take_in(std::size_t i) {
         back_substitute();
         double blocked = infinity;
         std::size_t blocking = 0;
-        const double least = independent ? tuning::projection_weight : tuning::projection_dependent;
+        const double least = independent ? projection_weight : tuning::projection_dependent;
         for (std::size_t k = 0; k < held_.size(); ++k) {
             if (weights_[k] <= least) continue;
             const double t = lambda[held_[k]] / weights_[k];
@@ -314,9 +337,9 @@ void ActiveSet::spread() {
     for (const std::size_t i : tight_) {
         split(local_[i]);
         const double left = remainder_.norm();
-        if (left > tuning::projection_spread_independent)
+        if (left > projection_spread_independent)
             hold(i);
-        else if (left <= tuning::projection_spread_dependent)
+        else if (left <= projection_spread_dependent)
             dependent.push_back(i);
     }
     std::vector<std::size_t> rows = held_;
@@ -340,7 +363,7 @@ void ActiveSet::spread() {
         if (solve_symmetric(gram, c)) {
             Eigen::VectorXd even = b.lazyProduct(c);
             double share = 1.0;
-            if (even.minCoeff() < 0.0 && rows.size() <= tuning::projection_even_rows && !spread_evenly(b, sum, c, even))
+            if (even.minCoeff() < 0.0 && rows.size() <= projection_even_rows && !spread_evenly(b, sum, c, even))
                 even = b.lazyProduct(c);
             for (Index k = 0; k < now.size(); ++k)
                 if (even[k] < 0.0) share = std::min(share, now[k] / (now[k] - even[k]));
@@ -371,7 +394,7 @@ void ActiveSet::refine() {
 bool ActiveSet::sweeps() {
     std::vector<double>& lambda = *multipliers_;
     double first = 0.0;
-    for (int sweep = 0; sweep < tuning::projection_sweeps; ++sweep) {
+    for (int sweep = 0; sweep < projection_sweeps; ++sweep) {
         double most = 0.0;
         for (std::size_t i = 0; i < lambda.size(); ++i) {
             const double target = std::max(0.0, lambda[i] - value(i));
@@ -382,7 +405,7 @@ bool ActiveSet::sweeps() {
             most = std::max(most, std::abs(step));
         }
         if (sweep == 0) first = most;
-        if (most <= tuning::projection_sweep_tolerance * first) return true;
+        if (most <= projection_sweep_tolerance * first) return true;
     }
     return false;
 }

@@ -1,12 +1,38 @@
 #include "sim/impact/impact_friction.h"
 
-#include "sim/impact/settings.h"
-
 #include <algorithm>
 #include <cmath>
 
 namespace tumble {
 namespace {
+
+/// Sweeps of friction over an impact system. Not fitted: a bound of the cost.
+constexpr int friction_sweeps = 400;
+
+/// Relaxations of contacts in a large system in all, with this least number of sweeps. Each sweep lowers the energy, so
+/// any may be the last. Not fitted: bounds of the cost.
+constexpr int friction_work = 400;
+constexpr int friction_least_sweeps = 2;
+
+/// Change of speed, relative to the slip, at which friction has converged: between steps, and at a step, whose own
+/// error is larger. Not fitted.
+constexpr double friction_tolerance = 1e-14;
+constexpr double friction_tolerance_step = 1e-5;
+
+/// Contacts with friction up to which that tolerance holds, and the tolerance for more. Limits the cost.
+constexpr std::size_t friction_few = 8;
+constexpr double friction_tolerance_many = 1e-6;
+
+/// Contacts of an impact up to which those with friction are relaxed at once, so that no order shows: a rack of 15 balls has
+/// 47. Beyond, one after the other takes fewer sweeps. Limits the cost. Related test: Rack.BouncesAsItsMirrorImage.
+constexpr std::size_t friction_at_once = 128;
+
+/// Sweeps at once in which friction's limits follow the normal impulses. Not fitted: most impacts need fewer.
+constexpr int friction_follow = 100;
+
+/// Newton steps to the edge of a friction disc. The method converges quadratically: 4 to 8 are enough for any
+/// compliance. Not fitted: a bound of the cost.
+constexpr int friction_newton = 50;
 
 // Minimizes k0 f0^2 / 2 + k1 f1^2 / 2 + g0 f0 + g1 f1 over the disc |f| <= radius. On the edge f_i = -g_i / (k_i + nu),
 // with nu >= 0 the root of 1/|f(nu)| = 1/radius, which Newton's steps approach from the left (More and Sorensen 1983,
@@ -17,7 +43,7 @@ std::pair<double, double> least_in_disc(double k0, double k1, double g0, double 
     if (length <= radius) return {f0, f1};
     if (!(radius > 0.0)) return {0.0, 0.0};
     double nu = 0.0;
-    for (int i = 0; i < tuning::friction_newton && length - radius > tolerance * radius; ++i) {
+    for (int i = 0; i < friction_newton && length - radius > tolerance * radius; ++i) {
         const double slope = f0 * f0 / (k0 + nu) + f1 * f1 / (k1 + nu);
         nu += length * length / slope * (length - radius) / radius;
         f0 = -g0 / (k0 + nu);
@@ -85,13 +111,13 @@ void ImpactFriction::add_blocks(ImpactSystem& cluster) {
 }
 
 double ImpactFriction::tolerance() const {
-    if (blocks_.size() > tuning::friction_few) return tuning::friction_tolerance_many;
-    return precision_ == Precision::last_digits ? tuning::friction_tolerance : tuning::friction_tolerance_step;
+    if (blocks_.size() > friction_few) return friction_tolerance_many;
+    return precision_ == Precision::last_digits ? friction_tolerance : friction_tolerance_step;
 }
 
 int ImpactFriction::most_sweeps() const {
-    if (blocks_.size() <= tuning::friction_few) return tuning::friction_sweeps;
-    return std::max(tuning::friction_least_sweeps, tuning::friction_work / int(blocks_.size()));
+    if (blocks_.size() <= friction_few) return friction_sweeps;
+    return std::max(friction_least_sweeps, friction_work / int(blocks_.size()));
 }
 
 // N s, of the block's friction when its normal impulse grows by `pushed`.
@@ -110,7 +136,7 @@ ImpactFriction::Step ImpactFriction::relaxed(const ImpactSystem& cluster, const 
     double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
     double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
     double f0 = block.f0, f1 = block.f1, change = 0.0;
-    const int rounds = blocks_.size() < 2 && normal == Normal::adapted ? tuning::friction_sweeps : 1;
+    const int rounds = blocks_.size() < 2 && normal == Normal::adapted ? friction_sweeps : 1;
     for (int round = 0; round < rounds; ++round) {
         const double push = std::max((block.kept - parting) / kn, -cluster.impulse(i) - pushed);
         pushed += push;
@@ -167,7 +193,7 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
     moved_.assign(blocks_.size(), Step{});
     double most = 0.0, time = 1.0, ahead = 0.0;
     limits_held_ = false;
-    const int sweeps = precision_ == Precision::last_digits ? tuning::friction_sweeps : most_sweeps();
+    const int sweeps = precision_ == Precision::last_digits ? friction_sweeps : most_sweeps();
     for (int sweep = 1;; ++sweep) {
         double change = 0.0, along = 0.0;
         steps_.clear();
@@ -193,7 +219,7 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
                  {step.push + ahead * moved.push, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0});
         }
         if (last) break;
-        if (sweep == tuning::friction_follow) hold_limits(cluster);
+        if (sweep == friction_follow) hold_limits(cluster);
     }
     if (limits_held_) let_limits_go(cluster);
     return most;
@@ -218,7 +244,7 @@ void ImpactFriction::let_limits_go(ImpactSystem& cluster) {
 
 // Returns the largest change of speed in a sweep.
 double ImpactFriction::relax_all(ImpactSystem& cluster, Normal normal) {
-    if (blocks_.size() > 1 && cluster.contacts() <= tuning::friction_at_once) return relax_at_once(cluster, normal);
+    if (blocks_.size() > 1 && cluster.contacts() <= friction_at_once) return relax_at_once(cluster, normal);
     double most = 0.0;
     for (int sweep = 0; sweep < most_sweeps(); ++sweep) {
         double change = 0.0;

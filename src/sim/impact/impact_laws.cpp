@@ -10,6 +10,30 @@
 namespace tumble {
 namespace {
 
+/// Passes of a propagating impact, per contact. Most impacts end within three. More are needed for a light ball
+/// between a heavy one and a wall (31415 for masses of 1 : 1e8): their number is proportional to the inverse margin
+/// of the contacts. Sets without a margin are jammed. Related tests: HardInput.LightBallBetweenAHeavyOneAndAWall
+/// and Galperin.EndsAsInTheUnfoldedWedge.
+constexpr int impact_passes_each = 3;
+constexpr int impact_passes_more = 10;
+constexpr double impact_passes_margin = 4.0;
+constexpr int impact_passes_limit = 100000;
+
+/// Bodies between moving walls leave at most at this many times the speed of the walls: a wedge of about 20
+/// degrees. Related test: Restitution.InAnAcuteCornerGainsNothing.
+constexpr double impact_wedge = 3.0;
+
+/// Contacts with a margin below the inverse of this are jammed where walls move: the two sides of a box in a press.
+/// Related test: Kinematic.PushesTheHeavyThroughTheLight.
+constexpr double impact_deepest = 100.0;
+
+/// Largest sum over the passes of the squared number of contacts: about 50 ms. Longer impacts are slow inelastic
+/// approaches of many contacts to one common speed. Not fitted: a bound of the cost.
+constexpr double impact_work = 3e5;
+
+/// Elastic passes end by themselves; they count by this share. Limits the cost.
+constexpr double impact_elastic_work = 0.1;
+
 double restitution_now(const ImpactSystem& cluster, std::size_t i, double threshold) {
     if (i < cluster.contacts()) threshold = least_impact(cluster.contact(i), threshold);
     return cluster.speed(i) < -std::max(threshold, cluster.rounding()) ? cluster.restitution(i) : 0.0;
@@ -24,7 +48,7 @@ ActiveSet::Demand demand(const ImpactSystem& cluster, std::size_t i, double leas
 // between nearly parallel walls in relative motion, and is rejected. Without moving walls |y| cannot grow.
 VelocityBound bound(const ImpactSystem& cluster) {
     if (cluster.wall_velocity() == 0.0) return {};
-    const double wall = tuning::impact_wedge * cluster.wall_velocity();
+    const double wall = impact_wedge * cluster.wall_velocity();
     return {&cluster.velocity(), std::sqrt(cluster.velocity().squaredNorm() + wall * wall)};
 }
 
@@ -89,17 +113,17 @@ public:
     }
 
     int run() {
-        int limit = tuning::impact_passes_each * int(cluster_.size()) + tuning::impact_passes_more;
+        int limit = impact_passes_each * int(cluster_.size()) + impact_passes_more;
         bool depth_known = false;
         double work = 0.0;
         for (int pass = 0;; ++pass) {
             if (!gather(pass == 0) && (pass > 0 || !gather(false))) return pass;
             if (pass == limit && !depth_known && cluster_.wall_velocity() == 0.0) {
-                limit += int(std::min<double>(tuning::impact_passes_limit, tuning::impact_passes_margin * depth()));
+                limit += int(std::min<double>(impact_passes_limit, impact_passes_margin * depth()));
                 depth_known = true;
             }
-            const bool spent = pass >= limit || work > tuning::impact_work;
-            const double cost = elastic() ? tuning::impact_elastic_work : 1.0;
+            const bool spent = pass >= limit || work > impact_work;
+            const double cost = elastic() ? impact_elastic_work : 1.0;
             if (spent || squeezed(pass) || !reflect()) {
                 stop(cluster_);
                 return pass + 1;
@@ -184,10 +208,10 @@ private:
     bool squeezed(int pass) {
         if (cluster_.wall_velocity() == 0.0) return false;
         if (pass > 0) return cluster_.velocity().norm() > longest_;
-        longest_ = cluster_.velocity().norm() + tuning::impact_wedge * cluster_.wall_velocity();
+        longest_ = cluster_.velocity().norm() + impact_wedge * cluster_.wall_velocity();
         if (cluster_.size() > tuning::projection_contacts) return false;
         const double z = depth();
-        return z == 0.0 || z > tuning::impact_deepest;
+        return z == 0.0 || z > impact_deepest;
     }
 
     ImpactSystem& cluster_;

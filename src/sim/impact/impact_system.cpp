@@ -6,6 +6,20 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Approach speeds below this share of the largest relative speed of the impact system are rounding,
+constexpr double approach_relative = 1e-13;
+
+/// and those below this share of its largest speed. Not fitted: some ten units of rounding.
+constexpr double approach_rounding = 4e-15;
+
+/// An impulse counts, for friction and as a bounce, if it changes v_rel by more than this many times the rounding of speeds:
+/// 1e-9 of the fastest approach. Not fitted: far above the rounding of positions and normals. Related test:
+/// Rack.BouncesAsItsMirrorImage.
+constexpr double impact_felt = 1e4;
+
+}  // namespace
 ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                            ImpactTrace* trace)
     : body_index_(island.bodies), contacts_(contacts), bodies_(bodies), trace_(trace) {
@@ -46,7 +60,7 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
     impulse_.assign(rows_.size(), 0.0);
     for (const std::uint32_t body : island.bodies) mass += bodies[body].mass;
     wall_velocity_ = std::sqrt(mass) * fastest_wall;
-    rounding_ = tuning::approach_relative * fastest + tuning::approach_rounding * largest;
+    rounding_ = approach_relative * fastest + approach_rounding * largest;
 }
 
 // A row from a form that is not of unit length, and the velocities of bodies that are not dynamic along it, m/s.
@@ -129,9 +143,7 @@ void ImpactSystem::announce(std::size_t i, double amount, double restitution) {
     announced_.push_back(i);
 }
 
-bool ImpactSystem::felt(std::size_t i) const {
-    return impulse_[i] * length_[i] * length_[i] > tuning::impact_felt * rounding_;
-}
+bool ImpactSystem::felt(std::size_t i) const { return impulse_[i] * length_[i] * length_[i] > impact_felt * rounding_; }
 
 void ImpactSystem::end_pass() {
     std::size_t entry = trace_->entries.size() - announced_.size();

@@ -2,7 +2,6 @@
 
 #include "sim/impact/active_set.h"
 #include "sim/impact/impact_friction.h"
-#include "sim/impact/settings.h"
 
 #include <algorithm>
 #include <deque>
@@ -10,6 +9,15 @@
 
 namespace tumble {
 namespace {
+
+/// Largest number of products of an impact of joined bodies, contacts squared times the numbers of a group: about 30 ms.
+/// Beyond, the solver of contacts bounces them. Limits the cost.
+constexpr double impact_joined_work = 3e7;
+
+/// Rounds of friction with restitution for the contacts that friction makes approach again, and rounds in all. Not
+/// fitted: bounds of the cost.
+constexpr int friction_bounces = 4;
+constexpr int friction_rounds = 12;
 
 // Most steps of most islands have no impact: this is decided from the contacts alone.
 bool may_collide(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
@@ -67,9 +75,9 @@ void complete_trace(const ImpactSystem& cluster, ImpactTrace& trace) {
 // Friction may rotate a body so that it approaches again: then the impact continues, with friction's disc enlarged
 // accordingly. The rounds are bounded, the later ones are without restitution; at the end nothing approaches.
 void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactFriction& friction) {
-    for (int round = 0; round < tuning::friction_rounds; ++round) {
+    for (int round = 0; round < friction_rounds; ++round) {
         if (!friction.apply(cluster) || !approaching(cluster)) return;
-        if (round < tuning::friction_bounces)
+        if (round < friction_bounces)
             resolve_normally(cluster, settings);
         else
             stop(cluster);
@@ -82,7 +90,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
                     const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>* blows) {
     if (!may_collide(island, contacts, bodies, settings)) return 0;
     ImpactSystem cluster(island, contacts, bodies, trace);
-    if (!island.joints.empty() && cluster.work() > tuning::impact_joined_work) return too_large;
+    if (!island.joints.empty() && cluster.work() > impact_joined_work) return too_large;
     const int passes = resolve_normally(cluster, settings);
     if (passes == 0) return 0;
     if (settings.friction) {

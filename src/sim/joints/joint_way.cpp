@@ -13,6 +13,26 @@
 namespace tumble {
 namespace {
 
+/// Nets are groups with more joints than bodies, of at least so many bodies and more block products per body in a
+/// factorization, or with ropes (distance joints with limits), whose changes between taut and slack need dozens of
+/// factorizations in a step. Limits the cost.
+constexpr std::size_t net_bodies = 256;
+constexpr double net_work = 100.0;
+constexpr std::size_t net_bodies_of_ropes = 64;
+
+/// Largest number of bodies of a figure. Not fitted: sweeps carry a blow along a few joints in a substep, not along a chain
+/// of a hundred.
+constexpr std::size_t figure_most = 64;
+
+/// Largest compliance at an anchor by a body's turns over that by its mass, for joints that lock or limit turns and for others:
+/// sweeps lose its square, and itself, of the digits of single precision. Not fitted: a hundredth of the digits is left.
+constexpr double turn_leverage = 300.0;
+constexpr double point_leverage = 1e4;
+
+/// Largest ratio of the masses that a joint of a net or figure connects: sweeps stretch joints that hold a heavy body by light
+/// ones. Not fitted: far from such loads.
+constexpr double net_mass_ratio = 16.0;
+
 bool integrator_known(const Body& body) { return body.integrator == IntegratorKind::symplectic_euler; }
 
 // Largest share by which the body's turns add to the compliance at the anchor of a joint: m tr([r] I^-1 [r]^T).
@@ -26,7 +46,7 @@ bool holds_digits(const Joint& joint, const std::vector<Body>& bodies) {
     bool turns = false;
     for (std::size_t k = 3; k < joint.count(); ++k)
         turns = turns || joint.axis(k).motion != JointAxis::Motion::free || joint.description.swing;
-    const double most = turns ? tuning::turn_leverage : tuning::point_leverage;
+    const double most = turns ? turn_leverage : point_leverage;
     const auto holds = [&](std::uint32_t i, const Vec3& anchor) {
         return i == Joint::world || !bodies[i].dynamic() || leverage(bodies[i], anchor) <= most;
     };
@@ -50,7 +70,7 @@ bool masses_are_alike(const JointGroup& group, const JointSet& joints, const std
         const Joint& joint = joints.joints()[k];
         if (!dynamic(joint.a) || !dynamic(joint.b)) return true;
         const double a = bodies[joint.a].mass, b = bodies[joint.b].mass;
-        return std::max(a, b) <= tuning::net_mass_ratio * std::min(a, b);
+        return std::max(a, b) <= net_mass_ratio * std::min(a, b);
     });
 }
 
@@ -112,14 +132,14 @@ bool is_net(const JointGroup& group, const JointSet& joints, const std::vector<B
         const Joint& joint = joints.joints()[k];
         return joint.distance() && !joint.locked(0);
     });
-    if (ropes && group.bodies.size() >= tuning::net_bodies_of_ropes) return true;
-    return group.bodies.size() >= tuning::net_bodies && factor_work(group, joints) > tuning::net_work;
+    if (ropes && group.bodies.size() >= net_bodies_of_ropes) return true;
+    return group.bodies.size() >= net_bodies && factor_work(group, joints) > net_work;
 }
 
 // A tree without an anchor, of joints that hold anchors together, between masses that are not too unlike.
 bool is_figure(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
-    return !group.anchored && group.bodies.size() <= tuning::figure_most &&
-           group.joints.size() + 1 == group.bodies.size() && masses_are_alike(group, joints, bodies) &&
+    return !group.anchored && group.bodies.size() <= figure_most && group.joints.size() + 1 == group.bodies.size() &&
+           masses_are_alike(group, joints, bodies) &&
            std::none_of(group.joints.begin(), group.joints.end(),
                         [&](std::uint32_t k) { return joints.joints()[k].distance(); });
 }

@@ -2,7 +2,6 @@
 
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/threads/settings.h"
 
 #include <algorithm>
 

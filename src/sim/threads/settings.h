@@ -8,10 +8,7 @@ namespace tumble::tuning {
 /// Pairs or islands from which on other threads are woken. Limits the cost.
 inline constexpr std::size_t parallel_grain = 64;
 
-/// The same for bodies whose pairs are searched: some microseconds each. Limits the cost.
-inline constexpr std::size_t parallel_searches = 16;
-
-/// The same for bodies whose forces are applied or whose poses are advanced. Limits the cost.
+/// Bodies from which on threads share the work, whose forces are applied or whose poses are advanced. Limits the cost.
 inline constexpr std::size_t parallel_bodies = 512;
 
 }  // namespace tumble::tuning

@@ -10,6 +10,44 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// Factor of that compliance where two passes in a row leave more than half of the error. Not fitted: a pass then leaves a
+/// hundredth, and the impulses lose two more digits.
+constexpr double joint_stiffer = 1e-2;
+
+/// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
+/// a singular position, as of a taut chain, it is closed by displacements up to half the square root of this times as
+/// large.
+constexpr double joint_push_apart = 1e3;
+
+/// Stiffness of closed joints there, over the mass of the island: a hundred times that of contacts, so that each pass
+/// makes their errors up to a hundred times smaller.
+constexpr double joint_push_closed = 1e4;
+
+/// Convergence of the rounds without contacts, relative to the impulses. Related test:
+/// JointLaws.AMotorOpensADoorToItsLimit.
+constexpr double joint_round_tolerance = 1e-8;
+
+/// Passes after which such a position ends them. Not fitted: others contract by 10 in each.
+constexpr int joint_singular_rounds = 8;
+
+/// Error, in sizes of the joint, at which the joints of an island in contact count as closed after
+/// tuning::direct_rounds rounds, and once the impulses have settled; and error of a gap at the end of the step, in sizes
+/// of the contact, once they have settled. Not fitted: the next step closes the rest.
+constexpr double joint_contact_closed = 1e-7;
+constexpr double joint_contact_settled = 1e-8;
+constexpr double joint_corner_closed = 1e-5;
+
+/// Least turn, rad, of a body in a step in which the gaps of corners are closed: the rest of the gap is half its square, in
+/// sizes of the contact. Not fitted: less is invisible.
+constexpr double joint_corner_turn = 0.005;
+
+/// Change of the velocities in a round, as a share of the change in the step, at which the impulses in contact count as
+/// settled. Not fitted: larger ones let resting bodies creep.
+constexpr double joint_contact_rest = 1e-6;
+
+}  // namespace
 
 using namespace contact_rows;
 
@@ -19,7 +57,7 @@ bool DirectSolver::push_joined(const JointIsland& island, bool moved) {
     const bool overlaps = push_out(island.problem.settings.h);
     const double mean = total_mass_ / double(masses_.size());
     const bool apart = joints_.start_push(island, tuning::joint_push_share,
-                                          {tuning::joint_push_apart * mean, tuning::joint_push_closed * total_mass_});
+                                          {joint_push_apart * mean, joint_push_closed * total_mass_});
     if (!overlaps && !apart) return false;
     if (!factor(true)) {
         std::fill(push_.begin(), push_.end(), 0.0);
@@ -110,7 +148,7 @@ bool DirectSolver::comes_to_rest(const JointIsland& island) const {
 
 // True if the last round has changed no velocity: where bodies jam, impulses may have no limit and keep changing.
 bool DirectSolver::moves_no_body() const {
-    const double least = (near_rest_ ? tuning::joint_rest : tuning::joint_contact_rest) * speed_scale_;
+    const double least = (near_rest_ ? tuning::joint_rest : joint_contact_rest) * speed_scale_;
     for (std::size_t k = 0; k < velocity_.size(); ++k)
         if (!(std::abs(velocity_[k] - kept_[k]) <= least)) return false;
     return true;
@@ -183,11 +221,11 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
     const double closed = std::max(tuning::joint_closed, joints_.rounding(island, fastest_, lightest_));
     double noise = joints_.rounding(fastest_);  // N s
     const double rounding = std::max(tuning::joint_rounding, 100.0 * closed);
-    const double open = constraints_.empty() ? rounding : std::max(rounding, tuning::joint_contact_closed);
+    const double open = constraints_.empty() ? rounding : std::max(rounding, joint_contact_closed);
     consistent_ = true;
     settled_ = false;
     limits_held_ = false;
-    const double most_turn = tuning::joint_corner_turn / island.problem.settings.h;  // rad/s
+    const double most_turn = joint_corner_turn / island.problem.settings.h;  // rad/s
     const bool turns = std::any_of(island.bodies.begin(), island.bodies.end(), [&](std::uint32_t i) {
         return island.problem.bodies[i].angular_velocity.squaredNorm() > most_turn * most_turn;
     });
@@ -233,27 +271,25 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
             last = infinity;
             return Closing::open;
         }
-        const double tolerance = constraints_.empty() ? tuning::joint_round_tolerance
+        const double tolerance = constraints_.empty() ? joint_round_tolerance
                                  : near_rest_         ? tuning::joint_rest_tolerance
                                                       : tuning::direct_round_tolerance;
         const bool settled = settled_ =
             change <= std::max(noise, tolerance * std::max(largest, 1e-6 * total_mass_ * speed_scale_));
         if (settled && (error <= closed || (error < rounding && error >= 0.5 * last))) return Closing::closed;
-        if (!constraints_.empty() && (settled || moves_no_body()) && error < tuning::joint_contact_settled &&
-            contact_error < tuning::joint_corner_closed) {
+        if (!constraints_.empty() && (settled || moves_no_body()) && error < joint_contact_settled &&
+            contact_error < joint_corner_closed) {
             settled_ = settled;
             return Closing::closed;
         }
         // Friction may change slowly from round to round; the joints are closed all the same.
-        if (!constraints_.empty() && round + 1 >= most_rounds && error < tuning::joint_contact_closed)
-            return Closing::closed;
+        if (!constraints_.empty() && round + 1 >= most_rounds && error < joint_contact_closed) return Closing::closed;
         // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
-        if (loops_ && round >= tuning::joint_singular_rounds && error < tuning::joint_flight_open)
-            return Closing::closed;
+        if (loops_ && round >= joint_singular_rounds && error < tuning::joint_flight_open) return Closing::closed;
         slow = error > open && error >= 0.5 * last ? slow + 1 : 0;
         if (slow == 2 && constraints_.empty() && !stiffened) {
             // A pass leaves R / (R + s^2) of an error, where s^2 is small for heavy bodies on long arms.
-            joints_.stiffen(tuning::joint_stiffer);
+            joints_.stiffen(joint_stiffer);
             noise = joints_.rounding(fastest_);
             factored_ = base_kept_ = false;
             stiffened = true;

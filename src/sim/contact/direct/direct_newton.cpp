@@ -16,6 +16,22 @@ using namespace contact_rows;
 
 namespace {
 
+/// Convergence of the Newton steps, relative to the change of velocity in the step. Not fitted: a bound of the
+/// error, which double precision allows.
+constexpr double direct_tolerance = 1e-9;
+
+/// Newton steps of the first round. After a landing, each contact of a stack of 30 may change its state. Not
+/// fitted: a bound of the cost.
+constexpr int direct_first_newton_steps = 40;
+
+/// A contact this close to opening or closing (share of the speed scale) counts as closed in the second
+/// derivatives. Not fitted: rounding.
+constexpr double direct_tie = 1e-10;
+
+/// Residual of Newton's steps, as a share of the fastest speed, that may be rounding: the stiffness of rigid rows times
+/// the rounding of speeds. Not fitted: rounding.
+constexpr double joint_stall = 1e-9;
+
 double length(double x, double y) { return std::sqrt(x * x + y * y); }
 
 void add_outer(BlockCholesky::Block& block, const double* left, const BlockCholesky::Row& right) {
@@ -61,7 +77,7 @@ void DirectSolver::evaluate_speeds() {
 
 // Impulses for velocities at a fraction of the Newton step, and the weights of the rows in the second derivatives.
 void DirectSolver::evaluate(ConstraintRows& constraint, double along, Weights* weights) const {
-    const double tie = ties_ ? -tuning::direct_tie * speed_scale_ / compliance_ : 0.0;
+    const double tie = ties_ ? -direct_tie * speed_scale_ / compliance_ : 0.0;
     for (int i = 0; i < constraint.count; ++i) {
         Row& row = constraint.normal[i];
         const double y = row.estimate + (row.target - row.speed - along * row.change) / compliance_;
@@ -261,13 +277,13 @@ double DirectSolver::line_search(double slope_0, double mass_slope, double mass_
 // `steps_without_ties`: that follow where most_steps are not enough. A tie whose contact opens makes the steps creep.
 bool DirectSolver::minimize(int most_steps, int steps_without_ties) {
     const double energy = total_mass_ * speed_scale_ * speed_scale_;
-    const double speed = std::max(tuning::direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
+    const double speed = std::max(direct_tolerance * speed_scale_, tuning::direct_rounding * fastest_);
     // Under a heavy load the links' velocities count, which are a small part of the energy.
     // With contacts too, the next round is as near as that.
     const bool loosely = !joints_.empty() && !constraints_.empty() && !near_rest_;
     const double loose = loosely ? tuning::joint_contact_tolerance : 1.0;
     const double tolerance = (joints_.empty() ? total_mass_ : lightest_) * (loose * speed) * (loose * speed);
-    const double stalled = tuning::joint_stall * fastest_, rounding = total_mass_ * stalled * stalled;
+    const double stalled = joint_stall * fastest_, rounding = total_mass_ * stalled * stalled;
     double last = infinity;
     ties_ = true;
     for (int k = 0; k <= most_steps + steps_without_ties; ++k) {
@@ -380,7 +396,7 @@ bool DirectSolver::solve_rounds() {
     bool found = false, refused = true;  // a solution outside the cones is none: the rounds go on
     for (int round = 0; round < (refused ? tuning::direct_most_rounds : tuning::direct_rounds); ++round) {
         if (found) kept_ = velocity_;
-        const int steps = found ? tuning::direct_newton_steps : tuning::direct_first_newton_steps;
+        const int steps = found ? tuning::direct_newton_steps : direct_first_newton_steps;
         if (!minimize(steps, refused ? steps : 0)) {
             if (!found) return false;
             velocity_ = kept_;

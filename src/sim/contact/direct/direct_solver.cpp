@@ -5,7 +5,6 @@
 #include "sim/contact/model/predicted_gap.h"
 #include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
-#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,23 @@ namespace tumble {
 using namespace contact_rows;
 
 namespace {
+
+/// A body lands if a gap closes within the step, later than after this share of it. Smaller shares are rounding of
+/// resting contacts. Related test: Rocking.LosesNoMoreThanItsLandingsTake.
+constexpr double direct_landing = 0.02;
+
+/// Factor by which friction may exceed its cone while its limit follows the normal impulse. Related test:
+/// ContactRest.StickOrSlipToAThousandth.
+constexpr double direct_cone = 1.05;
+
+/// Largest approach speed that a solution may leave at a contact, share of the speed scale. Not fitted: a solution
+/// with a faster approach is a failure.
+constexpr double direct_closing = 1e-3;
+
+/// Share of an overlap that is corrected in a step. Smaller values leave boxes sunk after a hard landing; larger
+/// ones make heaps tremble (bench_contact). Related: bench_contact "pile of 1000" and the test
+/// ContactHardInput.OverlapsDissolveSlowly.
+constexpr double push_share = 0.2;
 
 // Joined bodies bounce here and not in the stage of impacts, which knows no joints: -e v_rel- (notes eq. 14) of a point
 // that touches and approaches fast; else 0.
@@ -169,7 +185,7 @@ bool DirectSolver::within_cones() const {
         const double friction = hypotenuse(constraint.friction[0].impulse, constraint.friction[1].impulse);
         const double limit =
             constraint.area ? shared_load(constraint, &Row::impulse).first : constraint.coefficient * load;
-        return friction <= tuning::direct_cone * limit + 1e-6 * total_mass_ * speed_scale_;
+        return friction <= direct_cone * limit + 1e-6 * total_mass_ * speed_scale_;
     });
 }
 
@@ -177,7 +193,7 @@ bool DirectSolver::within_cones() const {
 bool DirectSolver::admissible() const {
     const double scale = total_mass_ * speed_scale_ * speed_scale_;
     if (!driven_ && kinetic_energy(velocity_) > kinetic_energy(free_) * (1.0 + 1e-9) + 1e-9 * scale) return false;
-    const double closing = tuning::direct_closing * speed_scale_ + tuning::direct_rounding * fastest_;
+    const double closing = direct_closing * speed_scale_ + tuning::direct_rounding * fastest_;
     for (const ConstraintRows& constraint : constraints_)
         for (int i = 0; i < constraint.count; ++i) {
             const Row& row = constraint.normal[i];
@@ -268,7 +284,7 @@ int DirectSolver::landing_substeps(const ContactProblem& problem, std::span<cons
         for (int i = 0; i < constraint.count; ++i) {
             const Row& row = constraint.normal[i];
             const double closing = -(row.offset + dot(constraint, row, free_)), even = -row.target;
-            lands = lands || (even > tuning::direct_landing * closing && closing > even);
+            lands = lands || (even > direct_landing * closing && closing > even);
             stands = stands || -constraint.overlap[i] < tuning::friction_near * constraint.size;
         }
     return lands && stands ? int(std::lround(problem.settings.h / tuning::soft_substep)) : 1;
@@ -351,8 +367,7 @@ bool DirectSolver::push_out(double h) {
             const Row& row = constraint.normal[i];
             const double parting = std::max(0.0, row.offset + dot(constraint, row, velocity_));
             const double beyond = constraint.overlap[i] - tuning::direct_slop * constraint.size;
-            const double speed =
-                std::min(tuning::push_share * beyond / h, tuning::push_limit * constraint.size) - parting;
+            const double speed = std::min(push_share * beyond / h, tuning::push_limit * constraint.size) - parting;
             constraint.overlap[i] -= h * parting;
             if (!(speed > 0.0)) continue;
             any = true;

@@ -3,7 +3,6 @@
 #include "core/disjoint_sets.h"
 #include "sim/contact/direct/joint_rows.h"
 #include "sim/joints/gear.h"
-#include "sim/joints/settings.h"
 
 #include <algorithm>
 #include <cmath>

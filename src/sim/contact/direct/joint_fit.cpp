@@ -2,7 +2,6 @@
 // are those along the chords of the step, and their energy is too large by up to (h w)^2 / 4 of it.
 #include "core/deterministic_math.h"
 #include "sim/contact/direct/direct_solver.h"
-#include "sim/contact/direct/settings.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/settings.h"
@@ -12,6 +11,23 @@
 #include <cmath>
 
 namespace tumble {
+namespace {
+
+/// The velocities fit the joints to this share of the fastest one at the end of a step by rows. Not fitted: rounding.
+constexpr double joint_fits = 1e-14;
+
+/// Share of its bound up to which a motor or dry friction counts as holding its speed at the end of a step: the bound of
+/// friction follows the loads, and the impulse of a slipping joint is not quite at it. Not fitted.
+constexpr double joint_fit_below = 0.999;
+
+/// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
+/// that turn by a radian in a step open their joints by less.
+constexpr double joint_clamped_open = 0.1;
+
+/// Rounds of a solve for these displacements. Not fitted: two more passes would do the same.
+constexpr int joint_close_rounds = 3;
+
+}  // namespace
 
 // A carrier moves at the end of the step: until then its pose is found from its velocity.
 JointSide JointRows::side_at(const JointIsland& island, std::uint32_t body) const {
@@ -59,7 +75,7 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
             const bool limits =
                 is_limit(row) && row.law != Joint::cone && row.rests && row.closes && (row.impulse != 0.0 || struck);
             const bool drives = solved && !row.soft && (row.law == Joint::motor || row.law == Joint::friction) &&
-                                size < tuning::joint_fit_below * row.most;
+                                size < joint_fit_below * row.most;
             if (!block.gear) {
                 const Row end = at_end(row);
                 std::copy(std::begin(end.on_a), std::end(end.on_a), row.on_a);
@@ -165,7 +181,7 @@ void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking bookin
     if (!kicked_) joints_.keep_velocities(island, false);
     kicked_ = false;
     // At rest all speeds are rounding: those that the impulses give and take count.
-    const double fits = tuning::joint_fits * std::max(fastest_, joints_.largest_impulse() / lightest_);
+    const double fits = joint_fits * std::max(fastest_, joints_.largest_impulse() / lightest_);
     joints_.start_fit(island, ahead, solved, struck);
     joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
     velocity_ = free_;
@@ -213,9 +229,9 @@ void DirectSolver::close_poses(const ContactProblem& problem, std::span<const st
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
         const double error = aim_at_gaps(island);
-        if (!(error < tuning::joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) break;
+        if (!(error < joint_clamped_open) || error <= tuning::joint_closed || error >= 0.5 * last) break;
         last = error;
-        for (int round = 0; round < tuning::joint_close_rounds && step_linear(); ++round) joints_.next_round(false);
+        for (int round = 0; round < joint_close_rounds && step_linear(); ++round) joints_.next_round(false);
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             Body& body = problem.bodies[bodies[k]];
             turn_exactly(body, contact_rows::three(velocity_, 6 * k),

@@ -10,6 +10,10 @@
 namespace tumble {
 namespace {
 
+/// Errors below this share of the smaller body are moved out by rigid rows: the displacements stay small near singular
+/// positions too. Not fitted: below any visible size.
+constexpr double joint_push_small = 1e-6;
+
 double six_dot(const double* row, const std::vector<double>& u, int body) {
     double sum = 0.0;
     for (int k = 0; k < 6; ++k) sum += row[k] * u[std::size_t(6 * body + k)];
@@ -360,7 +364,7 @@ bool JointRows::start_push(const JointIsland& island, double share, PushStiffnes
             const bool held =
                 row.law == Joint::lock || (is_limit(row) && (row.impulse != 0.0 || row.goal != row.reference));
             const double wanted = row.closes ? share * (row.goal - row.reference) : 0.0;
-            const double small = tuning::joint_push_small * (row.turns() ? 1.0 : joint(block).size);
+            const double small = joint_push_small * (row.turns() ? 1.0 : joint(block).size);
             any = any || wanted != 0.0;
             row.soft = std::abs(wanted) > small;
             row.weight = !held ? 0.0 : row.soft ? stiffness.apart : stiffness.closed;

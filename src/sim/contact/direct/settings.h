@@ -15,14 +15,6 @@ inline constexpr double direct_friction_soft = 1e4;
 inline constexpr double direct_friction_stiffening = 0.3;
 inline constexpr double direct_friction_stiff = 1.0;
 
-/// A body lands if a gap closes within the step, later than after this share of it. Smaller shares are rounding of
-/// resting contacts. Related test: Rocking.LosesNoMoreThanItsLandingsTake.
-inline constexpr double direct_landing = 0.02;
-
-/// Convergence of the Newton steps, relative to the change of velocity in the step. Not fitted: a bound of the
-/// error, which double precision allows.
-inline constexpr double direct_tolerance = 1e-9;
-
 /// Speeds below this share of the largest speed are rounding, which the stiffness of the contacts amplifies. Not
 /// fitted: rounding of double precision times the stiffness of contacts.
 inline constexpr double direct_rounding = 1e-12;
@@ -31,10 +23,6 @@ inline constexpr double direct_rounding = 1e-12;
 /// ContactRest.TheAccelerationOfASlide.
 inline constexpr double direct_round_tolerance = 1e-4;
 
-/// Newton steps of the first round. After a landing, each contact of a stack of 30 may change its state. Not
-/// fitted: a bound of the cost.
-inline constexpr int direct_first_newton_steps = 40;
-
 /// Newton steps of each later round, number of rounds, the same while friction exceeds its cones, and steps of a line
 /// search. Not fitted: bounds of the cost.
 inline constexpr int direct_newton_steps = 12;
@@ -42,25 +30,9 @@ inline constexpr int direct_rounds = 12;
 inline constexpr int direct_most_rounds = 30;
 inline constexpr int direct_line_search = 25;
 
-/// A contact this close to opening or closing (share of the speed scale) counts as closed in the second
-/// derivatives. Not fitted: rounding.
-inline constexpr double direct_tie = 1e-10;
-
-/// Factor by which friction may exceed its cone while its limit follows the normal impulse. Related test:
-/// ContactRest.StickOrSlipToAThousandth.
-inline constexpr double direct_cone = 1.05;
-
-/// Largest approach speed that a solution may leave at a contact, share of the speed scale. Not fitted: a solution
-/// with a faster approach is a failure.
-inline constexpr double direct_closing = 1e-3;
-
 /// Overlaps below this share of the smaller radius are not corrected: below a micrometer for bodies of a meter. Not
 /// fitted: below any visible size. Tests: those of landing (tests/sim/landing_test.cpp).
 inline constexpr double direct_slop = 1e-6;
-
-/// Largest factor of the estimates of impulses from a part of a step to a longer one. Not fitted: the forces of a very short
-/// part are rounding.
-inline constexpr double direct_longer = 16.0;
 
 /// Compliance of position correction, over the island's mass, and the share of that stiffness across the normals.
 /// No case is known that guards it.

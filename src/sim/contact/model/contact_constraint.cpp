@@ -10,6 +10,10 @@
 namespace tumble {
 namespace {
 
+/// Turn of a normal, rad, until two bodies without restitution meet: those that turn more are not stopped at the surface, but
+/// meet in an overlap that the impact resolves. Related test: OffCenter.BallsLeaveAlongTheLineOfTheirCenters.
+constexpr double meeting_turn = 1e-3;
+
 // The stored direction of friction; before the first step, any direction across the normal.
 Vec3 tangent_of(const Manifold& m) {
     Vec3 t = m.tangent - m.normal.dot(m.tangent) * m.normal;
@@ -67,7 +71,7 @@ bool turns_ahead(const Manifold& m, const Body& a, const Body& b, const Constrai
     u -= gap.line.dot(u) * gap.line;
     const double closing = -m.normal.dot(u), left = m.points[0].separation;
     if (!(closing > settings.bounce_threshold && closing * settings.h > left)) return false;
-    return (u + closing * m.normal).norm() * left > tuning::meeting_turn * closing * gap.distance;
+    return (u + closing * m.normal).norm() * left > meeting_turn * closing * gap.distance;
 }
 
 }  // namespace

@@ -8,6 +8,9 @@
 namespace tumble {
 namespace {
 
+/// Relative accelerations of touching points below this share of their terms are rounding. Not fitted: rounding.
+constexpr double pressing_rounding = 1e-12;
+
 // The body on whose face the contact lies, or null.
 const Body* face_of(const Gap& gap, const Body& a, const Body& b) {
     const auto* ball = std::get_if<BallOverFace>(&gap.geometry);
@@ -45,9 +48,7 @@ double turning(const Gap& gap, const Body& a, const Body& b, const Vec3& v) {
 }
 
 // A sum whose terms cancel up to rounding is set to zero.
-double beyond_rounding(double sum, double terms) {
-    return std::abs(sum) > tuning::pressing_rounding * terms ? sum : 0.0;
-}
+double beyond_rounding(double sum, double terms) { return std::abs(sum) > pressing_rounding * terms ? sum : 0.0; }
 
 // Change of the body's speed along n at `place` by the impulses of the last step.
 double load_change(const Manifold& m, const Body& body, const Vec3& place) {

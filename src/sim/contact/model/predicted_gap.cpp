@@ -1,7 +1,6 @@
 #include "sim/contact/model/predicted_gap.h"
 
 #include "core/deterministic_math.h"
-#include "sim/contact/model/settings.h"
 #include "sim/geometry/settings.h"
 
 #include <algorithm>
@@ -9,6 +8,11 @@
 
 namespace tumble {
 namespace {
+
+/// A curve that passes an edge may overlap it by this share of the smaller radius: tiles may have sunk into their
+/// support by as much. A larger overlap is a hit. Related tests: Seam.DoesNotCatchBalls and
+/// PredictedGap.ANearMissChangesNothing.
+constexpr double predicted_gap_overlap = 2e-3;
 
 // Motion of a body at one time.
 struct RigidMotion {
@@ -112,9 +116,7 @@ double gap_of_curve(const Manifold& m, const CurvedGap& curve, const BodiesInSte
     if (!(closing * h > gap)) return gap;
     const double t = std::min(h, d * closing / square);
     const double nearest = std::sqrt(std::max(0.0, d * d - 2.0 * d * closing * t + square * t * t)) - (d - gap);
-    return nearest < -tuning::predicted_gap_overlap * std::min(a.radius, b.radius)
-               ? gap
-               : std::max(gap, nearest + h * closing);
+    return nearest < -predicted_gap_overlap * std::min(a.radius, b.radius) ? gap : std::max(gap, nearest + h * closing);
 }
 
 RigidMotion motion_of(const Body& body, const BodyVelocity& before) {
@@ -149,7 +151,7 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
     // Height of the path half a step before its bottom: a body that rolls over more than one corner per step may pass
     // by that much below the deepest point. Deeper is an impact.
     const double passed =
-        std::min(tuning::predicted_gap_overlap * std::min(a.radius, b.radius), 0.125 * h * h * gap.bend(bottom));
+        std::min(predicted_gap_overlap * std::min(a.radius, b.radius), 0.125 * h * h * gap.bend(bottom));
     if (reach < deepest - passed) return as_it_is;
     const double then = std::max(0.0, gap.closing_by_turn(bottom));
     return {gap.turned(bottom), std::min(0.0, p.separation) + h * (then + std::max(0.0, reach) / bottom),

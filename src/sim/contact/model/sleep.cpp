@@ -1,7 +1,6 @@
 #include "sim/contact/model/sleep.h"
 
 #include "sim/contact/model/contact_constraint.h"
-#include "sim/contact/model/settings.h"
 #include "sim/geometry/contact_tolerance.h"
 #include "sim/joints/joint_set.h"
 #include "sim/joints/settings.h"
@@ -41,6 +40,25 @@ void SleepMonitor::wake(std::uint32_t body, std::vector<Body>& bodies) {
 }
 
 namespace {
+
+/// Bodies with smaller accelerations are told by their velocity, which is sampled at this interval (s; at least one
+/// step). Not fitted: the spans hold a whole number of samples.
+constexpr double sleep_sample_interval = tuning::sleep_times.front() / 16.0;
+
+/// A body accelerates steadily if in this number of samples in a row its velocity grew, or changed in the same
+/// direction by at least the share `sleep_steady` of the change before. A body that settles within a second changes
+/// by less each time. Two samples would do for heaps: the velocity of a trembling body turns around sooner. Related
+/// tests: Sleep.NotWhileRollingOffOrTurningBack and ContactEnergy.HeapsComeToRest.
+constexpr int sleep_samples = 4;
+constexpr double sleep_steady = 0.97;
+
+/// A velocity decays if its change loses at least this times the share that the velocity loses: a velocity that goes
+/// to 0 as exp(-t/T) has 1, one that turns around has less as it nears 0. Related test: JointRest.ADoorThatTurnsBackStaysAwake.
+constexpr double sleep_decay = 0.5;
+
+/// Changes of velocity between two samples below this share of g h are rounding of the contact solver. Not fitted:
+/// far above double precision, far below a slide. That of joined bodies is tuning::joint_rest.
+constexpr double sleep_rounding = 1e-10;
 
 // True if the bodies touch, or will before the end of the step.
 bool meets(const Manifold& m, const Body& a, const Body& b, double h, double speed_change) {
@@ -83,7 +101,7 @@ bool SleepMonitor::wake_touched(const std::vector<Manifold>& manifolds, std::vec
 // True if the body has been at rest for one of the spans.
 bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     bool rests = false;
-    const double least = (tuning::sleep_samples + 1) * h;  // steps may be as long as a span: its trend must be known
+    const double least = (sleep_samples + 1) * h;  // steps may be as long as a span: its trend must be known
     for (std::size_t k = 0; k < spans.size(); ++k) {
         Span& span = spans[k];
         const double time = tuning::sleep_times[k], most = tuning::sleep_drift(time) * body.radius;
@@ -107,7 +125,7 @@ double SleepMonitor::way_left(const Trend& before, const Trend& now, double sinc
         return 1.0 - to.dot(from) / from.squaredNorm();
     };
     const double of_velocity = lost(before.velocity, now.velocity), of_change = lost(before.change, now.change);
-    if (!(of_velocity > 0.0 && of_velocity < 1.0 && of_change >= tuning::sleep_decay * of_velocity)) return infinity;
+    if (!(of_velocity > 0.0 && of_velocity < 1.0 && of_change >= sleep_decay * of_velocity)) return infinity;
     return since * now.velocity.norm() / of_velocity;
 }
 
@@ -117,8 +135,8 @@ void SleepMonitor::sample(Watch& watch, Trend& trend, const Body& body, double s
     now.velocity << body.velocity, body.radius * body.angular_velocity;
     now.change = now.velocity - trend.velocity;
     const bool grew = now.velocity.dot(trend.velocity) > trend.velocity.squaredNorm();
-    const bool same = now.change.dot(trend.change) > tuning::sleep_steady * trend.change.squaredNorm();
-    const double rounding = body.jointed ? tuning::joint_rest : tuning::sleep_rounding;
+    const bool same = now.change.dot(trend.change) > sleep_steady * trend.change.squaredNorm();
+    const double rounding = body.jointed ? tuning::joint_rest : sleep_rounding;
     const bool any = now.change.norm() > rounding * speed_change;
     watch.steady = any && (grew || same) ? watch.steady + 1 : 0;
     if (body.jointed) now.left = way_left(trend, now, watch.since);
@@ -137,9 +155,9 @@ void SleepMonitor::observe(const ContactIslands& islands, const std::vector<Mani
             // in each step, whatever the other bodies do
             Watch& watch = watches_[i];
             watch.since += h;
-            if (watch.since >= tuning::sleep_sample_interval) sample(watch, trends_[i], bodies[i], speed_change);
+            if (watch.since >= sleep_sample_interval) sample(watch, trends_[i], bodies[i], speed_change);
             const bool stays = follow(watch.spans, bodies[i], h);
-            const bool rests = watch.ends || (stays && watch.steady < tuning::sleep_samples);
+            const bool rests = watch.ends || (stays && watch.steady < sleep_samples);
             still = still && rests && !bodies[i].flying;
         }
         if (!still) continue;

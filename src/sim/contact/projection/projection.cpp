@@ -1,6 +1,5 @@
 #include "sim/contact/projection/projection.h"
 
-#include "sim/contact/projection/settings.h"
 #include "sim/joints/settings.h"
 #include "sim/math/keyframe_track.h"
 
@@ -10,6 +9,21 @@
 
 namespace tumble {
 namespace {
+
+/// The passes end when all locked coordinates are closed to this share of the smaller body. There is one in any case, else
+/// bodies at rest would drift apart and jump back. Not fitted: below the error of a step.
+constexpr double projection_closed = 2e-5;
+
+/// Largest number of passes. Each squares the error, in sizes of the body. Not fitted: three close 0.3 sizes.
+constexpr int projection_passes = 4;
+
+/// Errors below this share of the smaller body are closed with the inertias of the pass before. Not fitted: the next error
+/// is at most this share of the last one.
+constexpr double projection_small = 0.01;
+
+/// Joints that are open by more than this share of the smaller body are pulled in by tuning::joint_push_share of it in a
+/// step, as anchors that were placed apart. Not fitted: bodies that turn by a radian in a step open their joints by less.
+constexpr double projection_wide = 1.0;
 
 double along(const Vec3& direction, bool turns, const SpatialForce& f) {
     return direction.dot(turns ? f.moment : f.force);
@@ -161,7 +175,7 @@ double Projection::measure(const Tree& tree, std::size_t i, const std::vector<Bo
             (angle ? link.asked.turn : link.asked.move) += side * value * direction;
             most = std::max(most, std::abs(value) / (angle ? 1.0 : node.size));
         }
-        if (most > tuning::projection_wide) {
+        if (most > projection_wide) {
             link.asked.turn *= tuning::joint_push_share;
             link.asked.move *= tuning::joint_push_share;
         }
@@ -248,12 +262,12 @@ bool Projection::close(const Tree& tree, std::vector<Body>& bodies, double h, st
         return parent == none ? nullptr : &links[parent];
     };
     double last = infinity;
-    for (int pass = 0; pass < tuning::projection_passes; ++pass) {
-        const bool refresh = !(last < tuning::projection_small);
+    for (int pass = 0; pass < projection_passes; ++pass) {
+        const bool refresh = !(last < projection_small);
         double worst = 0.0;
         for (std::size_t i = 0; i < size; ++i) worst = std::max(worst, measure(tree, i, bodies, h, links, refresh));
         if (!std::isfinite(worst)) return false;
-        if (worst <= (pass > 0 ? tuning::projection_closed : tuning::joint_rounding)) return pass > 0;
+        if (worst <= (pass > 0 ? projection_closed : tuning::joint_rounding)) return pass > 0;
         for (std::size_t i = size; i-- > 0;) {
             if (refresh && !eliminate(links[i], parent_of(i))) return false;
             gather(links[i], parent_of(i));
@@ -264,7 +278,7 @@ bool Projection::close(const Tree& tree, std::vector<Body>& bodies, double h, st
             sum += links[i].position.sum() + links[i].rotation.sum();
         }
         if (!std::isfinite(sum)) return false;
-        if (worst > tuning::projection_wide) return true;
+        if (worst > projection_wide) return true;
         last = worst;
     }
     return true;

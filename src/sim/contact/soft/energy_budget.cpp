@@ -1,6 +1,5 @@
 #include "sim/contact/soft/energy_budget.h"
 
-#include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_solver.h"
 
 #include <algorithm>
@@ -10,6 +9,25 @@
 namespace tumble {
 
 namespace {
+
+/// An excess of energy of a free island below this share of its energy is rounding. Not fitted: far above double
+/// precision.
+constexpr double soft_energy_rounding = 1e-9;
+
+/// Largest share of its energy that a net may have lost and regain. Not fitted: an energy lost in a landing must not
+/// return as a jump. Related test: Nets.ASwingingNetGainsNoEnergy.
+constexpr double soft_energy_lent = 0.01;
+
+/// Islands of at most this number of bodies have an energy budget if soft contacts may spin up a body. Related
+/// test: ContactEnergy.FastTumblingPlanksGainNothing.
+constexpr std::size_t soft_energy_bodies = 32;
+
+/// Such a body turns by more than this in a substep, rad, or
+constexpr double soft_energy_turn = 0.1;
+
+/// has moments of inertia of a larger ratio than this: a needle of 1 : 45. Related tests:
+/// ContactEnergy.NeedlesFallOverAndLie and Needle.ComesToLieOnTheFloor.
+constexpr double soft_energy_slender = 1e3;
 
 // The impulse P = F h of the forces along the displacement h (v + push): work P . (v + push); likewise for the
 // rotation.
@@ -80,12 +98,12 @@ void take_back(const ForceAccount& forces, double share, double displacement, Bo
 
 bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies,
                  const std::vector<BodyVelocity>& before, double h) {
-    if (island.size() > tuning::soft_energy_bodies) return false;
-    const double fast = tuning::soft_energy_turn * substeps_of(h) / h;
+    if (island.size() > soft_energy_bodies) return false;
+    const double fast = soft_energy_turn * substeps_of(h) / h;
     return std::any_of(island.begin(), island.end(), [&](std::uint32_t i) {
         const Vec3 moments = bodies[i].inertia_body.diagonal();
         return before[i].angular_velocity.squaredNorm() > fast * fast ||
-               moments.maxCoeff() > tuning::soft_energy_slender * moments.minCoeff();
+               moments.maxCoeff() > soft_energy_slender * moments.minCoeff();
     });
 }
 
@@ -159,9 +177,8 @@ void IslandEnergies::find_lost(std::vector<double>& lost) const {
         EnergyBudget sum;
         for (std::size_t k = island.first_account; k < island.end_account; ++k) sum.add(accounts_[k].energy);
         const double most = sum.most(island.deep || !island.touches_static);
-        lost[i] = island.driven
-                      ? 0.0
-                      : std::clamp(lost[i] + most - sum.now, 0.0, tuning::soft_energy_lent * std::min(most, sum.now));
+        lost[i] =
+            island.driven ? 0.0 : std::clamp(lost[i] + most - sum.now, 0.0, soft_energy_lent * std::min(most, sum.now));
     }
 }
 
@@ -173,7 +190,7 @@ void IslandEnergies::limit_free_island(const Account& account, const EnergyBudge
     for (std::size_t k = island.first_account; k < island.end_account; ++k) motion.add(accounts_[k].motion);
     motion.finish();
     const double common = motion.energy(), most = std::max({energy.start, energy.with_forces, common}) + lost;
-    if (!(energy.now > most * (1.0 + tuning::soft_energy_rounding))) return;
+    if (!(energy.now > most * (1.0 + soft_energy_rounding))) return;
     const double scale = std::sqrt((most - common) / (energy.now - common));
     for (std::size_t k = account.first; k < account.end; ++k)
         if (reached_[k]) motion.scale_rest(scale, island.origin, bodies[blocks.order()[k]]);

@@ -12,6 +12,29 @@
 namespace tumble {
 namespace {
 
+/// Bodies with overlaps above this share of the smaller radius started inside each other or landed fast; their
+/// position correction has no energy budget. Related tests: ContactEnergy.DeepLandingsThrowNoBody and
+/// ContactHardInput.ACrowdDissolves.
+constexpr double soft_energy_deep = 0.25;
+
+/// Damping ratio of a contact. Related: bench_stability "stack".
+constexpr double soft_damping = 2.0;
+
+/// Groups of manifolds between blocks from which on threads share them, with a barrier per color. No result depends
+/// on it.
+constexpr std::size_t soft_shared_groups = 24;
+
+/// Share of a joint's gap that is closed in a substep, and share of its impulse that a push gives up. Impulses add up from
+/// substep to substep: without the second, slow waves of a net grow by a quarter of the first in a substep; with it, a
+/// joint under the tension T is left open by about leak / rate T d^2 / m. Trees, whose gaps are closed at the end of each step,
+/// have no leak. Related test: Nets.HangsAsTheDirectSolverDoes.
+constexpr double soft_joint_rate = 0.05;
+constexpr double soft_joint_leak = 0.01;
+
+/// Largest impulse handed over from the direct solver, in impulses of the step's forces on the lighter body.
+/// Related test: Towers.HeavyBetweenLight.
+constexpr double direct_handover = 20.0;
+
 using Rows = soft::ManifoldRows<float>;
 using Point = soft::PointRows<float>;
 
@@ -38,7 +61,7 @@ void limit_warm_start(Manifold& m, const ContactProblem& problem) {
         mass = std::min(mass, body.mass);
         speed = std::max(speed, (body.velocity - problem.before[i].velocity).norm());
     }
-    const double sum = normal_impulse(m), most = tuning::direct_handover * mass * speed;
+    const double sum = normal_impulse(m), most = direct_handover * mass * speed;
     if (sum > most) scale_impulses(m, most / sum);
 }
 
@@ -67,7 +90,7 @@ SoftBatch::SoftBatch(const soft::Kernel& kernel) : kernel_(kernel) {}
 
 // For a substep of d seconds (formulas: soft_solver.h).
 soft::Softness SoftBatch::softness(double frequency, double d) {
-    const double w = 2.0 * std::numbers::pi * frequency, z = tuning::soft_damping;
+    const double w = 2.0 * std::numbers::pi * frequency, z = soft_damping;
     const double a = 2.0 * z + d * w, c = d * w * a;
     return {float(w / a), float(c / (1.0 + c)), float(1.0 / (1.0 + c))};
 }
@@ -82,8 +105,8 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
                 softness(tuning::soft_frequency / d_, d_),
                 softness(tuning::soft_frequency_of_unlike / d_, d_),
                 softness(tuning::soft_frequency_of_fixed / d_, d_),
-                float(tuning::soft_joint_rate / d_),
-                batch.closes ? 0.0f : float(tuning::soft_joint_leak)};
+                float(soft_joint_rate / d_),
+                batch.closes ? 0.0f : float(soft_joint_leak)};
     energies_.open(layout, problem.bodies);
     const std::size_t dynamic = 1 + layout.blocks().order().size();  // number of slots
     packed_.resize(dynamic);
@@ -210,7 +233,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
             continue;
         const soft::PointLane point = lane.point(count);
         source.point[count++] = std::uint8_t(i);
-        if (p.separation < -tuning::soft_energy_deep * size) energies_.mark_deep(a.slot - 1);
+        if (p.separation < -soft_energy_deep * size) energies_.mark_deep(a.slot - 1);
         const Vec3 place = acting_point(seen.position, p.separation, m.normal, first.dynamic, second.dynamic);
         point.set(&Point::arm, place - a.position);
         point[&Point::present] = 1.0f;
@@ -275,7 +298,7 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
         const std::size_t all_across = colors.groups() - colors.first_group(colors.first_color(across));
         if (all_across == 0) return;
         meet();
-        const bool shared = all_across >= tuning::soft_shared_groups;
+        const bool shared = all_across >= soft_shared_groups;
         for (std::size_t c = colors.first_color(across); c < colors.first_color(across + 1); ++c) {
             const std::size_t first = colors.first_group(c), count = colors.first_group(c + 1) - first;
             if (shared) {

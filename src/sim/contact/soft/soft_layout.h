@@ -6,7 +6,6 @@
 #pragma once
 
 #include "sim/contact/soft/joint_layout.h"
-#include "sim/contact/soft/settings.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/body_pair.h"
 #include "sim/geometry/manifold.h"
@@ -15,6 +14,17 @@
 #include <cstdint>
 #include <span>
 #include <vector>
+
+namespace tumble::tuning {
+
+/// Bodies in a block that one thread owns: their states (64 bytes each) fill the first-level cache of a core. Not
+/// fitted: follows from the size of the cache.
+inline constexpr std::size_t soft_block_bodies = 512;
+
+/// Steps for which manifolds keep their places in the batches. No result depends on it.
+inline constexpr int soft_layout_steps = 32;
+
+}  // namespace tumble::tuning
 
 namespace tumble {
 

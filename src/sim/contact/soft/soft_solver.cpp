@@ -1,7 +1,6 @@
 #include "sim/contact/soft/soft_solver.h"
 
 #include "sim/contact/model/settings.h"
-#include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_batch.h"
 #include "sim/joints/joint_set.h"
 #include "sim/threads/settings.h"
@@ -26,6 +25,19 @@ const soft::Kernel& soft::best_kernel() {
 
 namespace {
 
+/// Least and largest number of substeps in a step. Not fitted: bounds of the cost.
+constexpr int soft_least_substeps = 4;
+constexpr int soft_most_substeps = 64;
+
+/// Masses, kg, between which the solver computes in kilograms. Outside, it uses a unit of the scene's own. Not
+/// fitted: squares of impulses stay in the range of single precision. Related test: ContactHardInput.DustAndMoons.
+constexpr double soft_least_mass = 1e-9;
+constexpr double soft_most_mass = 1e9;
+
+/// Manifolds of an island from which on several threads share it: below, two barriers per sweep cost more
+/// (bench_contact). No result depends on it.
+constexpr std::size_t soft_team_manifolds = 500;
+
 // Unit of mass (kg) for single precision: squares of impulses must neither overflow nor vanish. 1 for everyday objects;
 // for dust and moons the power of two in the middle of the scene's masses, which changes numbers without rounding.
 double mass_unit(const std::vector<Body>& bodies) {
@@ -35,7 +47,7 @@ double mass_unit(const std::vector<Body>& bodies) {
         least = std::min(least, body.mass);
         most = std::max(most, body.mass);
     }
-    if (!(most > 0.0) || (least >= tuning::soft_least_mass && most <= tuning::soft_most_mass)) return 1.0;
+    if (!(most > 0.0) || (least >= soft_least_mass && most <= soft_most_mass)) return 1.0;
     return std::ldexp(1.0, (std::ilogb(least) + std::ilogb(most)) / 2);
 }
 
@@ -44,7 +56,7 @@ double mass_unit(const std::vector<Body>& bodies) {
 int substeps_of(double h) {
     // Rounding must not add a substep to a step of exactly so many.
     const double n = std::ceil(h / tuning::soft_substep - 1e-6);
-    return int(std::clamp(n, double(tuning::soft_least_substeps), double(tuning::soft_most_substeps)));
+    return int(std::clamp(n, double(soft_least_substeps), double(soft_most_substeps)));
 }
 
 SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_(kernel), slot_(bodies, 0) {}
@@ -69,7 +81,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
     };
     for (std::size_t k = 0; k < batches.size(); ++k) {
         Batch& batch = batches[k];
-        const bool one_large = batch.island_ends.size() == 1 && size_of(batch) >= tuning::soft_team_manifolds;
+        const bool one_large = batch.island_ends.size() == 1 && size_of(batch) >= soft_team_manifolds;
         if (threads == 1 || !one_large) {
             small_.push_back(k);
             all_small += size_of(batch);

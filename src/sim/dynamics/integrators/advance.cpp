@@ -5,7 +5,6 @@
 #include "sim/dynamics/integrators/extrapolation.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
 #include "sim/dynamics/integrators/splitting.h"
-#include "sim/dynamics/settings.h"
 #include "sim/math/free_rotation.h"
 
 #include <fmt/format.h>
@@ -15,6 +14,20 @@
 
 namespace tumble {
 namespace {
+
+/// Phase, rad, of one step of the tenth-order extrapolation: the error of the step is about 1e-14 (bench_accuracy).
+/// Related test: AdvanceExactly.ForcesAtPointsAgainstTheReference.
+constexpr double extrapolation_phase = 0.2;
+
+/// The drag force |u| u is not smooth where a body comes to rest relative to the air. The time until then counts as
+/// this phase (rad), until the drag is below `extrapolation_no_drag` of the change of velocity. Related test:
+/// AdvanceExactly.ThrownUpThroughAir.
+constexpr double extrapolation_rest_in_air = 2.0;
+constexpr double extrapolation_no_drag = 1e-14;
+
+/// Largest number of substeps in a span: half a second of computing. Only bodies far lighter than the air that they
+/// push need more. Not fitted: a bound of the cost. Related test: AdvanceExactly.LightBodiesInThickAir.
+constexpr int most_substeps = 200000;
 
 /// Calls part(start, end, law) for the parts of [from, to] within which no force begins or ends.
 template <class Part>
@@ -57,9 +70,9 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
         rate += drag.rate * speed + std::sqrt(drag.rate * acceleration);
         // The singularity is |u| / a away. Over h it contributes k a^2 h^3 to the velocity, which vanishes for small h.
         if (acceleration > 0.0) {
-            const double nothing = tuning::extrapolation_no_drag * (velocity.norm() + acceleration * span);
+            const double nothing = extrapolation_no_drag * (velocity.norm() + acceleration * span);
             const double finest = cube_root_above(drag.rate * acceleration * acceleration / nothing);
-            rate += tuning::extrapolation_rest_in_air * std::min(acceleration / speed, finest);
+            rate += extrapolation_rest_in_air * std::min(acceleration / speed, finest);
         }
     }
     if (turns) {
@@ -111,15 +124,15 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
             if (!turns) state.angular_momentum.setZero();
             double done = 0.0;
             for (int step = 0; done < span; ++step) {
-                if (step == tuning::most_substeps) {
+                if (step == most_substeps) {
                     throw RunError(
                         fmt::format("the motion of body '{}' from t = {:.6g} s to {:.6g} s needs more "
                                     "than {} steps: the forces on it are too large for its mass",
-                                    safe_text(body.name), start, end, tuning::most_substeps));
+                                    safe_text(body.name), start, end, most_substeps));
                 }
                 const double rate = rate_of(state, moved, ForceLaw(law), turns, drag, span);
                 // Divides the rest into equal steps at the present rate; the next step decides anew.
-                const double rest = span - done, count = std::ceil(rest * rate / tuning::extrapolation_phase);
+                const double rest = span - done, count = std::ceil(rest * rate / extrapolation_phase);
                 extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);
                 if (!(count > 1.0)) break;
                 done += rest / count;

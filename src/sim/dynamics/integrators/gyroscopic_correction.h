@@ -42,7 +42,7 @@ void turn_freely(Body& body, const Quat& from, double duration);
 /// Twice the rotational energy (J).
 inline double spin(const Body& body) { return body.angular_momentum.dot(body.angular_velocity); }
 
-/// True if the rotation has increased spin() from `before` by more than tuning::spin_growth of it.
+/// True if the rotation has increased spin() from `before` by more than spin_growth of it.
 bool spin_grew(const Body& body, double before);
 
 /// Scales L such that spin() equals `before`.
