@@ -1,7 +1,7 @@
 // Results of a comparison of two sets of images: the material of reports, tables and exit codes.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 
 #include <array>
 #include <cstdint>

@@ -15,7 +15,6 @@
 #pragma once
 
 #include "core/image.h"
-#include "core/rectangle.h"
 
 #include <array>
 #include <cstdint>

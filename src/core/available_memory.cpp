@@ -3,7 +3,6 @@
 #include "core/error.h"
 
 #include <fmt/format.h>
-
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -129,6 +128,12 @@ void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::
 
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy) {
     require_memory(bytes, available_memory(), what, remedy);
+}
+
+std::string memory_limit_note() {
+    rlimit limit{};
+    if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY) return "";
+    return fmt::format("; the limit of address space (ulimit -v) is {} MiB", limit.rlim_cur >> 20);
 }
 
 }  // namespace tumble

@@ -2,6 +2,8 @@
 // instead of a machine that swaps or a process that the system ends.
 #pragma once
 
+#include "core/error.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -37,5 +39,16 @@ void require_memory(std::uint64_t bytes, const AvailableMemory& available, std::
 
 /// The same with the available memory of this process.
 void require_memory(std::uint64_t bytes, std::string_view what, std::string_view remedy);
+
+// Exhausted memory, and the user's limit of it.
+
+/// The run failed because memory is exhausted; installing a package is no remedy.
+class MemoryError : public RunError {
+public:
+    using RunError::RunError;
+};
+
+/// "; the limit of address space (ulimit -v) is 500 MiB", for messages, or empty without a limit.
+std::string memory_limit_note();
 
 }  // namespace tumble

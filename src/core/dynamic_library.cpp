@@ -1,7 +1,7 @@
 #include "core/dynamic_library.h"
 
+#include "core/available_memory.h"
 #include "core/error.h"
-#include "core/memory_limit.h"
 
 #include <dlfcn.h>
 #include <fmt/format.h>

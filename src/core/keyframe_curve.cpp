@@ -1,7 +1,5 @@
 #include "core/keyframe_curve.h"
 
-#include "core/monotone_spline.h"
-
 #include <algorithm>
 #include <utility>
 

@@ -1,8 +1,8 @@
 // Starts a thread, or reports the failure as an error.
 #pragma once
 
+#include "core/available_memory.h"
 #include "core/error.h"
-#include "core/memory_limit.h"
 
 #include <system_error>
 #include <utility>

@@ -1,7 +1,7 @@
 #include "gltf/primitives.h"
 
 #include "core/deterministic_math.h"
-#include "core/rotation.h"
+#include "core/vector.h"
 
 namespace tumble {
 namespace {

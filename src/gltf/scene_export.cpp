@@ -1,7 +1,7 @@
 #include "gltf/scene_export.h"
 
 #include "core/deterministic_math.h"
-#include "core/rotation.h"
+#include "core/vector.h"
 #include "gltf/glb_buffer.h"
 #include "gltf/primitives.h"
 

@@ -1,6 +1,8 @@
 #include "output/file_bytes.h"
 
 #include <fcntl.h>
+#include <isa-l/crc.h>
+#include <isa-l/crc64.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -24,6 +26,14 @@ std::optional<std::string> bytes_of_file(const std::filesystem::path& path, std:
     }
     ::close(file);
     return good ? std::optional(std::move(bytes)) : std::nullopt;
+}
+
+std::uint32_t crc32_of(std::uint32_t before, std::span<const std::byte> bytes) {
+    return crc32_gzip_refl(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
+}
+
+std::uint64_t crc64(std::span<const std::byte> bytes) {
+    return crc64_ecma_refl(0, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size());
 }
 
 }  // namespace tumble

@@ -1,6 +1,5 @@
 #include "output/png_check.h"
 
-#include "output/checksum.h"
 #include "output/file_bytes.h"
 #include "output/png_writer.h"
 

@@ -2,7 +2,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "output/checksum.h"
+#include "output/file_bytes.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "output/deflater.h"
 #include "output/temporary_file.h"
 

@@ -4,7 +4,6 @@
 #include "core/safe_text.h"
 #include "output/output_target.h"
 #include "output/yuv420.h"
-#include "output/yuva420.h"
 
 #include <fmt/format.h>
 

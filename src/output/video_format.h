@@ -21,7 +21,7 @@ enum class VideoKind { h264, vp9, gif, vp9_alpha, prores_4444 };
 /// Form in which ffmpeg receives the frames.
 enum class PixelFormat {
     yuv420,   // planes, see yuv420.h; an odd last column or row is duplicated
-    yuva420,  // the same and alpha, see yuva420.h
+    yuva420,  // the same and alpha, see yuv420.h
     rgba,     // R, G, B and alpha, row by row from the top
 };
 

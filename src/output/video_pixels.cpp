@@ -2,7 +2,6 @@
 
 #include "core/check.h"
 #include "output/yuv420.h"
-#include "output/yuva420.h"
 
 #include <algorithm>
 #include <cstring>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "output/video_format.h"
 
 #include <cstddef>
@@ -30,7 +29,7 @@ private:
     PixelFormat format_;
     int width_, height_;
     Image padded_;  // empty if the size is even
-    Image filled_;  // of yuva420.h
+    Image filled_;  // of yuv420.h
     std::vector<std::uint8_t> bytes_;
 };
 

@@ -1,9 +1,7 @@
 // Draws the shapes of an overlay over a rendered frame.
 #pragma once
 
-#include "core/depth_image.h"
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "overlay/legend.h"
 #include "overlay/overlay_frame.h"
 #include "overlay/shape_raster.h"

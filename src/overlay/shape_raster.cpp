@@ -1,6 +1,6 @@
 #include "overlay/shape_raster.h"
 
-#include "core/blend.h"
+#include "core/color.h"
 #include "render/damage/dirty_tiles.h"
 
 #include <algorithm>

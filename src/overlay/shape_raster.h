@@ -3,9 +3,7 @@
 #pragma once
 
 #include "core/color.h"
-#include "core/depth_image.h"
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "overlay/overlay_frame.h"
 
 #include <Eigen/Core>

@@ -7,7 +7,7 @@
 #include "render/antialiasing/surface_ids.h"
 #include "render/frame/frame_context.h"
 #include "render/gl/gl_device.h"
-#include "render/gl/shader_locator.h"
+#include "render/gl/shader_source.h"
 #include "render/passes/draw_list.h"
 #include "render/passes/frame_passes.h"
 #include "render/render_scene_builder.h"

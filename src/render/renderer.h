@@ -1,11 +1,9 @@
 // Draws a frame from a snapshot. The renderer has the render scene, camera, light and poses, but no simulation.
 #pragma once
 
-#include "core/depth_image.h"
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "render/camera/camera.h"
-#include "render/gl/gl_backend.h"
+#include "render/gl/gl_context.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
 

@@ -1,6 +1,5 @@
 // Suites of golden images: their values, and the place of every mistake.
 #include "app/golden/suite.h"
-#include "app/golden/suite_edit.h"
 #include "core/error.h"
 #include "support/folder.h"
 

@@ -1,4 +1,4 @@
-#include "app/threads/thread_budget.h"
+#include "app/threads/task_group.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // The report of a comparison: order, content, policy, size, and the same bytes with any number of workers.
 #include "compare/report/comparison_report.h"
-#include "compare/report/severity.h"
-#include "compare/report/thumbnail.h"
+#include "compare/report/report_entry.h"
+#include "compare/report/report_pictures.h"
 #include "output/png_writer.h"
 
 #include "support/folder.h"

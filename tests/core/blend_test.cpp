@@ -1,5 +1,5 @@
 // Compositing onto straight alpha, compared with the same in double precision on backgrounds of any color.
-#include "core/blend.h"
+#include "core/color.h"
 
 #include <gtest/gtest.h>
 

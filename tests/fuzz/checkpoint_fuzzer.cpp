@@ -7,7 +7,7 @@
 #include "checkpoint_scenes.h"
 #include "core/check.h"
 #include "core/error.h"
-#include "output/checksum.h"
+#include "output/file_bytes.h"
 #include "scene/load.h"
 #include "sim/checkpoint/archive.h"
 #include "sim/frames/frame_sequence.h"

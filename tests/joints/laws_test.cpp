@@ -1,7 +1,7 @@
 // Limits, motors, springs, friction and breaking against their closed forms.
 #include "harness/breaking_pendulum.h"
 #include "joint_scenes.h"
-#include "sim/joints/motor_target.h"
+#include "sim/joints/joint.h"
 
 #include <gtest/gtest.h>
 

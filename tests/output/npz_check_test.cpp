@@ -1,5 +1,4 @@
 // The mark of .npz files, and every damage of a byte.
-#include "output/npz_check.h"
 #include "output/npz_archive.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,6 @@
 // Conversion to video planes: compared with the formula in doubles, by regions, at every alignment.
 #include "output/yuv420.h"
 #include "output/video_pixels.h"
-#include "output/yuva420.h"
 
 #include "support/pictures.h"
 

@@ -1,5 +1,5 @@
 // Culled shadow casters: their sides towards the sun are behind other boxes.
-#include "core/rotation.h"
+#include "core/vector.h"
 #include "example_scenes.h"
 #include "random.h"
 

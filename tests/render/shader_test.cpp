@@ -3,7 +3,6 @@
 #include "example_scenes.h"
 
 #include "core/error.h"
-#include "render/gl/shader_locator.h"
 #include "render/gl/shader_source.h"
 
 #include <gtest/gtest.h>

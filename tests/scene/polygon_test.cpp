@@ -1,5 +1,5 @@
 #include "scene/mesh/polygon.h"
-#include "core/rotation.h"
+#include "core/vector.h"
 
 #include <gtest/gtest.h>
 

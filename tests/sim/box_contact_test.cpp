@@ -1,5 +1,5 @@
 // Boxes on boxes and on the ground, in typical poses: aligned, rotated, edge on edge, degenerate.
-#include "core/rotation.h"
+#include "core/vector.h"
 #include "random_shapes.h"
 
 #include <gtest/gtest.h>

@@ -1,13 +1,20 @@
 // Differences between the bodies of two records of a panel.
 #pragma once
 
-#include "app/causes/cause.h"
 #include "app/causes/panel_view.h"
 
+#include <string>
 #include <utility>
 #include <vector>
 
 namespace tumble {
+
+// A cause of a difference between two images.
+
+struct Cause {
+    std::string text;     // "crate.17 moved by 3 px (first differing frame 41)"
+    double pixels = 0.0;  // estimate of the pixels that it changes: the order of causes
+};
 
 /// The bodies of two panels, by name.
 struct BodyPairs {

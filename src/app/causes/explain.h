@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/causes/motion_record.h"
-#include "core/rectangle.h"
+#include "core/image.h"
 
 #include <cstdint>
 #include <string>

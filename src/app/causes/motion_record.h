@@ -2,7 +2,7 @@
 // of one name tell the causes of differences between their images.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "core/vector.h"
 
 #include <cstddef>

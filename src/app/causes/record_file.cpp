@@ -1,6 +1,5 @@
 #include "app/causes/record_file.h"
 
-#include "app/causes/record_bytes.h"
 #include "core/error.h"
 #include "core/html_text.h"
 #include "core/input_file.h"
@@ -12,12 +11,62 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <string_view>
+#include <type_traits>
+#include <vector>
 
 namespace tumble {
 namespace {
+
+// Numbers as bytes, least significant first, for the base64 parts of a motion record.
+
+class RecordWriter {
+public:
+    template <class Number>
+    void add(Number number) {
+        if constexpr (std::is_same_v<Number, float>)
+            add(std::bit_cast<std::uint32_t>(number));
+        else
+            for (std::size_t i = 0; i < sizeof(Number); ++i)
+                bytes_.push_back(std::byte(std::make_unsigned_t<Number>(number) >> (8 * i) & 0xff));
+    }
+    const std::vector<std::byte>& bytes() const { return bytes_; }
+
+private:
+    std::vector<std::byte> bytes_;
+};
+
+/// Throws std::out_of_range beyond the end.
+class RecordReader {
+public:
+    explicit RecordReader(std::string_view bytes) : bytes_(bytes) {}
+
+    bool at_end() const { return bytes_.empty(); }
+
+    template <class Number>
+    Number next() {
+        if constexpr (std::is_same_v<Number, float>) {
+            return std::bit_cast<float>(next<std::uint32_t>());
+        } else {
+            if (bytes_.size() < sizeof(Number)) throw std::out_of_range("numbers are missing");
+            std::make_unsigned_t<Number> number = 0;
+            for (std::size_t i = 0; i < sizeof(Number); ++i)
+                number = std::make_unsigned_t<Number>(
+                    number | std::make_unsigned_t<Number>(static_cast<unsigned char>(bytes_[i])) << (8 * i));
+            bytes_.remove_prefix(sizeof(Number));
+            return Number(number);
+        }
+    }
+
+private:
+    std::string_view bytes_;
+};
 
 using Json = nlohmann::ordered_json;
 
@@ -35,22 +84,22 @@ void add_pose(const RecordedPose& pose, RecordWriter& to) {
     for (const double x : {q.w(), q.x(), q.y(), q.z()}) to.add(std::int16_t(std::lround(rotation_unit * x)));
 }
 
-Json json_of(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
+Json record_json(const Vec3& v) { return Json::array({v.x(), v.y(), v.z()}); }
 
-Json json_of(const ValueMap& values) {
+Json record_json(const ValueMap& values) {
     Json json = Json::object();
     for (const auto& [key, value] : values) json[key] = value;
     return json;
 }
 
-Json json_of(const BodyKind& kind) {
-    Json json{{"look", json_of(kind.look)}, {"matter", json_of(kind.matter)}, {"round", kind.round}};
-    if (!kind.bounds.empty()) json["bounds"] = Json::array({json_of(kind.bounds.min), json_of(kind.bounds.max)});
+Json record_json(const BodyKind& kind) {
+    Json json{{"look", record_json(kind.look)}, {"matter", record_json(kind.matter)}, {"round", kind.round}};
+    if (!kind.bounds.empty()) json["bounds"] = Json::array({record_json(kind.bounds.min), record_json(kind.bounds.max)});
     return json;
 }
 
-Json json_of(const RecordedView& view) {
-    return Json::array({json_of(view.eye), json_of(view.target), json_of(view.up), view.vertical_fov});
+Json record_json(const RecordedView& view) {
+    return Json::array({record_json(view.eye), record_json(view.target), record_json(view.up), view.vertical_fov});
 }
 
 bool same_view(const RecordedView& a, const RecordedView& b) {
@@ -60,24 +109,24 @@ bool same_view(const RecordedView& a, const RecordedView& b) {
 Json views_json(const std::vector<RecordedView>& views) {
     Json json = Json::array();
     for (const RecordedView& view : views) {
-        json.push_back(json_of(view));
+        json.push_back(record_json(view));
         if (std::ranges::all_of(views, [&](const RecordedView& v) { return same_view(v, views.front()); })) break;
     }
     return json;
 }
 
-Json json_of(const MotionTrace& trace) {
+Json record_json(const MotionTrace& trace) {
     RecordWriter frames, blocks;
     for (const std::uint32_t sum : trace.frames) frames.add(sum);
     for (const std::uint16_t sum : trace.blocks) blocks.add(sum);
     return {{"frames", text_of(frames)}, {"every", trace.every}, {"blocks", text_of(blocks)}};
 }
 
-Json json_of(const PanelRecord& panel) {
+Json record_json(const PanelRecord& panel) {
     const Rectangle& r = panel.place;
-    Json json{{"place", Json::array({r.x, r.y, r.width, r.height})}, {"values", json_of(panel.values)}};
+    Json json{{"place", Json::array({r.x, r.y, r.width, r.height})}, {"values", record_json(panel.values)}};
     json["kinds"] = Json::array();
-    for (const BodyKind& kind : panel.kinds) json["kinds"].push_back(json_of(kind));
+    for (const BodyKind& kind : panel.kinds) json["kinds"].push_back(record_json(kind));
     json["bodies"] = Json::array();
     for (const RecordedBody& body : panel.bodies)
         json["bodies"].push_back(Json::array({safe_text(body.name, value_text_bytes), body.kind, body.moves}));
@@ -95,7 +144,7 @@ Json json_of(const PanelRecord& panel) {
     json["times"] = panel.times;
     json["views"] = views_json(panel.views);
     json["poses"] = text_of(poses);
-    json["trace"] = json_of(panel.trace);
+    json["trace"] = record_json(panel.trace);
     json["contacts"] = text_of(contacts);
     json["all_contacts"] = panel.all_contacts;
     return json;
@@ -211,10 +260,10 @@ MotionRecord record_of(const Json& json) {
 }  // namespace
 
 std::string record_text(const MotionRecord& record) {
-    Json json{{"motion_record", record_format}, {"values", json_of(record.values)}, {"frames", record.frames}};
+    Json json{{"motion_record", record_format}, {"values", record_json(record.values)}, {"frames", record.frames}};
     json["whole_run"] = record.whole_run;
     json["panels"] = Json::array();
-    for (const PanelRecord& panel : record.panels) json["panels"].push_back(json_of(panel));
+    for (const PanelRecord& panel : record.panels) json["panels"].push_back(record_json(panel));
     return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

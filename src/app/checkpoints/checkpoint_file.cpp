@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/input_file.h"
 #include "core/safe_text.h"
-#include "output/checksum.h"
+#include "output/file_bytes.h"
 #include "sim/checkpoint/archive.h"
 
 #include <fmt/format.h>
@@ -11,6 +11,16 @@
 #include <cstring>
 
 namespace tumble {
+
+std::string difference(const CheckpointIdentity& there, const CheckpointIdentity& here) {
+    for (const auto& [name, own] : here) {
+        const std::string* const found = find_value(there, name);
+        const std::string other = found == nullptr ? "none" : *found;
+        if (other != own) return fmt::format("{}: {} there, {} here", name, safe_text(other), safe_text(own));
+    }
+    return there.size() == here.size() ? "" : "the number of settings";
+}
+
 namespace {
 
 constexpr char magic[] = {'T', 'U', 'M', 'B', 'L', 'E', 'C', 'P'};

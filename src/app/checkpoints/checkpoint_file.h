@@ -2,7 +2,7 @@
 // (docs/reference/checkpoints.md).
 #pragma once
 
-#include "app/checkpoints/checkpoint_identity.h"
+#include "app/files/named_values.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +12,16 @@
 #include <vector>
 
 namespace tumble {
+
+// The clip that checkpoints belong to: by name, all that the state of a clip depends on. A run of another clip is refused
+// with the first value that differs.
+
+/// Scene and settings, as in ("the size", "1280x720"), the most telling ones first. The last one is a sum over all of the
+/// scene.
+using CheckpointIdentity = NamedValues;
+
+/// "the size: 640x360 there, 1280x720 here" of the first value that differs; empty if all are equal.
+std::string difference(const CheckpointIdentity& there, const CheckpointIdentity& here);
 
 /// Version of the layout of all files and of the states in them: a new one reads no old file.
 inline constexpr std::uint32_t checkpoint_format = 3;

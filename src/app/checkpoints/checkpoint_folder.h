@@ -3,7 +3,7 @@
 // needs.
 #pragma once
 
-#include "app/checkpoints/checkpoint_identity.h"
+#include "app/checkpoints/checkpoint_file.h"
 #include "app/checkpoints/clip_state.h"
 #include "app/files/frame_folder.h"
 

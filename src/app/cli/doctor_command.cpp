@@ -7,7 +7,7 @@
 #include "output/process.h"
 #include "page/web_folder.h"
 #include "plot/canvas.h"
-#include "render/gl/shader_locator.h"
+#include "render/gl/shader_source.h"
 
 #include <fmt/format.h>
 #include <png.h>

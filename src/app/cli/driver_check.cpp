@@ -1,9 +1,9 @@
 #include "app/cli/driver_check.h"
 
+#include "core/available_memory.h"
 #include "core/child_process.h"
 #include "core/error.h"
 #include "core/image.h"
-#include "core/memory_limit.h"
 #include "scene/description/description.h"
 
 #include <cstring>

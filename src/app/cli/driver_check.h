@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/threads/interrupt.h"
-#include "app/threads/wall_clock.h"
+#include "app/threads/stage_timer.h"
 #include "output/process.h"
 #include "render/renderer.h"
 

@@ -14,7 +14,7 @@
 #include "app/golden/check.h"
 #include "app/golden/program_identity.h"
 #include "app/golden/references.h"
-#include "app/golden/suite_edit.h"
+#include "app/golden/suite.h"
 #include "app/plots/variants.h"
 #include "app/threads/interrupt.h"
 #include "compare/comparison_text.h"

@@ -3,7 +3,7 @@
 #include "app/cli/say.h"
 #include "app/cli/shared_options.h"
 #include "app/files/output_plan.h"
-#include "app/threads/wall_clock.h"
+#include "app/threads/stage_timer.h"
 #include "app/workers/frame_memory.h"
 #include "core/available_memory.h"
 #include "core/error.h"

@@ -1,7 +1,7 @@
 #include "app/cli/progress.h"
 
 #include "app/cli/say.h"
-#include "app/threads/wall_clock.h"
+#include "app/threads/stage_timer.h"
 
 #include <fmt/format.h>
 

@@ -27,7 +27,7 @@ struct RenderCommand : ClipRequest {
     std::optional<std::filesystem::path> from_checkpoints;  // folder; else the frames before the first are simulated
     double shutter = 0.0;                                   // degrees: 360 is always open, 0 a single moment
     int blur_samples = 8;                                   // images per frame while the shutter is open
-    std::optional<int> threads;                             // of the simulation; see thread_budget.h
+    std::optional<int> threads;                             // of the simulation; see simulation_threads_beside_drawing()
     int workers = 1;                                        // render processes
     bool quiet = false;
 };

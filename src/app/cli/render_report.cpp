@@ -2,7 +2,7 @@
 
 #include "app/cli/driver_check.h"
 #include "app/cli/say.h"
-#include "app/threads/thread_budget.h"
+#include "app/threads/task_group.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
 #include "core/html_text.h"

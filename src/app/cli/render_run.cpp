@@ -15,7 +15,7 @@
 #include "app/plots/alike_runs.h"
 #include "app/resume/kept_frames.h"
 #include "app/threads/interrupt.h"
-#include "app/threads/thread_budget.h"
+#include "app/threads/task_group.h"
 #include "app/threads/trace.h"
 #include "app/workers/frame_memory.h"
 #include "core/error.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/manual/command_text.h"
-#include "app/threads/thread_budget.h"
+#include "app/threads/task_group.h"
 #include "core/safe_text.h"
 #include "output/video_format.h"
 #include "scene/keys/overrides.h"

@@ -12,7 +12,7 @@
 #include "app/files/run_tables.h"
 #include "app/pipeline/panel_run.h"
 #include "app/threads/interrupt.h"
-#include "app/threads/wall_clock.h"
+#include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "render/scene/pose_filter.h"

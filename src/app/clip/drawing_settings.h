@@ -5,7 +5,7 @@
 #include "app/composition/composition.h"
 #include "app/files/named_values.h"
 #include "app/resume/frame_identity.h"
-#include "render/gl/gl_backend.h"
+#include "render/gl/gl_context.h"
 
 namespace tumble {
 

@@ -1,7 +1,7 @@
 // The scenes of a clip, their place in the frame, and the frames of the clip.
 #pragma once
 
-#include "app/checkpoints/checkpoint_identity.h"
+#include "app/checkpoints/checkpoint_file.h"
 #include "app/clip/clip_request.h"
 #include "app/composition/make_composition.h"
 #include "app/files/frame_set.h"

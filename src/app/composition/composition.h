@@ -2,7 +2,7 @@
 // values, made once before drawing; the frame composer (frame_composer.h) draws by them in each render process.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "overlay/overlay_painter.h"
 #include "plot/figure.h"
 #include "scene/description/description.h"

@@ -1,7 +1,7 @@
 // The places of panels, labels, text and plot in a frame.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "scene/description/overlay.h"
 
 #include <cstddef>

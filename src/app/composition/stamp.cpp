@@ -1,6 +1,6 @@
 #include "app/composition/stamp.h"
 
-#include "core/blend.h"
+#include "core/color.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "plot/canvas.h"
 
 #include <string>

@@ -1,6 +1,8 @@
 // A clip that several programs on several machines make together, in a folder that all of them can reach.
 #pragma once
 
+#include "app/files/frame_set.h"
+
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -47,5 +49,20 @@ std::filesystem::path farm_file(const std::filesystem::path& job_folder);
 void write_farm_file(const FarmJob& job);
 /// Throws InputError where it is missing or broken.
 FarmJob read_farm_file(const std::filesystem::path& job_folder);
+
+// Which parts of a farm's clip are drawn.
+
+/// The frames of each part that are missing, damaged, or of another clip.
+struct FarmStatus {
+    std::vector<FrameSet> missing;        // by part
+    std::int64_t drawn = 0;               // frames
+    std::vector<int> incomplete() const;  // numbers of parts, from 1
+};
+
+/// Reads each frame's file, and does not unpack it: the job that makes the clip does.
+FarmStatus look_at_farm(const FarmJob& job);
+
+/// The state as text of several lines, with the commands that draw the missing parts.
+std::string status_text(const FarmJob& job, const FarmStatus& status);
 
 }  // namespace tumble

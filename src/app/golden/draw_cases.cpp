@@ -1,6 +1,6 @@
 #include "app/golden/draw_cases.h"
 
-#include "app/threads/wall_clock.h"
+#include "app/threads/stage_timer.h"
 #include "core/sha256.h"
 
 #include <fmt/format.h>

@@ -3,7 +3,7 @@
 #include "app/golden/child_tasks.h"
 #include "core/error.h"
 #include "core/sha256.h"
-#include "render/gl/shader_locator.h"
+#include "render/gl/shader_source.h"
 
 #include <fmt/format.h>
 

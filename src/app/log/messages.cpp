@@ -1,6 +1,6 @@
 #include "app/log/messages.h"
 
-#include "app/threads/wall_clock.h"
+#include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "tumble/error.h"

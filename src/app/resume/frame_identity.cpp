@@ -48,7 +48,7 @@ void list_settings(const NamedValues& there, const NamedValues& here, std::vecto
             list.push_back(fmt::format("{} ({} there, none here)", safe_text(name), safe_text(value)));
 }
 
-Json json_of(const NamedValues& values) {
+Json json_of_values(const NamedValues& values) {
     Json json = Json::object();
     for (const auto& [name, value] : values) json[name] = value;
     return json;
@@ -122,10 +122,10 @@ std::string manifest_text(const FrameIdentity& identity) {
     Json scenes = Json::array();
     for (const FrameIdentity::Scene& scene : identity.scenes)
         scenes.push_back(
-            {{"file", scene.file}, {"label", scene.label}, {"hash", scene.hash}, {"parts", json_of(scene.parts)}});
+            {{"file", scene.file}, {"label", scene.label}, {"hash", scene.hash}, {"parts", json_of_values(scene.parts)}});
     const Json json = {{"format", manifest_format},  {"version", identity.version},
                        {"mark", identity.mark()},    {"frames", identity.frames},
-                       {"fps", identity.fps},        {"settings", json_of(identity.settings)},
+                       {"fps", identity.fps},        {"settings", json_of_values(identity.settings)},
                        {"scenes", std::move(scenes)}};
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

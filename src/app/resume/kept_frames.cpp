@@ -3,7 +3,7 @@
 #include "app/files/aov_folder.h"
 #include "app/files/frame_folder.h"
 #include "core/error.h"
-#include "output/npz_check.h"
+#include "output/npz_archive.h"
 #include "output/png_check.h"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/checksum.h"
+#include "output/file_bytes.h"
 
 #include <fmt/format.h>
 

@@ -5,7 +5,7 @@
 #include "app/sweep/sweep_axis.h"
 #include "output/video_format.h"
 #include "render/aov/aov_kind.h"
-#include "render/gl/gl_backend.h"
+#include "render/gl/gl_context.h"
 
 #include <cstdint>
 #include <filesystem>

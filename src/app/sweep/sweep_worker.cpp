@@ -1,8 +1,8 @@
 #include "app/sweep/sweep_worker.h"
 
 #include "app/sweep/sample_maker.h"
+#include "core/available_memory.h"
 #include "core/error.h"
-#include "core/memory_limit.h"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,21 @@
 
 #include "app/threads/trace.h"
 
+#include <time.h>
+
 namespace tumble {
+namespace {
+
+double seconds_of(clockid_t clock) {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return double(t.tv_sec) + 1e-9 * double(t.tv_nsec);
+}
+
+}  // namespace
+
+double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
+double thread_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
 
 void StageTime::add(const WorkTime& work, std::int64_t frame) {
     wall.fetch_add(work.wall, std::memory_order_relaxed);

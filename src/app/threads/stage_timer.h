@@ -1,12 +1,17 @@
 // Working time of the stages of a run: seconds between taking up a piece of work and finishing it, without waiting.
 #pragma once
 
-#include "app/threads/wall_clock.h"
-
 #include <atomic>
 #include <cstdint>
 
 namespace tumble {
+
+// The clock of times and traces.
+
+/// Seconds of a monotonic clock, the same in all processes of the machine.
+double wall_seconds();
+/// Seconds of processor time of the calling thread.
+double thread_seconds();
 
 class Trace;
 

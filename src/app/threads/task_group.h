@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstddef>
 #include <exception>
 #include <functional>
 #include <mutex>
@@ -45,5 +46,16 @@ private:
     std::size_t running_ = 0;
     std::exception_ptr error_;
 };
+
+// Default number of simulation threads beside the render processes. The result is the same for any number.
+
+/// Upper limit of numbers of threads or processes; more are considered a mistake.
+inline constexpr int most_threads = 256;
+
+/// Number of processor cores.
+int machine_threads();
+
+/// At least 1, at most `cores`.
+int simulation_threads_beside_drawing(std::size_t bodies, int cores);
 
 }  // namespace tumble

@@ -2,8 +2,8 @@
 
 #include "app/workers/frame_maker.h"
 #include "app/workers/worker_process.h"
+#include "core/available_memory.h"
 #include "core/error.h"
-#include "core/memory_limit.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 #include "compare/metrics/changed_region.h"
 #include "compare/metrics/flip_color.h"
 #include "compare/metrics/flip_filters.h"
-#include "compare/metrics/row_ring.h"
+#include "compare/metrics/row_filter.h"
 #include "core/check.h"
 
 #include <algorithm>

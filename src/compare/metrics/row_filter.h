@@ -3,6 +3,8 @@
 // any width give the same bits.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -29,5 +31,30 @@ void filter_row(const float* row, int width, const RowFilter& filter, float* to)
 /// The filter along columns: rows[rows.size() / 2] is the middle, and the next one is the row below. At least
 /// 2 * radius + 1 rows, each of `width` values.
 void filter_columns(std::span<const float* const> rows, int width, const RowFilter& filter, float* to);
+
+// The last rows of a plane, for filters along columns.
+
+/// Rows y - radius to y + radius of a plane, where y goes down.
+class RowRing {
+public:
+    RowRing(int width, int radius) : width_(std::size_t(width)), rows_(2 * radius + 1) {
+        values_.resize(width_ * std::size_t(rows_));
+    }
+
+    float* row(int y) { return values_.data() + width_ * std::size_t(y % rows_); }
+
+    /// The rows around y, for filter_columns(). Rows outside [top, bottom) are the nearest inside.
+    const std::vector<const float*>& around(int y, int top, int bottom) {
+        around_.clear();
+        for (int k = -(rows_ / 2); k <= rows_ / 2; ++k) around_.push_back(row(std::clamp(y + k, top, bottom - 1)));
+        return around_;
+    }
+
+private:
+    std::size_t width_;
+    int rows_;
+    std::vector<float> values_;
+    std::vector<const float*> around_;
+};
 
 }  // namespace tumble

@@ -3,7 +3,6 @@
 #include "compare/metrics/background.h"
 #include "compare/metrics/changed_region.h"
 #include "compare/metrics/row_filter.h"
-#include "compare/metrics/row_ring.h"
 #include "core/check.h"
 #include "core/cpu_dispatch.h"
 #include "core/deterministic_math.h"

@@ -3,7 +3,6 @@
 #include "compare/report/report_assets.h"
 #include "compare/report/report_entry.h"
 #include "compare/report/report_pictures.h"
-#include "compare/report/severity.h"
 #include "core/html_text.h"
 #include "output/temporary_file.h"
 

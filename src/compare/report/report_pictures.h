@@ -3,6 +3,7 @@
 #pragma once
 
 #include "compare/comparison.h"
+#include "core/image.h"
 #include "output/picture_reader.h"
 
 #include <cstddef>
@@ -39,5 +40,11 @@ struct PairPictures {
 /// their thumbnails, where these are within it.
 std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>& results, std::int64_t most_bytes,
                                           int workers);
+
+// Small versions of pictures.
+
+/// At most so many pixels on either side, with the proportions of the image; the image itself if it is as small. Each
+/// pixel is the mean of those that it covers.
+Image thumbnail(const Image& image, int width, int height);
 
 }  // namespace tumble

@@ -5,7 +5,6 @@
 #pragma once
 
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "render/antialiasing/screen_edges.h"
 #include "render/damage/dirty_tiles.h"
 
@@ -17,7 +16,7 @@ namespace tumble {
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame);
 
 /// Blends the edges in the dirty tiles of the frame, which must hold the drawn image there. `with_coverage`: the frame's
-/// alpha is coverage (coverage.h) and is blended too.
+/// alpha is coverage (antialiasing.h) and is blended too.
 void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& dirty,
                           Image& frame, bool with_coverage = false);
 

@@ -1,5 +1,5 @@
 #include "render/aov/surface_motion.h"
-#include "core/rotation.h"
+#include "core/vector.h"
 
 #include <limits>
 

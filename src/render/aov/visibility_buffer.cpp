@@ -1,5 +1,5 @@
 #include "render/aov/visibility_buffer.h"
-#include "core/rotation.h"
+#include "core/vector.h"
 
 #include "render/aov/mesh_depths.h"
 #include "render/aov/pinhole_camera.h"

@@ -1,7 +1,7 @@
 // Sets of tiles: of the frame, for example those to redraw, or those with shadows on planes; and of the shadow maps.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "core/vector.h"
 #include "render/camera/camera.h"
 #include "render/scene/drawable_bounds.h"

@@ -1,7 +1,7 @@
 // Damage by a body on a plane, its shadow and its occlusion; and the regions where a plane has either.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/culling/occlusion_culling.h"
 #include "render/damage/dirty_tiles.h"

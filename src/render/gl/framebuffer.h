@@ -4,9 +4,7 @@
 // avoids a staircase on a bright edge before a dark background.
 #pragma once
 
-#include "core/depth_image.h"
 #include "core/image.h"
-#include "core/rectangle.h"
 #include "render/gl/gl_object.h"
 
 #include <array>

@@ -2,12 +2,15 @@
 // deliver its functions and stay alive; the drawing code is the same for every backend.
 #pragma once
 
-#include "render/gl/gl_backend.h"
 #include "render/gl/gl_functions.h"
 
 #include <memory>
 
 namespace tumble {
+
+// The OpenGL backends that a user can choose from.
+
+enum class GlBackend { osmesa, egl };
 
 /// requested version, core profile: textureGather on shadow maps needs 4.0, a base instance 4.2
 inline constexpr int gl_major = 4, gl_minor = 2;

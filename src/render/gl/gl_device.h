@@ -2,7 +2,6 @@
 // of one scene after the other can use it (RenderSwitches::device), and each shader is compiled once.
 #pragma once
 
-#include "render/gl/gl_backend.h"
 #include "render/gl/gl_context.h"
 #include "render/gl/shader_program.h"
 

@@ -1,8 +1,8 @@
 #include "render/gl/gl_context.h"
 
+#include "core/available_memory.h"
 #include "core/dynamic_library.h"
 #include "core/error.h"
-#include "core/memory_limit.h"
 
 #include <GL/osmesa.h>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 #include "render/passes/draw_list.h"
 
-#include "core/rotation.h"
+#include "core/vector.h"
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
 #include "render/scene/cord_ends.h"

@@ -1,7 +1,6 @@
 // The passes that draw a frame: shadow maps, background, bodies, planes.
 #pragma once
 
-#include "core/depth_image.h"
 #include "core/image.h"
 #include "render/ambient_occlusion/occlusion_texture.h"
 #include "render/damage/damage_tracker.h"

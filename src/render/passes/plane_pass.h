@@ -1,7 +1,7 @@
 // Draws the infinite planes, and the sky where no plane is.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "render/ambient_occlusion/occlusion_atlas.h"
 #include "render/frame/frame_context.h"
 #include "render/gl/gl_device.h"

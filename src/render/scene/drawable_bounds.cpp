@@ -1,6 +1,6 @@
 #include "render/scene/drawable_bounds.h"
 
-#include "core/rotation.h"
+#include "core/vector.h"
 #include "render/scene/cord_ends.h"
 
 #include <algorithm>

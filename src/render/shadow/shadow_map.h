@@ -1,7 +1,7 @@
 // Depths as seen from the sun: the near and the far map of shadow_cascades.h side by side in one texture.
 #pragma once
 
-#include "core/rectangle.h"
+#include "core/image.h"
 #include "render/gl/gl_device.h"
 #include "render/gl/gl_object.h"
 #include "render/mesh/gpu_mesh_cache.h"

@@ -1,7 +1,7 @@
 #include "scene/keys/joint_places.h"
 
 #include "core/deterministic_math.h"
-#include "core/rotation.h"
+#include "core/vector.h"
 #include "scene/fields/choices.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/shape.h"

@@ -11,7 +11,7 @@
 #include "sim/articulation/tree_friction.h"
 #include "sim/articulation/tree_limits.h"
 #include "sim/articulation/tree_springs.h"
-#include "sim/joints/flight_way.h"
+#include "sim/joints/joint_way.h"
 
 #include <optional>
 #include <span>

@@ -1,7 +1,7 @@
 #include "sim/articulation/tree_springs.h"
 
-#include "sim/joints/flight_way.h"
 #include "sim/joints/joint_set.h"
+#include "sim/joints/joint_way.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>

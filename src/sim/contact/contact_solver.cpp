@@ -1,7 +1,7 @@
 #include "sim/contact/contact_solver.h"
 
 #include "sim/contact/model/rigid_mode.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include "sim/detection/broad_phase.h"
 
 #include "sim/detection/settings.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "sim/geometry/manifold_growth.h"
 #include "sim/geometry/persistent_manifold.h"
 #include "sim/geometry/settings.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <algorithm>
 #include <cmath>

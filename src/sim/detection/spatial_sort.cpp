@@ -1,6 +1,6 @@
 #include "sim/detection/spatial_sort.h"
 
-#include "sim/math/kd_split.h"
+#include "sim/math/bounds_tree.h"
 
 #include <algorithm>
 #include <numeric>

@@ -1,5 +1,6 @@
 // EventDrivenMotion: bodies in contact. Their motion in a step, their sleep, and the switch from flight to contact.
 #include "sim/event_driven/event_driven_motion.h"
+#include "sim/event_driven/settings.h"
 
 #include "core/sort_unique.h"
 #include "sim/dynamics/integrator.h"

@@ -1,7 +1,7 @@
 #include "sim/event_driven/group_flights.h"
 
 #include "sim/contact/model/contact_constraint.h"
-#include "sim/joints/flight_way.h"
+#include "sim/joints/joint_way.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>

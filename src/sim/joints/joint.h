@@ -127,4 +127,9 @@ bool at_limit(const Joint& joint);
 /// True if a limit is violated by more than `tolerance`, in rad and sizes of the joint.
 bool beyond_limit(const Joint& joint, const JointGeometry& g, double tolerance = 0.0);
 
+// The target of a motor: constant, or through keyframes as a kinematic body moves through its own (keyframe_track.h).
+
+/// m or rad. Precondition: the motor has targets.
+double motor_target(const JointMotor& motor, double time);
+
 }  // namespace tumble

@@ -1,7 +1,7 @@
 #include "sim/joints/spanning_joints.h"
 
 #include "core/disjoint_sets.h"
-#include "sim/joints/flight_way.h"
+#include "sim/joints/joint_way.h"
 
 #include <algorithm>
 

@@ -1,7 +1,7 @@
 #include "sim/math/keyframe_track.h"
 
 #include "core/deterministic_math.h"
-#include "core/monotone_spline.h"
+#include "core/keyframe_curve.h"
 
 #include <algorithm>
 #include <cmath>

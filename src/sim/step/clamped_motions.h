@@ -4,7 +4,7 @@
 #include "sim/ccd/ccd_clamp.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/step_context.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <algorithm>
 #include <atomic>

@@ -5,7 +5,7 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/log/contact_log.h"
 #include "sim/step/step_context.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 namespace tumble {
 namespace {

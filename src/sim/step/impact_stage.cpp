@@ -12,7 +12,7 @@
 #include "sim/log/contact_log.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/step_context.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <algorithm>
 #include <limits>

@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "sim/step/step_context.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/log/contact_log.h"
 #include "sim/step/joined_motion.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 namespace tumble {
 namespace {

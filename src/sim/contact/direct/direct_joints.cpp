@@ -7,7 +7,7 @@
 #include "sim/contact/direct/settings.h"
 #include "sim/dynamics/integrator.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
-#include "sim/joints/flight_way.h"
+#include "sim/joints/joint_way.h"
 #include "sim/joints/settings.h"
 #include "sim/joints/spanning_joints.h"
 #include "sim/math/keyframe_track.h"

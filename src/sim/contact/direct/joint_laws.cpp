@@ -1,7 +1,7 @@
 // JointRows: the rows of a joint, by the laws of its coordinates.
 #include "sim/contact/direct/contact_rows.h"
 #include "sim/contact/direct/joint_rows.h"
-#include "sim/joints/motor_target.h"
+#include "sim/joints/joint.h"
 #include "sim/joints/settings.h"
 
 #include <algorithm>

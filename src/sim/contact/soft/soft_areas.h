@@ -6,7 +6,6 @@
 #include "sim/contact/model/contact_areas.h"
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/contact/soft/aligned_floats.h"
-#include "sim/contact/soft/joint_layout.h"
 #include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/soft/soft_layout.h"
 

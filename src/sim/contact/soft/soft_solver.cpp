@@ -3,7 +3,7 @@
 #include "sim/contact/model/settings.h"
 #include "sim/contact/soft/soft_batch.h"
 #include "sim/joints/joint_set.h"
-#include "sim/threads/settings.h"
+#include "sim/threads/thread_pool.h"
 
 #include <algorithm>
 #include <cmath>

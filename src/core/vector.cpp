@@ -1,4 +1,4 @@
-#include "core/rotation.h"
+#include "core/vector.h"
 
 namespace tumble {
 
