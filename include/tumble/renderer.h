@@ -11,10 +11,14 @@
 
 TUMBLE_BEGIN
 
-enum class Backend { osmesa, egl };
+enum class Backend {
+    osmesa,
+    egl,       // on a graphics card if there is one
+    software,  // OSMesa where it is installed, else EGL's software device: the same pixels
+};
 
 struct RenderOptions {
-    Backend backend = Backend::osmesa;
+    Backend backend = Backend::software;
     std::string shader_folder;  // empty: $TUMBLE_SHADERS, else the installed one
     bool transparent = false;   // bodies alone, on a transparent background: straight alpha
 };

@@ -39,7 +39,7 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA $ENV{TUMBLE_CONTROL}/shlibs $ENV{TUMBLE_CONTROL}/triggers)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS
   "$ENV{TUMBLE_LIBRARIES}"   # linked ones; those below are opened by name
-  "libosmesa6 (>= 20)"    # draws on the CPU
+  "libosmesa6 (>= 20) | libegl-mesa0"    # draws on the CPU
   "libpangocairo-1.0-0 (>= 1.50)"   # plots and text, and with it Cairo
   "fonts-inter")          # texts in frames: another font would give other pixels on each machine
 list(JOIN CPACK_DEBIAN_PACKAGE_DEPENDS ", " CPACK_DEBIAN_PACKAGE_DEPENDS)

@@ -17,7 +17,9 @@ namespace {
 
 tumble::RenderOptions to_internal(const RenderOptions& options) {
     tumble::RenderOptions to;
-    to.backend = options.backend == Backend::egl ? GlBackend::egl : GlBackend::osmesa;
+    to.backend = options.backend == Backend::egl      ? GlBackend::egl
+                 : options.backend == Backend::osmesa ? GlBackend::osmesa
+                                                      : GlBackend::software;
     to.shader_folder = options.shader_folder;
     to.transparent = options.transparent;
     return to;

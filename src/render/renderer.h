@@ -17,7 +17,7 @@ namespace tumble {
 struct RenderSwitches;
 
 struct RenderOptions {
-    GlBackend backend = GlBackend::osmesa;
+    GlBackend backend = GlBackend::software;
     std::filesystem::path shader_folder;  // empty: found beside the program, installed, or in the source tree
     bool transparent = false;  // straight alpha in place of the sky and the planes, which light bodies all the same
 };

@@ -137,7 +137,7 @@ class Bash(Completion):
 
     def test_values_after_an_equals_sign(self):
         self.assertEqual(self.offers("tumble render --gl=o"), {"osmesa"})
-        self.assertEqual(self.offers("tumble render --gl="), {"osmesa", "egl"})
+        self.assertEqual(self.offers("tumble render --gl="), {"software", "osmesa", "egl"})
         self.assertEqual(self.offers("tumble render --output=cl"), {"clip.mp4"})
         self.assertEqual(self.offers("tumble render --gl=egl --quality=b"), {"best"})
         self.assertEqual(self.offers("tumble render --set simulation.sleep=false --quality b"), {"best"})

@@ -88,17 +88,25 @@ int run_doctor(const DoctorCommand& command) {
     const Finding shaders = check_shaders();
     const Finding osmesa = try_drawing(GlBackend::osmesa, time_limit);
     const Finding egl = try_drawing(GlBackend::egl, time_limit);
+    Finding software = osmesa;
+    if (osmesa.good) {
+        software.text = "OSMesa";
+    } else {
+        software = try_drawing(GlBackend::software, time_limit);
+        if (software.good) software.text = "EGL's software device, because OSMesa does not work here: the same frames";
+    }
     const Finding ffmpeg = check_ffmpeg(time_limit);
     if (time_limit.interrupted()) throw Interrupted();
     print("shaders", shaders, "set TUMBLE_SHADERS to the folder of that name, or install Tumble again");
-    print("OpenGL, osmesa", osmesa, "apt-get install libosmesa6");
-    print("OpenGL, egl", egl, "apt-get install libegl1 libgl1-mesa-dri   (only for --gl egl)");
+    print("OpenGL, osmesa", osmesa, "apt-get install libosmesa6   (not in Debian 14: EGL draws the same frames)");
+    print("OpenGL, egl", egl, "apt-get install libegl1 libgl1-mesa-dri   (only for --gl egl, or without OSMesa)");
+    print("drawing by", software, "apt-get install libosmesa6, or libegl1 libgl1-mesa-dri");
     print("font", check_font(), "apt-get install fonts-inter   (only for text: other fonts give other pixels)");
     print("player of pages", check_player(),
           "scripts/build-web in Tumble's source tree   (only for page, lesson and render --report)");
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");
 
-    const bool able = shaders.good && osmesa.good && ffmpeg.good;
+    const bool able = shaders.good && software.good && ffmpeg.good;
     put("{}\n", able ? "All requirements are met: tumble render works here." : "tumble render does not work here yet.");
     return able ? 0 : 1;
 }

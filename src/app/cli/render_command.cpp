@@ -261,9 +261,9 @@ void add_render_options(CLI::App& command, RenderCommand& c) {
         .add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->check(number())
         ->type_name("N");
-    add_choice<GlBackend>(command, "--gl", c.drawing.backend, {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
-                          "OpenGL backend: osmesa (the default) draws on the CPU; egl uses a GPU if there is\none, "
-                          "else it draws the same pixels on the CPU");
+    add_choice<GlBackend>(command, "--gl", c.drawing.backend, {{"software", GlBackend::software}, {"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+                          "OpenGL backend: software (the default) draws on the CPU, by OSMesa or, where that is "
+                          "missing,\nby EGL; egl uses a GPU if there is one. On the CPU all give the same bytes");
     add_clip_times(command, c);
     command.add_flag("--transparent", c.drawing.transparent,
                      "Draw the bodies alone, lit and shadowed as in the scene, on a transparent background:\n"

@@ -14,7 +14,7 @@ struct DrawingChoices {
     double shutter = 0.0;  // degrees
     int blur_samples = 1;  // while it is open
     bool transparent = false;
-    GlBackend backend = GlBackend::osmesa;
+    GlBackend backend = GlBackend::software;
 };
 
 NamedValues drawing_settings(const ClipRequest& request, const DrawingChoices& choices, const Composition& composition);

@@ -29,7 +29,8 @@ constexpr Choice<Combination> combinations[] = {
     {"product", Combination::product}, {"zip", Combination::zip}, {"random", Combination::random}};
 constexpr Choice<VideoQuality> qualities[] = {
     {"draft", VideoQuality::draft}, {"normal", VideoQuality::normal}, {"best", VideoQuality::best}};
-constexpr Choice<GlBackend> backends[] = {{"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
+constexpr Choice<GlBackend> backends[] = {
+    {"software", GlBackend::software}, {"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}};
 constexpr Choice<SceneForm> forms[] = {{"toml", SceneForm::toml}, {"json", SceneForm::json}, {"none", SceneForm::none}};
 constexpr Choice<bool> table_formats[] = {{"csv", false}, {"npz", true}};
 

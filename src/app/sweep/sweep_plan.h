@@ -57,7 +57,7 @@ struct SampleDrawing {
     int blur_samples = 8;
     bool transparent = false;
     VideoQuality quality = VideoQuality::normal;
-    GlBackend backend = GlBackend::osmesa;
+    GlBackend backend = GlBackend::software;
 };
 
 struct SweepPlan {

@@ -18,18 +18,18 @@ constexpr const char* packages = "libegl1 libegl-mesa0 libgl1-mesa-dri";
 
 class EglContext final : public GlContext {
 public:
-    EglContext()
+    explicit EglContext(EglDisplayKind kind)
         : library_(egl_library_names, "the rendering library", packages),
           get_proc_address_(library_.require<decltype(&eglGetProcAddress)>("eglGetProcAddress")),
           get_error_(library_.require<decltype(&eglGetError)>("eglGetError")),
           make_current_(library_.require<decltype(&eglMakeCurrent)>("eglMakeCurrent")),
           destroy_context_(library_.require<decltype(&eglDestroyContext)>("eglDestroyContext")),
           terminate_(library_.require<decltype(&eglTerminate)>("eglTerminate")) {
-        if (!open_surfaceless() && !open_device())
-            throw RunError(
-                fmt::format("EGL offers neither a surfaceless nor a device display (EGL error 0x{:x}); "
-                            "install Mesa's with 'apt-get install {}'",
-                            get_error_(), packages));
+        const bool any = kind == EglDisplayKind::any;
+        if (!(any && open_surfaceless()) && !open_device(kind))
+            throw RunError(fmt::format("EGL offers {} (EGL error 0x{:x}); install Mesa's with 'apt-get install {}'",
+                                       any ? "neither a surfaceless nor a device display" : "no software device",
+                                       get_error_(), packages));
         create_context();
     }
 
@@ -70,15 +70,25 @@ private:
         return initialize(platform_display()(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
     }
 
-    bool open_device() {
+    bool is_software(EGLDeviceEXT device) const {
+        const auto query =
+            reinterpret_cast<PFNEGLQUERYDEVICESTRINGEXTPROC>(get_proc_address_("eglQueryDeviceStringEXT"));
+        const char* const all = query != nullptr ? query(device, EGL_EXTENSIONS) : nullptr;
+        return all != nullptr && std::string_view(all).find("EGL_MESA_device_software") != std::string_view::npos;
+    }
+
+    bool open_device(EglDisplayKind kind) {
         const auto query = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(get_proc_address_("eglQueryDevicesEXT"));
         if (!has_client_extension("EGL_EXT_platform_device") || query == nullptr || platform_display() == nullptr)
             return false;
         std::array<EGLDeviceEXT, 16> devices{};
         EGLint count = 0;
         if (!query(EGLint(devices.size()), devices.data(), &count)) return false;
-        for (EGLint i = 0; i < count; ++i)
-            if (initialize(platform_display()(EGL_PLATFORM_DEVICE_EXT, devices[std::size_t(i)], nullptr))) return true;
+        for (EGLint i = 0; i < count; ++i) {
+            const EGLDeviceEXT device = devices[std::size_t(i)];
+            if (kind == EglDisplayKind::software && !is_software(device)) continue;
+            if (initialize(platform_display()(EGL_PLATFORM_DEVICE_EXT, device, nullptr))) return true;
+        }
         return false;
     }
 
@@ -119,6 +129,6 @@ private:
 
 }  // namespace
 
-std::unique_ptr<GlContext> make_egl_context() { return std::make_unique<EglContext>(); }
+std::unique_ptr<GlContext> make_egl_context(EglDisplayKind kind) { return std::make_unique<EglContext>(kind); }
 
 }  // namespace tumble

@@ -4,6 +4,7 @@
 #include "core/dynamic_library.h"
 #include "core/error.h"
 
+#if __has_include(<GL/osmesa.h>)
 #include <GL/osmesa.h>
 #include <fmt/format.h>
 
@@ -64,3 +65,11 @@ private:
 std::unique_ptr<GlContext> make_osmesa_context() { return std::make_unique<OsmesaContext>(); }
 
 }  // namespace tumble
+
+#else  // Mesa 25.1 or later
+
+std::unique_ptr<tumble::GlContext> tumble::make_osmesa_context() {
+    throw RunError("this program was built without OSMesa; Mesa 25.1 and later draw by EGL");
+}
+
+#endif
