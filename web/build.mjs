@@ -7,6 +7,7 @@ import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { deflateRawSync } from "node:zlib";
+import { glsl_plugin } from "./build/glsl.mjs";
 import { math_plugin } from "./build/math.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
@@ -26,7 +27,7 @@ async function bundled(options) {
     write: false,
     absWorkingDir: here,
     loader: { ".woff2": "dataurl" },
-    plugins: [math_plugin()],
+    plugins: [glsl_plugin(), math_plugin()],
     ...options,
   });
   return { text: result.outputFiles[0].text.trimEnd(), inputs: Object.keys(result.metafile.inputs) };

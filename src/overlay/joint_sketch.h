@@ -11,9 +11,6 @@
 
 namespace tumble {
 
-inline constexpr Color joint_color{255, 226, 120}, limit_color{120, 200, 190}, at_limit_color{255, 84, 84};
-inline constexpr float joint_width = 2.0f, limit_width = 2.4f, anchor_radius = 5.0f;
-
 /// A point of a body (m, from its origin in its frame), or of the world.
 struct SketchPoint {
     std::optional<std::size_t> body;

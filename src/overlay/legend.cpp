@@ -22,11 +22,6 @@ struct Entry {
     MarkerShape shape = MarkerShape::disc;
 };
 
-constexpr std::array<std::string_view, arrow_quantity_count> quantity_names{
-    "contact force", "impulse", "velocity", "angular velocity", "momentum", "angular momentum", "torque of a joint"};
-constexpr std::array<std::string_view, arrow_quantity_count> quantity_units{"N",      "N s",     "m/s", "rad/s",
-                                                                            "kg m/s", "kg m²/s", "N m"};
-
 std::string scale_text(double scale, std::string_view unit) {
     if (scale <= 0.0) return "none in this clip";
     return fmt::format("1 m = {:g} {}", 1.0 / scale, unit);
@@ -34,7 +29,7 @@ std::string scale_text(double scale, std::string_view unit) {
 
 std::string_view force_name(const OverlayDescription& overlay) {
     const bool contacts = overlay.show.has(Overlay::forces);
-    if (!overlay.show.has(Overlay::joints)) return "contact force";
+    if (!overlay.show.has(Overlay::joints)) return style::arrows[0].text;
     return contacts ? "force of a contact or joint" : "force of a joint";
 }
 
@@ -46,52 +41,51 @@ void add_arrows(const SceneDescription& scene, const OverlayScales& scales, cons
     for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
         const auto quantity = ArrowQuantity(q);
         if (!shows(overlay, quantity)) continue;
-        const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum ||
-                           quantity == ArrowQuantity::torque;
-        const std::string scale = scale_text(scales[q], quantity_units[q]);
+        const auto& look = style::arrows[q];
+        const std::string scale = scale_text(scales[q], look.unit);
         const bool force = quantity == ArrowQuantity::force;
         const bool of_joints = overlay.show.has(Overlay::joints);
         if (!force || overlay.show.has(Overlay::forces) || of_joints)
-            rows.push_back({{axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
-                             fmt::format("{}, {}", force ? force_name(overlay) : quantity_names[q], scale)}});
+            rows.push_back(
+                {{look.axial ? Entry::Symbol::double_arrow : Entry::Symbol::arrow, arrow_color(overlay, quantity),
+                  fmt::format("{}, {}", force ? force_name(overlay) : look.text, scale)}});
         if (force && overlay.show.has(Overlay::forces) && marks.friction)
-            rows.push_back({{Entry::Symbol::arrow, friction_color, "its friction part"}});
+            rows.push_back({{Entry::Symbol::arrow, style::friction_color, "its friction part"}});
         if (force && overlay.show.has(Overlay::loads))
-            rows.push_back({{Entry::Symbol::arrow, load_color, fmt::format("weight, applied force, {}", scale)}});
+            rows.push_back(
+                {{Entry::Symbol::arrow, style::load_color, fmt::format("weight, applied force, {}", scale)}});
     }
     if (overlay.show.has(Overlay::normals))
-        rows.push_back({{Entry::Symbol::arrow, normal_color, "normal, from A to B"}});
+        rows.push_back({{Entry::Symbol::arrow, style::normal_color, "normal, from A to B"}});
     if (overlay.show.has(Overlay::joints))
-        rows.push_back({{Entry::Symbol::marker, joint_color, "joint and axis"},
-                        {Entry::Symbol::patch, limit_color, "limits"},
-                        {Entry::Symbol::patch, at_limit_color, "at a limit"}});
+        rows.push_back({{Entry::Symbol::marker, style::joint_color, "joint and axis"},
+                        {Entry::Symbol::patch, style::limit_color, "limits"},
+                        {Entry::Symbol::patch, style::at_limit_color, "at a limit"}});
     if (overlay.show.has(Overlay::axes))
-        rows.push_back({{Entry::Symbol::arrow, axis_colors[0], "x"},
-                        {Entry::Symbol::arrow, axis_colors[1], "y"},
-                        {Entry::Symbol::arrow, axis_colors[2], "z of the body"}});
+        rows.push_back({{Entry::Symbol::arrow, style::axis_colors[0], "x"},
+                        {Entry::Symbol::arrow, style::axis_colors[1], "y"},
+                        {Entry::Symbol::arrow, style::axis_colors[2], "z of the body"}});
 }
 
 /// The states and features that occur, two in a row.
 void add_contacts(const OverlayMarks& marks, std::vector<Row>& rows) {
-    using State = ContactRecord::State;
     const std::size_t first = rows.size();
     const auto add = [&](Entry entry) {
         if (rows.size() == first || rows.back().size() == 2) rows.emplace_back();
         rows.back().push_back(std::move(entry));
     };
-    for (const auto& [state, text] : {std::pair(State::stick, "sticks"), std::pair(State::slip, "slips"),
-                                      std::pair(State::asleep, "asleep"), std::pair(State::open, "no load")})
-        if ((marks.states >> unsigned(state) & 1u) != 0) add({Entry::Symbol::marker, contact_color(state), text});
+    for (std::size_t k = 0; k < std::size(style::contact_states); ++k)
+        if ((marks.states >> k & 1u) != 0)
+            add({Entry::Symbol::marker, style::contact_states[k].color, std::string(style::contact_states[k].text)});
     // Both orders of vertex and face have one mark.
     std::uint32_t features = marks.features;
     if ((features >> unsigned(ContactFeatures::face_vertex) & 1u) != 0)
         features |= 1u << unsigned(ContactFeatures::vertex_face);
-    for (const auto& [feature, text] :
-         {std::pair(ContactFeatures::vertex_face, "vertex on face"),
-          std::pair(ContactFeatures::face_face, "face on face"), std::pair(ContactFeatures::edge_edge, "edge on edge"),
-          std::pair(ContactFeatures::sphere, "sphere"), std::pair(ContactFeatures::mesh, "triangle mesh")})
+    for (const auto feature : {ContactFeatures::vertex_face, ContactFeatures::face_face, ContactFeatures::edge_edge,
+                               ContactFeatures::sphere, ContactFeatures::mesh})
         if ((features >> unsigned(feature) & 1u) != 0)
-            add({Entry::Symbol::marker, normal_color, text, contact_shape(feature)});
+            add({Entry::Symbol::marker, style::normal_color,
+                 std::string(style::contact_features[std::size_t(feature)].text), contact_shape(feature)});
 }
 
 std::vector<Row> make_rows(const SceneDescription& scene, const PanelOverlay& panel) {
@@ -100,14 +94,14 @@ std::vector<Row> make_rows(const SceneDescription& scene, const PanelOverlay& pa
     add_arrows(scene, panel.scales, panel.marks, rows);
     if (overlay.show.has(Overlay::contacts)) add_contacts(panel.marks, rows);
     if (overlay.show.has(Overlay::com))
-        rows.push_back({{Entry::Symbol::marker, {250, 250, 250}, "center of mass", MarkerShape::center_of_mass}});
+        rows.push_back({{Entry::Symbol::marker, style::center_color, "center of mass", MarkerShape::center_of_mass}});
     if (overlay.show.has(Overlay::ghosts))
         rows.push_back({{Entry::Symbol::patch,
                          {200, 206, 216},
                          fmt::format("pose every {:.3g} s", overlay.ghost_every * panel.frame_step)}});
-    if (overlay.show.has(Overlay::sleep)) rows.push_back({{Entry::Symbol::patch, asleep_color, "asleep"}});
+    if (overlay.show.has(Overlay::sleep)) rows.push_back({{Entry::Symbol::patch, style::asleep_color, "asleep"}});
     if (overlay.show.has(Overlay::islands))
-        rows.push_back({{Entry::Symbol::patch, {0, 158, 255}, "island: bodies in contact"}});
+        rows.push_back({{Entry::Symbol::patch, style::island_colors[0], "island: bodies in contact"}});
     return rows;
 }
 
@@ -165,13 +159,13 @@ std::optional<Image> draw_legend(const SceneDescription& scene, const PanelOverl
     const double unit = overlay_unit(panel.frame_height);
     TextStyle style;
     style.size = 15.0;
-    style.paint = {{236, 240, 246}, 1.0};
+    style.paint = {style::normal_color, 1.0};
     const auto lefts = place_entries(rows, style);
     double width = 0.0;
     for (const auto& places : lefts) width = std::max(width, places.back() + legend_margin);
     const double tall = 2.0 * legend_margin + row_height * double(rows.size()) - 4.0;
     Canvas canvas(int(std::ceil(width * unit)), int(std::ceil(tall * unit)), unit);
-    canvas.fill({0.0, 0.0, width, tall}, {{18, 22, 30}, 0.66}, 8.0);
+    canvas.fill({0.0, 0.0, width, tall}, {style::label_background_color, 0.66}, 8.0);
     const auto for_each = [&](const auto& use) {
         for (std::size_t r = 0; r < rows.size(); ++r)
             for (std::size_t k = 0; k < rows[r].size(); ++k)

@@ -11,19 +11,7 @@
 namespace tumble {
 namespace {
 
-constexpr float ghost_opacity = 0.34f, tint_opacity = 0.5f, sleep_opacity = 0.32f;
-constexpr double rested = 0.02;  // radii of the body, and rad: a ghost nearer than that to another pose adds nothing
-constexpr double shortest_way = 2e-3;     // radii: a trail gets a point when the body has moved that far
-constexpr std::size_t most_ghosts = 400;  // of all bodies: more hide the picture, and each costs a drawing
-constexpr std::size_t longest_name = 40;  // characters of a label: a longer one hides the picture
-constexpr double normal_length = 0.35, axis_length = 1.2;  // radii of the body
-constexpr std::array<Color, arrow_quantity_count> colors{
-    Color{255, 190, 30}, Color{255, 64, 112},  Color{60, 196, 255}, Color{186, 140, 255},
-    Color{170, 224, 50}, Color{255, 140, 212}, Color{255, 120, 40}};
-/// Neighbors in this order differ for people with color blindness as well.
-constexpr std::array<Color, 8> island_colors{Color{0, 158, 255},   Color{255, 150, 0},   Color{0, 190, 120},
-                                             Color{240, 110, 190}, Color{120, 220, 255}, Color{250, 220, 70},
-                                             Color{235, 80, 60},   Color{160, 130, 255}};
+constexpr double shortest_way = 2e-3;  // radii of the body: a trail gets a point when the body has moved that far
 
 Color mixed(Color a, Color b, double share) {
     const auto channel = [&](std::uint8_t x, std::uint8_t y) {
@@ -33,7 +21,7 @@ Color mixed(Color a, Color b, double share) {
 }
 
 Color trail_color(const SceneDescription& scene, std::size_t body) {
-    return mixed(scene.bodies[body].appearance.color, {255, 255, 255}, 0.45);
+    return mixed(scene.bodies[body].appearance.color, {255, 255, 255}, style::trail_paleness);
 }
 
 /// The tight axis-aligned bounding box in the world.
@@ -46,18 +34,19 @@ void add_bounds(const Shape& shape, const Vec3& origin, const Quat& orientation,
     });
 }
 
-/// At most `longest_name` characters (UTF-8).
+/// At most style::longest_name characters (UTF-8).
 std::string shortened(const std::string& name) {
     std::size_t characters = 0;
     for (std::size_t i = 0; i < name.size(); ++i) {
         const bool starts_character = (static_cast<unsigned char>(name[i]) & 0xc0u) != 0x80u;
-        if (starts_character && ++characters > longest_name) return name.substr(0, i) + "…";
+        if (starts_character && ++characters > style::longest_name) return name.substr(0, i) + "…";
     }
     return name;
 }
 
 bool near(const BodyState& a, const BodyState& b, double radius) {
-    return (a.origin - b.origin).norm() < rested * radius && a.orientation.angularDistance(b.orientation) < rested;
+    return (a.origin - b.origin).norm() < style::rested * radius &&
+           a.orientation.angularDistance(b.orientation) < style::rested;
 }
 
 }  // namespace
@@ -69,38 +58,14 @@ double radius_about_origin(const Shape& shape) {
 }
 
 Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity) {
-    return overlay.color[std::size_t(quantity)].value_or(colors[std::size_t(quantity)]);
+    return overlay.color[std::size_t(quantity)].value_or(style::arrows[std::size_t(quantity)].color);
 }
 
-Color contact_color(ContactRecord::State state) {
-    switch (state) {
-        case ContactRecord::State::stick:
-            return {72, 214, 96};
-        case ContactRecord::State::slip:
-            return {255, 122, 60};
-        case ContactRecord::State::asleep:
-            return asleep_color;
-        case ContactRecord::State::open:
-            break;
-    }
-    return {236, 240, 246};
-}
+Color contact_color(ContactRecord::State state) { return style::contact_states[std::size_t(state)].color; }
 
 MarkerShape contact_shape(ContactFeatures features) {
-    switch (features) {
-        case ContactFeatures::vertex_face:
-        case ContactFeatures::face_vertex:
-            return MarkerShape::disc;
-        case ContactFeatures::edge_edge:
-            return MarkerShape::diamond;
-        case ContactFeatures::face_face:
-            return MarkerShape::square;
-        case ContactFeatures::sphere:
-            return MarkerShape::ring;
-        case ContactFeatures::mesh:
-            break;
-    }
-    return MarkerShape::cross;
+    const auto& marker = style::contact_features[std::size_t(features)].marker;
+    return MarkerShape(std::ranges::find(style::markers, marker) - std::ranges::begin(style::markers));
 }
 
 OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScales& scales)
@@ -155,7 +120,7 @@ void OverlayBuilder::remember(const Snapshot& snapshot, const ContactRecords* re
 
 void OverlayBuilder::add_ghosts(const Snapshot& snapshot, std::int64_t frame) {
     if (frame % scene_->overlay.ghost_every == 0)
-        for (std::size_t i = 0; i < snapshot.bodies.size() && ghosts_.size() < most_ghosts; ++i) {
+        for (std::size_t i = 0; i < snapshot.bodies.size() && ghosts_.size() < style::most_ghosts; ++i) {
             if (shown_[i] == 0 || radii_[i] == 0.0) continue;
             const BodyState& now = snapshot.bodies[i];
             const auto last =
@@ -169,7 +134,7 @@ void OverlayBuilder::add_ghosts(const Snapshot& snapshot, std::int64_t frame) {
         frame_.surfaces.push_back({ghost.body,
                                    ghost.state.origin,
                                    ghost.state.orientation,
-                                   {scene_->bodies[ghost.body].appearance.color, ghost_opacity, true},
+                                   {scene_->bodies[ghost.body].appearance.color, style::ghost_opacity, true},
                                    true});
     }
 }
@@ -181,11 +146,12 @@ void OverlayBuilder::add_islands(const Snapshot& snapshot, const ContactRecords&
         if (r.a != ContactRecord::nobody && dynamic(r.a) && dynamic(r.b)) islands.join(r.a, r.b);
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
         if (shown_[i] != 0 && dynamic(i))
-            frame_.surfaces.push_back({i,
-                                       snapshot.bodies[i].origin,
-                                       snapshot.bodies[i].orientation,
-                                       {island_colors[islands.root(i) % island_colors.size()], tint_opacity, true},
-                                       false});
+            frame_.surfaces.push_back(
+                {i,
+                 snapshot.bodies[i].origin,
+                 snapshot.bodies[i].orientation,
+                 {style::island_colors[islands.root(i) % std::size(style::island_colors)], style::tint_opacity, true},
+                 false});
 }
 
 void OverlayBuilder::add_trails() {
@@ -193,15 +159,16 @@ void OverlayBuilder::add_trails() {
         if (trail.places.size() < 2) continue;
         OverlayLine line;
         for (const auto& [when, place] : trail.places) line.points.push_back(place);
-        line.paint = {trail.color, 0.95f, true};
-        line.width = 2.2f;
+        line.paint = {trail.color, style::trail_opacity, true};
+        line.width = style::trail_width;
         frame_.lines.push_back(std::move(line));
     }
 }
 
 void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
     if (shows(Overlay::sleep) && state.asleep)
-        frame_.surfaces.push_back({i, state.origin, state.orientation, {asleep_color, sleep_opacity, true}, false});
+        frame_.surfaces.push_back(
+            {i, state.origin, state.orientation, {style::asleep_color, style::sleep_opacity, true}, false});
     if (shows(Overlay::aabb)) add_box(i, state);
     if (shows(Overlay::axes)) add_axes(i, state);
     const Vec3& center = state.center_of_mass;
@@ -210,9 +177,10 @@ void OverlayBuilder::add_body(std::size_t i, const BodyState& state) {
     if (shows(Overlay::momentum)) body_arrow(ArrowQuantity::momentum, i, state, state.momentum);
     if (shows(Overlay::angular_momentum)) body_arrow(ArrowQuantity::angular_momentum, i, state, state.angular_momentum);
     if (shows(Overlay::com) && radii_[i] > 0.0)
-        frame_.markers.push_back({center, {{250, 250, 250}, 1.0f, false}, MarkerShape::center_of_mass, 6.5f});
+        frame_.markers.push_back(
+            {center, {style::center_color, 1.0f, false}, MarkerShape::center_of_mass, style::center_radius});
     if (shows(Overlay::names))
-        frame_.labels.push_back({center, {{250, 250, 250}, 1.0f, false}, shortened(scene_->bodies[i].name), 15.0f});
+        frame_.labels.push_back({center, {style::center_color, 1.0f, false}, shortened(scene_->bodies[i].name), 15.0f});
 }
 
 void OverlayBuilder::add_box(std::size_t body, const BodyState& state) {
@@ -228,19 +196,19 @@ void OverlayBuilder::add_box(std::size_t body, const BodyState& state) {
     OverlayLine line;
     for (const unsigned bits : {0u, 1u, 3u, 2u, 0u, 4u, 5u, 1u, 5u, 7u, 3u, 7u, 6u, 2u, 6u, 4u})
         line.points.push_back(corner(bits));
-    line.paint = {{255, 222, 90}, 0.9f, true};
-    line.width = 1.4f;
+    line.paint = {style::box_color, style::box_opacity, true};
+    line.width = style::box_width;
     frame_.lines.push_back(std::move(line));
 }
 
 void OverlayBuilder::add_axes(std::size_t body, const BodyState& state) {
     const Mat3 rotation = state.orientation.toRotationMatrix();
-    const double length = axis_length * radii_[body];
+    const double length = style::axis_length * radii_[body];
     for (int k = 0; k < 3; ++k)
         frame_.arrows.push_back({state.center_of_mass,
                                  state.center_of_mass + length * rotation.col(k),
-                                 {axis_colors[std::size_t(k)], 1.0f, true, float(2.0 * radii_[body])},
-                                 2.4f,
+                                 {style::axis_colors[k], 1.0f, true, float(2.0 * radii_[body])},
+                                 style::axis_width,
                                  false});
 }
 
@@ -254,17 +222,19 @@ void OverlayBuilder::add_contacts(const ContactRecords& records) {
             if (shows_friction(v.normal, v.tangential)) {
                 frame_.arrows.push_back({r.point,
                                          r.point + scales_[std::size_t(ArrowQuantity::force)] * v.tangential,
-                                         {friction_color, 1.0f, true},
-                                         2.0f,
+                                         {style::friction_color, 1.0f, true},
+                                         style::friction_width,
                                          false});
             }
         }
         if (shows(Overlay::normals)) {
-            const double length = normal_length * std::max(radii_[r.a], radii_[r.b]);
-            frame_.arrows.push_back({r.point, r.point + length * r.normal, {normal_color, 1.0f, true}, 1.8f, false});
+            const double length = style::normal_length * std::max(radii_[r.a], radii_[r.b]);
+            frame_.arrows.push_back(
+                {r.point, r.point + length * r.normal, {style::normal_color, 1.0f, true}, style::normal_width, false});
         }
         if (shows(Overlay::contacts))
-            frame_.markers.push_back({r.point, {contact_color(r.state), 1.0f, true}, contact_shape(r.features), 4.2f});
+            frame_.markers.push_back(
+                {r.point, {contact_color(r.state), 1.0f, true}, contact_shape(r.features), style::contact_radius});
     }
 }
 
@@ -272,8 +242,11 @@ void OverlayBuilder::add_loads(const Snapshot& snapshot) {
     const double scale = scales_[std::size_t(ArrowQuantity::force)];
     const auto add = [&](std::size_t body, const Vec3& from, const Vec3& force) {
         if (shown_[body] == 0 || force == Vec3::Zero()) return;
-        frame_.arrows.push_back(
-            {from, from + scale * force, {load_color, 1.0f, true, float(2.0 * radii_[body])}, 3.2f, false});
+        frame_.arrows.push_back({from,
+                                 from + scale * force,
+                                 {style::load_color, 1.0f, true, float(2.0 * radii_[body])},
+                                 style::arrow_width,
+                                 false});
     };
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
         add(i, snapshot.bodies[i].center_of_mass, snapshot.bodies[i].mass * scene_->simulation.gravity);
@@ -291,7 +264,7 @@ void OverlayBuilder::add_impulses(double time) {
     for (const ImpactRecord& impact : impacts_) {
         const double age = visible > 0.0 ? (time - impact.when.time) / visible : 0.0;
         arrow(ArrowQuantity::impulse, impact.point, vector_of(impact, *scene_).total(),
-              float(1.0 - 0.75 * std::clamp(age, 0.0, 1.0)));
+              float(1.0 - style::impulse_fade * std::clamp(age, 0.0, 1.0)));
     }
 }
 
@@ -303,12 +276,14 @@ void OverlayBuilder::add_joints(const Snapshot& snapshot, const ContactRecords& 
         for (const SketchLine& drawn : sketch.lines) {
             OverlayLine line;
             for (const SketchPoint& point : drawn.points) line.points.push_back(point.in_world(snapshot));
-            line.paint = paint(!drawn.limit ? joint_color : state.limit != 0 ? at_limit_color : limit_color);
-            line.width = drawn.limit ? limit_width : joint_width;
+            line.paint = paint(!drawn.limit       ? style::joint_color
+                               : state.limit != 0 ? style::at_limit_color
+                                                  : style::limit_color);
+            line.width = drawn.limit ? style::limit_width : style::joint_width;
             frame_.lines.push_back(std::move(line));
         }
         const Vec3 anchor = sketch.anchor.in_world(snapshot);
-        frame_.markers.push_back({anchor, paint(joint_color), sketch.marker, anchor_radius});
+        frame_.markers.push_back({anchor, paint(style::joint_color), sketch.marker, style::anchor_radius});
         const std::size_t before = frame_.arrows.size();
         arrow(ArrowQuantity::force, anchor, state.mean_force);
         arrow(ArrowQuantity::torque, anchor, state.mean_torque);
@@ -326,9 +301,11 @@ void OverlayBuilder::body_arrow(ArrowQuantity quantity, std::size_t body, const 
 void OverlayBuilder::arrow(ArrowQuantity quantity, const Vec3& from, const Vec3& value, float opacity) {
     const Vec3 way = scales_[std::size_t(quantity)] * value;
     if (way == Vec3::Zero()) return;
-    const bool axial = quantity == ArrowQuantity::omega || quantity == ArrowQuantity::angular_momentum ||
-                       quantity == ArrowQuantity::torque;
-    frame_.arrows.push_back({from, from + way, {arrow_color(scene_->overlay, quantity), opacity, true}, 3.2f, axial});
+    frame_.arrows.push_back({from,
+                             from + way,
+                             {arrow_color(scene_->overlay, quantity), opacity, true},
+                             style::arrow_width,
+                             style::arrows[std::size_t(quantity)].axial});
 }
 
 }  // namespace tumble

@@ -92,12 +92,8 @@ private:
 double radius_about_origin(const Shape& shape);
 /// The color of the arrows of a quantity.
 Color arrow_color(const OverlayDescription& overlay, ArrowQuantity quantity);
-/// Colors of the friction part of a contact force, of weights and forces at points, and of normals.
-inline constexpr Color friction_color{255, 122, 60}, load_color{70, 120, 255}, normal_color{236, 240, 246};
 /// Color of contact points, by state.
 Color contact_color(ContactRecord::State state);
 MarkerShape contact_shape(ContactFeatures features);
-inline constexpr Color asleep_color{120, 140, 255};
-inline constexpr std::array<Color, 3> axis_colors{Color{255, 84, 84}, Color{72, 214, 96}, Color{84, 140, 255}};
 
 }  // namespace tumble

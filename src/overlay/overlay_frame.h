@@ -1,9 +1,10 @@
 // The shapes that overlays draw in one frame, without pixels. Positions are in the world frame, m; sizes on the screen
-// are in units of a picture 720 pixels high.
+// are in units of a picture `style::unit_height` pixels high.
 #pragma once
 
 #include "core/color.h"
 #include "core/vector.h"
+#include "overlay/overlay_style.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -16,7 +17,7 @@
 namespace tumble {
 
 /// Pixels of a unit of sizes on the screen. In small pictures shapes stay thick and text stays readable.
-inline double overlay_unit(int height) { return std::max(height / 720.0, 0.6); }
+inline double overlay_unit(int height) { return std::max(height / style::unit_height, style::least_unit); }
 
 /// How a shape is seen: its color, its opacity (0 to 1), and whether bodies in front of it make it faint.
 struct OverlayPaint {

@@ -129,7 +129,7 @@ SurfaceCover OverlayPainter::cover(const Camera& camera, const OverlaySurface& s
     corners_.clear();
     const Vec3 center = camera.relative(surface.origin);
     const Mat3 rotation = surface.orientation.toRotationMatrix();
-    const Vec3 light = (Vec3(0.0, 1.0, 0.0) - 1.2 * camera.forward()).normalized();
+    const Vec3 light = (Vec3(0.0, 1.0, 0.0) - style::ghost_light_from_eye * camera.forward()).normalized();
     const double least = nearest * camera.target_distance();
     const Triangles& all = triangles(surface.body);
     for (std::size_t i = 0; i + 2 < all.size(); i += 3) {
@@ -139,10 +139,12 @@ SurfaceCover OverlayPainter::cover(const Camera& camera, const OverlaySurface& s
             const Vec3 place = center + rotation * all[i + k].position;
             in_front = place.dot(camera.forward()) > least;
             if (in_front)
-                triangle[k] = {
-                    project(camera, place),
-                    surface.shaded ? 0.25 + 0.75 * std::max(0.0, (rotation * all[i + k].normal).dot(light)) : 1.0,
-                    surface.shaded ? all[i + k].color : surface.paint.color};
+                triangle[k] = {project(camera, place),
+                               surface.shaded
+                                   ? style::ghost_ambient + (1.0 - style::ghost_ambient) *
+                                                                std::max(0.0, (rotation * all[i + k].normal).dot(light))
+                                   : 1.0,
+                               surface.shaded ? all[i + k].color : surface.paint.color};
         }
         if (in_front) corners_.insert(corners_.end(), triangle.begin(), triangle.end());
     }
@@ -188,7 +190,7 @@ const Image& OverlayPainter::text_picture(const OverlayLabel& label) {
     style.anchor = 0.5;
     const double width = Canvas(1, 1, 1.0).text_width(label.text, style) + 0.9 * label.size, height = 1.5 * label.size;
     Canvas canvas(int(std::ceil(width * unit_)), int(std::ceil(height * unit_)), unit_);
-    canvas.fill({0.0, 0.0, width, height}, {{18, 22, 30}, 0.6}, 0.35 * label.size);
+    canvas.fill({0.0, 0.0, width, height}, {style::label_background_color, 0.6}, 0.35 * label.size);
     canvas.text({0.5 * width, 1.08 * label.size}, label.text, style);
     return found->second = canvas.image();
 }

@@ -1,6 +1,7 @@
 #include "overlay/overlay_scales.h"
 
 #include "core/deterministic_math.h"
+#include "overlay/overlay_style.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,10 +11,9 @@ namespace {
 
 // Parts of the visible height at the camera's target.
 constexpr double common_length = 1.0 / 10.0, longest_length = 0.8;
-constexpr double least_friction = 0.02;  // of the normal force
-constexpr double noise = 1e-3;           // of the largest size: smaller ones are not counted
-constexpr double rounding = 1e-9;        // of the largest force times the visible height: smaller torques are zero
-constexpr double least_size = 1e-100;    // SI units: smaller ones are zero but for rounding, and have no finite scale
+constexpr double noise = 1e-3;         // of the largest size: smaller ones are not counted
+constexpr double rounding = 1e-9;      // of the largest force times the visible height: smaller torques are zero
+constexpr double least_size = 1e-100;  // SI units: smaller ones are zero but for rounding, and have no finite scale
 
 constexpr std::array<Overlay, arrow_quantity_count> shown_by{
     Overlay::forces,   Overlay::impulses,         Overlay::velocity, Overlay::omega,
@@ -60,7 +60,7 @@ void OverlayMarks::add(const OverlayMarks& others) {
 }
 
 bool shows_friction(const Vec3& normal, const Vec3& tangential) {
-    return tangential.norm() > least_friction * normal.norm();
+    return tangential.norm() > style::least_friction * normal.norm();
 }
 
 bool shows(const OverlayDescription& overlay, ArrowQuantity quantity) {

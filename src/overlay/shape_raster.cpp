@@ -12,31 +12,26 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr int tile = 16;               // pixels
-constexpr double most_halo = 1.3;      // pixels of dark outline, so that shapes are seen on bright and on dark ground
-constexpr double halo_opacity = 0.55;  // of that outline
-constexpr Color halo_color{16, 20, 28};
+constexpr int tile = 16;  // pixels
 // A shape that lies in a surface counts as visible: relative depth, and pixels at the surface's distance.
 constexpr double depth_tolerance = 2e-3, depth_tolerance_pixels = 4.0;
-constexpr double head_length = 4.2, head_half_width = 1.75;  // in widths of the shaft
-constexpr double second_head = 0.62;                         // distance of the second head, in lengths of a head
 
 /// Thin shapes have a thin outline, which would else be all that is seen of them.
-double halo_width(double width) { return std::min(most_halo, 0.4 * width); }
+double halo_width(double width) { return std::min(style::most_halo, style::halo_of_width * width); }
 
 float coverage(float distance) { return std::min(std::max(0.5f - distance, 0.0f), 1.0f); }
 
 /// An arrow in its own coordinates: along from the foot, across from the axis, in pixels.
 struct ArrowOutline {
     ArrowOutline(double length_, double width, int heads_) : length(length_), half_width(0.5 * width), heads(heads_) {
-        const double room = length / (1.0 + second_head * (heads - 1));
-        const double scale = std::min(1.0, room / (head_length * width));
-        head = scale * head_length * width;
-        half_base = std::max(scale * head_half_width * width, half_width);
-        shaft_end = std::max(0.0, length - (0.7 + second_head * (heads - 1)) * head);
+        const double room = length / (1.0 + style::second_head * (heads - 1));
+        const double scale = std::min(1.0, room / (style::head_length * width));
+        head = scale * style::head_length * width;
+        half_base = std::max(scale * style::head_half_width * width, half_width);
+        shaft_end = std::max(0.0, length - (style::head_overlap + style::second_head * (heads - 1)) * head);
         slope = std::hypot(head, half_base);
         halo = halo_width(width);
-        heads_start = length - (1.0 + second_head * (heads - 1)) * head - halo - 0.5;
+        heads_start = length - (1.0 + style::second_head * (heads - 1)) * head - halo - 0.5;
     }
 
     double length, half_width, head, half_base, shaft_end, slope, halo, heads_start;
@@ -50,7 +45,7 @@ struct ArrowDistance {
           shaft_end(float(o.shaft_end)),
           head(float(o.head)),
           tip(float(o.length)),
-          second_tip(float(o.heads > 1 ? o.length - second_head * o.head : o.length)),
+          second_tip(float(o.heads > 1 ? o.length - style::second_head * o.head : o.length)),
           along_part(float(o.half_base / o.slope)),
           across_part(float(o.head / o.slope)) {}
 
@@ -127,7 +122,7 @@ inline void mix(std::uint8_t* p, Color color, int share) {
 /// A paint, and its shares where the shape covers a whole pixel: 256 is opaque.
 struct Brush {
     explicit Brush(const OverlayPaint& paint)
-        : color(paint.color), share(float(256.0 * paint.opacity)), halo_share(float(halo_opacity) * share) {}
+        : color(paint.color), share(float(256.0 * paint.opacity)), halo_share(float(style::halo_opacity) * share) {}
     /// `own`, `halo`: shares of the shape and of its dark outline below it.
     void draw(std::uint8_t* p, int own, int halo) const {
         if (own >= 256) {  // most pixels of a shape
@@ -137,7 +132,7 @@ struct Brush {
             p[3] = 255;
             return;
         }
-        if (halo > 0) mix(p, halo_color, halo);
+        if (halo > 0) mix(p, style::halo_color, halo);
         if (own > 0) mix(p, color, own);
     }
     Color color;
@@ -319,7 +314,7 @@ void ShapeRaster::marker(const ScreenPoint& at, double radius, MarkerShape shape
     const auto nearness = [near](int) { return near; };
     const auto center = float(box.left + 0.5 - at.pixel.x());
     OverlayPaint dark = paint;
-    dark.color = {24, 28, 36};
+    dark.color = style::center_dark_color;
     with_marker_distance(shape, float(radius), [&](const auto& distance) {
         for (int y = box.top; y < box.bottom; ++y) {
             const auto dy = float(y + 0.5 - at.pixel.y());

@@ -20,11 +20,6 @@ Json point_json(const SketchPoint& point) {
     return {point.body ? Json(*point.body) : Json(-1), point.at.x(), point.at.y(), point.at.z()};
 }
 
-const char* marker_name(MarkerShape shape) {
-    if (shape == MarkerShape::ring) return "ring";
-    return shape == MarkerShape::square ? "square" : "disc";
-}
-
 Json vectors_json(const PageRun& run, std::size_t joint, Vec3 JointState::*member, ArrayStore& arrays) {
     double most = 0.0;
     for (const auto& frame : run.joint_states) most = std::max(most, (frame[joint].*member).norm());
@@ -58,7 +53,7 @@ Json make_joint_marks(const PageRun& run, ArrayStore& arrays) {
             states.push_back(!state.active ? 0 : state.limit == 0 ? 1 : 2);
         }
         marks.push_back({{"name", run.scene.joints[sketch.joint].name},
-                         {"marker", marker_name(sketch.marker)},
+                         {"marker", style::markers[std::size_t(sketch.marker)]},
                          {"anchor", point_json(sketch.anchor)},
                          {"allowance", sketch.allowance},
                          {"lines", std::move(lines)},

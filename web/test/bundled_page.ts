@@ -2,6 +2,7 @@
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { build } from "esbuild";
+import { glsl_plugin } from "../build/glsl.mjs";
 import { repository } from "./paths.mjs";
 import { temporary_folder } from "./temporary_folder.ts";
 
@@ -30,6 +31,7 @@ async function make_inline_page(entry: Parameters<typeof build>[0], options: Bun
   const bundle = await build({
     ...entry, bundle: true, write: false, format: "iife", target: "chrome110", charset: "ascii",
     absWorkingDir: join(repository, "web"), loader: { ".css": "text" },
+    plugins: [glsl_plugin()],
   });
   const script = bundle.outputFiles![0].text.replaceAll("</script", "<\\/script");
   const path = join(temporary_folder, `bundled_page${pages++}.html`);

@@ -5,7 +5,7 @@ import type { Impact, Mat3, Run, Vec3 } from "../src/data/clip.ts";
 import { impulse_terms, solve_impulse } from "../src/panels/impulse_equation.ts";
 import { impulses_together, joint_row } from "../src/panels/joint_impulses.ts";
 import { add, cross, dot, inverse, multiply, scaled, subtract, transform } from "../src/panels/linear.ts";
-import { joint_column, read_subjects } from "../src/panels/quantities.ts";
+import { body_quantities, joint_column, read_subjects, scene_quantities } from "../src/panels/quantities.ts";
 import { energy_stack, plot_series } from "../src/panels/series.ts";
 import { number_text, tick_text, trimmed_text } from "../src/ui/format.ts";
 import { moment_at, moment_text, moments_of, next_moment, previous_moment } from "../src/ui/moments.ts";
@@ -156,6 +156,13 @@ test("names of plots are read as `tumble plot` has them", () => {
   const named: Run = { ...run, scene: { ...run.scene, bodies: run.scene.bodies.map((body, i) => ({ ...body, name: ["a", "ball.v2", "c"][i] })) } };
   assert.deepEqual(read_subjects("energy, body.ball.v2.spin,total,body.none.y,nonsense", named),
     [{ kind: "energy" }, { kind: "body", quantity: "spin", body: 1 }, { kind: "scene", quantity: "total" }]);
+});
+
+test("each quantity of the list that the program and pages share has a value", () => {
+  assert.ok(body_quantities.size > 11 && scene_quantities.size > 6);
+  const state = run.motion.state(ball, 1);
+  for (const [name, { value }] of body_quantities) assert.equal(typeof value(run, ball, state), "number", name);
+  for (const [name, { value }] of scene_quantities) assert.equal(typeof value(run, 1), "number", name);
 });
 
 test("a column of a joint is a plot, linear between frames", () => {

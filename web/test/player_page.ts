@@ -2,6 +2,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { build, type BuildOptions } from "esbuild";
+import { glsl_plugin } from "../build/glsl.mjs";
 import { math_plugin } from "../build/math.mjs";
 import { repository } from "./paths.mjs";
 import { temporary_folder } from "./temporary_folder.ts";
@@ -11,7 +12,7 @@ const web = join(repository, "web");
 async function bundled(options: BuildOptions): Promise<string> {
   const result = await build({
     bundle: true, write: false, target: "chrome110", charset: "ascii", absWorkingDir: web, loader: { ".woff2": "dataurl" },
-    plugins: [math_plugin()], ...options,
+    plugins: [glsl_plugin(), math_plugin()], ...options,
   });
   return result.outputFiles![0].text;
 }

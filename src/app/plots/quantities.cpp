@@ -1,5 +1,6 @@
 #include "app/plots/quantities.h"
 
+#include "app/plots/quantity_texts.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "scene/toml/error_text.h"
@@ -14,70 +15,80 @@
 namespace tumble {
 namespace {
 
-struct SceneQuantity {
-    std::string_view name, label, panel;
+// Names, texts and units are in quantity_texts.json, which pages have as well. A name that is not there does not compile.
+template <class Item, std::size_t n>
+consteval Item texts_of(const Item (&items)[n], std::string_view name) {
+    for (const Item& item : items)
+        if (item.name == name) return item;
+    throw "not in quantity_texts.json";
+}
+
+template <class Item>
+std::string panel_of(const Item& texts) {
+    return texts.unit.empty() ? std::string(texts.axis) : fmt::format("{} ({})", texts.axis, texts.unit);
+}
+
+struct SceneQuantity : style::scene_quantities_item {
     double (*value)(const Measurement&);
 };
+consteval auto scene(std::string_view name) { return texts_of(style::scene_quantities, name); }
 constexpr std::array scene_quantities{
-    SceneQuantity{"kinetic", "kinetic", "energy (J)", [](const Measurement& m) { return m.kinetic; }},
-    SceneQuantity{"potential", "potential", "energy (J)", [](const Measurement& m) { return m.potential; }},
-    SceneQuantity{"total", "total", "energy (J)",
-                  [](const Measurement& m) { return m.kinetic + m.potential + m.elastic; }},
-    SceneQuantity{"momentum", "|P|", "momentum (kg m/s)", [](const Measurement& m) { return m.momentum.norm(); }},
-    SceneQuantity{"angular-momentum", "|L|", "angular momentum (kg m²/s)",
-                  [](const Measurement& m) { return m.angular_momentum.norm(); }},
-    SceneQuantity{"contacts", "contacts", "contact points", [](const Measurement& m) { return double(m.contacts); }},
-    SceneQuantity{"penetration", "penetration", "deepest penetration (m)",
-                  [](const Measurement& m) { return m.max_penetration; }},
+    SceneQuantity{scene("kinetic"), [](const Measurement& m) { return m.kinetic; }},
+    SceneQuantity{scene("potential"), [](const Measurement& m) { return m.potential; }},
+    SceneQuantity{scene("total"), [](const Measurement& m) { return m.kinetic + m.potential + m.elastic; }},
+    SceneQuantity{scene("momentum"), [](const Measurement& m) { return m.momentum.norm(); }},
+    SceneQuantity{scene("angular-momentum"), [](const Measurement& m) { return m.angular_momentum.norm(); }},
+    SceneQuantity{scene("contacts"), [](const Measurement& m) { return double(m.contacts); }},
+    SceneQuantity{scene("penetration"), [](const Measurement& m) { return m.max_penetration; }},
 };
 
-struct BodyQuantity {
-    std::string_view name, panel;
+struct BodyQuantity : style::body_quantities_item {
     double (*value)(const BodyState&);
 };
+consteval auto body(std::string_view name) { return texts_of(style::body_quantities, name); }
 constexpr std::array body_quantities{
-    BodyQuantity{"x", "x (m)", [](const BodyState& b) { return b.center_of_mass.x(); }},
-    BodyQuantity{"y", "y (m)", [](const BodyState& b) { return b.center_of_mass.y(); }},
-    BodyQuantity{"z", "z (m)", [](const BodyState& b) { return b.center_of_mass.z(); }},
-    BodyQuantity{"vx", "v_x (m/s)", [](const BodyState& b) { return b.velocity.x(); }},
-    BodyQuantity{"vy", "v_y (m/s)", [](const BodyState& b) { return b.velocity.y(); }},
-    BodyQuantity{"vz", "v_z (m/s)", [](const BodyState& b) { return b.velocity.z(); }},
-    BodyQuantity{"speed", "speed (m/s)", [](const BodyState& b) { return b.velocity.norm(); }},
-    BodyQuantity{"wx", "ω_x (rad/s)", [](const BodyState& b) { return b.angular_velocity.x(); }},
-    BodyQuantity{"wy", "ω_y (rad/s)", [](const BodyState& b) { return b.angular_velocity.y(); }},
-    BodyQuantity{"wz", "ω_z (rad/s)", [](const BodyState& b) { return b.angular_velocity.z(); }},
-    BodyQuantity{"spin", "|ω| (rad/s)", [](const BodyState& b) { return b.angular_velocity.norm(); }},
+    BodyQuantity{body("x"), [](const BodyState& b) { return b.center_of_mass.x(); }},
+    BodyQuantity{body("y"), [](const BodyState& b) { return b.center_of_mass.y(); }},
+    BodyQuantity{body("z"), [](const BodyState& b) { return b.center_of_mass.z(); }},
+    BodyQuantity{body("vx"), [](const BodyState& b) { return b.velocity.x(); }},
+    BodyQuantity{body("vy"), [](const BodyState& b) { return b.velocity.y(); }},
+    BodyQuantity{body("vz"), [](const BodyState& b) { return b.velocity.z(); }},
+    BodyQuantity{body("speed"), [](const BodyState& b) { return b.velocity.norm(); }},
+    BodyQuantity{body("wx"), [](const BodyState& b) { return b.angular_velocity.x(); }},
+    BodyQuantity{body("wy"), [](const BodyState& b) { return b.angular_velocity.y(); }},
+    BodyQuantity{body("wz"), [](const BodyState& b) { return b.angular_velocity.z(); }},
+    BodyQuantity{body("spin"), [](const BodyState& b) { return b.angular_velocity.norm(); }},
 };
 
-struct JointQuantity {
-    std::string_view name, panel;
+struct JointQuantity : style::joint_quantities_item {
     double (*value)(const JointState&);
     std::optional<std::size_t> coordinate = {};  // index into JointState::free
     bool mean_of_frame = false;
 };
+consteval auto joint(std::string_view name) { return texts_of(style::joint_quantities, name); }
 // The columns of `simulate --joints`, and the lengths of force and torque.
 constexpr std::array joint_quantities{
-    JointQuantity{"move_x", "displacement along x (m)", [](const JointState& j) { return j.position[0]; }, 0},
-    JointQuantity{"move_y", "displacement along y (m)", [](const JointState& j) { return j.position[1]; }, 1},
-    JointQuantity{"move_z", "displacement along z (m)", [](const JointState& j) { return j.position[2]; }, 2},
-    JointQuantity{"turn_x", "angle about x (rad)", [](const JointState& j) { return j.position[3]; }, 3},
-    JointQuantity{"turn_y", "angle about y (rad)", [](const JointState& j) { return j.position[4]; }, 4},
-    JointQuantity{"turn_z", "angle about z (rad)", [](const JointState& j) { return j.position[5]; }, 5},
-    JointQuantity{"move_x_speed", "speed along x (m/s)", [](const JointState& j) { return j.speed[0]; }, 0},
-    JointQuantity{"move_y_speed", "speed along y (m/s)", [](const JointState& j) { return j.speed[1]; }, 1},
-    JointQuantity{"move_z_speed", "speed along z (m/s)", [](const JointState& j) { return j.speed[2]; }, 2},
-    JointQuantity{"turn_x_speed", "speed about x (rad/s)", [](const JointState& j) { return j.speed[3]; }, 3},
-    JointQuantity{"turn_y_speed", "speed about y (rad/s)", [](const JointState& j) { return j.speed[4]; }, 4},
-    JointQuantity{"turn_z_speed", "speed about z (rad/s)", [](const JointState& j) { return j.speed[5]; }, 5},
-    JointQuantity{"force", "force (N)", [](const JointState& j) { return j.mean_force.norm(); }, {}, true},
-    JointQuantity{"fx", "F_x (N)", [](const JointState& j) { return j.mean_force.x(); }, {}, true},
-    JointQuantity{"fy", "F_y (N)", [](const JointState& j) { return j.mean_force.y(); }, {}, true},
-    JointQuantity{"fz", "F_z (N)", [](const JointState& j) { return j.mean_force.z(); }, {}, true},
-    JointQuantity{"torque", "torque (N m)", [](const JointState& j) { return j.mean_torque.norm(); }, {}, true},
-    JointQuantity{"tx", "τ_x (N m)", [](const JointState& j) { return j.mean_torque.x(); }, {}, true},
-    JointQuantity{"ty", "τ_y (N m)", [](const JointState& j) { return j.mean_torque.y(); }, {}, true},
-    JointQuantity{"tz", "τ_z (N m)", [](const JointState& j) { return j.mean_torque.z(); }, {}, true},
-    JointQuantity{"gap", "gap (m)", [](const JointState& j) { return j.gap; }},
+    JointQuantity{joint("move_x"), [](const JointState& j) { return j.position[0]; }, 0},
+    JointQuantity{joint("move_y"), [](const JointState& j) { return j.position[1]; }, 1},
+    JointQuantity{joint("move_z"), [](const JointState& j) { return j.position[2]; }, 2},
+    JointQuantity{joint("turn_x"), [](const JointState& j) { return j.position[3]; }, 3},
+    JointQuantity{joint("turn_y"), [](const JointState& j) { return j.position[4]; }, 4},
+    JointQuantity{joint("turn_z"), [](const JointState& j) { return j.position[5]; }, 5},
+    JointQuantity{joint("move_x_speed"), [](const JointState& j) { return j.speed[0]; }, 0},
+    JointQuantity{joint("move_y_speed"), [](const JointState& j) { return j.speed[1]; }, 1},
+    JointQuantity{joint("move_z_speed"), [](const JointState& j) { return j.speed[2]; }, 2},
+    JointQuantity{joint("turn_x_speed"), [](const JointState& j) { return j.speed[3]; }, 3},
+    JointQuantity{joint("turn_y_speed"), [](const JointState& j) { return j.speed[4]; }, 4},
+    JointQuantity{joint("turn_z_speed"), [](const JointState& j) { return j.speed[5]; }, 5},
+    JointQuantity{joint("force"), [](const JointState& j) { return j.mean_force.norm(); }, {}, true},
+    JointQuantity{joint("fx"), [](const JointState& j) { return j.mean_force.x(); }, {}, true},
+    JointQuantity{joint("fy"), [](const JointState& j) { return j.mean_force.y(); }, {}, true},
+    JointQuantity{joint("fz"), [](const JointState& j) { return j.mean_force.z(); }, {}, true},
+    JointQuantity{joint("torque"), [](const JointState& j) { return j.mean_torque.norm(); }, {}, true},
+    JointQuantity{joint("tx"), [](const JointState& j) { return j.mean_torque.x(); }, {}, true},
+    JointQuantity{joint("ty"), [](const JointState& j) { return j.mean_torque.y(); }, {}, true},
+    JointQuantity{joint("tz"), [](const JointState& j) { return j.mean_torque.z(); }, {}, true},
+    JointQuantity{joint("gap"), [](const JointState& j) { return j.gap; }},
 };
 
 [[noreturn]] void fail(std::string_view name, const std::string& problem) {
@@ -93,8 +104,8 @@ std::vector<std::string_view> names_of(const Items& items) {
 
 Quantity of_scene(const SceneQuantity& q) {
     return {.name = std::string(q.name),
-            .label = std::string(q.label),
-            .panel = std::string(q.panel),
+            .label = std::string(q.curve),
+            .panel = panel_of(q),
             .value = [value = q.value](const Sample& s) { return value(s.survey.measurement); },
             .needs = {.measurement = true}};
 }
@@ -131,7 +142,7 @@ Quantity of_body(std::string_view text, const SceneDescription& scene) {
     const auto found = find_part(text, "body", scene.bodies, body_quantities);
     return {.name = std::string(text),
             .label = found.part.name,
-            .panel = std::string(found.quantity.panel),
+            .panel = panel_of(found.quantity),
             .value = [index = found.index,
                       value = found.quantity.value](const Sample& s) { return value(s.snapshot.bodies[index]); },
             .needs = {},
@@ -153,7 +164,7 @@ Quantity of_joint(std::string_view text, const SceneDescription& scene) {
     }
     return {.name = std::string(text),
             .label = found.part.name,
-            .panel = std::string(found.quantity.panel),
+            .panel = panel_of(found.quantity),
             .value = [index = found.index,
                       value = found.quantity.value](const Sample& s) { return value(s.survey.joints[index]); },
             .needs = {.joints = true},
@@ -172,7 +183,7 @@ void add(std::string_view text, const SceneDescription& scene, std::vector<Quant
     }
     bool known = false;
     for (const SceneQuantity& q : scene_quantities) {
-        const bool part_of_energy = text == "energy" && q.panel == scene_quantities[0].panel;
+        const bool part_of_energy = text == "energy" && q.axis == scene_quantities[0].axis;
         if (q.name != text && !part_of_energy) continue;
         quantities.push_back(of_scene(q));
         known = true;

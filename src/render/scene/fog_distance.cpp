@@ -2,25 +2,13 @@
 
 #include "render/camera/camera.h"
 #include "render/scene/distance_outliers.h"
+#include "render/shapes/drawing_style.h"
 
 #include <algorithm>
 #include <vector>
 
 namespace tumble {
 namespace {
-
-// The target counts if its distance is within this factor of the median distance of the bodies.
-constexpr double about_there = 2.0;
-
-// Distance at which fog is half of the light, in reference distances: the ground fades out, the bodies stay clear.
-constexpr double half_fog = 5.0;
-
-// A body counts as large on the screen from this part of the image height on (7 pixels of 720). Lost bodies are
-// smaller.
-constexpr double large_part = 0.01;
-
-// Lower limit of the half-fog distance, in distances of the near side of such a body: 6 % of its light is fog.
-constexpr double beyond_large = 2.0;
 
 // Distance from a point to the bounding box of a body, m; 0 inside.
 double gap_to(const Vec3& eye, const RenderBody& proxy, const Vec3& origin, const Quat& rotation) {
@@ -47,22 +35,24 @@ double viewing_distance(const SceneDescription& description, const RenderScene& 
     };
     if (description.camera.keyframes.empty()) add(description.camera.eye, description.camera.target);
     for (const CameraKeyframe& key : description.camera.keyframes) add(key.eye, key.target);
-    if (to_bodies > 0.0) to_target = std::clamp(to_target, to_bodies / about_there, to_bodies * about_there);
+    if (to_bodies > 0.0)
+        to_target = std::clamp(to_target, to_bodies / style::about_there, to_bodies * style::about_there);
     return to_target > 0.0 ? to_target : 1.0;
 }
 
 double fog_distance(const SceneDescription& description, const RenderScene& scene, double viewing_distance) {
-    double distance = half_fog * viewing_distance;
+    double distance = style::half_fog * viewing_distance;
     CameraDescription camera = description.camera;
     camera.keyframes.clear();
     const auto seen_from_camera = [&] {
         const Camera view(camera, description.output.width, description.output.height);
-        const double least_slope = large_part * view.pixel_size() * view.height();  // of a body's width to its distance
+        const double least_slope =
+            style::large_part * view.pixel_size() * view.height();  // of a body's width to its distance
         const auto add = [&](const RenderBody& proxy, const Vec3& origin, const Quat& rotation) {
             const Vec3 center = view.relative(origin + rotation * proxy.bound_center);
             const bool large = 2.0 * proxy.bound_radius >= least_slope * center.norm();
             if (large && (description.camera.moves() || view.sees(center, proxy.bound_radius)))
-                distance = std::max(distance, beyond_large * gap_to(camera.eye, proxy, origin, rotation));
+                distance = std::max(distance, style::beyond_large * gap_to(camera.eye, proxy, origin, rotation));
         };
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
             const RenderBody& proxy = scene.bodies[i];

@@ -1,6 +1,7 @@
 #include "render/scene/plane_patch.h"
 
 #include "render/gl/glm_conversion.h"
+#include "render/shapes/drawing_style.h"
 
 #include <cmath>
 #include <optional>
@@ -46,7 +47,7 @@ PlaneShape plane_in_world(const RenderBody& proxy, const BodyState& state) {
 }
 
 double pattern_cell(double viewing_distance) {
-    const double target = viewing_distance / 15.0;
+    const double target = viewing_distance / style::ground_cells;
     double power = 1.0;
     while (power > target) power /= 10.0;
     while (power * 10.0 <= target) power *= 10.0;

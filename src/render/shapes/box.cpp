@@ -1,22 +1,18 @@
 #include "render/shapes/drawn_shape.h"
 
+#include "render/shapes/drawing_style.h"
+
 #include <utility>
 
 namespace tumble {
-namespace {
-
-// Width of a box's rounded edge, in parts of its shortest edge: 3 cm for a box of 1 m.
-constexpr double bevel_of_edge = 0.03;
-
-}  // namespace
 
 void set_proxy(RenderBody& proxy, const BoxShape& box, std::vector<RenderMesh>&) {
     proxy.kind = DrawKind::box;
     proxy.half_size = proxy.half_extent = 0.5 * box.size;
     proxy.bound_radius = proxy.half_size.norm();
     proxy.ao_radius = ao_radius_of(proxy.half_size);
-    proxy.bevel = bevel_of_edge * box.size.minCoeff();
-    proxy.pattern_cell = pattern_cell_of_radius * proxy.half_size.minCoeff();
+    proxy.bevel = style::bevel_of_edge * box.size.minCoeff();
+    proxy.pattern_cell = style::pattern_cell_of_radius * proxy.half_size.minCoeff();
 }
 
 double reach(const BoxShape& box) { return 0.5 * box.size.norm(); }

@@ -20,9 +20,6 @@ inline double ao_radius_of(const Vec3& half_size) {
     return std::min(h[1], 2.0 * h[0]);
 }
 
-/// A body's pattern has four cells across its thinnest side.
-inline constexpr double pattern_cell_of_radius = 0.5;
-
 /// A vertex of a surface, in the frame of the shape.
 struct SurfaceCorner {
     Vec3 position;  // m

@@ -1,5 +1,7 @@
 #include "render/shapes/drawn_shape.h"
 
+#include "render/shapes/drawing_style.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -46,7 +48,7 @@ void set_proxy(RenderBody& proxy, const MeshShape& mesh, std::vector<RenderMesh>
     proxy.bound_radius = shared.half_extent.norm();
     proxy.ao_radius =
         std::max(ao_radius_of(shared.half_extent), 1e-3 * proxy.bound_radius);  // a flat mesh has no thickness
-    proxy.pattern_cell = pattern_cell_of_radius * proxy.ao_radius;
+    proxy.pattern_cell = style::pattern_cell_of_radius * proxy.ao_radius;
 }
 
 double reach(const MeshShape& mesh) {

@@ -1,3 +1,4 @@
+#include "render/shapes/drawing_style.h"
 #include "render/shapes/drawn_shape.h"
 #include "render/shapes/primitive_meshes.h"
 
@@ -11,7 +12,7 @@ constexpr int ball_level = 3;  // 1280 triangles: smooth as a ghost of any size
 void set_proxy(RenderBody& proxy, const SphereShape& sphere, std::vector<RenderMesh>&) {
     proxy.kind = DrawKind::ball;
     proxy.half_size = proxy.half_extent = Vec3::Constant(sphere.radius);
-    proxy.pattern_cell = pattern_cell_of_radius * sphere.radius;
+    proxy.pattern_cell = style::pattern_cell_of_radius * sphere.radius;
     proxy.bound_radius = sphere.radius;
     proxy.ao_radius = ao_radius_of(proxy.half_size);
 }

@@ -1,5 +1,6 @@
 // A clip as the player sees it: one or several runs of a scene, ready to be asked for any moment. SI units, world frame,
 // y up, unless said otherwise. `decode_clip()` makes it from the data of a page; the player knows nothing of its layout.
+import overlay_style from "../../../src/overlay/overlay_style.json";
 
 export type Vec3 = [number, number, number];
 /** w, x, y, z; unit. */
@@ -227,8 +228,8 @@ export interface ContactTable {
   /** Index into features. */
   feature: Uint8Array;
 }
-export const contact_states = ["stick", "slip", "asleep", "open"] as const;
-export const features = ["vertex-face", "face-vertex", "edge-edge", "face-face", "sphere", "mesh"] as const;
+export const contact_states = overlay_style.contact_states.map(({ name }) => name);
+export const features = overlay_style.contact_features.map(({ name }) => name);
 export const nobody = 0xffffffff;
 
 /** Gravity, wind and forces at points, on dynamic bodies: means over the frame that ends at a frame's time. */

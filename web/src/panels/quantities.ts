@@ -1,10 +1,10 @@
 // Quantities that plots show: those of `tumble plot --of`, and more of a body. Of joints those that the page has.
+import texts from "../../../src/app/plots/quantity_texts.json";
 import type { BodyState, EnergyTable, Run, Vec3 } from "../data/clip.ts";
 import { add, cross, dot, norm, transform, turned } from "./linear.ts";
 
 export interface BodyQuantity {
   label: string;
-  symbol: string;
   unit: string;
   value(run: Run, body: number, state: BodyState): number;
 }
@@ -13,14 +13,6 @@ export interface SceneQuantity {
   label: string;
   unit: string;
   value(run: Run, frame: number): number;
-}
-
-const axes = ["x", "y", "z"];
-
-function components(prefix: string, label: string, symbol: string, unit: string, vector: (state: BodyState) => Vec3): [string, BodyQuantity][] {
-  return axes.map((axis, index) => [prefix + axis, {
-    label: `${label} ${axis}`, symbol: `${symbol}${axis}`, unit, value: (_run, _body, state) => vector(state)[index],
-  }]);
 }
 
 function rotation_energy(run: Run, body: number, state: BodyState): number {
@@ -37,23 +29,22 @@ export function potential_energy(run: Run, body: number, state: BodyState): numb
   return -run.scene.bodies[body].mass * dot(run.settings.gravity, state.position);
 }
 
-export const body_quantities = new Map<string, BodyQuantity>([
-  ...axes.map((axis, index): [string, BodyQuantity] => [axis, {
-    label: index === 1 ? "height y" : `position ${axis}`, symbol: axis, unit: "m", value: (_run, _body, state) => state.position[index],
-  }]),
-  ...components("v", "velocity", "v", "m/s", (state) => state.velocity),
-  ["speed", { label: "speed", symbol: "|v|", unit: "m/s", value: (_run, _body, state) => norm(state.velocity) }],
-  ...components("w", "angular velocity", "\u03c9", "rad/s", (state) => state.angular_velocity),
-  ["spin", { label: "spin", symbol: "|\u03c9|", unit: "rad/s", value: (_run, _body, state) => norm(state.angular_velocity) }],
-  ...components("p", "momentum", "P", "N s", (state) => state.momentum),
-  ...components("l", "angular momentum", "L", "N m s", (state) => state.angular_momentum),
-  ["kinetic", { label: "kinetic energy", symbol: "E", unit: "J", value: kinetic_energy }],
-  ["potential", { label: "potential energy", symbol: "E", unit: "J", value: potential_energy }],
-]);
-
-function column(label: string, unit: string, of: (energy: EnergyTable, frame: number) => number): SceneQuantity {
-  return { label, unit, value: (run, frame) => of(run.energy, frame) };
-}
+const of_state = (value: (state: BodyState) => number): BodyQuantity["value"] => (_run, _body, state) => value(state);
+const components = (prefix: string, vector: (state: BodyState) => Vec3) =>
+  Object.fromEntries(["x", "y", "z"].map((axis, index) => [prefix + axis, of_state((state) => vector(state)[index])]));
+const body_values: Record<string, BodyQuantity["value"]> = {
+  ...components("", (state) => state.position),
+  ...components("v", (state) => state.velocity),
+  speed: of_state((state) => norm(state.velocity)),
+  ...components("w", (state) => state.angular_velocity),
+  spin: of_state((state) => norm(state.angular_velocity)),
+  ...components("p", (state) => state.momentum),
+  ...components("l", (state) => state.angular_momentum),
+  kinetic: kinetic_energy,
+  potential: potential_energy,
+};
+export const body_quantities = new Map<string, BodyQuantity>([...texts.body_quantities, ...texts.page_body_quantities].map(
+  ({ name, title, unit }) => [name, { label: title, unit, value: body_values[name] }]));
 
 /** Over the dynamic bodies. */
 function sum(run: Run, frame: number, of: (state: BodyState) => Vec3): Vec3 {
@@ -64,45 +55,24 @@ function sum(run: Run, frame: number, of: (state: BodyState) => Vec3): Vec3 {
   return total;
 }
 
-export const scene_quantities = new Map<string, SceneQuantity>([
-  ["kinetic", column("kinetic energy", "J", (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i])],
-  ["potential", column("potential energy", "J", (e, i) => e.potential[i])],
-  ["total", column("total energy", "J", (e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] + e.potential[i] + e.elastic[i])],
-  ["momentum", { label: "total momentum |P|", unit: "N s", value: (run, frame) => norm(sum(run, frame, (state) => state.momentum)) }],
-  ["angular-momentum", {
-    label: "total angular momentum |L|", unit: "N m s",
-    value: (run, frame) => norm(sum(run, frame, (state) => add(cross(state.position, state.momentum), state.angular_momentum))),
-  }],
-  ["contacts", column("contact points", "", (e, i) => e.contacts[i])],
-  ["penetration", column("deepest overlap", "m", (e, i) => e.max_penetration[i])],
-]);
-
-interface JointQuantity {
-  label: string;
-  unit: string;
-}
-
-function joint_components(prefix: string, suffix: string, label: string, unit: string): [string, JointQuantity][] {
-  return axes.map((axis) => [prefix + axis + suffix, { label: `${label} ${axis}`, unit }]);
-}
-
-const joint_quantities = new Map<string, JointQuantity>([
-  ...joint_components("move_", "", "displacement", "m"),
-  ...joint_components("turn_", "", "angle about", "rad"),
-  ...joint_components("move_", "_speed", "speed along", "m/s"),
-  ...joint_components("turn_", "_speed", "speed about", "rad/s"),
-  ["force", { label: "force", unit: "N" }],
-  ...joint_components("f", "", "force", "N"),
-  ["torque", { label: "torque", unit: "N m" }],
-  ...joint_components("t", "", "torque", "N m"),
-  ["gap", { label: "gap", unit: "m" }],
-]);
+const column = (of: (energy: EnergyTable, frame: number) => number): SceneQuantity["value"] => (run, frame) => of(run.energy, frame);
+const scene_values: Record<string, SceneQuantity["value"]> = {
+  kinetic: column((e, i) => e.kinetic_linear[i] + e.kinetic_angular[i]),
+  potential: column((e, i) => e.potential[i]),
+  total: column((e, i) => e.kinetic_linear[i] + e.kinetic_angular[i] + e.potential[i] + e.elastic[i]),
+  momentum: (run, frame) => norm(sum(run, frame, (state) => state.momentum)),
+  "angular-momentum": (run, frame) => norm(sum(run, frame, (state) => add(cross(state.position, state.momentum), state.angular_momentum))),
+  contacts: column((e, i) => e.contacts[i]),
+  penetration: column((e, i) => e.max_penetration[i]),
+};
+export const scene_quantities = new Map<string, SceneQuantity>(texts.scene_quantities.map(
+  ({ name, title, unit }) => [name, { label: title, unit, value: scene_values[name] }]));
 
 /** Of a column of `Run.joints`; the name of a joint may hold dots. */
-export function joint_column(name: string): JointQuantity {
-  const dot = name.lastIndexOf(".");
-  const quantity = joint_quantities.get(name.slice(dot + 1));
-  return { label: `${quantity?.label ?? name.slice(dot + 1)} of ${name.slice("joint.".length, dot)}`, unit: quantity?.unit ?? "" };
+export function joint_column(name: string): { label: string; unit: string } {
+  const dot = name.lastIndexOf("."), quantity = name.slice(dot + 1);
+  const { axis, unit } = texts.joint_quantities.find((each) => each.name === quantity) ?? { axis: quantity, unit: "" };
+  return { label: `${axis} of ${name.slice("joint.".length, dot)}`, unit };
 }
 
 /** A plot: the stacked energies, a quantity of the scene, a column of a joint, or a quantity of a body. */

@@ -33,8 +33,8 @@ const position = vector("position", "x", "m", (state) => state.position);
 const quaternion: Row = { name: "rotation", symbol: "<i>q</i>", unit: "", columns: 4, zero: rounding, values: (_run, _body, state) => state.rotation };
 const rotation: Row = { ...matrix("rotation", "R", "", (_run, _body, state) => rotation_matrix(state.rotation)), zero: rounding };
 const rest_of_state: Row[] = [
-  vector("momentum", "P", "N s", (state) => state.momentum, (run, body) => run.scene.bodies[body].mass * run.motion.error.velocity),
-  vector("angular momentum", "L", "N m s", (state) => state.angular_momentum,
+  vector("momentum", "P", "kg m/s", (state) => state.momentum, (run, body) => run.scene.bodies[body].mass * run.motion.error.velocity),
+  vector("angular momentum", "L", "kg m\u00b2/s", (state) => state.angular_momentum,
     (run, body) => heaviest(run.scene.bodies[body].inertia) * run.motion.error.angular_velocity),
 ];
 const derived: Row[] = [

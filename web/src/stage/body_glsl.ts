@@ -1,5 +1,6 @@
 // Programs of bodies: boxes, balls and meshes with a pose and a material for each instance (see body_batch.ts).
-import { frame_glsl, light_glsl, pattern_glsl } from "./shading_glsl.ts";
+import { style_glsl } from "./overlay_style.ts";
+import { frame_glsl, light_glsl } from "./shading_glsl.ts";
 
 const instance_glsl = /* glsl */ `
 in vec4 i_place;      // m; w: cell of the pattern, m
@@ -25,7 +26,7 @@ void main() {
   float pixel = u_pixel_size * distance(i_place.xyz, cameraPosition);
   float thinnest = min(size.x, min(size.y, size.z));
   // A bevel narrower than a pixel flickers; a box of a few pixels has none.
-  float bevel = min(max(i_size.w, pixel), 0.5 * thinnest) * max(smoothstep(4.0 * pixel, 12.0 * pixel, thinnest), 1e-3);
+  float bevel = min(max(i_size.w, pixel), 0.5 * thinnest) * max(smoothstep(flat_box * pixel, round_box * pixel, thinnest), 1e-3);
   v_rotation = i_rotation;
   v_size = vec4(size, bevel);
   v_color = i_color;
@@ -39,7 +40,7 @@ void main() {
 export const body_fragment_glsl = /* glsl */ `
 ${frame_glsl}
 ${light_glsl}
-${pattern_glsl}
+${style_glsl}
 in vec3 v_local, v_world;
 in vec3 v_normal;
 flat in vec4 v_rotation, v_size, v_color, v_material, v_tint;
@@ -53,31 +54,31 @@ void main() {
   vec3 local = clamp(v_local, -v_size.xyz, v_size.xyz), inner = v_size.xyz - v_size.w;
   vec3 normal = normalize(local - clamp(local, -inner, inner));
   if (v_material.y > 0.5) {
-    paint = triplanar_paint(v_material.y, v_cell, local, v_normal);
+    paint = triplanar_paint(vec2(v_material.y, v_cell), local, v_normal);
   } else {
     // The groove between the frame and the panel of a face.
     vec3 to_edges = v_size.xyz - abs(local) + step(0.5, abs(normalize(v_normal))) * 1e9;
     float edge = min(to_edges.x, min(to_edges.y, to_edges.z)), shortest = 2.0 * min(v_size.x, min(v_size.y, v_size.z));
-    float per_footprint = 1.0 / max(fwidth(edge), 1e-6), half_width = 0.006 * shortest;
-    float off = abs(edge - 0.13 * shortest);
+    float per_footprint = 1.0 / max(fwidth(edge), 1e-6), half_width = 0.5 * crate_groove * shortest;
+    float off = abs(edge - crate_frame * shortest);
     float groove = clamp((half_width - off) * per_footprint + 0.5, 0.0, 1.0) * min(2.0 * half_width * per_footprint, 1.0);
-    paint = 1.0 - 0.30 * groove;
+    paint = 1.0 - crate_groove_depth * groove;
   }
 #elif defined(BALL)
   vec3 normal = normalize(v_local);
   if (v_material.y > 0.5) {
-    paint = triplanar_paint(v_material.y, v_cell, v_local, normal);
+    paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
   } else {
     // Paler paint on every second octant shows the rotation; metal has none.
     vec3 side = clamp(normal / max(fwidth(normal), vec3(1e-6)), -1.0, 1.0);
     float octant = 0.5 + 0.5 * side.x * side.y * side.z, metallic = v_material.x;
-    color += octant * 0.16 * (1.0 - metallic) * (1.0 - color);
-    paint = 1.0 - octant * 0.16 * metallic;
+    color += octant * ball_contrast * (1.0 - metallic) * (1.0 - color);
+    paint = 1.0 - octant * ball_contrast * metallic;
   }
 #else
   vec3 normal = normalize(v_normal);
   normal = gl_FrontFacing ? normal : -normal;
-  if (v_material.y > 0.5) paint = triplanar_paint(v_material.y, v_cell, v_local, normal);
+  if (v_material.y > 0.5) paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
 #endif
   normal = rotate(v_rotation, normal);
   vec3 to_eye = cameraPosition - v_world;
@@ -85,13 +86,13 @@ void main() {
   to_eye *= inversesqrt(squared);
 #ifdef GHOST
   // Lit from the eye and from above, as the program's ghosts are; the paint shows how it is turned.
-  vec3 above = normalize(vec3(0.0, 1.0, 0.0) + 1.2 * to_eye);
-  vec3 shown = displayed(color) * (0.25 + 0.75 * max(dot(normal, above), 0.0)) * (0.5 + 0.5 * paint);
+  vec3 above = normalize(vec3(0.0, 1.0, 0.0) + ghost_light_from_eye * to_eye);
+  vec3 shown = displayed(color) * mix(ghost_ambient, 1.0, max(dot(normal, above), 0.0)) * (0.5 + 0.5 * paint);
   shown = mix(shown, v_tint.rgb * (0.55 + 0.45 * max(dot(normal, above), 0.0)), v_tint.w);
   pixel = vec4(shown * v_material.z, v_material.z);
 #else
   float sun = sun_visible(v_world, normal);
-  vec3 light = shade(normal, to_eye, color, paint, v_color.w, v_material.x, 1.0, sun);
+  vec3 light = paint * shade(normal, to_eye, color, v_color.w, v_material.x, 1.0, sun);
   light = in_fog(light, to_eye, squared);
   pixel = vec4(mix(displayed(light), v_tint.rgb, v_tint.w), 1.0);
 #endif

@@ -1,4 +1,5 @@
 // What is drawn of a body: compounds fall apart into boxes, balls and meshes, each with a place in the body's frame.
+import drawing_style from "../../../src/render/shapes/drawing_style.json";
 import type { Body, Mesh, Quat, Scene, Shape, Vec3 } from "../data/clip.ts";
 import { from_text, to_linear } from "./color.ts";
 import type { GeometryKey } from "./geometries.ts";
@@ -20,9 +21,7 @@ export interface Part {
 }
 
 export const patterns = ["plain", "grid", "checker"];
-const bevel_of_edge = 0.03;
-// A pattern has four cells across the thinnest side.
-const cell_of_radius = 0.5;
+const { bevel_of_edge, pattern_cell_of_radius } = drawing_style;
 const identity: Quat = [1, 0, 0, 0];
 
 export interface Box {
@@ -57,14 +56,14 @@ function add_shape(scene: Scene, body: Body, shape: Shape, position: Vec3, rotat
   } else if (shape.type === "box") {
     const half = shape.size.map((edge) => edge / 2) as Vec3;
     const thinnest = Math.min(...half);
-    to.push({ ...common, geometry: "box", size: half, bevel: 2 * bevel_of_edge * thinnest, pattern_cell: cell_of_radius * thinnest });
+    to.push({ ...common, geometry: "box", size: half, bevel: 2 * bevel_of_edge * thinnest, pattern_cell: pattern_cell_of_radius * thinnest });
   } else if (shape.type === "sphere") {
     const { radius } = shape;
-    to.push({ ...common, geometry: "ball", size: [radius, radius, radius], bevel: 0, pattern_cell: cell_of_radius * radius });
+    to.push({ ...common, geometry: "ball", size: [radius, radius, radius], bevel: 0, pattern_cell: pattern_cell_of_radius * radius });
   } else if (shape.type === "mesh") {
     const { low, high } = mesh_box(scene.meshes[shape.mesh]);
     const half = Math.min(...high.map((value, i) => (value - low[i]) / 2).filter((value) => value > 0));
-    to.push({ ...common, geometry: `mesh${shape.mesh}`, size: [1, 1, 1], bevel: 0, pattern_cell: cell_of_radius * half });
+    to.push({ ...common, geometry: `mesh${shape.mesh}`, size: [1, 1, 1], bevel: 0, pattern_cell: pattern_cell_of_radius * half });
   }
 }
 

@@ -2,11 +2,7 @@
 import type { BodyState, Run } from "../data/clip.ts";
 import { angle_between, distance } from "./math.ts";
 import type { OverlayGhost } from "./overlay_frame.ts";
-
-/** Radii of the body, and rad: a ghost nearer than that to another pose adds nothing. */
-const rested = 0.02;
-/** Of all bodies: more hide the picture, and each costs a drawing. */
-const most_ghosts = 400;
+import { style } from "./overlay_style.ts";
 
 type Place = Pick<BodyState, "origin" | "rotation">;
 
@@ -21,13 +17,13 @@ export function ghosts_until(run: Run, radii: number[], shown: Set<number>): Gho
   const last = new Map<number, GhostRow>();
   for (let frame = 0; frame < run.frames; frame += run.overlays.ghost_every)
     for (const body of shown) {
-      if (rows.length >= most_ghosts) return rows;
+      if (rows.length >= style.most_ghosts) return rows;
       const radius = radii[body];
       const time = frame / run.fps;
       const { origin, rotation } = run.motion.state(body, time);
       if (radius === 0 || last.get(body)?.near({ origin, rotation })) continue;
       const near = (other: Place) =>
-        distance(other.origin, origin) < rested * radius && angle_between(other.rotation, rotation) < rested;
+        distance(other.origin, origin) < style.rested * radius && angle_between(other.rotation, rotation) < style.rested;
       const row: GhostRow = { body, origin: [...origin], rotation: [...rotation], time, near };
       rows.push(row);
       last.set(body, row);

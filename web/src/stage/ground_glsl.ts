@@ -1,5 +1,5 @@
 // Programs of planes, and of the sky behind everything.
-import { frame_glsl, light_glsl, pattern_glsl } from "./shading_glsl.ts";
+import { frame_glsl, light_glsl } from "./shading_glsl.ts";
 
 export const plane_vertex_glsl = /* glsl */ `
 ${frame_glsl}
@@ -16,7 +16,6 @@ void main() {
 export const plane_fragment_glsl = /* glsl */ `
 ${frame_glsl}
 ${light_glsl}
-${pattern_glsl}
 uniform vec3 u_axis_u, u_axis_v, u_normal, u_origin;
 uniform vec3 u_color;           // linear
 uniform vec4 u_material;        // roughness, metallic, pattern, cell of it in m
@@ -29,13 +28,13 @@ void main() {
   vec2 width = max(abs(dFdx(cells)), abs(dFdy(cells)));
   float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);
   float paint = 1.0;
-  if (u_material.z > 1.5) paint = 1.0 - 0.26 * mix(0.5, checker(cells, width), distinct);
-  else if (u_material.z > 0.5) paint = 1.0 - 0.30 * mix(0.044, grid(cells, width, 0.022), distinct);
+  if (u_material.z > 1.5) paint = 1.0 - 2.0 * ground_contrast * mix(0.5, checker(cells, width), distinct);
+  else if (u_material.z > 0.5) paint = 1.0 - grid_line_contrast * mix(2.0 * grid_line_width, grid(cells, width, grid_line_width), distinct);
   vec3 to_eye = cameraPosition - v_world;
   float squared = dot(to_eye, to_eye);
   to_eye *= inversesqrt(squared);
   float sun = sun_visible(v_world, u_normal);
-  vec3 light = u_dim * shade(u_normal, to_eye, u_color * paint, 1.0, u_material.x, u_material.y, 1.0, sun);
+  vec3 light = u_dim * shade(u_normal, to_eye, u_color * paint, u_material.x, u_material.y, 1.0, sun);
   light = in_fog(light, to_eye, squared);
   pixel = vec4(dithered(displayed(light)), 1.0);
 }
@@ -57,6 +56,6 @@ in vec3 v_ray;
 layout(location = 0) out highp vec4 pixel;
 void main() {
   vec3 ray = normalize(v_ray);
-  pixel = vec4(dithered(displayed(sky(ray.y, dot(ray, u_to_light)))), 1.0);
+  pixel = vec4(dithered(displayed(background(ray))), 1.0);
 }
 `;

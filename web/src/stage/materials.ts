@@ -14,10 +14,7 @@ type Uniforms = Record<string, THREE.IUniform>;
 export class Materials {
   readonly frame = {
     u_to_light: { value: new THREE.Vector3(0, 1, 0) },
-    u_sky_horizon: { value: new THREE.Vector3() },
-    u_sky_zenith: { value: new THREE.Vector3() },
-    u_sky_nadir: { value: new THREE.Vector3() },
-    u_sun_glow: { value: 1 },
+    u_sky: { value: new THREE.Vector3(1, 1, 1) },
     u_dim: { value: 1 },
     u_fog: { value: 0 },
     u_pixel_size: { value: 0 },
@@ -56,11 +53,8 @@ export class Materials {
   }
 
   set_theme(theme: Theme): void {
-    const { horizon, zenith, nadir, glow, ground } = theme_of(theme);
-    this.frame.u_sky_horizon.value.set(...horizon);
-    this.frame.u_sky_zenith.value.set(...zenith);
-    this.frame.u_sky_nadir.value.set(...nadir);
-    this.frame.u_sun_glow.value = glow;
+    const { sky, ground } = theme_of(theme);
+    this.frame.u_sky.value.set(...sky);
     this.frame.u_dim.value = ground;
   }
 

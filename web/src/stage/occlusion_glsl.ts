@@ -47,9 +47,9 @@ void main() {
   float open = 1.0 - 0.8 * clamp((hidden - 0.03) / 0.97, 0.0, 1.0);   // by eye, beside the program's own
   vec3 ambient = mix(bounce_light, sky_light, 0.5 + 0.5 * u_normal.y);
   vec3 direct = sun_light * max(dot(u_normal, u_to_light), 0.0) * sun_visible(v_world, u_normal);
-  vec3 left = (ambient * open + direct * (0.75 + 0.25 * open)) / (ambient + direct);
+  vec3 left = (ambient * open + direct * (1.0 - occlusion_of_sun + occlusion_of_sun * open)) / (ambient + direct);
   vec3 to_eye = cameraPosition - v_world;
-  left = mix(left, vec3(1.0), fog_share(dot(to_eye, to_eye)));
+  left = mix(left, vec3(1.0), fog_share(dot(to_eye, to_eye), u_fog));
   pixel = vec4(pow(left, vec3(1.0 / 2.2)), 1.0);
 }
 `;

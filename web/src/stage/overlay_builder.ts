@@ -7,11 +7,8 @@ import { ghosts_until, type GhostRow } from "./ghosts.ts";
 import { island_roots } from "./islands.ts";
 import { add, clamp, length, rotate, scaled } from "./math.ts";
 import { empty_frame, type OverlayArrow, type OverlayFrame } from "./overlay_frame.ts";
-import * as style from "./overlay_style.ts";
+import { axial, contact_colors, contact_forms, style } from "./overlay_style.ts";
 import type { SceneSize } from "./scene_size.ts";
-
-/** Characters of a name: a longer one hides the picture. */
-const longest_name = 40;
 
 export class OverlayBuilder {
   readonly shown: Set<number>;
@@ -49,9 +46,9 @@ export class OverlayBuilder {
   arrow(overlay: OverlayArrow["overlay"], quantity: ArrowQuantity, from: Vec3, value: Vec3, opacity = 1): OverlayArrow | null {
     const way = scaled(value, this.run.overlays.scale[quantity]);
     if (!(length(way) > 0)) return null;
-    const double_head = quantity === "omega" || quantity === "angular-momentum" || quantity === "torque";
     return {
-      overlay, from, to: add(from, way), color: this.colors[quantity], opacity, width: style.arrow_width, double_head, allowance: 0,
+      overlay, from, to: add(from, way), color: this.colors[quantity], opacity, width: style.arrow_width,
+      double_head: axial.has(quantity), allowance: 0,
     };
   }
 
@@ -78,11 +75,11 @@ export class OverlayBuilder {
     if (overlays.has("com") && radius > 0)
       to.markers.push({
         overlay: "com", at: state.position, color: style.center_color, form: "center-of-mass", radius: style.center_radius,
-        always: true,
+        allowance: Infinity,
       });
     if (overlays.has("names")) {
       const letters = [...body.name];
-      const text = letters.length > longest_name ? `${letters.slice(0, longest_name).join("")}…` : body.name;
+      const text = letters.length > style.longest_name ? `${letters.slice(0, style.longest_name).join("")}…` : body.name;
       to.labels.push({ at: state.position, text, color: null });
     }
   }
@@ -93,7 +90,7 @@ export class OverlayBuilder {
     const corner = (bits: number): Vec3 => [0, 1, 2].map((i) => ((bits >> i) & 1 ? box.high[i] : box.low[i])) as Vec3;
     // One line through all twelve edges; three are passed twice.
     const points = [0, 1, 3, 2, 0, 4, 5, 1, 5, 7, 3, 7, 6, 2, 6, 4].map(corner);
-    to.lines.push({ points, color: style.box_color, opacity: 0.9, width: style.box_width });
+    to.lines.push({ points, color: style.box_color, opacity: style.box_opacity, width: style.box_width, allowance: 0 });
   }
 
   private add_axes(to: OverlayFrame, index: number, state: BodyState): void {
@@ -120,10 +117,11 @@ export class OverlayBuilder {
       if (state === 0) continue;
       for (const line of joint.lines) {
         const color = !line.limit ? style.joint_color : state === 2 ? style.at_limit_color : style.limit_color;
-        to.lines.push({ points: line.points.map(place), color, opacity: 1, width: line.limit ? style.limit_width : style.joint_width });
+        const width = line.limit ? style.limit_width : style.joint_width;
+        to.lines.push({ points: line.points.map(place), color, opacity: 1, width, allowance: joint.allowance });
       }
       const at = place(joint.anchor);
-      to.markers.push({ overlay: "joints", at, color: style.joint_color, form: joint.marker, radius: style.anchor_radius, always: true });
+      to.markers.push({ overlay: "joints", at, color: style.joint_color, form: joint.marker, radius: style.anchor_radius, allowance: joint.allowance });
       for (const made of [this.arrow("joints", "force", at, joint.force(frame)), this.arrow("joints", "torque", at, joint.torque(frame))])
         if (made) to.arrows.push({ ...made, allowance: joint.allowance });
     }
@@ -160,8 +158,8 @@ export class OverlayBuilder {
       }
       if (overlays.has("contacts"))
         to.markers.push({
-          overlay: "contacts", at: point, color: style.contact_color(contacts.state[row]),
-          form: style.contact_form(contacts.feature[row]), radius: style.contact_radius, always: false,
+          overlay: "contacts", at: point, color: contact_colors[contacts.state[row]],
+          form: contact_forms[contacts.feature[row]], radius: style.contact_radius, allowance: 0,
         });
     }
   }
@@ -174,7 +172,7 @@ export class OverlayBuilder {
       const { body, point, impulse } = impulse_of(impact, this.run);
       if (!this.shown.has(body)) continue;
       const age = visible > 0 ? (time - impact.time) / visible : 0;
-      const made = this.arrow("impulses", "impulse", point, impulse, 1 - 0.75 * clamp(age, 0, 1));
+      const made = this.arrow("impulses", "impulse", point, impulse, 1 - style.impulse_fade * clamp(age, 0, 1));
       if (made) to.arrows.push(made);
     }
   }

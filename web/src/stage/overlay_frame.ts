@@ -21,6 +21,8 @@ export interface OverlayLine {
   color: Vec3;
   opacity: number;
   width: number;
+  /** As of an arrow. */
+  allowance: number;
 }
 
 export interface OverlayMarker {
@@ -29,8 +31,8 @@ export interface OverlayMarker {
   color: Vec3;
   form: MarkerForm;
   radius: number;
-  /** Seen in full through bodies. */
-  always: boolean;
+  /** As of an arrow. */
+  allowance: number;
 }
 
 export interface OverlayLabel {

@@ -6,7 +6,7 @@ import type { Geometries } from "./geometries.ts";
 import type { Materials } from "./materials.ts";
 import { OverlayBuilder } from "./overlay_builder.ts";
 import { empty_frame, type OverlayArrow, type OverlayFrame, type OverlayMarker } from "./overlay_frame.ts";
-import { ghost_opacity } from "./overlay_style.ts";
+import { style } from "./overlay_style.ts";
 import type { SceneSize } from "./scene_size.ts";
 import { marker_forms } from "./screen_glsl.ts";
 import { ScreenShapes, type ScreenUniforms } from "./screen_shapes.ts";
@@ -61,7 +61,7 @@ export class OverlayView {
       for (let i = 0; i + 1 < line.points.length; ++i)
         this.lines.add({
           from: line.points[i], from_w: line.width, to: line.points[i + 1], to_w: 0, color: line.color, opacity: line.opacity,
-          allowance: 0, always: false, form: 0,
+          allowance: line.allowance, form: 0,
         });
     for (const arrow of this.frame.arrows) add_arrow(arrow, this.arrows);
     for (const marker of this.frame.markers) add_marker(marker, this.markers);
@@ -70,7 +70,7 @@ export class OverlayView {
     for (const shapes of [this.lines, this.arrows, this.markers, this.lit_arrows, this.lit_markers]) shapes.end();
     for (const shapes of [this.trails, this.lines, this.arrows, this.markers]) shapes.set_opacity(this.lit ? dimmed : 1);
     this.ghosts.begin();
-    for (const ghost of this.frame.ghosts) this.ghosts.add(ghost.body, ghost.origin, ghost.rotation, undefined, ghost_opacity);
+    for (const ghost of this.frame.ghosts) this.ghosts.add(ghost.body, ghost.origin, ghost.rotation, undefined, style.ghost_opacity);
     this.ghosts.end();
   }
 
@@ -89,16 +89,15 @@ export class OverlayView {
 }
 
 function add_arrow(arrow: OverlayArrow, to: ScreenShapes): void {
-  const always = arrow.allowance === Infinity;
   to.add({
     from: arrow.from, from_w: arrow.width, to: arrow.to, to_w: arrow.double_head ? 2 : 1, color: arrow.color,
-    opacity: arrow.opacity, allowance: always ? 0 : arrow.allowance, always, form: 0,
+    opacity: arrow.opacity, allowance: arrow.allowance, form: 0,
   });
 }
 
 function add_marker(marker: OverlayMarker, to: ScreenShapes): void {
   to.add({
-    from: marker.at, from_w: marker.radius, to: marker.at, to_w: 0, color: marker.color, opacity: 1, allowance: 0,
-    always: marker.always, form: marker_forms.indexOf(marker.form),
+    from: marker.at, from_w: marker.radius, to: marker.at, to_w: 0, color: marker.color, opacity: 1,
+    allowance: marker.allowance, form: marker_forms.indexOf(marker.form),
   });
 }

@@ -1,13 +1,11 @@
 // Distances that are chosen once for a clip: where fog begins, the cell of the ground's pattern, the reach of shadows.
+import drawing_style from "../../../src/render/shapes/drawing_style.json";
 import type { Pose, Run, Vec3 } from "../data/clip.ts";
 import { radius_of } from "./body_parts.ts";
 import { clamp, distance, length, normalized, scaled } from "./math.ts";
 
-/** As in the program's renderer: src/render/scene/fog_distance.cpp. */
-const half_fog = 5;
-const about_there = 2;
-const large_part = 0.01;
-const beyond_large = 2;
+/** As in src/render/scene/fog_distance.cpp. */
+const { half_fog, about_there, large_part, beyond_large, ground_cells } = drawing_style;
 /** Times of the clip that shadows are fitted to. */
 const samples = 24;
 /** Bodies farther from the target, in viewing distances, get no shadows: the map would be too coarse for all others. */
@@ -62,7 +60,7 @@ export function measure(run: Run): SceneSize {
   return {
     viewing_distance,
     fog_distance,
-    pattern_cell: rounded(viewing_distance / 15),
+    pattern_cell: rounded(viewing_distance / ground_cells),
     shadow_center: found ? [0, 1, 2].map((i) => (low[i] + high[i]) / 2) as Vec3 : target,
     shadow_radius: found ? length([0, 1, 2].map((i) => (high[i] - low[i]) / 2) as Vec3) : viewing_distance,
     to_light: normalized(scaled(scene.light.direction, -1)),

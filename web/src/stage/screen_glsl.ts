@@ -1,8 +1,10 @@
 // Programs of arrows, lines and markers: their widths are pixels, whatever their distance. Each is a rectangle on the screen
 // whose pixels know their distance from the outline, as in src/overlay/shape_raster.cpp.
 
+import { style, style_glsl } from "./overlay_style.ts";
+
 const screen_vertex_glsl = /* glsl */ `
-in vec4 a_from;   // m; w: width in units, or the time at the start of a piece of a trail, s
+${style_glsl}in vec4 a_from;   // m; w: width in units, or the time at the start of a piece of a trail, s
 in vec4 a_to;     // m; w: number of heads, or the time at its end
 in vec4 a_color;  // sRGB; w: opacity
 in vec4 a_more;   // surfaces nearer by less do not hide it, m; 1: never hidden; form of a marker, or width of a trail
@@ -34,21 +36,21 @@ bool cut(inout vec3 a, inout vec3 b) {
 void nowhere() { gl_Position = vec4(2.0, 2.0, 2.0, 1.0); }
 void put(vec2 pixel, float depth) { gl_Position = vec4(2.0 * pixel / u_view - 1.0, depth, 1.0); }
 // Thin shapes have a thin outline, which is otherwise all that is seen of them.
-float halo_of(float width) { return min(1.3 * max(u_unit, 1.0), 0.4 * width); }
+float halo_of(float width) { return min(most_halo * max(u_unit, 1.0), halo_of_width * width); }
 `;
 
 const screen_fragment_glsl = /* glsl */ `
-uniform float u_opacity;
+${style_glsl}uniform float u_opacity;
 flat in vec4 v_color;
 layout(location = 0) out highp vec4 pixel;
 float coverage(float distance) { return clamp(0.5 - distance, 0.0, 1.0); }
 // The shape over its dark outline, so that it is seen on bright and on dark ground.
 void paint(float distance, float halo) {
   float share = v_color.w * u_opacity;
-  float own = share * coverage(distance), dark = 0.55 * share * coverage(distance - halo);
+  float own = share * coverage(distance), dark = halo_opacity * share * coverage(distance - halo);
   dark *= 1.0 - own;
   if (own + dark <= 0.0) discard;
-  pixel = vec4(v_color.rgb * own + vec3(0.063, 0.078, 0.11) * dark, own + dark);
+  pixel = vec4(v_color.rgb * own + halo_color * dark, own + dark);
 }
 `;
 
@@ -67,10 +69,10 @@ void main() {
   float size = length(way), width = a_from.w * u_unit;
   if (size < 1e-3) { nowhere(); return; }
   vec2 axis = way / size, side = vec2(-axis.y, axis.x);
-  float more = 0.62 * (a_to.w - 1.0);
-  float scale = min(1.0, size / (1.0 + more) / (4.2 * width));
-  float head = scale * 4.2 * width, half_base = max(scale * 1.75 * width, 0.5 * width), halo = halo_of(width);
-  v_arrow = vec4(0.5 * width, max(0.0, size - (0.7 + more) * head), head, size - more * head);
+  float more = second_head * (a_to.w - 1.0);
+  float scale = min(1.0, size / (1.0 + more) / (head_length * width));
+  float head = scale * head_length * width, half_base = max(scale * head_half_width * width, 0.5 * width), halo = halo_of(width);
+  v_arrow = vec4(0.5 * width, max(0.0, size - (head_overlap + more) * head), head, size - more * head);
   v_head = vec4(vec2(half_base, head) / length(vec2(head, half_base)), size, halo);
   float reach = half_base + halo + 1.0, rear = 0.5 * width + halo + 1.0;
   v_at = vec2(mix(-rear, size + halo + 1.0, position.x), position.y * reach);
@@ -149,8 +151,8 @@ void main() {
 `;
 
 /** Forms of markers, by the number that the program of markers takes. */
-export const marker_forms = ["disc", "ring", "square", "diamond", "cross", "center-of-mass"] as const;
-export type MarkerForm = (typeof marker_forms)[number];
+export type MarkerForm = "disc" | "ring" | "square" | "diamond" | "cross" | "center-of-mass";
+export const marker_forms = style.markers as MarkerForm[];
 
 export const marker_fragment_glsl = /* glsl */ `
 ${screen_fragment_glsl}
@@ -171,8 +173,8 @@ void main() {
   paint(form(v_at, v_marker.x), v_marker.z);
   // The sign of a center of mass: two dark quarters.
   if (v_marker.y > 4.5) {
-    float quarters = max(length(v_at) - v_marker.x, -v_at.x * v_at.y / max(length(v_at), 1e-3));
-    pixel.rgb = mix(pixel.rgb, vec3(0.094, 0.11, 0.14) * pixel.a, coverage(quarters + 0.5));
+    float edge = min(abs(v_at.x), abs(v_at.y)), quarters = max(length(v_at) - v_marker.x, v_at.x * v_at.y > 0.0 ? edge : -edge);
+    pixel.rgb = mix(pixel.rgb, center_dark_color * pixel.a, coverage(quarters));
   }
 }
 `;

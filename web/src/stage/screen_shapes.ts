@@ -19,9 +19,8 @@ export interface ScreenShape {
   /** sRGB. */
   color: Vec3;
   opacity: number;
-  /** m. */
+  /** m; Infinity: no surface hides it. */
   allowance: number;
-  always: boolean;
   /** Form of a marker; width of a trail, in units. */
   form: number;
 }
@@ -90,8 +89,9 @@ export class ScreenShapes {
     to[at + 7] = shape.to_w;
     to.set(shape.color, at + 8);
     to[at + 11] = shape.opacity;
-    to[at + 12] = shape.allowance;
-    to[at + 13] = shape.always ? 1 : 0;
+    const always = shape.allowance === Infinity;
+    to[at + 12] = always ? 0 : shape.allowance;
+    to[at + 13] = always ? 1 : 0;
     to[at + 14] = shape.form;
   }
 

@@ -5,6 +5,7 @@ import { CameraRig } from "./camera_rig.ts";
 import { Labels } from "./labels.ts";
 import { Materials } from "./materials.ts";
 import type { Moment } from "./moment.ts";
+import { style } from "./overlay_style.ts";
 import { pick } from "./pick.ts";
 import { listen } from "./pointer.ts";
 import { RunView } from "./run_view.ts";
@@ -19,9 +20,6 @@ import { tile } from "./tiles.ts";
 const most_pixel_ratio = 2;
 /** Of a stage that is not laid out, CSS pixels. */
 const hidden_size = { width: 640, height: 360 };
-/** Units of the screen are those of a picture of this height, but never below this share. */
-const unit_height = 720;
-const least_unit = 0.75;
 
 export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
@@ -265,7 +263,7 @@ export class Stage {
     renderer.setViewport(left, bottom, width, height);
     renderer.setScissor(left, bottom, width, height);
     run_view.place_camera(this.rig.view(run_view.run, moment.time), width / height, moment.time);
-    const unit = ratio * Math.max(this.height / unit_height, least_unit);
+    const unit = ratio * Math.max(this.height / style.unit_height, style.least_unit);
     run_view.draw(renderer, moment.time, { width: width * ratio, height: height * ratio, unit });
     for (const label of run_view.overlays.frame.labels) this.labels.add(label, run_view.camera, view);
     for (const label of run_view.overlays.lit?.labels ?? []) this.labels.add(label, run_view.camera, view);

@@ -3,7 +3,7 @@ import type { BodyState, Impact, Run, Vec3 } from "../data/clip.ts";
 import { bytes, from_text } from "./color.ts";
 import { add, cross, length, rotate, scaled, subtract } from "./math.ts";
 import { empty_frame, type OverlayFrame } from "./overlay_frame.ts";
-import { axis_colors, normal_color } from "./overlay_style.ts";
+import { axial, style } from "./overlay_style.ts";
 import type { SceneSize } from "./scene_size.ts";
 
 export interface SymbolRequest {
@@ -36,12 +36,11 @@ class Drawing {
   /** In the scale and the color of a quantity. */
   quantity(kind: keyof Run["overlays"]["scale"], from: Vec3, value: Vec3, text: string): void {
     const { scale, color } = this.run.overlays;
-    const axial = kind === "omega" || kind === "angular-momentum";
-    this.arrow(from, scaled(value, scale[kind]), from_text(color[kind]), text, axial);
+    this.arrow(from, scaled(value, scale[kind]), from_text(color[kind]), text, axial.has(kind));
   }
 
   point(at: Vec3, text: string): void {
-    this.frame.markers.push({ overlay: "highlight", at, color: mark_color, form: "disc", radius: 6, always: true });
+    this.frame.markers.push({ overlay: "highlight", at, color: mark_color, form: "disc", radius: 6, allowance: Infinity });
     this.frame.labels.push({ at, text, color: null });
   }
 
@@ -123,7 +122,7 @@ const whole = (b: boolean, text: string): ImpactSymbol => (drawing, impact) => {
 const sub = (letter: string) => `_${letter}`;
 
 const draw_normal: ImpactSymbol = (drawing, impact) =>
-  drawing.arrow(place(impact), scaled(normal(impact), drawing.plain), normal_color, "n̂");
+  drawing.arrow(place(impact), scaled(normal(impact), drawing.plain), style.normal_color, "n̂");
 const draw_impulse: ImpactSymbol = (drawing, impact) =>
   drawing.quantity("impulse", place(impact), scaled(normal(impact), impact.impulse), "j n̂");
 
@@ -162,7 +161,7 @@ type BodySymbol = (drawing: Drawing, body: number, state: BodyState, time: numbe
 
 const frame_axes = (text: string): BodySymbol => (drawing, body, state) => {
   const reach = 1.3 * drawing.size.radii[body];
-  axis_colors.forEach((color, k) => {
+  style.axis_colors.forEach((color, k) => {
     const axis: Vec3 = [k === 0 ? 1 : 0, k === 1 ? 1 : 0, k === 2 ? 1 : 0];
     drawing.arrow(state.position, scaled(rotate(state.rotation, axis), reach), color, `${text} ${"xyz"[k]}`);
   });

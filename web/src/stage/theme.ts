@@ -1,40 +1,21 @@
 // Backgrounds of light and of dark pages. Bodies look the same on both.
+import overlay_style from "../../../src/overlay/overlay_style.json";
 import type { Vec3 } from "../data/clip.ts";
 
 export type Theme = "light" | "dark";
 
+const { center_color: label_color, label_background_color: dark_gray } = overlay_style;
+
 interface Backdrop {
-  /** Linear. */
-  horizon: Vec3;
-  zenith: Vec3;
-  nadir: Vec3;
-  /** Factor on the glow around the sun. */
-  glow: number;
-  /** Factor on the light of planes. */
+  /** Factors on the light of the sky, linear, and of planes. */
+  sky: Vec3;
   ground: number;
   /** CSS, of labels. */
   label_color: string;
   label_background: string;
 }
 
-const light: Backdrop = {
-  horizon: [0.8, 0.86, 0.92],
-  zenith: [0.2, 0.38, 0.66],
-  nadir: [0.33, 0.39, 0.48],
-  glow: 1,
-  ground: 1,
-  label_color: "#fafafa",
-  label_background: "rgba(18, 22, 30, 0.66)",
-};
-
-const dark: Backdrop = {
-  horizon: [0.03, 0.037, 0.05],
-  zenith: [0.009, 0.012, 0.018],
-  nadir: [0.012, 0.014, 0.018],
-  glow: 0.03,
-  ground: 0.16,
-  label_color: "#fafafa",
-  label_background: "rgba(18, 22, 30, 0.72)",
-};
+const light: Backdrop = { sky: [1, 1, 1], ground: 1, label_color, label_background: `${dark_gray}a8` };
+const dark: Backdrop = { ...light, sky: [0.0375, 0.041, 0.047], ground: 0.16, label_background: `${dark_gray}b8` };
 
 export const theme_of = (theme: Theme): Backdrop => (theme === "dark" ? dark : light);

@@ -3,7 +3,7 @@
 import type { Run, Vec3 } from "../data/clip.ts";
 import { from_text, mixed } from "./color.ts";
 import { add, distance, rotate } from "./math.ts";
-import { trail_width } from "./overlay_style.ts";
+import { style } from "./overlay_style.ts";
 import type { ScreenShape, ScreenShapes } from "./screen_shapes.ts";
 
 /** Of the viewing distance: a path may be left by so much to have fewer pieces. */
@@ -16,7 +16,7 @@ interface Sample {
 
 /** Fills the pieces of all trails of a run, in the order in which they are passed. Returns the times at which they start, s. */
 export function add_trails(run: Run, viewing_distance: number, to: ScreenShapes): Float64Array {
-  const pale = (color: Vec3) => mixed(color, [1, 1, 1], 0.45);
+  const pale = (color: Vec3) => mixed(color, [1, 1, 1], style.trail_paleness);
   const body_color = (body: number) => pale(from_text(run.scene.bodies[body].color));
   const points: { body: number; point: Vec3 | null; color: Vec3 }[] = run.overlays.trail_points.length
     ? run.overlays.trail_points.map(({ body, point, color }) => ({ body, point, color: color ? from_text(color) : body_color(body) }))
@@ -31,8 +31,8 @@ export function add_trails(run: Run, viewing_distance: number, to: ScreenShapes)
     const kept = simplified(samples, tolerance * viewing_distance);
     for (let i = 0; i + 1 < kept.length; ++i)
       pieces.push({
-        from: kept[i].at, from_w: kept[i].time, to: kept[i + 1].at, to_w: kept[i + 1].time, color, opacity: 0.95, allowance: 0,
-        always: false, form: trail_width,
+        from: kept[i].at, from_w: kept[i].time, to: kept[i + 1].at, to_w: kept[i + 1].time, color, opacity: style.trail_opacity, allowance: 0,
+        form: style.trail_width,
       });
   }
   pieces.sort((a, b) => a.from_w - b.from_w);

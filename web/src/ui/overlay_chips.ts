@@ -1,4 +1,5 @@
 // Toggles of the overlays that make sense for the clip, with the scale of the arrows that are on.
+import overlay_style from "../../../src/overlay/overlay_style.json";
 import { contact_states, type ArrowQuantity, type Clip, type OverlayName, type Run } from "../data/clip.ts";
 import { h } from "./dom.ts";
 import { short_text } from "./format.ts";
@@ -8,10 +9,10 @@ interface OverlayKind {
   name: OverlayName;
   label: string;
   quantity?: ArrowQuantity;
-  unit?: string;
   makes_sense(run: Run): boolean;
 }
 
+const arrow_unit = (quantity: ArrowQuantity) => overlay_style.arrows.find(({ name }) => name === quantity)!.unit;
 const always = (): boolean => true;
 const dynamic = (run: Run): boolean => run.scene.bodies.some((body) => body.type === "dynamic");
 const has_contacts = (run: Run): boolean => run.contacts.a.length > 0;
@@ -22,13 +23,13 @@ const sleeps = (run: Run): boolean => run.contacts.state.includes(contact_states
   run.scene.bodies.some((body, index) => body.type === "dynamic" && run.motion.state(index, run.duration).asleep);
 
 const kinds: OverlayKind[] = [
-  { name: "velocity", label: "Velocity v", quantity: "velocity", unit: "m/s", makes_sense: dynamic },
-  { name: "omega", label: "Angular velocity \u03c9", quantity: "omega", unit: "rad/s", makes_sense: turns },
-  { name: "momentum", label: "Momentum P", quantity: "momentum", unit: "N s", makes_sense: dynamic },
-  { name: "angular-momentum", label: "Angular momentum L", quantity: "angular-momentum", unit: "N m s", makes_sense: turns },
-  { name: "impulses", label: "Impulses", quantity: "impulse", unit: "N s", makes_sense: (run) => run.impacts.length > 0 },
-  { name: "forces", label: "Contact forces", quantity: "force", unit: "N", makes_sense: has_contacts },
-  { name: "loads", label: "Loads", quantity: "force", unit: "N", makes_sense: dynamic },
+  { name: "velocity", label: "Velocity v", quantity: "velocity", makes_sense: dynamic },
+  { name: "omega", label: "Angular velocity \u03c9", quantity: "omega", makes_sense: turns },
+  { name: "momentum", label: "Momentum P", quantity: "momentum", makes_sense: dynamic },
+  { name: "angular-momentum", label: "Angular momentum L", quantity: "angular-momentum", makes_sense: turns },
+  { name: "impulses", label: "Impulses", quantity: "impulse", makes_sense: (run) => run.impacts.length > 0 },
+  { name: "forces", label: "Contact forces", quantity: "force", makes_sense: has_contacts },
+  { name: "loads", label: "Loads", quantity: "force", makes_sense: dynamic },
   { name: "contacts", label: "Contacts", makes_sense: has_contacts },
   { name: "normals", label: "Normals", makes_sense: has_contacts },
   { name: "trails", label: "Trails", makes_sense: dynamic },
@@ -86,7 +87,7 @@ export function build_overlay_chips(state: PlayerState): HTMLElement {
       button.setAttribute("aria-pressed", String(on.has(kind.name)));
       if (!on.has(kind.name) || !kind.quantity) continue;
       const scale = state.run.overlays.scale[kind.quantity];
-      if (scale > 0) scales.set(kind.quantity, `${short_text(1 / scale)} ${kind.unit}`);
+      if (scale > 0) scales.set(kind.quantity, `${short_text(1 / scale)} ${arrow_unit(kind.quantity)}`);
     }
     legend.replaceChildren(...[...scales].map(([quantity, text]) => h("span", {},
       h("span", { class: "tp-arrow", style: `--swatch: ${settings.color[quantity as ArrowQuantity]}` }), `1 m of arrow: ${text}`)));
