@@ -27,7 +27,8 @@ void visit_fields(Of<OverlayDescription>, Visitor& field, Self& self) {
           {"m of arrow for an SI unit, by quantity: `force`, `impulse`, `velocity`, `omega`, `momentum`, "
            "`angular-momentum`, `torque`",
            "[found from the clip](overlays.md#arrows)", "above 0, to 1e15 each", "table"});
-    field(self.color, "color", ByCode(), {"colors of arrows, by quantity", "those of the overlays", {}, "table"});
+    field(self.color, "color", ByCode(),
+          {"colors of arrows, by quantity", "the color of each [overlay](overlays.md)", {}, "table"});
     field(self.plot, "plot", ByCode(),
           {"quantities, as in [`tumble plot --of`](../how-to/plots.md); `--plot` replaces them",
            "`[]`",
