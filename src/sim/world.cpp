@@ -137,6 +137,7 @@ struct World::State {
     void resolve_hits();
     template <class Use>
     void with_present_contacts(Use&& use) const;
+    void record(ContactLog::Detail detail);
     void finish_records(double duration);
     std::vector<JointState> joint_states() const;
 };
@@ -299,11 +300,15 @@ void World::State::finish_records(double duration) {
         log->add_joint(second.a, second.b, {frame.second_load.force, frame.second_load.moment}, frame.second_work_a,
                        frame.second_work_b);
     }
-    with_present_contacts([&](const std::vector<Manifold>& found) {
+    const auto finish = [&](const std::vector<Manifold>& found) {
         records = log->finish_frame(set.bodies, forces.field(), found, duration);
-    });
+    };
+    if (log->has_records())
+        with_present_contacts(finish);
+    else
+        finish({});
     if (joints.empty()) return;
-    records.joints = joint_states();
+    if (log->has_records()) records.joints = joint_states();
     const JointEnergies energy = joints.energies(set.bodies);
     records.energy.work += energy.motors + energy.carriers;
     records.energy.impact_loss += energy.impacts;
@@ -340,17 +345,19 @@ Snapshot World::advance_frame_by_middle() {
     return middle;
 }
 
-void World::record_contacts() {
-    State& s = *state_;
-    s.log = std::make_unique<ContactLog>(s.set.scene_index, s.set.origin, s.settings.gravity);
-    s.log->begin_frame(s.set.bodies);
-    s.joints.begin_frame();
-    s.joints.start_account(s.set.bodies);
-    s.finish_records(0.0);
+void World::State::record(ContactLog::Detail detail) {
+    log = std::make_unique<ContactLog>(set.scene_index, set.origin, settings.gravity, detail);
+    log->begin_frame(set.bodies);
+    joints.begin_frame();
+    joints.start_account(set.bodies);
+    finish_records(0.0);
 }
 
+void World::record_contacts() { state_->record(ContactLog::Detail::records); }
+void World::record_energy() { state_->record(ContactLog::Detail::energy); }
+
 const ContactRecords& World::contact_records() const { return state_->records; }
-bool World::records_contacts() const { return state_->log != nullptr; }
+bool World::records_contacts() const { return state_->log && state_->log->has_records(); }
 
 Snapshot World::snapshot() const {
     const State& s = *state_;
@@ -420,8 +427,8 @@ void World::save(CheckpointWriter& writer) const {
     const State& s = *state_;
     State::visit(writer, s);
     s.motion->save(writer);
-    writer.keep(s.log != nullptr);
-    if (s.log) writer.keep(*s.log, s.records);
+    writer.keep(records_contacts());
+    if (records_contacts()) writer.keep(*s.log, s.records);
 }
 
 void World::restore(CheckpointReader& reader) {
@@ -435,7 +442,7 @@ void World::restore(CheckpointReader& reader) {
     if (records && !recorded)
         CheckpointReader::fail("has no records of contacts: give the tables to simulate --checkpoints too");
     if (!recorded) return;
-    ContactLog unused({}, Vec3::Zero(), Vec3::Zero());
+    ContactLog unused({}, Vec3::Zero(), Vec3::Zero(), ContactLog::Detail::records);
     ContactRecords unused_records;
     reader.keep(records ? *s.log : unused, records ? s.records : unused_records);
 }

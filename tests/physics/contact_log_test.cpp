@@ -103,6 +103,34 @@ TEST(ContactLog, RecordingChangesNoMotionAndThreadsChangeNoRecord) {
     }
 }
 
+TEST(ContactLog, TheEnergyAloneIsTheSameWithoutLists) {
+    for (const char* name : {"falling_boxes", "turntable", "double_pendulums", "bouncing_balls"}) {
+        for (const char* mode : {"stepped", "exact"}) {
+            const SceneDescription scene = demo(name, mode, 0.8);
+            World all(scene), energy(scene);
+            all.record_contacts();
+            energy.record_energy();
+            EXPECT_FALSE(energy.records_contacts());
+            for (std::int64_t frame = 1; frame < scene.frame_count(); ++frame) {
+                all.advance_frame();
+                energy.advance_frame();
+                const EnergyLedger &one = all.contact_records().energy, &two = energy.contact_records().energy;
+                ASSERT_EQ(one.work, two.work) << name << frame;
+                ASSERT_EQ(one.impact_loss, two.impact_loss) << name << frame;
+                ASSERT_EQ(one.friction_loss, two.friction_loss) << name << frame;
+                ASSERT_EQ(one.motor_work, two.motor_work) << name << frame;
+                ASSERT_EQ(one.joint_heat, two.joint_heat) << name << frame;
+                const ContactRecords& lists = energy.contact_records();
+                ASSERT_TRUE(lists.impacts.empty() && lists.struck.empty() && lists.contacts.empty());
+                ASSERT_TRUE(lists.loads.empty() && lists.joints.empty());
+            }
+            const EnergyLedger& end = all.contact_records().energy;
+            if (std::string(name) == "falling_boxes") EXPECT_GT(end.impact_loss, 0.0);
+            if (std::string(name) == "turntable") EXPECT_GT(end.work, 0.0);
+        }
+    }
+}
+
 // total + losses - work, relative to its start, at its worst.
 double energy_error(const SceneDescription& scene) {
     World world(scene);

@@ -198,7 +198,7 @@ void simulate_tables(const SimulateCommand& command) {
         World world(description, command.threads);
         if (!command.quiet) say_text(start_notes(description, world));
         RunTables tables(command.tables, scene);
-        if (tables.needs_records()) world.record_contacts();
+        tables.start_records(world);
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
             tables.add(n, world);
@@ -240,7 +240,7 @@ void simulate_rest(const SimulateCommand& command) {
         RunMonitor monitor(end - begin, command.quiet);
         RunTables tables(command.tables, scene, first);
         World world = scenes.world(0, command.threads);
-        if (tables.needs_records() && !world.records_contacts()) world.record_contacts();
+        tables.start_records(world);
         if (state) {
             CheckpointReader reader(state->panels.front().simulation);
             world.restore(reader);

@@ -31,12 +31,20 @@ RunTables::RunTables(const TableFiles& files, const v0::Scene& scene, std::int64
     if (files.joints) joints_.emplace(*files.joints, scene);
 }
 
+void RunTables::start_records(World& world) const {
+    if (world.records_contacts()) return;
+    if (needs_contacts())
+        world.record_contacts();
+    else if (energy_)
+        world.record_energy();
+}
+
 void RunTables::add(std::int64_t frame, const World& world) {
     const double time = double(frame) / fps_;
     if (trajectory_) trajectory_->add(v0::to_public(world.snapshot()));
     if (energy_) energy_->add(frame, time, v0::to_public(world.measure(), world.contact_records().energy));
     if (joints_) joints_->add(frame, time, v0::to_public(world.joint_states()));
-    if (!impacts_ && !contacts_ && !loads_) return;
+    if (!needs_contacts()) return;
     v0::FrameContacts contacts = v0::to_public(world.contact_records());
     std::erase_if(contacts.impacts, [&](const v0::Impact& impact) { return impact.frame < first_; });
     if (impacts_) impacts_->add(contacts);

@@ -28,14 +28,18 @@ public:
     /// `first`: of the frames that are added; impacts before it are left out.
     RunTables(const TableFiles& files, const v0::Scene& scene, std::int64_t first = 0);
 
-    /// True if the world has to record contacts.
-    bool needs_records() const { return energy_ || impacts_ || contacts_ || loads_; }
+    /// True if the world has to record contacts, or the energy ledger.
+    bool needs_records() const { return energy_ || needs_contacts(); }
+    /// Makes the world record as much as the tables need.
+    void start_records(World& world) const;
 
     /// Frames are given in order.
     void add(std::int64_t frame, const World& world);
     void finish();
 
 private:
+    bool needs_contacts() const { return impacts_ || contacts_ || loads_; }
+
     double fps_;
     std::int64_t first_;
     std::optional<v0::TrajectoryTable> trajectory_;

@@ -75,7 +75,7 @@ void write_tables(const SceneDescription& description, const SampleOutputs& outp
     const v0::Scene scene = v0::make_scene(description, {});
     World world(description, 1);
     RunTables tables(files, scene);
-    if (tables.needs_records()) world.record_contacts();
+    tables.start_records(world);
     const std::int64_t frames = scene.frame_count();
     for (std::int64_t n = 0; n < frames; ++n) {
         if (n > 0) world.advance_frame();

@@ -52,14 +52,20 @@ Vec3 acting_point_of(const Manifold& m, int i, const Body& a, const Body& b) {
     return acting_point(p.position, p.separation, m.normal, a.dynamic(), b.dynamic());
 }
 
+Vec3 slip_at(const Vec3& point, const Vec3& normal, const Body& a, const Body& b) {
+    return across(b.point_velocity(point - b.position) - a.point_velocity(point - a.position), normal);
+}
+
 }  // namespace
 
-ContactLog::ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& origin, const Vec3& gravity)
-    : scene_index_(scene_index.begin(), scene_index.end()),
+ContactLog::ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& origin, const Vec3& gravity,
+                       Detail detail)
+    : detail_(detail),
+      scene_index_(scene_index.begin(), scene_index.end()),
       origin_(origin),
       gravity_(gravity),
       accounts_(scene_index.size()),
-      struck_(scene_index.size(), none) {}
+      struck_(detail == Detail::records ? scene_index.size() : 0, none) {}
 
 Impulse ContactLog::momenta(const Body& body, const Vec3& place, const Vec3& momentum) const {
     return {momentum, (origin_ + place).cross(momentum) + body.angular_momentum};
@@ -95,6 +101,7 @@ void ContactLog::begin_frame(const std::vector<Body>& bodies) {
 
 void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, const Vec3& point,
                            const std::vector<Body>& bodies, const ImpactTime& when) {
+    if (!has_records()) return add_struck_work(c, entry.impulse * c.normal, bodies);
     StruckBody a = struck_body(bodies[c.a]), b = struck_body(bodies[c.b]);
     const Vec3 j = entry.impulse * c.normal;
     push_before(a, bodies[c.a], {-j, -c.arm_a.cross(j)});
@@ -105,6 +112,7 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
 void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, const Vec3& point,
                            const std::vector<Body>& bodies, const ImpactTime& when, const StruckBody& a,
                            const StruckBody& b) {
+    if (!has_records()) return add_struck_work(c, entry.impulse * c.normal, bodies);
     struck_[c.a] = records_.struck.size();
     struck_[c.b] = records_.struck.size() + 1;
     for (StruckBody struck : {a, b}) {
@@ -161,6 +169,11 @@ void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, c
     record.struck_b = struck_[c.b];
     records_.impacts.push_back(record);
     add_contact(c.a, c.b, {j, record.moment});
+    add_struck_work(c, j, bodies);
+}
+
+void ContactLog::add_struck_work(const Contact& c, const Vec3& j, const std::vector<Body>& bodies) {
+    const Body &a = bodies[c.a], &b = bodies[c.b];
     accounts_[c.a].touched = accounts_[c.b].touched = true;
     if (!a.dynamic()) accounts_[c.b].work += j.dot(a.point_velocity(c.arm_a));
     if (!b.dynamic()) accounts_[c.a].work -= j.dot(b.point_velocity(c.arm_b));
@@ -168,6 +181,13 @@ void ContactLog::add_record(const ImpactTrace::Entry& entry, const Contact& c, c
 
 void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts,
                             const std::vector<Body>& bodies, const ImpactTime& when, std::span<const JointBlow> blows) {
+    if (!has_records()) {
+        for (const ImpactTrace::Entry& entry : trace.entries) {
+            const Contact& c = contacts[entry.contact];
+            add_struck_work(c, entry.impulse * c.normal, bodies);
+        }
+        return;
+    }
     add_struck(trace, contacts, bodies, blows);
     for (std::size_t k = 0; k < trace.entries.size(); ++k) {
         const ImpactTrace::Entry& entry = trace.entries[k];
@@ -199,7 +219,7 @@ void ContactLog::set_place(ContactRecord& record, const Manifold& m, int i, cons
     record.normal = m.normal;
     record.gap = m.points[std::size_t(i)].separation;
     record.features = features_of(m.corners, m.kind, m.count, a, b);
-    record.slip = across(b.point_velocity(at - b.position) - a.point_velocity(at - a.position), m.normal);
+    record.slip = slip_at(at, m.normal, a, b);
 }
 
 void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
@@ -228,6 +248,9 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
         const double turn = m.normal.dot(b.angular_velocity - a.angular_velocity);
         for (int i = 0; i < m.count; ++i) {
             if (!(share(i) > 0.0)) continue;
+            const Vec3 slip = slip_at(place(i), m.normal, a, b);
+            friction_ -= share(i) * (across(total.on_b, m.normal).dot(slip) + torsion * turn);
+            if (!has_records()) continue;
             Sum& point = sums_[key_of(m, i)];
             const Vec3 force = share(i) * total.on_b;
             const Impulse impulse{force, (origin_ + place(i)).cross(force) + share(i) * left};
@@ -237,7 +260,6 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
             point.span += problem.settings.h;
             point.stick_speed = stick_share * gravity_.norm() * problem.settings.h;
             set_place(point.last, m, i, problem.bodies);
-            friction_ -= share(i) * (across(total.on_b, m.normal).dot(point.last.slip) + torsion * turn);
         }
     }
 }
@@ -409,6 +431,10 @@ void ContactLog::name_by_scene() {
 
 ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
                                         const std::vector<Manifold>& touching, double duration) {
+    for (std::uint32_t i = 0; i < bodies.size(); ++i)
+        if (bodies[i].flying && !bodies[i].jointed) end_flight(i, bodies[i], !forces.only_gravity(i));
+    add_losses(bodies);
+    if (!has_records()) return records_;
     // Contacts of sleeping bodies keep the forces of their last frame.
     std::erase_if(asleep_,
                   [&](const auto& item) { return !at_rest(item.first, bodies) || sums_.contains(item.first); });
@@ -419,11 +445,8 @@ ContactRecords ContactLog::finish_frame(const std::vector<Body>& bodies, const F
     }
     add_touching(touching, bodies);
     for (auto& [key, sum] : sums_) records_.contacts.push_back(mean(key, sum, bodies, duration));
-    for (std::uint32_t i = 0; i < bodies.size(); ++i)
-        if (bodies[i].flying && !bodies[i].jointed) end_flight(i, bodies[i], !forces.only_gravity(i));
     add_loads(bodies, duration);
     add_corrections(bodies, duration);
-    add_losses(bodies);
     name_by_scene();
     // Impacts at the end of a step are recorded before its hits, which have times within the step.
     std::ranges::stable_sort(records_.impacts, {}, [](const ImpactRecord& impact) { return impact.when.time; });

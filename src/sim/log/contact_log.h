@@ -22,8 +22,13 @@ namespace tumble {
 
 class ContactLog {
 public:
+    /// energy: only the ledger of the records is kept; their lists stay empty.
+    enum class Detail { energy, records };
+
     /// The bodies' indices in the scene, by body; the origin of their coordinates (m, world); gravity, m/s^2.
-    ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& origin, const Vec3& gravity);
+    ContactLog(std::span<const std::uint32_t> scene_index, const Vec3& origin, const Vec3& gravity, Detail detail);
+
+    bool has_records() const { return detail_ == Detail::records; }
 
     void begin_frame(const std::vector<Body>& bodies);
 
@@ -60,15 +65,15 @@ public:
     void end_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
 
     /// The records of the frame that ends now and lasted `duration` s (0 for the first frame). `touching`: the manifolds
-    /// of the present poses.
+    /// of the present poses; without records none are needed.
     ContactRecords finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
                                 const std::vector<Manifold>& touching, double duration);
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [scene_index, origin, gravity, sums, asleep, accounts, struck, friction, records] = self;
-        archive.rebuilt(scene_index, origin, gravity, struck);
+        auto& [detail, scene_index, origin, gravity, sums, asleep, accounts, struck, friction, records] = self;
+        archive.rebuilt(detail, scene_index, origin, gravity, struck);
         archive.keep(asleep, records.energy);
         archive.scratch(sums, accounts, friction);
     }
@@ -109,6 +114,8 @@ private:
                     const std::vector<Body>& bodies, const ImpactTime& when);
     void add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                     std::span<const JointBlow> blows);
+    /// Marks the bodies of an impact of impulse `j` (N s on B) as touched, and adds its work.
+    void add_struck_work(const Contact& contact, const Vec3& j, const std::vector<Body>& bodies);
     Impulse momenta(const Body& body, const Vec3& place, const Vec3& momentum) const;
     Impulse momenta(const Body& body) const { return momenta(body, body.position, body.momentum); }
     static void add_load(Account& account, const Impulse& impulse);
@@ -126,6 +133,7 @@ private:
     void add_losses(const std::vector<Body>& bodies);
     void name_by_scene();
 
+    Detail detail_;
     std::vector<std::uint32_t> scene_index_;
     Vec3 origin_, gravity_;
     std::map<Key, Sum> sums_;
