@@ -181,6 +181,27 @@ restitution = 0.5
         self.assertEqual([rest[key] for key in ("frame", "a", "b", "state")], ["120", "floor", "ball", "asleep"])
         self.assertAlmostEqual(float(rest["normal_force"]), 2 * 9.81, delta=1e-9)
 
+    def test_contacts_of_every_nth_frame(self):
+        self.write("scene.toml", self.BOUNCE)
+        self.check(0, "simulate", "scene.toml", "--contacts", "all.csv", "--loads", "l.csv")
+        rows = self.rows("all.csv")
+        for every in (1, 7):
+            self.check(0, "simulate", "scene.toml", "--contacts", "c.csv", "--contacts-every", every, "--loads", "m.csv")
+            self.assertEqual(self.rows("c.csv"), [row for row in rows if int(row["frame"]) % every == 0])
+            self.assertEqual(self.rows("m.csv"), self.rows("l.csv"))
+        self.check(0, "simulate", "scene.toml", "--checkpoints", "states", "--contacts", "c.csv", "--contacts-every", 7)
+        self.assertEqual({int(row["frame"]) % 7 for row in self.rows("c.csv")}, {0})
+        self.check(0, "simulate", "scene.toml", "--from-checkpoints", "states", "--start", 1.1, "--contacts", "c.csv",
+                   "--contacts-every", 7)
+        late = [row for row in rows if int(row["frame"]) % 7 == 0 and int(row["frame"]) >= 66]
+        self.assertEqual(self.rows("c.csv"), late)
+        for wrong in ("0", "-1", "2.5", "nan", "many", ""):
+            run = self.check(2, "simulate", "scene.toml", "--contacts", "x.csv", "--contacts-every", wrong)
+            self.assertIn("--contacts-every", run.stderr)
+        run = self.check(2, "simulate", "scene.toml", "--contacts-every", 2, "--loads", "x.csv")
+        self.assertIn("--contacts-every requires --contacts", run.stderr)
+        self.assertFalse((self.folder / "x.csv").exists())
+
     def test_impacts_of_steps(self):
         self.write("scene.toml", self.BOUNCE)
         self.check(0, "simulate", "scene.toml", "--impacts", "i.csv")

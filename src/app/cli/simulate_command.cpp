@@ -405,12 +405,20 @@ void add_simulate(Command& command) {
         ->check(one_of("stepped|exact"))
         ->check(file_name("csv npz"))
         ->option_text("stepped|exact|I.csv");
+    CLI::Option* const contacts =
+        command
+            .add_option(
+                "--contacts", c.tables.contacts,
+                "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
+            ->check(file_name("csv npz"))
+            ->transform(or_standard_output())
+            ->type_name("C.csv");
     command
-        .add_option("--contacts", c.tables.contacts,
-                    "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
-        ->check(file_name("csv npz"))
-        ->transform(or_standard_output())
-        ->type_name("C.csv");
+        .add_option("--contacts-every", c.tables.contacts_every,
+                    "Rows of --contacts in every N-th frame only: 0, N, 2 N, ...")
+        ->check(number_within(1, 1e9))
+        ->needs(contacts)
+        ->option_text("N [1]");
     command
         .add_option("--loads", c.tables.loads,
                     "CSV or .npz: one row per frame and dynamic body, with the force and moment of gravity,\nwind and "

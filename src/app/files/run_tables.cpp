@@ -22,7 +22,7 @@ void TableFiles::add_to(OutputPlan& plan) const {
 }
 
 RunTables::RunTables(const TableFiles& files, const v0::Scene& scene, std::int64_t first)
-    : fps_(scene.output().fps), first_(first) {
+    : fps_(scene.output().fps), first_(first), contacts_every_(files.contacts_every) {
     if (files.trajectory) trajectory_.emplace(*files.trajectory, scene);
     if (files.energy) energy_.emplace(*files.energy, scene);
     if (files.impacts) impacts_.emplace(*files.impacts, scene);
@@ -48,7 +48,7 @@ void RunTables::add(std::int64_t frame, const World& world) {
     v0::FrameContacts contacts = v0::to_public(world.contact_records());
     std::erase_if(contacts.impacts, [&](const v0::Impact& impact) { return impact.frame < first_; });
     if (impacts_) impacts_->add(contacts);
-    if (contacts_) contacts_->add(frame, time, contacts);
+    if (contacts_ && frame % contacts_every_ == 0) contacts_->add(frame, time, contacts);
     if (loads_) loads_->add(frame, time, contacts);
 }
 

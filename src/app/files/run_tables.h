@@ -16,6 +16,7 @@ class OutputPlan;
 /// The files of the tables that are asked for.
 struct TableFiles {
     std::optional<std::filesystem::path> trajectory, energy, impacts, contacts, loads, joints;
+    std::int64_t contacts_every = 1;  // frames between two with rows of contacts; frame 0 has some
 
     std::vector<std::filesystem::path> all() const;
     /// As the values of the options of `tumble simulate`.
@@ -41,7 +42,7 @@ private:
     bool needs_contacts() const { return impacts_ || contacts_ || loads_; }
 
     double fps_;
-    std::int64_t first_;
+    std::int64_t first_, contacts_every_;
     std::optional<v0::TrajectoryTable> trajectory_;
     std::optional<v0::EnergyTable> energy_;
     std::optional<v0::ImpactTable> impacts_;
