@@ -81,7 +81,7 @@ void JointLayout::color(std::span<const Place> places, std::size_t slots, std::s
 
 namespace {
 
-constexpr std::size_t colors = 64;  // bits of a mask; a manifold without a free color is solved one by one
+constexpr std::size_t colors = 64;  // bits of a mask; a manifold without a free color is solved after all others
 // Manifolds of a color are grouped by cost: those with impulses before those without, which may stay idle, and by their
 // number of points: no lane waits for another's fourth.
 constexpr std::size_t costs = 2 * Manifold::capacity;
@@ -155,7 +155,7 @@ void SoftLayout::color(const IslandBatch& batch, const std::vector<Body>& bodies
         std::uint64_t& of_a = a == 0 ? fixed : inside ? taken_[a].inside : taken_[a].across;
         std::uint64_t& of_b = b == 0 ? fixed : inside ? taken_[b].inside : taken_[b].across;
         const auto c = std::size_t(std::countr_one(of_a | of_b));
-        if (c == colors) {  // solved one by one at the end
+        if (c == colors) {  // add_rest()
             class_[k] = none;
             continue;
         }
@@ -197,7 +197,7 @@ void SoftLayout::add_joints(const IslandBatch& batch, const AllJoints& all, cons
     joints_.color(joint_places_, 1 + blocks_.order().size(), blocks_.size() + 1, lanes);
 }
 
-void SoftLayout::close(const IslandBatch& batch, std::size_t lanes) {
+void SoftLayout::close(const IslandBatch& batch, const std::vector<std::uint32_t>& slot, std::size_t lanes) {
     movers_.clear();
     for (const std::vector<Mover>& found : found_movers_) movers_.insert(movers_.end(), found.begin(), found.end());
     std::sort(movers_.begin(), movers_.end());
@@ -229,17 +229,32 @@ void SoftLayout::close(const IslandBatch& batch, std::size_t lanes) {
         }
         if (home + 1 < homes) first_color_.push_back(first_group_.size());
     }
-    for (const std::uint32_t c : class_)
-        if (c == none) first_group_.push_back(groups++);
-    first_color_.push_back(first_group_.size());
     first_group_.push_back(groups);
-
     lane_manifolds_.assign(groups * lanes, none);
-    std::size_t alone = groups * lanes;
-    for (std::size_t i = class_.size(); i-- > 0;)
-        if (class_[i] == none) lane_manifolds_[alone -= lanes] = batch.manifolds[i];
     for (std::size_t i = 0; i < class_.size(); ++i)
         if (class_[i] != none) lane_manifolds_[class_size_[class_[i]]++] = batch.manifolds[i];
+    add_rest(batch, slot, lanes);
+    first_color_.push_back(first_group_.size() - 1);
+}
+
+// The manifolds without a free color follow as if solved one by one in their order: each has the first color after those
+// of all earlier ones that share a body with it. Between others the order makes no difference.
+void SoftLayout::add_rest(const IslandBatch& batch, const std::vector<std::uint32_t>& slot, std::size_t lanes) {
+    std::vector<std::vector<std::uint32_t>> rest;    // by color: manifolds
+    std::vector<std::uint32_t> next(taken_.size());  // by slot: the first color after those of its manifolds
+    for (std::size_t i = 0; i < class_.size(); ++i) {
+        if (class_[i] != none) continue;
+        const std::uint32_t a = slot[batch.pairs[i].a], b = slot[batch.pairs[i].b];  // 0: not dynamic
+        const std::uint32_t color = std::max(a != 0 ? next[a] : 0u, b != 0 ? next[b] : 0u);
+        next[a] = next[b] = color + 1;
+        if (color == rest.size()) rest.emplace_back();
+        rest[color].push_back(batch.manifolds[i]);
+    }
+    for (const std::vector<std::uint32_t>& color : rest) {
+        lane_manifolds_.insert(lane_manifolds_.end(), color.begin(), color.end());
+        lane_manifolds_.resize((lane_manifolds_.size() + lanes - 1) / lanes * lanes, none);
+        first_group_.push_back(lane_manifolds_.size() / lanes);
+    }
 }
 
 void BodyBlocks::clear() {

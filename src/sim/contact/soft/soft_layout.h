@@ -152,7 +152,7 @@ public:
     /// Adds the joints of a batch that has some, before close().
     void add_joints(const IslandBatch& batch, const AllJoints& all, const std::vector<Body>& bodies,
                     const std::vector<std::uint32_t>& slot, std::size_t lanes);
-    void close(const IslandBatch& batch, std::size_t lanes);
+    void close(const IslandBatch& batch, const std::vector<std::uint32_t>& slot, std::size_t lanes);
 
     /// True if the layout is valid for one more step with the same pairs: the cuts of large islands depend on the
     /// bodies' positions, and the costs of manifolds change slowly.
@@ -192,6 +192,8 @@ public:
     std::uint32_t manifold(std::size_t lane) const { return lane_manifolds_[lane]; }
 
 private:
+    void add_rest(const IslandBatch& batch, const std::vector<std::uint32_t>& slot, std::size_t lanes);
+
     BodyBlocks blocks_{tuning::soft_block_bodies};
     std::vector<Island> islands_;
     std::vector<std::uint32_t> block_of_, island_of_;  // by slot

@@ -77,7 +77,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
     const auto close = [&](SoftLayout& layout, const Batch& batch) {
         if (!batch.joints.empty())
             layout.add_joints(batch, {problem.joints->joints(), kinds_}, problem.bodies, slot_, lanes);
-        layout.close(batch, lanes);
+        layout.close(batch, slot_, lanes);
     };
     for (std::size_t k = 0; k < batches.size(); ++k) {
         Batch& batch = batches[k];
