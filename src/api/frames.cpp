@@ -47,7 +47,7 @@ struct FrameSequence::State {
 FrameSequence::FrameSequence(const Scene& scene, const ClipTiming& timing, int threads) {
     guarded([&] {
         check_threads(threads);
-        state_ = std::make_unique<State>(scene.data().description, timing, threads);
+        state_ = std::make_unique<State>(*scene.data().description, timing, threads);
     });
 }
 FrameSequence::~FrameSequence() = default;

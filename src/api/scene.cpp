@@ -18,11 +18,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::shared_ptr<const SceneData> make_data(SceneDescription description, FileList files) {
+std::shared_ptr<const SceneData> make_data(std::shared_ptr<const SceneDescription> description, FileList files) {
     auto data = std::make_shared<SceneData>();
-    const auto& from = description.output;
+    const auto& from = description->output;
     data->output = {from.width, from.height, from.fps, from.samples};
-    for (std::size_t i = 0; i < description.bodies.size(); ++i) data->names.emplace(description.bodies[i].name, i);
     data->description = std::move(description);
     data->files = std::move(files);
     return data;
@@ -88,7 +87,8 @@ std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
     try {
         const SpecText made = spec_text(spec);
         const auto mesh = [&](std::size_t index) { return mesh_of(made.meshes.at(index).get()); };
-        SceneDescription description = parse_scene(made.text, file, {}, &files, imports_of(spec), mesh);
+        auto description =
+            std::make_shared<const SceneDescription>(parse_scene(made.text, file, {}, &files, imports_of(spec), mesh));
         files.erase(files.begin());
         return make_data(std::move(description), std::move(files));
     } catch (const InputError& error) {
@@ -97,7 +97,7 @@ std::shared_ptr<const SceneData> check(const SceneSpec& spec) {
 }
 
 const BodyDescription& body_of(const SceneData& data, std::size_t body) {
-    const auto& bodies = data.description.bodies;
+    const auto& bodies = data.description->bodies;
     if (body < bodies.size()) return bodies[body];
     throw Error(ErrorKind::input, {}, fmt::format("a body's index must be below {} (given {})", bodies.size(), body));
 }
@@ -107,7 +107,14 @@ const BodyDescription& body_of(const SceneData& data, std::size_t body) {
 Scene::Scene(std::shared_ptr<const SceneData> data) : data_(std::move(data)) {}
 Scene::Scene(const SceneSpec& spec) : data_(guarded([&] { return check(spec); })) {}
 
-Scene make_scene(SceneDescription description, FileList files) {
+const std::unordered_map<std::string_view, std::size_t>& SceneData::names() const {
+    std::call_once(named_, [&] {
+        for (std::size_t i = 0; i < description->bodies.size(); ++i) names_.emplace(description->bodies[i].name, i);
+    });
+    return names_;
+}
+
+Scene make_scene(std::shared_ptr<const SceneDescription> description, FileList files) {
     return Scene(make_data(std::move(description), std::move(files)));
 }
 
@@ -115,7 +122,8 @@ Scene load_scene(const std::string& file, const LoadOptions& options) {
     return guarded([&] {
         FileList files;
         try {
-            SceneDescription description = tumble::load_scene(file, to_overrides(options), &files, imports_of(options));
+            auto description = std::make_shared<const SceneDescription>(
+                tumble::load_scene(file, to_overrides(options), &files, imports_of(options)));
             return make_scene(std::move(description), std::move(files));
         } catch (const InputError& error) {
             if (error.where().file.empty()) throw option_error(options, error.message());
@@ -130,13 +138,13 @@ const SceneData& Scene::data() const {
     return *data_;
 }
 
-const std::string& Scene::title() const { return data().description.title; }
+const std::string& Scene::title() const { return data().description->title; }
 const OutputSettings& Scene::output() const { return data().output; }
-double Scene::duration() const { return data().description.simulation.duration; }
-double Scene::step() const { return data().description.step(); }
-int Scene::steps_per_frame() const { return data().description.simulation.steps_per_frame; }
-std::int64_t Scene::frame_count() const { return data().description.frame_count(); }
-std::size_t Scene::body_count() const { return data().description.bodies.size(); }
+double Scene::duration() const { return data().description->simulation.duration; }
+double Scene::step() const { return data().description->step(); }
+int Scene::steps_per_frame() const { return data().description->simulation.steps_per_frame; }
+std::int64_t Scene::frame_count() const { return data().description->frame_count(); }
+std::size_t Scene::body_count() const { return data().description->bodies.size(); }
 
 const std::string& Scene::body_name(std::size_t body) const { return body_of(data(), body).name; }
 
@@ -152,15 +160,15 @@ BodyType Scene::body_type(std::size_t body) const {
 }
 
 std::optional<std::size_t> Scene::find_body(const std::string& name) const {
-    const auto found = data().names.find(name);
-    if (found == data().names.end()) return std::nullopt;
+    const auto found = data().names().find(name);
+    if (found == data().names().end()) return std::nullopt;
     return found->second;
 }
 
-std::size_t Scene::joint_count() const { return data().description.joints.size(); }
+std::size_t Scene::joint_count() const { return data().description->joints.size(); }
 
 const std::string& Scene::joint_name(std::size_t joint) const {
-    const auto& joints = data().description.joints;
+    const auto& joints = data().description->joints;
     if (joint < joints.size()) return joints[joint].name;
     throw Error(ErrorKind::input, {}, fmt::format("a joint's index must be below {} (given {})", joints.size(), joint));
 }

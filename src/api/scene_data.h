@@ -4,19 +4,28 @@
 #include "scene/load.h"
 #include "tumble/scene.h"
 
+#include <memory>
+#include <mutex>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace tumble::v0 {
 
 struct SceneData {
-    SceneDescription description;
+    std::shared_ptr<const SceneDescription> description;
     FileList files;  // that were read
     OutputSettings output;
-    std::unordered_map<std::string, std::size_t> names;  // of bodies; only looked up
+
+    /// Bodies by name, made by the first call from any thread.
+    const std::unordered_map<std::string_view, std::size_t>& names() const;
+
+private:
+    mutable std::once_flag named_;
+    mutable std::unordered_map<std::string_view, std::size_t> names_;  // only looked up
 };
 
-/// The description as a Scene.
-Scene make_scene(SceneDescription description, FileList files);
+/// The description as a Scene, which shares it.
+Scene make_scene(std::shared_ptr<const SceneDescription> description, FileList files);
 
 }  // namespace tumble::v0

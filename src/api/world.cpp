@@ -20,7 +20,7 @@ struct World::State {
 World::World(const Scene& scene, int threads) {
     guarded([&] {
         check_threads(threads);
-        state_ = std::make_unique<State>(scene.data().description, threads);
+        state_ = std::make_unique<State>(*scene.data().description, threads);
     });
 }
 World::~World() = default;

@@ -419,8 +419,7 @@ std::vector<Overlap> World::overlaps() const {
 
 BodyReport World::report(std::size_t index) const {
     const BodySet& set = state_->set;
-    const auto place = std::find(set.scene_index.begin(), set.scene_index.end(), index) - set.scene_index.begin();
-    return describe(set.bodies[std::size_t(place)]);
+    return describe(set.bodies[set.of_scene[index]]);
 }
 
 void World::save(CheckpointWriter& writer) const {

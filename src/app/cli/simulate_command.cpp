@@ -188,9 +188,11 @@ void check_tables(const SimulateCommand& command, const FileList& inputs) {
 void simulate_tables(const SimulateCommand& command) {
     const double start = wall_seconds();
     FileList inputs;
-    const SceneDescription description = load_scene(command.scenes.front(), command.overrides, &inputs);
+    const auto shared = std::make_shared<const SceneDescription>(
+        load_scene(command.scenes.front(), command.overrides, &inputs));
+    const SceneDescription& description = *shared;
     check_tables(command, inputs);
-    const v0::Scene scene = v0::make_scene(description, std::move(inputs));
+    const v0::Scene scene = v0::make_scene(shared, std::move(inputs));
     const std::int64_t frames = scene.frame_count();
     std::vector<BrokenJoint> broken;
     {
@@ -234,7 +236,7 @@ void simulate_rest(const SimulateCommand& command) {
     const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
     const std::int64_t begin = state ? state->frame : 0;
-    const v0::Scene scene = v0::make_scene(scenes.first(), scenes.inputs);
+    const v0::Scene scene = v0::make_scene(scenes.scenes.front().scene, scenes.inputs);
     std::vector<BrokenJoint> broken;
     {
         RunMonitor monitor(end - begin, command.quiet);
@@ -263,7 +265,7 @@ void simulate_clip(const SimulateCommand& command) {
     RenderScenes scenes(clip, shutter);
     check_tables(command, scenes.inputs);
     const SceneDescription& first = scenes.first();
-    const v0::Scene scene = v0::make_scene(first, scenes.inputs);
+    const v0::Scene scene = v0::make_scene(scenes.scenes.front().scene, scenes.inputs);
     const std::int64_t frames = scenes.clip_frames;
     std::size_t count = 0;
     std::uintmax_t bytes = 0;

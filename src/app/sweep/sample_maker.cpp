@@ -63,7 +63,8 @@ std::vector<std::string> title_assignment(const std::string& text, const fs::pat
 }
 
 /// Simulates the scene and writes the requested tables.
-void write_tables(const SceneDescription& description, const SampleOutputs& outputs, SampleFolder& folder) {
+void write_tables(const std::shared_ptr<const SceneDescription>& description, const SampleOutputs& outputs,
+                  SampleFolder& folder) {
     const std::string ending = outputs.arrays ? ".npz" : ".csv";
     TableFiles files;
     if (outputs.trajectory) files.trajectory = folder.path() / "trajectory.csv";
@@ -73,7 +74,7 @@ void write_tables(const SceneDescription& description, const SampleOutputs& outp
     if (outputs.loads) files.loads = folder.path() / ("loads" + ending);
     if (outputs.joints) files.joints = folder.path() / ("joints" + ending);
     const v0::Scene scene = v0::make_scene(description, {});
-    World world(description, 1);
+    World world(*description, 1);
     RunTables tables(files, scene);
     tables.start_records(world);
     const std::int64_t frames = scene.frame_count();
@@ -158,7 +159,7 @@ SampleFigures SampleMaker::write_files(const SweepSample& sample, RenderScenes& 
             throw;
         }
     }
-    if (plan_.outputs.tables()) write_tables(scene, plan_.outputs, folder);
+    if (plan_.outputs.tables()) write_tables(scenes.scenes.front().scene, plan_.outputs, folder);
     return figures;
 }
 

@@ -90,7 +90,10 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
         std::vector<BodyDescription> made{model};
         if (copies) made = make_copies(*copies, model, shape, sources.meshes, sources.settings.seed, number);
         name_bodies(table, copies.has_value(), bodies.size(), names, made);
-        bodies.insert(bodies.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
+        if (bodies.empty())
+            bodies = std::move(made);
+        else
+            bodies.insert(bodies.end(), std::make_move_iterator(made.begin()), std::make_move_iterator(made.end()));
         ++number;
     }
     return bodies;

@@ -25,6 +25,22 @@ void cut(std::span<PlacedBody> items, int upward) {
     cut(items.subspan(half), upward);
 }
 
+// Moves body order[k] to k, cycle by cycle: a million bodies have no room for a second list.
+void put_in_place(std::vector<Body>& bodies, const std::vector<std::uint32_t>& order) {
+    std::vector<bool> placed(bodies.size());
+    for (std::uint32_t start = 0; start < bodies.size(); ++start) {
+        if (placed[start]) continue;
+        Body first = std::move(bodies[start]);
+        std::uint32_t to = start;
+        for (; order[to] != start; to = order[to]) {
+            bodies[to] = std::move(bodies[order[to]]);
+            placed[to] = true;
+        }
+        bodies[to] = std::move(first);
+        placed[to] = true;
+    }
+}
+
 }  // namespace
 
 std::vector<std::uint32_t> put_in_memory_order(std::vector<Body>& bodies, const Vec3& gravity) {
@@ -45,10 +61,7 @@ std::vector<std::uint32_t> put_in_memory_order(std::vector<Body>& bodies, const 
     if (!gravity.isZero(0.0)) gravity.cwiseAbs().maxCoeff(&upward);
     cut(movers, upward);
     for (const PlacedBody& mover : movers) order.push_back(mover.body);
-    std::vector<Body> ordered;
-    ordered.reserve(bodies.size());
-    for (const std::uint32_t i : order) ordered.push_back(std::move(bodies[i]));
-    bodies = std::move(ordered);
+    put_in_place(bodies, order);
     return order;
 }
 

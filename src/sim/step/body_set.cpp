@@ -13,7 +13,10 @@ BodySet::BodySet(const SceneDescription& scene) {
     const Vec3 gravity = scene.simulation.gravity;
     if (scene.simulation.impacts == ImpactMode::exact) {
         origin = local_origin(scene);
-        bodies = build_bodies(origin.isZero(0.0) ? scene : seen_from(scene, origin));
+        if (origin.isZero(0.0))
+            bodies = build_bodies(scene);
+        else
+            bodies = build_bodies(seen_from(scene, origin));
         scene_index = put_in_exact_order(bodies, gravity);
     } else if (scene.simulation.method == SimulationMethod::notes) {
         bodies = build_bodies(scene);
@@ -23,6 +26,8 @@ BodySet::BodySet(const SceneDescription& scene) {
         bodies = build_bodies(scene);
         scene_index = put_in_memory_order(bodies, gravity);
     }
+    of_scene.resize(bodies.size());
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) of_scene[scene_index[i]] = i;
     old_velocities.resize(bodies.size());
     motions.resize(bodies.size());
     for (std::uint32_t i = 0; i < bodies.size(); ++i)

@@ -20,6 +20,7 @@ struct BodySet {
     Vec3 origin = Vec3::Zero();              // m, world: origin of the bodies' coordinates
     std::vector<Body> bodies;                // in their order in memory
     std::vector<std::uint32_t> scene_index;  // by body: its index in the scene
+    std::vector<std::uint32_t> of_scene;     // by index in the scene: index in `bodies`
     // Indices of bodies, ascending. awake: dynamic and not asleep; kinematic: with a track; moving: both together.
     std::vector<std::uint32_t> awake, moving, kinematic;
     std::vector<BodyVelocity> old_velocities;  // by body: at the start of the step, before its forces
@@ -33,9 +34,9 @@ struct BodySet {
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [origin, bodies, scene_index, awake, moving, kinematic, old_velocities, motions, seen_sleep_changes] =
-            self;
-        archive.rebuilt(origin, scene_index, kinematic, seen_sleep_changes);
+        auto& [origin, bodies, scene_index, of_scene, awake, moving, kinematic, old_velocities, motions,
+               seen_sleep_changes] = self;
+        archive.rebuilt(origin, scene_index, of_scene, kinematic, seen_sleep_changes);
         archive.by_body(old_velocities);
         archive.by_body(motions);
         archive.keep_each(bodies);
