@@ -144,6 +144,8 @@ private:
         shape_type("mesh");
         set("file", mesh.file);
         set("scale", mesh.scale);
+        if (!mesh.unit.empty()) set("unit", mesh.unit);
+        if (!mesh.up.empty()) set("up", mesh.up);
         if (mesh.objects_are_parts) value("parts", "objects_are_parts", "\"objects\"");
         write_mass(mesh);
     }

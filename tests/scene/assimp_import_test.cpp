@@ -1,6 +1,7 @@
 // Mesh files of the formats that assimp imports in a child process: the same shapes, and no harm from malformed files.
 #include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
+#include "scene/mesh/three_mf_unit.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -43,6 +44,51 @@ TEST_F(AssimpImport, ACubeOfOff) {
                         "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 1 2 6 5\n4 2 3 7 6\n4 3 0 4 7\n"));
     EXPECT_EQ(mesh.asset->mesh.triangles.size(), 12u);
     EXPECT_DOUBLE_EQ(mesh.closedness.signed_volume, 8.0);
+}
+
+/// A tetrahedron with the edges 1, 2, 3 along x, y, z, in inches with z up.
+std::string fbx(int up_axis) {
+    return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nGlobalSettings:  {\n"
+           "\tVersion: 1000\n\tProperties70:  {\n\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\"," +
+           std::to_string(up_axis) +
+           "\n\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\"," + std::to_string(3 - up_axis) +
+           "\n\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\"," + (up_axis == 2 ? "-1" : "1") +
+           "\n\t\tP: \"UnitScaleFactor\", \"double\", \"Number\", \"\",2.54\n\t}\n}\n"
+           "Objects:  {\n\tGeometry: 100, \"Geometry::g\", \"Mesh\" {\n"
+           "\t\tVertices: *12 {\n\t\t\ta: 0,0,0,1,0,0,0,2,0,0,0,3\n\t\t}\n"
+           "\t\tPolygonVertexIndex: *12 {\n\t\t\ta: 0,2,-2,0,1,-4,1,2,-4,2,0,-4\n\t\t}\n\t}\n"
+           "\tModel: 200, \"Model::m\", \"Mesh\" {\n\t\tVersion: 232\n\t}\n}\n"
+           "Connections:  {\n\tC: \"OO\",200,0\n\tC: \"OO\",100,200\n}\n";
+}
+
+TEST_F(AssimpImport, FbxHasItsUnitAndItsUpAxis) {
+    const Bounds upright = load_mesh(write("y.fbx", fbx(1))).asset->mesh.bounds();
+    EXPECT_LT((upright.extent() - 0.0254 * Vec3(1.0, 2.0, 3.0)).norm(), 1e-9);
+    const LoadedMesh turned = load_mesh(write("z.fbx", fbx(2)));
+    const Bounds bounds = turned.asset->mesh.bounds();
+    EXPECT_LT((bounds.min - 0.0254 * Vec3(0.0, 0.0, -2.0)).norm(), 1e-9);
+    EXPECT_LT((bounds.max - 0.0254 * Vec3(1.0, 3.0, 0.0)).norm(), 1e-9);
+    EXPECT_TRUE(turned.encloses());  // not mirrored
+    EXPECT_TRUE(turned.in_meters);
+}
+
+// The archive has one stored file, and no more of a 3MF package than the search for the unit needs.
+TEST_F(AssimpImport, TheUnitOfA3mfIsThatOfItsModel) {
+    const auto archive = [](const std::string& model) {
+        const std::string name = "3D/3dmodel.model";
+        const auto number = [](std::size_t value, int bytes) {
+            std::string text;
+            for (int i = 0; i < bytes; ++i) text += char(value >> (8 * i) & 0xff);
+            return text;
+        };
+        const std::string sizes = number(model.size(), 4) + number(model.size(), 4) + number(name.size(), 2);
+        const std::string local = std::string("PK\3\4") + std::string(14, '\0') + sizes + number(0, 2) + name + model;
+        return local + "PK\1\2" + std::string(16, '\0') + sizes + std::string(16, '\0') + name;
+    };
+    EXPECT_EQ(three_mf_unit(archive("<model unit=\"inch\"><build/></model>")), 0.0254);
+    EXPECT_EQ(three_mf_unit(archive("<model xml:lang='en' unit='meter'>")), 1.0);
+    EXPECT_EQ(three_mf_unit(archive("<model><object unit=\"meter\"/></model>")), 0.001);
+    EXPECT_EQ(three_mf_unit("PK\1\2"), 0.001);
 }
 
 TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {

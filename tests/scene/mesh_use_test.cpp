@@ -44,6 +44,25 @@ TEST_F(MeshUse, FilesAreFoundFromTheScenesFolder) {
     EXPECT_EQ(mesh, std::get<MeshShape>(scene.bodies[1].shape).asset);
 }
 
+TEST_F(MeshUse, AnStlIsInItsUnitWithItsUpAxis) {
+    write("box.obj", "v 0 0 0\nv 100 0 0\nv 0 200 0\nv 0 0 300\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
+    const auto bounds = [&](const std::string& keys) {
+        return mesh_of("shape = { type = \"mesh\", file = \"box.obj\"" + keys + " }").asset->mesh.bounds();
+    };
+    EXPECT_EQ(bounds("").max, Vec3(100, 200, 300));
+    EXPECT_LT((bounds(", unit = \"mm\"").max - Vec3(0.1, 0.2, 0.3)).norm(), 1e-12);
+    EXPECT_LT((bounds(", unit = \"in\", scale = 2").max - 5.08 * Vec3(1, 2, 3)).norm(), 1e-12);
+    EXPECT_EQ(bounds(", up = \"z\"").max, Vec3(100, 300, 0));
+    EXPECT_EQ(bounds(", up = \"z\"").min, Vec3(0, 0, -200));
+    EXPECT_EQ(bounds(", up = \"x\"").max, Vec3(0, 100, 300));
+    EXPECT_NE(error_of("shape = { type = \"mesh\", file = \"box.obj\", unit = \"furlong\" }").find("must be one of"),
+              std::string::npos);
+    std::filesystem::copy_file(asset("star.glb"), folder() / "star.glb");
+    EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"star.glb\", up = \"z\" }"),
+              ":3:50: error: up is for files that state no unit and no up axis, and this one does: take the body's "
+              "rotation in place of up");
+}
+
 TEST_F(MeshUse, AMissingOrBrokenFileIsAnErrorAtItsName) {
     EXPECT_EQ(error_of("shape = { type = \"mesh\", file = \"none.obj\" }"),
               ":3:33: error: mesh \"none.obj\" does not exist (looked at " + (folder() / "none.obj").string() + ")");

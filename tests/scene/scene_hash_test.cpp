@@ -261,6 +261,8 @@ const std::vector<std::vector<Change>> own_tables = {
       "type = \"box\", size = [1, 1, 1]", true},
      {"file", "name = \"stone\"", "gem.obj", "torus.obj", true},
      {"scale", "name = \"stone\"", "scale = 0.7", "scale = 0.75", true},
+     {"unit", "name = \"stone\"", "scale = 0.7", "scale = 0.7, unit = \"ft\"", true},
+     {"up", "name = \"stone\"", "scale = 0.7", "scale = 0.7, up = \"z\"", true},
      {"mass_from", "name = \"stone\"", "scale = 0.7", "scale = 0.7, mass_from = \"hull\"", true},
      {"thickness", "name = \"stone\"", "scale = 0.7", "scale = 0.7, mass_from = \"shell\", thickness = 0.1", true},
      {"parts", "name = \"stone\"", "scale = 0.7", "scale = 0.7, parts = \"objects\"", true}},

@@ -22,6 +22,7 @@
 #include <filesystem>
 #include <map>
 #include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -115,8 +116,10 @@ ShapeText shape_text(const Shape& shape) {
         }
         ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
         ShapeText operator()(const MeshShape& s) const {
+            const Vec3 size = s.asset->mesh.bounds().extent();
             return {"mesh",
-                    fmt::format("{}, {} triangles", safe_text(std::filesystem::path(s.asset->file).filename().native()),
+                    fmt::format("{:.4g} x {:.4g} x {:.4g}, {}, {} triangles", size.x(), size.y(), size.z(),
+                                safe_text(std::filesystem::path(s.asset->file).filename().native()),
                                 s.asset->mesh.triangles.size())};
         }
         ShapeText operator()(const CompoundShape& s) const {
@@ -174,6 +177,20 @@ void print_groups(const SceneDescription& scene, const World& world) {
     }
 }
 
+/// Names meshes of an unlikely size, each file once: their lengths may be in another unit.
+void print_size_hints(const SceneDescription& scene) {
+    constexpr double smallest = 1e-3, largest = 100.0;  // m
+    std::set<std::string> named;
+    for (const BodyDescription& body : scene.bodies) {
+        const auto* mesh = std::get_if<MeshShape>(&body.shape);
+        if (mesh == nullptr) continue;
+        const double length = mesh->asset->mesh.bounds().extent().maxCoeff();
+        if ((length >= smallest && length <= largest) || !named.insert(mesh->asset->file).second) continue;
+        put("  hint: the mesh of '{}' is {:.4g} m long: if its file is in another unit, give its shape {}\n",
+            safe_text(body.name), length, length > largest ? "unit = \"mm\"" : "a scale");
+    }
+}
+
 void print_bodies(const SceneDescription& scene, const World& world) {
     if (scene.bodies.empty()) return;
     put("\n  {:<16} {:<10} {:<7} {:<28} {:>10}  {:<30} {:>6}\n", "name", "type", "shape", "measures (m)", "mass (kg)",
@@ -191,6 +208,7 @@ void print_bodies(const SceneDescription& scene, const World& world) {
     }
     if (count < scene.bodies.size()) put("  ... and {} more\n", scene.bodies.size() - count);
     put("  hull: vertices of the convex shape that collides\n");
+    print_size_hints(scene);
 }
 
 std::string count_text(std::size_t count, const char* one, const char* several) {

@@ -30,6 +30,17 @@ constexpr Choice<MeshParts> mesh_parts[] = {
     {"objects", MeshParts::objects},
 };
 
+constexpr Choice<double> mesh_units[] = {
+    {"m", 1.0},  {"cm", 0.01},   {"mm", 0.001},  {"um", 1e-6},
+    {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144},
+};
+
+constexpr Choice<UpAxis> up_axes[] = {
+    {"y", UpAxis::y},
+    {"z", UpAxis::z},
+    {"x", UpAxis::x},
+};
+
 PlaneShape read_plane(const TomlTable& table) {
     PlaneShape plane;
     if (const auto value = table.find("normal")) plane.normal = value->direction();
@@ -98,10 +109,21 @@ void check_mesh_size(const LoadedMesh& mesh, const TomlValue& origin) {
     }
 }
 
+/// Scale and orientation, by keys or by the file, but not by both.
+void check_frame(const TomlTable& table, const LoadedMesh& mesh) {
+    if (!mesh.in_meters) return;
+    for (const auto& [key, instead] : {std::pair("unit", "scale"), std::pair("up", "the body's rotation")})
+        if (const auto given = table.find(key))
+            given->origin().fail(fmt::format(
+                "is for files that state no unit and no up axis, and this one does: take {} in place of {}", instead,
+                key));
+}
+
 /// Each object of the file as a part.
 CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValue& file, const ShapeRequest& request,
                            MeshCache& meshes) {
-    const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh.file, request.mesh_scale);
+    const std::vector<LoadedMesh>& objects = meshes.load_objects(request.mesh, request.mesh_scale);
+    if (!objects.empty()) check_frame(table, objects.front());
     auto made = std::make_shared<std::vector<CompoundPart>>();
     const auto scale = table.find("scale");
     for (const LoadedMesh& object : objects) {
@@ -117,6 +139,7 @@ CompoundShape read_objects(const TomlTable& table, BodyType type, const TomlValu
 void load_whole(const TomlTable& table, BodyType type, const TomlValue& origin, ShapeRequest& request,
                 MeshCache& meshes) {
     const LoadedMesh& mesh = meshes.load(request.mesh, request.mesh_scale);
+    check_frame(table, mesh);
     const auto scale = table.find("scale");
     check_mesh_size(mesh, scale ? *scale : origin);
     request.shape = shape_of(mesh, table, type);
@@ -130,6 +153,8 @@ ShapeRequest read_mesh(const TomlTable& table, BodyType type, const std::filesys
     if (name.empty()) file.fail("must not be empty");
     if (name.find('\0') != std::string::npos) file.fail("must not hold a zero byte");
     request.mesh = (folder / std::filesystem::path(name)).lexically_normal();
+    table.read<UpAxis>("up", request.mesh.up, up_axes);
+    if (const auto unit = table.find("unit")) request.mesh_scale *= unit->choice<double>(mesh_units);
     MeshParts parts = MeshParts::whole;
     table.read<MeshParts>("parts", parts, mesh_parts);
     try {
@@ -232,7 +257,7 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
     table.set_title("a mesh");
     if (meshes.has_supplier())
         if (const auto memory = table.find("memory")) return read_supplied_mesh(table, type, *memory, meshes);
-    table.expect_keys({"type", "file", "scale", "parts", "mass_from", "thickness"});
+    table.expect_keys({"type", "file", "scale", "unit", "up", "parts", "mass_from", "thickness"});
     return read_mesh(table, type, folder, meshes);
 }
 

@@ -3,6 +3,7 @@
 #include "core/child_process.h"
 #include "core/error.h"
 #include "scene/mesh/mesh_transform.h"
+#include "scene/mesh/three_mf_unit.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -21,6 +22,7 @@
 #include <cstring>
 #include <exception>
 #include <fstream>
+#include <tuple>
 #include <vector>
 
 namespace tumble {
@@ -83,6 +85,32 @@ void add_node(const aiNode& node, const aiScene& scene, const MeshTransform& par
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], scene, transform, depth + 1, result);
 }
 
+/// From the axes and the unit of an FBX file, which assimp reads and does not apply.
+MeshTransform fbx_frame(const aiScene& scene) {
+    const auto number = [&](const char* key, int standard) {
+        std::int32_t value = standard;
+        return scene.mMetaData && scene.mMetaData->Get(key, value) ? value : standard;
+    };
+    Mat3 axes = Mat3::Zero();
+    int row = 0;
+    for (const auto& [axis, sign, standard] : {std::tuple("CoordAxis", "CoordAxisSign", 0),
+                                               std::tuple("UpAxis", "UpAxisSign", 1),
+                                               std::tuple("FrontAxis", "FrontAxisSign", 2)})
+        axes(row++, std::clamp(number(axis, standard), 0, 2)) = number(sign, 1) < 0 ? -1.0 : 1.0;
+    if (axes.determinant() == 0.0) axes = Mat3::Identity();  // an axis twice
+    float centimeters = 1.0f;
+    if (scene.mMetaData) scene.mMetaData->Get("UnitScaleFactor", centimeters);
+    constexpr double per_centimeter = 0.01;
+    return {(centimeters > 0.0f ? as_written(centimeters) : 1.0) * per_centimeter * axes, Vec3::Zero()};
+}
+
+/// The z axis of 3MF files points upward.
+MeshTransform three_mf_frame(std::string_view bytes) {
+    Mat3 axes;
+    axes << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
+    return {three_mf_unit(bytes) * axes, Vec3::Zero()};
+}
+
 MeshFile import(std::string_view bytes, const std::string& extension) {
     Assimp::Importer importer;
     importer.SetIOHandler(new NoOtherFiles);  // the importer deletes it
@@ -92,7 +120,12 @@ MeshFile import(std::string_view bytes, const std::string& extension) {
     if (!scene || !scene->mRootNode)
         throw MeshError(fmt::format("cannot be read: {}", readable(importer.GetErrorString(), shown_bytes)));
     MeshFile result;
-    add_node(*scene->mRootNode, *scene, {}, 0, result);
+    const MeshTransform frame = extension == ".fbx"   ? fbx_frame(*scene)
+                                : extension == ".3mf" ? three_mf_frame(bytes)
+                                                      : MeshTransform();
+    add_node(*scene->mRootNode, *scene, frame, 0, result);
+    constexpr std::string_view with_unit[] = {".fbx", ".3mf", ".dae", ".gltf", ".glb"};  // assimp turns Collada itself
+    result.in_meters = std::find(std::begin(with_unit), std::end(with_unit), extension) != std::end(with_unit);
     return result;
 }
 
@@ -132,6 +165,7 @@ int run_child(std::string_view bytes, const std::string& extension, int result) 
         write_list(result, mesh.positions);
         write_list(result, mesh.triangles);
         write_list(result, mesh.objects);
+        write_bytes(result, &mesh.in_meters, sizeof mesh.in_meters);
     } catch (const std::bad_alloc&) {
         return ENOMEM;
     } catch (const std::exception& error) {
@@ -171,6 +205,13 @@ public:
         return list;
     }
 
+    bool next_flag() {
+        if (bytes_.empty()) throw MeshError("was not imported as a whole");
+        const bool flag = bytes_.front() != 0;
+        bytes_.remove_prefix(1);
+        return flag;
+    }
+
 private:
     std::string_view bytes_;
 };
@@ -190,6 +231,7 @@ MeshFile checked_mesh(std::string_view bytes) {
     for (std::size_t i = 0; i < mesh.objects.size(); ++i)
         if (mesh.objects[i] > mesh.triangles.size() || (i > 0 && mesh.objects[i] <= mesh.objects[i - 1]))
             throw MeshError("was imported with invalid objects");
+    mesh.in_meters = lists.next_flag();
     return mesh;
 }
 

@@ -241,6 +241,7 @@ MeshFile read_gltf(std::string_view bytes, const std::filesystem::path& folder) 
     GltfBuffers buffers(document, chunks.binary, bytes.size(), folder);
     MeshFile mesh = SceneReader(document, buffers).read();
     mesh.other_files = buffers.other_files();
+    mesh.in_meters = true;
     return mesh;
 }
 

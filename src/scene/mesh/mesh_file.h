@@ -29,6 +29,7 @@ struct MeshFile {
     std::vector<std::array<Corner, 3>> triangles;
     std::vector<std::size_t> objects;                // the first triangle of each object of the file, ascending
     std::vector<std::filesystem::path> other_files;  // additional files that were opened: a glTF's buffers
+    bool in_meters = false;  // the format states unit and up axis: positions are in m, with y up
 
     /// Throws MeshError if the position is not finite or beyond 1e30 (its square would overflow), or if there are too
     /// many.

@@ -93,7 +93,7 @@ LoadedMesh scaled(const LoadedMesh& mesh, double scale) {
         for (float& x : v.position) x = float(x * scale);
     Closedness closedness = mesh.closedness;
     closedness.signed_volume *= scale * scale * scale;
-    return {std::move(asset), closedness};
+    return {std::move(asset), closedness, mesh.in_meters};
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     std::size_t doubled = drop(triangles, again);
     drop(corners, again);
     TriangleMesh whole = compact(read.positions, triangles);
-    LoadedMesh result{nullptr, closedness(whole)};
+    LoadedMesh result{nullptr, closedness(whole), read.in_meters};
     if (!result.closedness.closed()) {
         const std::vector<char> backs = repeated(triangles, true);
         std::vector<std::array<std::uint32_t, 3>> fronts = triangles;
@@ -236,6 +236,7 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     const std::size_t first = whole.objects[number];
     const std::size_t last = number + 1 < whole.objects.size() ? whole.objects[number + 1] : whole.triangles.size();
     MeshFile object;
+    object.in_meters = whole.in_meters;
     std::map<std::uint32_t, std::uint32_t> renumbered;
     for (std::size_t t = first; t < last; ++t) {
         Corners corners = whole.triangles[t];
@@ -250,11 +251,28 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     return object;
 }
 
-MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::filesystem::path>* read,
-                       MeshImports imports) {
-    MeshFile mesh = read_mesh_file(file, imports);
+/// A rotation that maps the axis to y, without rounding.
+Vec3 upright(const Vec3& v, UpAxis up) {
+    switch (up) {
+        case UpAxis::x:
+            return {-v.y(), v.x(), v.z()};
+        case UpAxis::z:
+            return {v.x(), v.z(), -v.y()};
+        case UpAxis::y:
+            break;
+    }
+    return v;
+}
+
+MeshFile read_and_note(const MeshSource& source, std::vector<std::filesystem::path>* read, MeshImports imports) {
+    MeshFile mesh = read_mesh_file(source.file, imports);
+    if (source.up != UpAxis::y) {
+        for (Vec3& position : mesh.positions) position = upright(position, source.up);
+        for (Corners& corners : mesh.triangles)
+            for (MeshFile::Corner& corner : corners) corner.normal = upright(corner.normal, source.up);
+    }
     if (read != nullptr) {
-        read->push_back(file);
+        read->push_back(source.file);
         read->insert(read->end(), mesh.other_files.begin(), mesh.other_files.end());
     }
     return mesh;
@@ -262,18 +280,19 @@ MeshFile read_and_note(const std::filesystem::path& file, std::vector<std::files
 
 }  // namespace
 
-LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read, MeshImports imports) {
-    return loaded(read_and_note(file, read, imports), file);
+LoadedMesh load_mesh(const MeshSource& source, std::vector<std::filesystem::path>* read, MeshImports imports) {
+    return loaded(read_and_note(source, read, imports), source.file);
 }
 
-std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file, std::vector<std::filesystem::path>* read,
+std::vector<LoadedMesh> load_mesh_objects(const MeshSource& source, std::vector<std::filesystem::path>* read,
                                           MeshImports imports) {
-    const MeshFile whole = read_and_note(file, read, imports);
+    const MeshFile whole = read_and_note(source, read, imports);
     if (whole.objects.size() > std::size_t(limits::parts))
         throw MeshError(
             fmt::format("holds {} objects (a body has {} parts at most)", whole.objects.size(), limits::parts));
     std::vector<LoadedMesh> result;
-    for (std::size_t i = 0; i < whole.objects.size(); ++i) result.push_back(loaded(object_of(whole, i), file));
+    for (std::size_t i = 0; i < whole.objects.size(); ++i)
+        result.push_back(loaded(object_of(whole, i), source.file));
     return result;
 }
 
@@ -281,7 +300,7 @@ const LoadedMesh& MeshCache::load(const MeshSource& source, double scale) {
     auto found = loaded_.find(source);
     if (found == loaded_.end()) {
         LoadedMesh made = source.file.empty() ? loaded(supplier_(source.index), "a mesh in memory")
-                                              : load_mesh(source.file, &read_, imports_);
+                                              : load_mesh(source, &read_, imports_);
         found = loaded_.emplace(source, std::move(made)).first;
     }
     if (scale == 1.0) return found->second;
@@ -291,13 +310,14 @@ const LoadedMesh& MeshCache::load(const MeshSource& source, double scale) {
     return made->second;
 }
 
-const std::vector<LoadedMesh>& MeshCache::load_objects(const std::filesystem::path& file, double scale) {
-    const auto find = [&](double at) { return objects_.find(std::pair(file, at)); };
-    if (find(1.0) == objects_.end()) objects_.emplace(std::pair(file, 1.0), load_mesh_objects(file, &read_, imports_));
+const std::vector<LoadedMesh>& MeshCache::load_objects(const MeshSource& source, double scale) {
+    const auto find = [&](double at) { return objects_.find(std::pair(source, at)); };
+    if (find(1.0) == objects_.end())
+        objects_.emplace(std::pair(source, 1.0), load_mesh_objects(source, &read_, imports_));
     if (find(scale) == objects_.end()) {
         std::vector<LoadedMesh> made;
         for (const LoadedMesh& mesh : find(1.0)->second) made.push_back(scaled(mesh, scale));
-        objects_.emplace(std::pair(file, scale), std::move(made));
+        objects_.emplace(std::pair(source, scale), std::move(made));
     }
     return find(scale)->second;
 }

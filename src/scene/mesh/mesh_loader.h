@@ -19,6 +19,7 @@ namespace tumble {
 struct LoadedMesh {
     std::shared_ptr<const MeshAsset> asset;
     Closedness closedness;  // of the surface before triangles without area were dropped; its volume is in m^3
+    bool in_meters = false;  // the file states its unit and its up axis
     /// True if it has a volume, and that is more than rounding.
     bool encloses() const;
 };
@@ -26,7 +27,10 @@ struct LoadedMesh {
 /// The mesh in memory of that index, as from a file. May throw MeshError.
 using MeshSupplier = std::function<MeshFile(std::size_t index)>;
 
-/// The origin of a mesh: a file (a resolved path), or an index for the supplier.
+/// The axis of a file that points upward in the mesh.
+enum class UpAxis : std::uint8_t { y, x, z };
+
+/// The origin of a mesh: a file (a resolved path) with its up axis, or an index for the supplier.
 struct MeshSource {
     MeshSource() = default;
     MeshSource(std::filesystem::path path) : file(std::move(path)) {}
@@ -34,6 +38,7 @@ struct MeshSource {
 
     std::filesystem::path file;  // empty: from the supplier
     std::size_t index = 0;       // for the supplier
+    UpAxis up = UpAxis::y;
 
     friend auto operator<=>(const MeshSource&, const MeshSource&) = default;
 };
@@ -49,7 +54,7 @@ public:
     /// Throws MeshError.
     const LoadedMesh& load(const MeshSource& source, double scale);
     /// Each object of the file as a mesh of its own. Throws MeshError.
-    const std::vector<LoadedMesh>& load_objects(const std::filesystem::path& file, double scale);
+    const std::vector<LoadedMesh>& load_objects(const MeshSource& source, double scale);
     /// The files that were read, in the order of first use.
     const std::vector<std::filesystem::path>& files() const { return read_; }
     /// All lengths enlarged by a factor, and the parts of a compound with their places.
@@ -66,7 +71,7 @@ private:
     std::vector<std::filesystem::path> read_;
     std::map<MeshSource, LoadedMesh> loaded_;  // at scale 1
     std::map<std::pair<MeshSource, double>, LoadedMesh> scaled_;
-    std::map<std::pair<std::filesystem::path, double>, std::vector<LoadedMesh>> objects_;
+    std::map<std::pair<MeshSource, double>, std::vector<LoadedMesh>> objects_;
     // The keys are addresses of the data that the values keep alive; only for lookups.
     template <class T>
     struct Larger {
@@ -78,12 +83,12 @@ private:
 
 /// One file at scale 1: welded, oriented outward if it is closed, without triangles of zero area, with normals for
 /// drawing. Throws MeshError. Appends the files that were read to `read`, if given.
-LoadedMesh load_mesh(const std::filesystem::path& file, std::vector<std::filesystem::path>* read = nullptr,
+LoadedMesh load_mesh(const MeshSource& source, std::vector<std::filesystem::path>* read = nullptr,
                      MeshImports imports = MeshImports::in_child_process);
 
 /// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; the whole file for
 /// other formats. Throws MeshError also if there are more objects than a body may have parts.
-std::vector<LoadedMesh> load_mesh_objects(const std::filesystem::path& file,
+std::vector<LoadedMesh> load_mesh_objects(const MeshSource& source,
                                           std::vector<std::filesystem::path>* read = nullptr,
                                           MeshImports imports = MeshImports::in_child_process);
 
