@@ -29,6 +29,11 @@ layout(location = 0) out vec4 pixel;
 // Sky visibility at texture coordinates of the AO atlas.
 uniform sampler2D occlusion_atlas;
 
+#ifdef PAINTED
+// Reflectance and own light of the pixel, set by main().
+vec3 paint_f0, paint_emission;
+#endif
+
 // `paint`: factor of the pattern on all light; `spread`: see bevel_lobe(), unused elsewhere.
 vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, vec2 spread) {
     vec3 to_eye = v_eye.xyz - place;
@@ -54,7 +59,11 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
 #endif
 #endif
     surface.diffuse = diffuse;
+#ifdef PAINTED
+    surface.f0 = paint_f0;
+#else
     surface.f0 = v_f0;
+#endif
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
 #ifdef FILTERED
@@ -62,5 +71,9 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
                               clamp(surface.n_v, 1e-3, 1.0));
 #endif
     surface.open = open;
-    return vec4(displayed(mix(shade(surface) * paint, v_air, air)), v_rough.w);
+    vec3 light = shade(surface) * paint;
+#ifdef PAINTED
+    light += paint_emission;
+#endif
+    return vec4(displayed(mix(light, v_air, air)), v_rough.w);
 }

@@ -48,6 +48,14 @@ flat out vec4 v_octants;            // on every second octant: added diffuse col
 #endif
 #ifdef MESH
 out vec3 v_normal;                  // body axes
+#ifdef PAINTED
+uniform sampler2D mesh_texture;
+out vec3 v_paint;                   // color of the file, without its texture
+out vec2 v_uv;
+flat out vec2 v_image;              // size of the texture, texels
+flat out vec3 v_emission;
+flat out vec2 v_surface;            // metallic; least alpha
+#endif
 #ifdef CHARTED
 out vec2 v_texel;                   // place in the AO atlas
 #else
@@ -85,6 +93,15 @@ void main() {
     v_air = sky(direction.y, dot(direction, to_light.xyz));
 
     float roughness = instance_color.w, metallic = instance_material.x;
+#ifdef PAINTED
+    roughness = mesh_surface.x < 0.0 ? roughness : mesh_surface.x;
+    metallic = mesh_surface.y < 0.0 ? metallic : mesh_surface.y;
+    v_paint = mesh_color;
+    v_uv = mesh_uv;
+    v_image = vec2(textureSize(mesh_texture, 0));
+    v_emission = mesh_emission;
+    v_surface = vec2(metallic, mesh_surface.z);
+#endif
     v_diffuse = surface_diffuse(instance_color.rgb, metallic);
     v_f0 = surface_f0(instance_color.rgb, metallic);
     v_rough = vec4(surface_roughness(roughness), surface_veil(roughness, metallic), instance_tile.z);

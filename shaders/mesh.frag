@@ -1,5 +1,23 @@
 #version 410 core
 #include "body.glsl"
+#ifdef PAINTED
+#include "material.glsl"
+
+uniform sampler2D mesh_texture;
+in vec3 v_paint;                    // color of the file, without its texture
+in vec2 v_uv;
+flat in vec2 v_image;               // size of the texture, texels
+flat in vec3 v_emission;
+flat in vec2 v_surface;             // metallic; least alpha
+
+// The texture at the mip map whose texels have about the size of the pixel: linear light and alpha.
+vec4 painted() {
+    vec2 along_x = dFdx(v_uv) * v_image, along_y = dFdy(v_uv) * v_image;
+    float level = 0.5 * log2(max(max(dot(along_x, along_x), dot(along_y, along_y)), 1e-12));
+    vec4 texel = textureLod(mesh_texture, v_uv, level);
+    return vec4(texel.rgb * texel.rgb, texel.a);   // its values are square roots
+}
+#endif
 
 in vec3 v_local;                    // m
 in vec3 v_normal;
@@ -13,6 +31,15 @@ void main() {
     vec3 normal = normalize(v_normal);
     normal = gl_FrontFacing ? normal : -normal;   // the inside of an open mesh is visible
     float paint = 1.0;
+    vec3 diffuse = v_diffuse;
+#ifdef PAINTED
+    vec4 texel = painted();
+    if (texel.a < v_surface.y) discard;
+    vec3 color = v_paint * texel.rgb;
+    diffuse = surface_diffuse(color, v_surface.x);
+    paint_f0 = surface_f0(color, v_surface.x);
+    paint_emission = v_emission;
+#endif
 #ifdef PATTERNED
     paint = triplanar_paint(v_pattern, v_local, normal);
 #endif
@@ -22,5 +49,5 @@ void main() {
     float open = v_open;
 #endif
     open = gl_FrontFacing ? open : 1.0;           // occluders near the outer side do not apply to the inner side
-    pixel = body_pixel(v_local, normal, v_diffuse, paint, open, vec2(0.0));
+    pixel = body_pixel(v_local, normal, diffuse, paint, open, vec2(0.0));
 }

@@ -94,7 +94,7 @@ void SceneWriter::add_body(std::size_t index) {
     if (const auto* compound = std::get_if<CompoundShape>(&body.shape)) {
         for (const CompoundPart& part : *compound->parts) {
             Appearance look = body.appearance;
-            look.color = part.color.value_or(look.color);
+            look.color = plain_color(part.shape, part.color.value_or(look.color));
             parts.push_back(shape_node(body, part.shape, look, origin + part.position, part.rotation));
         }
     } else if (!origin.isZero(0.0)) {

@@ -26,7 +26,7 @@ Json part_json(const CompoundPart& part, const Appearance& look, MeshTable& mesh
     return {{"shape", shape_json(part.shape, look, meshes)},
             {"position", vector_json(part.position)},
             {"rotation", quaternion_json(part.rotation)},
-            {"color", to_string(part.color.value_or(look.color))}};
+            {"color", to_string(plain_color(part.shape, part.color.value_or(look.color)))}};
 }
 
 struct ShapeForm {

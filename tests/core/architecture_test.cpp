@@ -27,7 +27,9 @@ struct Layer {
 
 const std::map<std::string, Layer> layers = {
     {"core", {{"core/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
-    {"scene", {{"core/", "scene/", "sim/geometry/shapes/"}, {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
+    {"scene",
+     {{"core/", "scene/", "sim/geometry/shapes/", "output/jpeg_reader.h", "output/png_reader.h"},
+      {"GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"sim", {{"core/", "scene/", "sim/"}, {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/"}}},
     {"render",
      {{"core/", "scene/description/", "sim/snapshot/snapshot.h", "render/"},

@@ -50,9 +50,9 @@ TEST_F(AssimpImport, ACubeOfOff) {
 std::string fbx(int up_axis) {
     return "; FBX 7.4.0 project file\nFBXHeaderExtension:  {\n\tFBXVersion: 7400\n}\nGlobalSettings:  {\n"
            "\tVersion: 1000\n\tProperties70:  {\n\t\tP: \"UpAxis\", \"int\", \"Integer\", \"\"," +
-           std::to_string(up_axis) +
-           "\n\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\"," + std::to_string(3 - up_axis) +
-           "\n\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\"," + (up_axis == 2 ? "-1" : "1") +
+           std::to_string(up_axis) + "\n\t\tP: \"FrontAxis\", \"int\", \"Integer\", \"\"," +
+           std::to_string(3 - up_axis) + "\n\t\tP: \"FrontAxisSign\", \"int\", \"Integer\", \"\"," +
+           (up_axis == 2 ? "-1" : "1") +
            "\n\t\tP: \"UnitScaleFactor\", \"double\", \"Number\", \"\",2.54\n\t}\n}\n"
            "Objects:  {\n\tGeometry: 100, \"Geometry::g\", \"Mesh\" {\n"
            "\t\tVertices: *12 {\n\t\t\ta: 0,0,0,1,0,0,0,2,0,0,0,3\n\t\t}\n"

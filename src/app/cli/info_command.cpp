@@ -117,10 +117,9 @@ ShapeText shape_text(const Shape& shape) {
         ShapeText operator()(const SphereShape& s) const { return {"sphere", fmt::format("radius {:.4g}", s.radius)}; }
         ShapeText operator()(const MeshShape& s) const {
             const Vec3 size = s.asset->mesh.bounds().extent();
-            return {"mesh",
-                    fmt::format("{:.4g} x {:.4g} x {:.4g}, {}, {} triangles", size.x(), size.y(), size.z(),
-                                safe_text(std::filesystem::path(s.asset->file).filename().native()),
-                                s.asset->mesh.triangles.size())};
+            return {"mesh", fmt::format("{:.4g} x {:.4g} x {:.4g}, {}, {} triangles", size.x(), size.y(), size.z(),
+                                        safe_text(std::filesystem::path(s.asset->file).filename().native()),
+                                        s.asset->mesh.triangles.size())};
         }
         ShapeText operator()(const CompoundShape& s) const {
             return {"compound", fmt::format("{} parts", s.parts->size())};

@@ -35,6 +35,10 @@ std::string mesh_notes(const SceneDescription& scene) {
         if (mesh.asset->doubled_faces > 0)
             line += fmt::format("note: mesh \"{}\": {} faces that are listed twice were dropped\n", file,
                                 mesh.asset->doubled_faces);
+        if (mesh.painted)
+            for (const std::string& image : mesh.paint()->missing_images)
+                line += fmt::format("note: mesh \"{}\": no PNG or JPEG file for its image \"{}\": drawn without\n",
+                                    file, safe_text(image));
         if (!mesh.chosen && mesh.mass_from == MassFrom::hull)
             line += fmt::format(
                 "note: mesh \"{}\" is open and encloses no volume: its mass is that of its convex hull "

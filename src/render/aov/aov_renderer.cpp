@@ -62,15 +62,26 @@ std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vecto
 }
 
 void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, const std::vector<ShapeInstance>& parts,
-                 std::vector<std::uint8_t>& values) {
+                 const ScenePlaces& places, const PinholeCamera& camera, std::vector<std::uint8_t>& values) {
     std::vector<Color> colors;
     for (const ShapeInstance& part : parts) colors.push_back(part.color);
     for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
     values.resize(3 * map.surface.size());
     for_each_run(map, [&](const PixelRun& run) {
+        std::uint8_t* to = values.data() + 3 * run.pixel;
+        const auto* mesh = run.surface < parts.size() ? std::get_if<MeshShape>(&parts[run.surface].shape) : nullptr;
+        if (mesh != nullptr && mesh->painted) {
+            for (int i = 0; i < run.count; ++i, to += 3) {
+                const Vec3 ray(camera.ray_x(run.column + i), camera.ray_y(run.row), 1.0);
+                const Color color =
+                    painted_color(*mesh, places.parts[run.surface], map.triangle[run.pixel + std::size_t(i)], ray);
+                to[0] = color.r, to[1] = color.g, to[2] = color.b;
+            }
+            return;
+        }
         const Color color = run.surface == VisibilityBuffer::nothing ? Color{} : colors[run.surface];
         const std::array<std::uint8_t, 3> bytes{color.r, color.g, color.b};
-        fill_three(values.data() + 3 * run.pixel, bytes.data(), run.count);
+        fill_three(to, bytes.data(), run.count);
     });
 }
 
@@ -163,7 +174,7 @@ const AovFrame& AovRenderer::make(const AovPoses& poses) {
     if (aovs_.has(Aov::depth)) fill_depth(map, frame.depth);
     if (aovs_.has(Aov::normal)) fill_normal(map, parts_, places, poses.now, camera, frame.normal);
     if (aovs_.has(Aov::segmentation)) fill_by_surface(map, ids_of(scene_, parts_), std::int32_t(0), frame.segmentation);
-    if (aovs_.has(Aov::albedo)) fill_albedo(map, scene_, parts_, frame.albedo);
+    if (aovs_.has(Aov::albedo)) fill_albedo(map, scene_, parts_, places, camera, frame.albedo);
     if (aovs_.has(Aov::motion)) {
         TUMBLE_CHECK_EQ(poses.next.has_value(), true);
         const PinholeCamera next_camera = camera_at(*poses.next);

@@ -10,7 +10,7 @@ constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 }  // namespace
 
 GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& scene)
-    : gl_(&gl), scene_(&scene), instances_(gl, GlKind::buffer) {
+    : gl_(&gl), scene_(&scene), textures_(gl), instances_(gl, GlKind::buffer) {
     meshes_.resize(scene_mesh(scene.meshes.size(), 0));
 }
 
@@ -27,17 +27,43 @@ void GpuMeshCache::make(std::size_t mesh, MeshLods& details) {
     if (mesh < first_scene_mesh) return make_primitive(mesh);
     const std::size_t which = (mesh - first_scene_mesh) / mesh_levels, level = (mesh - first_scene_mesh) % mesh_levels;
     const RenderMesh& proxy = scene_->meshes[which];
-    if (proxy.charts && level == 0) {
-        const ChartedMesh& charts = *proxy.charts;
-        meshes_[mesh].emplace(*gl_, MeshData{charts.vertices, charts.indices, {}, charts.texels, proxy.closed});
-    } else if (level == 0) {
-        meshes_[mesh].emplace(
-            *gl_, MeshData{proxy.asset->vertices, proxy.asset->indices, proxy.sample_of_vertex, {}, proxy.closed});
-    } else {
+    if (level > 0) {
         const MeshLod& detail = details.at(which, level);
         meshes_[mesh].emplace(*gl_,
                               MeshData{detail.vertices, detail.indices, detail.sample_of_vertex, {}, proxy.closed});
+        return;
     }
+    const MeshData plain =
+        proxy.charts ? MeshData{proxy.charts->vertices, proxy.charts->indices, {}, proxy.charts->texels, proxy.closed}
+                     : MeshData{proxy.asset->vertices, proxy.asset->indices, proxy.sample_of_vertex, {}, proxy.closed};
+    if (proxy.paint)
+        make_painted(mesh, *proxy.paint, plain);
+    else
+        meshes_[mesh].emplace(*gl_, plain);
+}
+
+namespace {
+
+template <class T>
+std::vector<T> picked(std::span<const T> values, const std::vector<std::uint32_t>& places) {
+    std::vector<T> result;
+    if (values.empty()) return result;
+    for (const std::uint32_t place : places) result.push_back(values[place]);
+    return result;
+}
+
+}  // namespace
+
+void GpuMeshCache::make_painted(std::size_t mesh, const MeshPaint& paint, const MeshData& plain) {
+    const PaintedMesh painted = paint_mesh(plain.indices, paint);
+    const auto vertices = picked(plain.vertices, painted.source);
+    const auto samples = picked(plain.sample_of_vertex, painted.source);
+    const auto texels = picked(plain.texels, painted.source);
+    std::vector<TextureRange> ranges;
+    for (const PaintedMesh::Range& range : painted.ranges)
+        ranges.push_back({textures_.name_of(*range.material), range.first, range.count});
+    meshes_[mesh].emplace(*gl_,
+                          MeshData{vertices, painted.indices, samples, texels, plain.closed, painted.paint, ranges});
 }
 
 void GpuMeshCache::upload(const DrawList& list, MeshLods& details) {

@@ -3,6 +3,7 @@
 
 #include "render/mesh/batch.h"
 #include "render/mesh/mesh_buffer.h"
+#include "render/mesh/texture_cache.h"
 
 #include <optional>
 #include <vector>
@@ -26,9 +27,11 @@ public:
 private:
     void make(std::size_t mesh, MeshLods& details);
     void make_primitive(std::size_t mesh);
+    void make_painted(std::size_t mesh, const MeshPaint& paint, const MeshData& plain);
 
     const GlFunctions* gl_;
     const RenderScene* scene_;
+    TextureCache textures_;
     std::vector<std::optional<MeshBuffer>> meshes_;
     GlObject instances_;
 };

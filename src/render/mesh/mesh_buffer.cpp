@@ -9,6 +9,9 @@ namespace {
 constexpr GLuint first_instance_attribute = 2, instance_attributes = sizeof(Instance) / sizeof(glm::vec4);
 constexpr GLuint sample_attribute = first_instance_attribute + instance_attributes;
 constexpr GLuint texel_attribute = sample_attribute + 1;
+constexpr GLuint paint_attribute = texel_attribute + 1;  // and those after it
+
+constexpr GLuint no_texture = 0;
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -27,7 +30,8 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
       indices_(gl, GlKind::buffer),
       samples_(gl, GlKind::buffer),
       texels_(gl, GlKind::buffer),
-      index_count_(GLsizei(data.indices.size())),
+      paint_(gl, GlKind::buffer),
+      ranges_(data.ranges),
       closed_(data.closed) {
     using Vertex = MeshAsset::Vertex;
     gl.BindVertexArray(array_.name());
@@ -47,6 +51,19 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
         gl.EnableVertexAttribArray(texel_attribute);
         gl.VertexAttribPointer(texel_attribute, 2, GL_FLOAT, GL_FALSE, sizeof(std::array<float, 2>), nullptr);
     }
+    if (!data.paint.empty()) {
+        fill(gl, GL_ARRAY_BUFFER, paint_, data.paint);
+        const auto add = [&](GLuint index, GLint numbers, std::size_t place) {
+            gl.EnableVertexAttribArray(paint_attribute + index);
+            gl.VertexAttribPointer(paint_attribute + index, numbers, GL_FLOAT, GL_FALSE, sizeof(VertexPaint),
+                                   offset(place));
+        };
+        add(0, 2, offsetof(VertexPaint, uv));
+        add(1, 3, offsetof(VertexPaint, color));
+        add(2, 3, offsetof(VertexPaint, surface));
+        add(3, 3, offsetof(VertexPaint, emission));
+    }
+    if (ranges_.empty()) ranges_.push_back({no_texture, 0, data.indices.size()});
     for (GLuint i = 0; i < instance_attributes; ++i) {
         gl.EnableVertexAttribArray(first_instance_attribute + i);
         gl.VertexAttribDivisor(first_instance_attribute + i, 1);
@@ -64,8 +81,15 @@ void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count) co
                                      offset(i * sizeof(glm::vec4)));
         instances_ = instances;
     }
-    gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr, GLsizei(count),
-                                           GLuint(first));
+    for (const TextureRange& range : ranges_) {
+        if (range.texture != no_texture) {
+            gl_->ActiveTexture(GL_TEXTURE0 + paint_unit);
+            gl_->BindTexture(GL_TEXTURE_2D, range.texture);
+        }
+        gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(range.count), GL_UNSIGNED_INT,
+                                               offset(range.first * sizeof(std::uint32_t)), GLsizei(count),
+                                               GLuint(first));
+    }
     gl_->BindVertexArray(0);
 }
 

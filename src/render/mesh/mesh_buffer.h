@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_object.h"
+#include "render/mesh/painted_mesh.h"
 #include "scene/description/description.h"
 
 #include <glm/vec2.hpp>
@@ -11,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 namespace tumble {
 
@@ -32,12 +34,23 @@ struct Instance {
 };
 static_assert(sizeof(Instance) == 6 * sizeof(glm::vec4));
 
+/// Consecutive indices that are drawn with a texture.
+struct TextureRange {
+    GLuint texture;
+    std::size_t first, count;
+};
+
+/// Texture unit of the textures of meshes.
+inline constexpr GLuint paint_unit = 2;
+
 struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
     std::span<const std::uint32_t> indices;
     std::span<const std::uint32_t> sample_of_vertex;  // may be empty: only meshes of the scene have samples
     std::span<const std::array<float, 2>> texels;     // may be empty: only meshes with charts have texels
     bool closed = true;
+    std::span<const VertexPaint> paint = {};  // may be empty: only meshes with the colors of their file have it
+    std::vector<TextureRange> ranges = {};    // of the indices; empty: all, without a texture
 };
 
 class MeshBuffer {
@@ -52,8 +65,8 @@ public:
 
 private:
     const GlFunctions* gl_;
-    GlObject array_, vertices_, indices_, samples_, texels_;
-    GLsizei index_count_;
+    GlObject array_, vertices_, indices_, samples_, texels_, paint_;
+    std::vector<TextureRange> ranges_;
     mutable GLuint instances_ = 0;  // the buffer that the vertex array refers to
     bool closed_;
 };

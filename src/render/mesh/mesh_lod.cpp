@@ -84,7 +84,7 @@ std::size_t level_for(const RenderBody& proxy, const RenderScene& scene, double 
 std::size_t level_in_view(const RenderBody& proxy, const RenderScene& scene, const Vec3& center, const Camera& view) {
     // Away from the center of the view, a deviation appears larger by the factor |p| / depth.
     const double depth = center.dot(view.forward()) - proxy.bound_radius, distance = center.norm() + proxy.bound_radius;
-    if (!(depth > 0.0) || scene.meshes[proxy.mesh].charts) return 0;
+    if (!(depth > 0.0) || scene.meshes[proxy.mesh].charts || scene.meshes[proxy.mesh].paint) return 0;
     return level_for(proxy, scene, most_detail_error * view.pixel_size() * depth * depth / distance);
 }
 

@@ -21,6 +21,7 @@ void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
+    program.set_sampler("mesh_texture", GLint(paint_unit));
 }
 
 BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
@@ -32,22 +33,23 @@ BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const
         if (proxy.solid())
             for (const bool lit : {true, false})
                 program({proxy.kind, proxy.pattern != Pattern::plain, lit, false,
-                         proxy.kind == DrawKind::mesh && proxy.lightmap >= 0});
-    if (!scene.cords.empty()) program({DrawKind::mesh, false, true, false, false});
+                         proxy.kind == DrawKind::mesh && proxy.lightmap >= 0,
+                         proxy.kind == DrawKind::mesh && scene.meshes[proxy.mesh].paint != nullptr});
+    if (!scene.cords.empty()) program({DrawKind::mesh, false, true, false, false, false});
 }
 
 BodyPass::Variant BodyPass::variant_of(const Batch& batch) {
     const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                           : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                        : DrawKind::mesh;
-    return {kind, batch.patterned, batch.lit, batch.spans_cascades, batch.charted};
+    return {kind, batch.patterned, batch.lit, batch.spans_cascades, batch.charted, batch.painted};
 }
 
 std::size_t BodyPass::index_of(const Variant& variant) {
-    const std::size_t which = variant.kind == DrawKind::box    ? (variant.lit ? 0 : 1)
-                              : variant.kind == DrawKind::ball ? 2
-                              : variant.charted                ? 4
-                                                               : 3;
+    const std::size_t which = variant.kind == DrawKind::box ? (variant.lit ? 0 : 1)
+                              : variant.kind == DrawKind::ball
+                                  ? 2
+                                  : 3 + (variant.charted ? 1 : 0) + (variant.painted ? 2 : 0);
     return 4 * which + (variant.patterned ? 2 : 0) + (variant.spans_cascades ? 1 : 0);
 }
 
@@ -66,6 +68,7 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     if (variant.patterned) files.defines.emplace_back("PATTERNED");
     if (variant.spans_cascades) files.defines.emplace_back("SPANS_CASCADES");
     if (variant.charted) files.defines.emplace_back("CHARTED");
+    if (variant.painted) files.defines.emplace_back("PAINTED");
     made = &device_->program(shaders_, files);
     connect(*made);
     return *made;

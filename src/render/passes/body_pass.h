@@ -38,7 +38,7 @@ public:
 private:
     struct Variant {
         DrawKind kind;
-        bool patterned, lit, spans_cascades, charted;
+        bool patterned, lit, spans_cascades, charted, painted;
     };
     static Variant variant_of(const Batch& batch);
     static std::size_t index_of(const Variant& variant);
@@ -49,7 +49,7 @@ private:
     bool shadows_;
     ShadowFilter filter_;
     bool metal_boxes_ = false;                         // highlights on their bevels flicker without filtering
-    std::array<const ShaderProgram*, 20> programs_{};  // by kind, pattern, light and cascade span; null: not yet used
+    std::array<const ShaderProgram*, 28> programs_{};  // by kind, pattern, light and cascade span; null: not yet used
 };
 
 }  // namespace tumble

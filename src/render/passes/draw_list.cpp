@@ -35,7 +35,7 @@ struct Item {
     std::uint32_t mesh = 0;
     std::uint8_t face = 0;  // of a box
     bool patterned = false, lit = true, spans_cascades = false;
-    bool charted = false;  // given by the mesh
+    bool charted = false, painted = false;  // given by the mesh
 };
 
 Item item_of(std::size_t index, std::size_t mesh) {
@@ -125,8 +125,8 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
             batches.back().lit != item.lit || batches.back().spans_cascades != item.spans_cascades)
-            batches.push_back(
-                {item.mesh, item.patterned, item.lit, item.spans_cascades, item.charted, instances.size(), 0});
+            batches.push_back({item.mesh, item.patterned, item.lit, item.spans_cascades, item.charted, item.painted,
+                               instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
@@ -185,7 +185,10 @@ private:
         Item item = item_of(i, mesh_of(proxy, frame_.scene, ball_of(bounds), frame_.camera));
         item.patterned = proxy.pattern != Pattern::plain;
         item.spans_cascades = spans_cascades(bounds);
-        item.charted = proxy.kind == DrawKind::mesh && frame_.scene.meshes[proxy.mesh].charts.has_value();
+        if (proxy.kind == DrawKind::mesh) {
+            item.charted = frame_.scene.meshes[proxy.mesh].charts.has_value();
+            item.painted = frame_.scene.meshes[proxy.mesh].paint != nullptr;
+        }
         drawn_.push_back(ordered(item, bounds.center.norm(), true));
     }
 

@@ -9,10 +9,15 @@
 namespace tumble {
 namespace {
 
-RenderMesh make_render_mesh(const std::shared_ptr<const MeshAsset>& asset) {
+RenderMesh make_render_mesh(const MeshShape& shape) {
+    const std::shared_ptr<const MeshAsset>& asset = shape.asset;
     RenderMesh proxy;
     proxy.asset = asset;
-    proxy.closed = closed(MeshShape{asset});
+    proxy.paint = shape.paint();
+    proxy.closed = closed(shape);
+    if (proxy.paint)  // the inside is visible through holes
+        for (const MeshMaterial& material : proxy.paint->materials)
+            proxy.closed = proxy.closed && !material.has_holes();
     Bounds bounds;
     for (const MeshAsset::Vertex& v : asset->vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
     proxy.bound_center = bounds.center();
@@ -38,10 +43,11 @@ void set_proxy(RenderBody& proxy, const MeshShape& mesh, std::vector<RenderMesh>
     const std::shared_ptr<const MeshAsset>& asset = mesh.asset;
     if (asset == nullptr || asset->vertices.empty() || asset->indices.empty()) return;
     proxy.kind = DrawKind::mesh;
-    const auto known =
-        std::find_if(meshes.begin(), meshes.end(), [&](const RenderMesh& other) { return other.asset == asset; });
+    const auto known = std::find_if(meshes.begin(), meshes.end(), [&](const RenderMesh& other) {
+        return other.asset == asset && other.paint == mesh.paint();
+    });
     proxy.mesh = std::size_t(known - meshes.begin());
-    if (known == meshes.end()) meshes.push_back(make_render_mesh(asset));
+    if (known == meshes.end()) meshes.push_back(make_render_mesh(mesh));
     const RenderMesh& shared = meshes[proxy.mesh];
     proxy.half_extent = shared.half_extent;
     proxy.bound_center = shared.bound_center;
@@ -80,6 +86,30 @@ void cast_rays(const MeshShape& mesh, const PartPlace& place, RayTarget& target)
     for (const MeshAsset::Vertex& v : mesh.asset->vertices)
         vertices.push_back(place.origin + place.axes * Vec3(v.position[0], v.position[1], v.position[2]));
     target.add_triangles(vertices, mesh.asset->indices);
+}
+
+Color painted_color(const MeshShape& mesh, const PartPlace& place, std::uint32_t triangle, const Vec3& ray) {
+    const MeshPaint& paint = *mesh.paint();
+    const std::size_t first = 3 * std::size_t(triangle);
+    std::array<Vec3, 3> corners;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const MeshAsset::Vertex& v = mesh.asset->vertices[mesh.asset->indices[first + i]];
+        corners[i] = place.origin + place.axes * Vec3(v.position[0], v.position[1], v.position[2]);
+    }
+    const std::array<double, 3> shares = corner_shares(corners, ray);
+    std::array<float, 2> uv{};
+    std::array<float, 3> color{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const MeshPaint::Corner& corner = paint.corners[first + i];
+        for (std::size_t k = 0; k < 2; ++k) uv[k] += float(shares[i]) * corner.uv[k];
+        for (std::size_t k = 0; k < 3; ++k) color[k] += float(shares[i]) * corner.color[k];
+    }
+    const std::array<float, 3> linear = color_at(paint.materials[paint.material_of_triangle[triangle]], uv, color);
+    const auto channel = [&](std::size_t c) {
+        const double light = linear[c] > 0.0f ? std::min(double(linear[c]), 1.0) : 0.0;
+        return std::uint8_t(std::lround(255.0 * linear_to_srgb(light)));
+    };
+    return {channel(0), channel(1), channel(2)};
 }
 
 Vec3 surface_normal(const MeshShape& mesh, const PartPlace& place, std::uint32_t triangle, const Vec3& ray, double) {

@@ -55,7 +55,8 @@ struct VertexSample {
 
 struct RenderMesh {
     std::shared_ptr<const MeshAsset> asset;
-    bool closed = true;  // and facing outward; otherwise both sides are visible
+    const MeshPaint* paint = nullptr;  // of the asset: drawn with the colors of the file; null: with those of its body
+    bool closed = true;                // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
     std::vector<VertexSample> vertex_samples;

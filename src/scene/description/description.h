@@ -8,6 +8,7 @@
 #include "core/vector.h"
 #include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
+#include "scene/description/mesh_paint.h"
 #include "scene/description/overlay.h"
 
 #include <algorithm>
@@ -143,6 +144,7 @@ struct MeshAsset {
     };
     std::vector<Vertex> vertices;  // for drawing
     std::vector<std::uint32_t> indices;
+    std::shared_ptr<const MeshPaint> paint = nullptr;  // colors of the file; null: it has none
 };
 
 struct PlaneShape {
@@ -162,6 +164,9 @@ struct MeshShape {
     MassFrom mass_from = MassFrom::solid;
     double thickness = 0.0;  // m, of a shell
     bool chosen = true;      // false: mass_from follows from the mesh, which has no volume of its own
+    bool painted = false;    // drawn with the colors of its file, which has some; else with those of its body
+
+    const MeshPaint* paint() const { return painted ? asset->paint.get() : nullptr; }
 };
 struct CompoundPart;
 /// Several shapes that form one body, such as a table, a ring or an L. Shared by the bodies that use it.
@@ -180,6 +185,12 @@ struct CompoundPart {
     std::optional<double> density;     // kg/m^3, overrides the body's
     std::optional<Color> color;        // overrides the body's
 };
+
+/// The one color that stands for a shape where only one can be shown.
+inline Color plain_color(const Shape& shape, Color of_body) {
+    const auto* mesh = std::get_if<MeshShape>(&shape);
+    return mesh != nullptr && mesh->painted ? mesh->asset->paint->mean : of_body;
+}
 
 enum class Pattern { plain, grid, checker };
 

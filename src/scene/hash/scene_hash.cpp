@@ -163,9 +163,27 @@ private:
         add_all(vertices, triangles);
     }
     void add_value(const MeshAsset& asset) {
-        const auto& [file, doubled, mesh, vertices, indices] = asset;
+        const auto& [file, doubled, mesh, vertices, indices, paint] = asset;  // the shape has the paint
         add_value(mesh);
         add_all(vertices, indices);
+    }
+    void add_value(const Texture& texture) {
+        const auto& [levels, least_alpha] = texture;  // the image defines the others
+        add_all(levels.front().width, levels.front().height);
+        add_bytes(std::as_bytes(std::span(levels.front().texels)));
+    }
+    void add_value(const MeshMaterial& material) {
+        const auto& [color, roughness, metallic, emission, cutoff, texture, wrap_u, wrap_v, nearest] = material;
+        add_bytes(std::as_bytes(std::span(color)));
+        add_bytes(std::as_bytes(std::span(emission)));
+        add_all(double(roughness), double(metallic), double(cutoff), wrap_u, wrap_v, nearest, texture != nullptr);
+        if (texture) add_shared(texture);
+    }
+    void add_value(const MeshPaint& paint) {
+        const auto& [materials, material_of_triangle, corners, mean, missing] =
+            paint;  // the mean follows from the others
+        add_all(materials, material_of_triangle);
+        add_bytes(std::as_bytes(std::span(corners)));
     }
     void add_value(const PlaneShape& plane) {
         const auto& [normal, offset] = plane;
@@ -180,9 +198,10 @@ private:
         add_value(radius);
     }
     void add_value(const MeshShape& mesh) {
-        const auto& [asset, mass_from, thickness, chosen] = mesh;
+        const auto& [asset, mass_from, thickness, chosen, painted] = mesh;
         add_shared(asset);
         if (mass_from != MassFrom::solid) add_all(mass_from, thickness);  // other scenes keep their hash
+        if (painted && all_) add_shared(asset->paint);
     }
     void add_value(const CompoundShape& compound) {
         const auto& [parts] = compound;

@@ -14,9 +14,19 @@
 namespace tumble {
 namespace {
 
-Material read_material(const TomlTable& table, const Materials& materials) {
+/// "file" is no material unless the scene has one of that name: the colors of a mesh file, which it has without a color of
+/// its own.
+Material read_material(const TomlTable& table, const Shape& shape, const Materials& materials) {
     Material material, own;
-    if (const auto name = table.find("material")) material = find_material(materials, *name);
+    const auto name = table.find("material");
+    if (name && name->text() == "file" && !materials.contains("file")) {
+        if (!mean_paint(shape))
+            name->origin().fail("\"file\" is for meshes whose files have colors or materials, and this shape has none");
+        for (const char* key : {"color", "colors"})
+            if (const auto color = table.find(key)) color->origin().fail("and material = \"file\" exclude each other");
+    } else if (name) {
+        material = find_material(materials, *name);
+    }
     read_fields(table, own);
     return overridden(material, own);
 }
@@ -47,13 +57,19 @@ void BodyNames::take(const std::string& name, const SourcePosition& origin) {
         origin.fail(fmt::format("must be unique, and another body has it (given \"{}\")", safe_text(name)));
 }
 
-BodyDescription read_body_model(const TomlTable& table, BodyType type, const Shape& shape, const BodySources& sources) {
+BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequest& shape,
+                                const BodySources& sources) {
+    Material material = read_material(table, shape.shape, sources.materials);
+    if (material.color || table.has("colors"))
+        shape.shape = without_paint(shape.shape);
+    else
+        material.color = mean_paint(shape.shape);
     BodyDescription body;
     body.type = type;
-    body.shape = shape;
+    body.shape = shape.shape;
     read_fields(table, body);
     if (table.has("name") && body.name.empty()) table.find("name")->fail("must not be empty");
-    apply_material(read_material(table, sources.materials), body);
+    apply_material(material, body);
     if (body.mass && table.has("density"))
         table.find("density")->origin().fail("and mass exclude each other: give one of them");
     check_motion(table, body);
@@ -81,8 +97,8 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
         table.expect_keys(known);
         BodyType type = BodyType::dynamic;
         table.read<BodyType>("type", type, choices<BodyType>);
-        const ShapeRequest shape = read_shape(table.require("shape"), type, sources.folder, sources.meshes);
-        const BodyDescription model = read_body_model(table, type, shape.shape, sources);
+        ShapeRequest shape = read_shape(table.require("shape"), type, sources.folder, sources.meshes);
+        const BodyDescription model = read_body_model(table, type, shape, sources);
         const auto copies = read_copies(table, type, shape);
 
         check_number_of_bodies(static_cast<std::int64_t>(bodies.size()) + (copies ? number_of(*copies) : 1),

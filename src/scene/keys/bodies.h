@@ -3,6 +3,7 @@
 
 #include "scene/description/description.h"
 #include "scene/keys/materials.h"
+#include "scene/keys/shapes.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/toml_reader.h"
 
@@ -38,8 +39,8 @@ private:
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySources& sources);
 
 /// The body described by its table, but for its type and its shape; the model of all copies of a grid, a scatter or a
-/// chain.
-BodyDescription read_body_model(const TomlTable& table, BodyType type, const Shape& shape, const BodySources& sources);
+/// chain. A color of its own takes those of the file from the shape.
+BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequest& shape, const BodySources& sources);
 
 /// Fails at the origin if a scene with so many bodies has too many.
 void check_number_of_bodies(std::int64_t number, const SourcePosition& origin);

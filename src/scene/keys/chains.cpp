@@ -228,11 +228,10 @@ void read_chains(const TomlTable& root, const BodySources& sources, std::vector<
                            "restitution", "friction",  "velocity", "integrator"});
         const ChainTable chain = read_chain(table, index);
         check_number_of_bodies(std::int64_t(bodies.size() + chain.links), table.require("links").origin());
-        const ShapeRequest shape =
-            read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);
+        ShapeRequest shape = read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);
         const ChainCurve curve = read_curve(chain);
         check_lengths(chain, curve);
-        const BodyDescription model = read_body_model(table, BodyType::dynamic, shape.shape, sources);
+        const BodyDescription model = read_body_model(table, BodyType::dynamic, shape, sources);
         const std::size_t first_link = bodies.size();
         append_links(chain, curve, model, body_names, bodies);
         append_joints(chain, curve, first_link, bodies, joint_names, joints);

@@ -216,7 +216,10 @@ private:
             move(place, body);
             body.name = fmt::format("{}.{}", place.name, body.name);
             body_names_.take(body.name, origin);
-            if (colored) body.appearance.color = place.appearance.color;
+            if (colored) {
+                body.appearance.color = place.appearance.color;
+                body.shape = without_paint(body.shape);
+            }
             bodies_.push_back(std::move(body));
         }
         for (JointDescription joint : content.joints) {

@@ -31,8 +31,7 @@ constexpr Choice<MeshParts> mesh_parts[] = {
 };
 
 constexpr Choice<double> mesh_units[] = {
-    {"m", 1.0},  {"cm", 0.01},   {"mm", 0.001},  {"um", 1e-6},
-    {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144},
+    {"m", 1.0}, {"cm", 0.01}, {"mm", 0.001}, {"um", 1e-6}, {"km", 1e3}, {"in", 0.0254}, {"ft", 0.3048}, {"yd", 0.9144},
 };
 
 constexpr Choice<UpAxis> up_axes[] = {
@@ -77,6 +76,7 @@ bool is_flat(const TriangleMesh& mesh) {
 MeshShape shape_of(const LoadedMesh& mesh, const TomlTable& table, BodyType type,
                    const std::string& which = "this one") {
     MeshShape shape{mesh.asset};
+    shape.painted = mesh.asset->paint != nullptr;
     const auto thickness = table.find("thickness");
     if (const auto given = table.find("mass_from")) {
         shape.mass_from = given->choice<MassFrom>(choices<MassFrom>);
@@ -114,9 +114,9 @@ void check_frame(const TomlTable& table, const LoadedMesh& mesh) {
     if (!mesh.in_meters) return;
     for (const auto& [key, instead] : {std::pair("unit", "scale"), std::pair("up", "the body's rotation")})
         if (const auto given = table.find(key))
-            given->origin().fail(fmt::format(
-                "is for files that state no unit and no up axis, and this one does: take {} in place of {}", instead,
-                key));
+            given->origin().fail(
+                fmt::format("is for files that state no unit and no up axis, and this one does: take {} in place of {}",
+                            instead, key));
 }
 
 /// Each object of the file as a part.
@@ -192,6 +192,7 @@ CompoundPart read_part(TomlTable& table, BodyType type, const std::filesystem::p
     if (const auto kind = shape.table().find("type"); kind && kind->text() == "plane")
         kind->fail("\"plane\" is endless and cannot be part of a body");
     part.shape = read_shape(shape, type, folder, meshes).shape;
+    if (part.color) part.shape = without_paint(part.shape);
     return part;
 }
 
@@ -259,6 +260,27 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
         if (const auto memory = table.find("memory")) return read_supplied_mesh(table, type, *memory, meshes);
     table.expect_keys({"type", "file", "scale", "unit", "up", "parts", "mass_from", "thickness"});
     return read_mesh(table, type, folder, meshes);
+}
+
+Shape without_paint(const Shape& shape) {
+    if (const auto* mesh = std::get_if<MeshShape>(&shape); mesh && mesh->painted) {
+        MeshShape plain = *mesh;
+        plain.painted = false;
+        return plain;
+    }
+    const auto* compound = std::get_if<CompoundShape>(&shape);
+    if (compound == nullptr || !mean_paint(shape)) return shape;
+    std::vector<CompoundPart> parts = *compound->parts;
+    for (CompoundPart& part : parts) part.shape = without_paint(part.shape);
+    return CompoundShape{std::make_shared<const std::vector<CompoundPart>>(std::move(parts))};
+}
+
+std::optional<Color> mean_paint(const Shape& shape) {
+    if (const auto* mesh = std::get_if<MeshShape>(&shape); mesh && mesh->painted) return mesh->asset->paint->mean;
+    if (const auto* compound = std::get_if<CompoundShape>(&shape))
+        for (const CompoundPart& part : *compound->parts)
+            if (const auto mean = mean_paint(part.shape)) return mean;
+    return std::nullopt;
 }
 
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {

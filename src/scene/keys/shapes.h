@@ -6,6 +6,7 @@
 #include "scene/toml/toml_reader.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace tumble {
 
@@ -18,6 +19,11 @@ struct ShapeRequest {
 
 /// Reads and checks the shape of a body of that type. Relative mesh paths are relative to `folder`.
 ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesystem::path& folder, MeshCache& meshes);
+
+/// The shape without the colors of its files.
+Shape without_paint(const Shape& shape);
+/// The mean color of the first mesh that has the colors of its file.
+std::optional<Color> mean_paint(const Shape& shape);
 
 /// The shape enlarged by a factor. Meshes of equal scale are shared.
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes);

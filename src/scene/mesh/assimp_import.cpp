@@ -2,7 +2,9 @@
 
 #include "core/child_process.h"
 #include "core/error.h"
+#include "scene/mesh/mesh_images.h"
 #include "scene/mesh/mesh_transform.h"
+#include "scene/mesh/mtl_file.h"
 #include "scene/mesh/three_mf_unit.h"
 
 #include <assimp/postprocess.h>
@@ -17,7 +19,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <exception>
@@ -51,6 +55,7 @@ MeshTransform after(const MeshTransform& parent, const aiMatrix4x4& m) {
 
 void add_mesh(const aiMesh& mesh, const MeshTransform& transform, MeshFile& result) {
     if (!mesh.mVertices) return;
+    result.colored = result.colored || mesh.mColors[0];
     const auto first = static_cast<std::uint32_t>(result.positions.size());
     for (unsigned i = 0; i < mesh.mNumVertices; ++i) {
         const aiVector3D& v = mesh.mVertices[i];
@@ -64,7 +69,14 @@ void add_mesh(const aiMesh& mesh, const MeshTransform& transform, MeshFile& resu
             const unsigned index = face.mIndices[i];
             if (index >= mesh.mNumVertices)
                 throw MeshError(fmt::format("has a face with vertex {} of {}", index, mesh.mNumVertices));
-            polygon.push_back({first + index, Vec3::Zero()});
+            MeshFile::Corner& corner = polygon.emplace_back();
+            corner.position = first + index;
+            corner.material = mesh.mMaterialIndex;
+            if (mesh.mTextureCoords[0])
+                corner.uv = {mesh.mTextureCoords[0][index].x, 1.0f - mesh.mTextureCoords[0][index].y};
+            if (mesh.mColors[0])
+                corner.color = {linear_channel(mesh.mColors[0][index].r), linear_channel(mesh.mColors[0][index].g),
+                                linear_channel(mesh.mColors[0][index].b)};
             if (!mesh.mNormals) continue;
             const aiVector3D& n = mesh.mNormals[index];
             polygon.back().normal = transform.normal({n.x, n.y, n.z});
@@ -85,6 +97,53 @@ void add_node(const aiNode& node, const aiScene& scene, const MeshTransform& par
     for (unsigned i = 0; i < node.mNumChildren; ++i) add_node(*node.mChildren[i], scene, transform, depth + 1, result);
 }
 
+/// A material as it passes from the child: its texture as a name, and with bytes if the file holds it.
+struct ImportedMaterial {
+    std::array<float, 3> color, emission;
+    TextureWrap wrap_u, wrap_v;
+    bool own;  // stated by the file
+};
+
+struct Imported {
+    MeshFile mesh;
+    std::vector<ImportedMaterial> materials;
+    std::vector<std::string> texture_names, textures;  // by material
+};
+
+TextureWrap wrap_of(int mode) {
+    return mode == aiTextureMapMode_Mirror  ? TextureWrap::mirror
+           : mode == aiTextureMapMode_Clamp ? TextureWrap::clamp
+                                            : TextureWrap::repeat;
+}
+
+std::array<float, 3> color_of(const aiMaterial& material, const char* key, float standard) {
+    aiColor4D color(standard, standard, standard, 1.0f);
+    material.Get(key, 0, 0, color);
+    return {linear_channel(color.r), linear_channel(color.g), linear_channel(color.b)};
+}
+
+void add_materials(const aiScene& scene, Imported& result) {
+    for (unsigned i = 0; i < scene.mNumMaterials; ++i) {
+        const aiMaterial& material = *scene.mMaterials[i];
+        aiString file;
+        aiTextureMapMode modes[2] = {aiTextureMapMode_Wrap, aiTextureMapMode_Wrap};
+        for (const aiTextureType type : {aiTextureType_DIFFUSE, aiTextureType_BASE_COLOR})
+            if (file.length == 0) material.GetTexture(type, 0, &file, nullptr, nullptr, nullptr, nullptr, modes);
+        const aiTexture* embedded = file.length > 0 ? scene.GetEmbeddedTexture(file.C_Str()) : nullptr;
+        result.texture_names.emplace_back(file.C_Str());
+        result.textures.emplace_back();
+        if (embedded && embedded->mHeight == 0)  // a file in the file
+            result.textures.back().assign(reinterpret_cast<const char*>(embedded->pcData), embedded->mWidth);
+        aiString name;
+        material.Get(AI_MATKEY_NAME, name);
+        const bool own = std::string_view(name.C_Str()) != AI_DEFAULT_MATERIAL_NAME || file.length > 0;
+        // A texture replaces the diffuse color, which programs leave at any value.
+        result.materials.push_back({color_of(material, "$clr.diffuse", 1.0f), color_of(material, "$clr.emissive", 0.0f),
+                                    wrap_of(modes[0]), wrap_of(modes[1]), own});
+        if (file.length > 0) result.materials.back().color = {1.0f, 1.0f, 1.0f};
+    }
+}
+
 /// From the axes and the unit of an FBX file, which assimp reads and does not apply.
 MeshTransform fbx_frame(const aiScene& scene) {
     const auto number = [&](const char* key, int standard) {
@@ -93,9 +152,9 @@ MeshTransform fbx_frame(const aiScene& scene) {
     };
     Mat3 axes = Mat3::Zero();
     int row = 0;
-    for (const auto& [axis, sign, standard] : {std::tuple("CoordAxis", "CoordAxisSign", 0),
-                                               std::tuple("UpAxis", "UpAxisSign", 1),
-                                               std::tuple("FrontAxis", "FrontAxisSign", 2)})
+    for (const auto& [axis, sign, standard] :
+         {std::tuple("CoordAxis", "CoordAxisSign", 0), std::tuple("UpAxis", "UpAxisSign", 1),
+          std::tuple("FrontAxis", "FrontAxisSign", 2)})
         axes(row++, std::clamp(number(axis, standard), 0, 2)) = number(sign, 1) < 0 ? -1.0 : 1.0;
     if (axes.determinant() == 0.0) axes = Mat3::Identity();  // an axis twice
     float centimeters = 1.0f;
@@ -111,7 +170,7 @@ MeshTransform three_mf_frame(std::string_view bytes) {
     return {three_mf_unit(bytes) * axes, Vec3::Zero()};
 }
 
-MeshFile import(std::string_view bytes, const std::string& extension) {
+Imported import(std::string_view bytes, const std::string& extension) {
     Assimp::Importer importer;
     importer.SetIOHandler(new NoOtherFiles);  // the importer deletes it
     // Only assimp's check of the data is used: welding, normals and triangulation follow later.
@@ -119,14 +178,16 @@ MeshFile import(std::string_view bytes, const std::string& extension) {
         importer.ReadFileFromMemory(bytes.data(), bytes.size(), aiProcess_ValidateDataStructure, extension.c_str() + 1);
     if (!scene || !scene->mRootNode)
         throw MeshError(fmt::format("cannot be read: {}", readable(importer.GetErrorString(), shown_bytes)));
-    MeshFile result;
+    Imported all;
+    MeshFile& result = all.mesh;
     const MeshTransform frame = extension == ".fbx"   ? fbx_frame(*scene)
                                 : extension == ".3mf" ? three_mf_frame(bytes)
                                                       : MeshTransform();
     add_node(*scene->mRootNode, *scene, frame, 0, result);
     constexpr std::string_view with_unit[] = {".fbx", ".3mf", ".dae", ".gltf", ".glb"};  // assimp turns Collada itself
     result.in_meters = std::find(std::begin(with_unit), std::end(with_unit), extension) != std::end(with_unit);
-    return result;
+    add_materials(*scene, all);
+    return all;
 }
 
 // -- From the child to the parent: a byte for the kind, then the mesh or the text of an error.
@@ -160,12 +221,16 @@ int run_child(std::string_view bytes, const std::string& extension, int result) 
     std::signal(SIGALRM, SIG_DFL);
     ::alarm(import_seconds);
     try {
-        const MeshFile mesh = import(bytes, extension);
+        const Imported all = import(bytes, extension);
+        const MeshFile& mesh = all.mesh;
         write_bytes(result, &is_mesh, 1);
         write_list(result, mesh.positions);
         write_list(result, mesh.triangles);
         write_list(result, mesh.objects);
-        write_bytes(result, &mesh.in_meters, sizeof mesh.in_meters);
+        write_list(result, std::vector<char>{mesh.in_meters, mesh.colored});
+        write_list(result, all.materials);
+        for (const auto* texts : {&all.texture_names, &all.textures})
+            for (const std::string& text : *texts) write_list(result, std::vector<char>(text.begin(), text.end()));
     } catch (const std::bad_alloc&) {
         return ENOMEM;
     } catch (const std::exception& error) {
@@ -205,25 +270,52 @@ public:
         return list;
     }
 
-    bool next_flag() {
-        if (bytes_.empty()) throw MeshError("was not imported as a whole");
-        const bool flag = bytes_.front() != 0;
-        bytes_.remove_prefix(1);
-        return flag;
+    std::string next_text() {
+        const std::vector<char> text = next<char>();
+        return {text.begin(), text.end()};
     }
 
 private:
     std::string_view bytes_;
 };
 
+void add_looks(Lists& lists, const std::filesystem::path& folder, MeshFile& mesh) {
+    const auto materials = lists.next<ImportedMaterial>();
+    std::vector<std::string> names, textures;
+    for (std::size_t i = 0; i < materials.size(); ++i) names.push_back(lists.next_text());
+    for (std::size_t i = 0; i < materials.size(); ++i) textures.push_back(lists.next_text());
+    MeshImages images(folder);
+    constexpr float hole = 0.5f;  // less alpha of an image is a hole
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        MeshMaterial& material = mesh.materials.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c) {
+            material.color[c] = std::clamp(materials[i].color[c], 0.0f, 1.0f);
+            material.emission[c] = std::clamp(materials[i].emission[c], 0.0f, 1.0f);
+        }
+        material.wrap_u = materials[i].wrap_u;
+        material.wrap_v = materials[i].wrap_v;
+        material.cutoff = hole;
+        if (!textures[i].empty())
+            material.texture = images.texture(fmt::format("image {}", readable(names[i], shown_bytes)), textures[i]);
+        else if (!names[i].empty())
+            material.texture = images.texture(names[i]);
+    }
+    for (auto& triangle : mesh.triangles)
+        for (MeshFile::Corner& corner : triangle)
+            if (corner.material >= materials.size() || !materials[corner.material].own)
+                corner.material = MeshFile::no_material;
+    mesh.take(images);
+}
+
 /// A child with a corrupted importer may have written anything, so each value is checked again.
-MeshFile checked_mesh(std::string_view bytes) {
+MeshFile checked_mesh(std::string_view bytes, const std::filesystem::path& folder) {
     Lists lists(bytes);
     MeshFile mesh;
     for (const Vec3& position : lists.next<Vec3>()) mesh.add_position(position);
     for (const auto& triangle : lists.next<std::array<MeshFile::Corner, 3>>()) {
         for (const MeshFile::Corner& corner : triangle)
-            if (corner.position >= mesh.positions.size() || !corner.normal.allFinite())
+            if (corner.position >= mesh.positions.size() || !corner.normal.allFinite() ||
+                !std::isfinite(corner.uv[0]) || !std::isfinite(corner.uv[1]))
                 throw MeshError("was imported with a corner that has no valid position or normal");
         mesh.add_triangle(triangle);
     }
@@ -231,7 +323,10 @@ MeshFile checked_mesh(std::string_view bytes) {
     for (std::size_t i = 0; i < mesh.objects.size(); ++i)
         if (mesh.objects[i] > mesh.triangles.size() || (i > 0 && mesh.objects[i] <= mesh.objects[i - 1]))
             throw MeshError("was imported with invalid objects");
-    mesh.in_meters = lists.next_flag();
+    const std::string flags = lists.next_text();
+    mesh.in_meters = flags.size() == 2 && flags[0] != 0;
+    mesh.colored = flags.size() == 2 && flags[1] != 0;
+    add_looks(lists, folder, mesh);
     return mesh;
 }
 
@@ -251,7 +346,7 @@ bool assimp_reads(const std::string& extension) {
     return extension.size() > 1 && Assimp::Importer().IsExtensionSupported(extension);
 }
 
-MeshFile import_with_assimp(std::string_view bytes, const std::string& extension) {
+MeshFile import_with_assimp(std::string_view bytes, const std::filesystem::path& folder, const std::string& extension) {
     std::string answer;
     pid_t child = -1;
     try {
@@ -267,7 +362,7 @@ MeshFile import_with_assimp(std::string_view bytes, const std::string& extension
     }
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size());
     if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * shown_bytes));
-    return checked_mesh(std::string_view(answer).substr(1));
+    return checked_mesh(std::string_view(answer).substr(1), folder);
 }
 
 }  // namespace tumble

@@ -88,7 +88,12 @@ std::uint32_t index_value(const char* at, Component type) {
     throw MeshError("has indices that are not unsigned whole numbers");
 }
 
-/// Decodes %20 and similar escapes.
+constexpr const char* kinds[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};  // of accessors, by the number of components
+
+constexpr std::size_t uri_shown = 60;  // characters of a name in a message
+
+}  // namespace
+
 std::string without_percents(std::string_view uri) {
     std::string result;
     const auto digit = [&](std::size_t at) {
@@ -103,25 +108,14 @@ std::string without_percents(std::string_view uri) {
     return result;
 }
 
-/// The file after following links; it must be in the folder (after following links) or below.
-std::filesystem::path within(const std::filesystem::path& folder, const std::string& name) {
-    const std::filesystem::path asked(name);
-    if (name.empty() || name.find('\0') != name.npos || asked.is_absolute())
-        throw MeshError("is not a file of its folder");
-    std::error_code error;
-    const auto top = std::filesystem::canonical(folder.empty() ? "." : folder, error);
-    const auto file = error ? std::filesystem::path() : std::filesystem::canonical(top / asked, error);
-    if (error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
-        throw MeshError("does not exist");
-    if (error) throw MeshError("cannot be read: " + error.message());
-    if (std::mismatch(top.begin(), top.end(), file.begin(), file.end()).first != top.end())
-        throw MeshError("lies outside its folder");
-    return file;
+std::string decode_data_uri(std::string_view uri, const char* what) {
+    const std::string_view head = uri.substr(0, uri.find(','));
+    if (head.size() == uri.size() || !head.ends_with(";base64"))
+        throw MeshError(fmt::format("has {} with a data: URI without base64", what));
+    auto bytes = decode_base64(uri.substr(head.size() + 1));
+    if (!bytes) throw MeshError(fmt::format("has {} with broken base64", what));
+    return std::move(*bytes);
 }
-
-constexpr std::size_t uri_shown = 60;  // characters of a name in a message
-
-}  // namespace
 
 struct GltfBuffers::Sparse {
     std::uint64_t count;
@@ -140,7 +134,7 @@ struct GltfBuffers::Elements {
 
 std::string GltfBuffers::load_file(std::string_view uri) {
     try {
-        const std::filesystem::path file = within(folder_, without_percents(uri));
+        const std::filesystem::path file = file_below(folder_, without_percents(uri));
         std::string bytes = read_mesh_bytes(file);
         files_read_ += static_cast<std::int64_t>(bytes.size());
         if (files_read_ > limits::mesh_bytes)
@@ -157,12 +151,7 @@ std::string GltfBuffers::load(const Json& buffer) {
     if (!uri || !uri->is_string()) throw MeshError("has a buffer without a \"uri\"");
     const std::string_view text = uri->get_ref<const std::string&>();
     if (!text.starts_with("data:")) return load_file(text);
-    const std::string_view head = text.substr(0, text.find(','));
-    if (head.size() == text.size() || !head.ends_with(";base64"))
-        throw MeshError("has a buffer with a data: URI without base64");
-    auto bytes = decode_base64(text.substr(head.size() + 1));
-    if (!bytes) throw MeshError("has a buffer with broken base64");
-    return std::move(*bytes);
+    return decode_data_uri(text, "a buffer");
 }
 
 std::string_view GltfBuffers::buffer(std::uint64_t index) {
@@ -208,7 +197,7 @@ void check_extent(std::string_view bytes, std::uint64_t count, std::size_t size,
 GltfBuffers::Elements GltfBuffers::elements(std::uint64_t accessor, std::size_t components) {
     const Json& item = require_item(document_, "accessors", accessor);
     const Json* kind = find_member(item, "type");
-    const char* wanted = components == 3 ? "VEC3" : "SCALAR";
+    const char* wanted = kinds[components];
     if (!kind || *kind != wanted) throw MeshError(fmt::format("has an accessor whose \"type\" is not {}", wanted));
     const Json* normalized = find_member(item, "normalized");
     Elements result{};
@@ -272,6 +261,27 @@ std::vector<std::array<float, 3>> GltfBuffers::vectors(std::uint64_t accessor) {
         for (std::size_t i = 0; i < 3; ++i) vector[i] = component(at + i * size_of(all.type), all.type, all.normalized);
         return vector;
     });
+}
+
+std::vector<std::array<float, 4>> GltfBuffers::values(std::uint64_t accessor, std::size_t components) {
+    return read<std::array<float, 4>>(accessor, components, [&](const char* at, const Elements& all) {
+        std::array<float, 4> vector{1.0f, 1.0f, 1.0f, 1.0f};
+        for (std::size_t i = 0; i < components; ++i)
+            vector[i] = component(at + i * size_of(all.type), all.type, all.normalized);
+        return vector;
+    });
+}
+
+std::size_t GltfBuffers::components(std::uint64_t accessor) const {
+    const Json* kind = find_member(require_item(document_, "accessors", accessor), "type");
+    for (std::size_t i = 1; i < std::size(kinds); ++i)
+        if (kind && *kind == kinds[i]) return i;
+    return 0;
+}
+
+std::string_view GltfBuffers::whole_view(const Json& image) {
+    std::size_t stride = 0;
+    return view(image, stride);
 }
 
 std::vector<std::uint32_t> GltfBuffers::indices(std::uint64_t accessor) {

@@ -25,6 +25,12 @@ public:
     std::uint64_t count_indices(std::uint64_t accessor);
     /// An accessor of 3-vectors; integers become floats, of -1 to 1 or 0 to 1 if they are normalized.
     std::vector<std::array<float, 3>> vectors(std::uint64_t accessor);
+    /// The same for vectors of 2 to 4 components; the others are 1.
+    std::vector<std::array<float, 4>> values(std::uint64_t accessor, std::size_t components);
+    /// The number of components of an accessor.
+    std::size_t components(std::uint64_t accessor) const;
+    /// The bytes of the buffer view that an image names.
+    std::string_view whole_view(const Json& image);
     /// An accessor of indices.
     std::vector<std::uint32_t> indices(std::uint64_t accessor);
     /// The files that were read in addition to the glTF file.
@@ -50,5 +56,10 @@ private:
     std::vector<std::filesystem::path> other_files_;
     std::map<std::uint64_t, std::string> loaded_;  // buffers by their index
 };
+
+/// The bytes of a data: URI with base64. `what`: "a buffer". Throws MeshError.
+std::string decode_data_uri(std::string_view uri, const char* what);
+/// Decodes %20 and similar escapes.
+std::string without_percents(std::string_view uri);
 
 }  // namespace tumble

@@ -2,6 +2,8 @@
 
 #include "scene/mesh/gltf_buffers.h"
 #include "scene/mesh/gltf_json.h"
+#include "scene/mesh/gltf_materials.h"
+#include "scene/mesh/mesh_images.h"
 #include "scene/mesh/mesh_transform.h"
 
 #include <fmt/format.h>
@@ -42,12 +44,15 @@ enum class Mode { triangles = 4, strip = 5, fan = 6 };
 struct Primitive {
     Mode mode;
     std::uint64_t positions, triangles;
-    std::optional<std::uint64_t> normals, indices;
+    std::optional<std::uint64_t> normals, indices, colors;
+    std::vector<std::uint64_t> uv_sets;
+    std::uint32_t material = MeshFile::no_material;  // index into the materials of the mesh
 };
 
 class SceneReader {
 public:
-    SceneReader(const Json& document, GltfBuffers& buffers) : document_(document), buffers_(buffers) {}
+    SceneReader(const Json& document, GltfBuffers& buffers, const std::filesystem::path& folder)
+        : document_(document), buffers_(buffers), images_(folder), material_reader_(document, buffers, images_) {}
 
     MeshFile read() {
         std::vector<Visit> open;
@@ -60,6 +65,8 @@ public:
             if (const auto mesh = find_whole(node, "mesh")) add_mesh(*mesh, transform);
             push(whole_numbers(node, "children"), transform, open);
         }
+        for (const GltfMaterial& material : materials_) mesh_.materials.push_back(material.look);
+        mesh_.take(images_);
         return std::move(mesh_);
     }
 
@@ -116,6 +123,10 @@ private:
             primitive.positions = require_whole(*attributes, "POSITION");
             primitive.normals = find_whole(*attributes, "NORMAL");
             primitive.indices = find_whole(item, "indices");
+            primitive.colors = find_whole(*attributes, "COLOR_0");
+            for (int set = 0; const auto uv = find_whole(*attributes, fmt::format("TEXCOORD_{}", set).c_str()); ++set)
+                primitive.uv_sets.push_back(*uv);
+            if (const auto material = find_whole(item, "material")) primitive.material = material_number(*material);
             const std::uint64_t corners = primitive.indices ? buffers_.count_indices(*primitive.indices)
                                                             : buffers_.count_vectors(primitive.positions);
             if (corners < 3) continue;
@@ -123,6 +134,32 @@ private:
             entry->second.push_back(primitive);
         }
         return entry->second;
+    }
+
+    std::uint32_t material_number(std::uint64_t material) {
+        const auto [entry, is_new] = number_of_material_.try_emplace(material, std::uint32_t(materials_.size()));
+        if (is_new) materials_.push_back(material_reader_.read(material));
+        return entry->second;
+    }
+
+    /// Vectors of an attribute, one for each position; none if their number differs.
+    std::vector<std::array<float, 4>> attribute(std::uint64_t accessor, std::size_t positions) {
+        const std::size_t components = buffers_.components(accessor);
+        if (components < 2) return {};
+        std::vector<std::array<float, 4>> values = buffers_.values(accessor, components);
+        if (values.size() != positions) values.clear();
+        return values;
+    }
+
+    /// Places in the texture, of each vertex of a primitive.
+    std::vector<std::array<float, 2>> uvs_of(const Primitive& primitive, std::size_t positions) {
+        std::vector<std::array<float, 2>> uvs;
+        if (primitive.material == MeshFile::no_material) return uvs;
+        const GltfMaterial& material = materials_[primitive.material];
+        if (!material.look.texture || material.uv_set >= primitive.uv_sets.size()) return uvs;
+        for (const auto& uv : attribute(primitive.uv_sets[material.uv_set], positions))
+            uvs.push_back(material.placed(uv[0], uv[1]));
+        return uvs;
     }
 
     void add_mesh(std::uint64_t mesh, const MeshTransform& transform) {
@@ -140,6 +177,10 @@ private:
         std::vector<std::array<float, 3>> normals;
         if (primitive.normals && buffers_.count_vectors(*primitive.normals) == positions.size())
             normals = buffers_.vectors(*primitive.normals);
+        const std::vector<std::array<float, 2>> uvs = uvs_of(primitive, positions.size());
+        std::vector<std::array<float, 4>> colors;
+        if (primitive.colors) colors = attribute(*primitive.colors, positions.size());
+        mesh_.colored = mesh_.colored || !colors.empty();
         std::vector<std::uint32_t> indices;
         if (primitive.indices) indices = buffers_.indices(*primitive.indices);
 
@@ -147,7 +188,11 @@ private:
             const std::uint64_t v = primitive.indices ? indices[at] : at;
             if (v >= positions.size())
                 throw MeshError(fmt::format("has a face with vertex {} of {}", v, positions.size()));
-            MeshFile::Corner result{first + static_cast<std::uint32_t>(v), Vec3::Zero()};
+            MeshFile::Corner result;
+            result.position = first + static_cast<std::uint32_t>(v);
+            result.material = primitive.material;
+            if (!uvs.empty()) result.uv = uvs[v];
+            if (!colors.empty()) result.color = {colors[v][0], colors[v][1], colors[v][2]};
             if (!normals.empty()) result.normal = transform.normal(normals[v]);
             return result;
         };
@@ -170,6 +215,10 @@ private:
     const Json& document_;
     GltfBuffers& buffers_;
     MeshFile mesh_;
+    MeshImages images_;
+    GltfMaterials material_reader_;
+    std::vector<GltfMaterial> materials_;  // of the primitives so far
+    std::map<std::uint64_t, std::uint32_t> number_of_material_;
     std::vector<bool> visited_;
     std::map<std::uint64_t, std::vector<Primitive>> meshes_;
 };
@@ -239,8 +288,8 @@ MeshFile read_gltf(std::string_view bytes, const std::filesystem::path& folder) 
     check_version(document);
     check_extensions(document);
     GltfBuffers buffers(document, chunks.binary, bytes.size(), folder);
-    MeshFile mesh = SceneReader(document, buffers).read();
-    mesh.other_files = buffers.other_files();
+    MeshFile mesh = SceneReader(document, buffers, folder).read();
+    mesh.other_files.insert(mesh.other_files.end(), buffers.other_files().begin(), buffers.other_files().end());
     mesh.in_meters = true;
     return mesh;
 }

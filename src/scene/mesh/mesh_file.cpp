@@ -3,6 +3,7 @@
 #include "scene/mesh/assimp_import.h"
 #include "scene/mesh/gltf_file.h"
 #include "scene/mesh/input_file.h"
+#include "scene/mesh/mesh_images.h"
 #include "scene/mesh/obj_file.h"
 #include "scene/mesh/ply_file.h"
 #include "scene/mesh/polygon.h"
@@ -26,8 +27,9 @@ std::string lower_extension(const std::filesystem::path& file) {
     return text;
 }
 
-MeshFile import(std::string_view bytes, const std::string& extension, MeshImports imports) {
-    if (imports == MeshImports::in_child_process) return import_with_assimp(bytes, extension);
+MeshFile import(std::string_view bytes, const std::filesystem::path& folder, const std::string& extension,
+                MeshImports imports) {
+    if (imports == MeshImports::in_child_process) return import_with_assimp(bytes, folder, extension);
     throw MeshError("needs an import in a child process, which has to be allowed first");
 }
 
@@ -38,7 +40,7 @@ MeshFile read_any_gltf(const std::string& bytes, const std::filesystem::path& fo
         return read_gltf(bytes, folder);
     } catch (const UnsupportedGltf& unsupported) {
         try {
-            return import(bytes, extension, imports);
+            return import(bytes, folder, extension, imports);
         } catch (const MeshError& error) {
             throw MeshError(fmt::format("{} (assimp: {})", unsupported.what(), error.what()));
         }
@@ -67,10 +69,10 @@ MeshFile read_bytes(const std::filesystem::path& file, const std::string& extens
             "is of an unknown kind: .obj, .stl, .ply, .gltf, .glb and the kinds that assimp reads can be used");
     const std::string bytes = read_mesh_bytes(file);
     if (bytes.empty()) throw MeshError("is empty");
-    if (!own) return import(bytes, extension, imports);
+    if (!own) return import(bytes, file.parent_path(), extension, imports);
     if (gltf) return read_any_gltf(bytes, file.parent_path(), extension, imports);
-    if (extension == ".obj") return read_obj(plain_text(bytes));
-    return extension == ".stl" ? read_stl(bytes) : read_ply(plain_text(bytes));
+    if (extension == ".obj") return read_obj(plain_text(bytes), file.parent_path());
+    return extension == ".stl" ? read_stl(bytes) : read_ply(plain_text(bytes), file.parent_path());
 }
 
 }  // namespace
@@ -86,6 +88,11 @@ void MeshFile::add_position(const Vec3& position) {
 
 void MeshFile::begin_object() {
     if (objects.empty() || objects.back() != triangles.size()) objects.push_back(triangles.size());
+}
+
+void MeshFile::take(const MeshImages& images) {
+    other_files.insert(other_files.end(), images.files().begin(), images.files().end());
+    missing_images.insert(missing_images.end(), images.missing().begin(), images.missing().end());
 }
 
 void MeshFile::add_polygon(const std::vector<Corner>& corners) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/vector.h"
+#include "scene/description/mesh_paint.h"
 
 #include <array>
 #include <cstdint>
@@ -13,6 +14,8 @@
 
 namespace tumble {
 
+class MeshImages;
+
 /// A fault of a mesh file; what() completes the sentence "mesh ... ".
 struct MeshError : std::runtime_error {
     using std::runtime_error::runtime_error;
@@ -21,21 +24,30 @@ struct MeshError : std::runtime_error {
 /// All triangles of a file, with the transforms of its nodes applied, in the file's units. Counter-clockwise seen from
 /// outside.
 struct MeshFile {
+    static constexpr std::uint32_t no_material = ~std::uint32_t(0);
     struct Corner {
-        std::uint32_t position = 0;  // index into positions
-        Vec3 normal = Vec3::Zero();  // unit, or zero if the file has none
+        std::uint32_t position = 0;                    // index into positions
+        std::uint32_t material = no_material;          // index into materials, of the triangle
+        Vec3 normal = Vec3::Zero();                    // unit, or zero if the file has none
+        std::array<float, 2> uv{};                     // (0, 0) is the top left corner of the texture
+        std::array<float, 3> color{1.0f, 1.0f, 1.0f};  // linear light
     };
     std::vector<Vec3> positions;  // not welded
     std::vector<std::array<Corner, 3>> triangles;
     std::vector<std::size_t> objects;                // the first triangle of each object of the file, ascending
-    std::vector<std::filesystem::path> other_files;  // additional files that were opened: a glTF's buffers
-    bool in_meters = false;  // the format states unit and up axis: positions are in m, with y up
+    std::vector<std::filesystem::path> other_files;  // additional files that were opened: buffers, materials, images
+    std::vector<MeshMaterial> materials;
+    std::vector<std::string> missing_images;  // names of images that could not be read
+    bool colored = false;                     // vertices have colors
+    bool in_meters = false;                   // the format states unit and up axis: positions are in m, with y up
 
     /// Throws MeshError if the position is not finite or beyond 1e30 (its square would overflow), or if there are too
     /// many.
     void add_position(const Vec3& position);
     /// Later triangles belong to another object.
     void begin_object();
+    /// The files and the missing ones.
+    void take(const MeshImages& images);
     /// Triangulates the polygon. Throws MeshError if it or the file has too many corners.
     void add_polygon(const std::vector<Corner>& corners);
     void add_triangle(const std::array<Corner, 3>& corners);
@@ -50,8 +62,8 @@ struct MeshFile {
 enum class MeshImports { in_child_process, refused };
 
 /// The file's ending determines the reader: one of Tumble's, or assimp (assimp_import.h). Throws MeshError if the file
-/// is missing, of another kind, unreadable or empty, or has invalid indices or numbers. Opens the file itself and, for
-/// glTF, the files of its buffers in its folder and below; nothing else.
+/// is missing, of another kind, unreadable or empty, or has invalid indices or numbers, or has a broken image. Opens the
+/// file itself and the files of its buffers, materials and images in its folder and below; nothing else.
 MeshFile read_mesh_file(const std::filesystem::path& file, MeshImports imports = MeshImports::in_child_process);
 
 /// Text of a mesh file for a message: printable, and cut to this many characters.

@@ -1,4 +1,5 @@
 #include "scene/mesh/mesh_loader.h"
+#include "scene/mesh/file_paint.h"
 
 #include "scene/mesh/mesh_normals.h"
 #include "scene/mesh/mesh_winding.h"
@@ -227,6 +228,7 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
     asset->doubled_faces = doubled;
     asset->mesh = compact(whole.vertices, kept);
     fill_drawing(kept_corners, *asset);
+    asset->paint = make_paint(read, asset->mesh, kept_corners);
     result.asset = std::move(asset);
     return result;
 }
@@ -237,6 +239,9 @@ MeshFile object_of(const MeshFile& whole, std::size_t number) {
     const std::size_t last = number + 1 < whole.objects.size() ? whole.objects[number + 1] : whole.triangles.size();
     MeshFile object;
     object.in_meters = whole.in_meters;
+    object.colored = whole.colored;
+    object.materials = whole.materials;
+    object.missing_images = whole.missing_images;
     std::map<std::uint32_t, std::uint32_t> renumbered;
     for (std::size_t t = first; t < last; ++t) {
         Corners corners = whole.triangles[t];
@@ -291,8 +296,7 @@ std::vector<LoadedMesh> load_mesh_objects(const MeshSource& source, std::vector<
         throw MeshError(
             fmt::format("holds {} objects (a body has {} parts at most)", whole.objects.size(), limits::parts));
     std::vector<LoadedMesh> result;
-    for (std::size_t i = 0; i < whole.objects.size(); ++i)
-        result.push_back(loaded(object_of(whole, i), source.file));
+    for (std::size_t i = 0; i < whole.objects.size(); ++i) result.push_back(loaded(object_of(whole, i), source.file));
     return result;
 }
 

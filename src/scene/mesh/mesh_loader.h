@@ -18,7 +18,7 @@ namespace tumble {
 /// A mesh and its properties.
 struct LoadedMesh {
     std::shared_ptr<const MeshAsset> asset;
-    Closedness closedness;  // of the surface before triangles without area were dropped; its volume is in m^3
+    Closedness closedness;   // of the surface before triangles without area were dropped; its volume is in m^3
     bool in_meters = false;  // the file states its unit and its up axis
     /// True if it has a volume, and that is more than rounding.
     bool encloses() const;
@@ -88,8 +88,7 @@ LoadedMesh load_mesh(const MeshSource& source, std::vector<std::filesystem::path
 
 /// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; the whole file for
 /// other formats. Throws MeshError also if there are more objects than a body may have parts.
-std::vector<LoadedMesh> load_mesh_objects(const MeshSource& source,
-                                          std::vector<std::filesystem::path>* read = nullptr,
+std::vector<LoadedMesh> load_mesh_objects(const MeshSource& source, std::vector<std::filesystem::path>* read = nullptr,
                                           MeshImports imports = MeshImports::in_child_process);
 
 /// Merges vertices that are closer than 1e-9 of the mesh's size into the first of each group in file order. Returns for

@@ -96,6 +96,15 @@ bool TextTokens::next_line() {
     return true;
 }
 
+std::string rest_of_line(TextTokens& tokens) {
+    std::string text;
+    for (std::string_view token = tokens.token(); !token.empty(); token = tokens.token()) {
+        if (!text.empty()) text += ' ';
+        text += token;
+    }
+    return text;
+}
+
 float mesh_number(std::string_view token, std::size_t line) {
     Cursor c{token};
     const bool negative = c.peek() == '-';

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <string_view>
 
 namespace tumble {
@@ -26,6 +27,9 @@ private:
     std::string_view text_;
     std::size_t at_ = 0, line_ = 1;
 };
+
+/// The words of a line from here on: the name of a material or of a file may hold spaces.
+std::string rest_of_line(TextTokens& tokens);
 
 /// A decimal number with a point or a comma, `nan` or `inf`. Integer part, fraction and power of ten are each rounded
 /// to a float, as in assimp, so that coordinates equal those of assimp. Throws MeshError, which names the line, if the

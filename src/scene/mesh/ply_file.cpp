@@ -1,5 +1,7 @@
 #include "scene/mesh/ply_file.h"
 
+#include "scene/mesh/mesh_images.h"
+#include "scene/mesh/mtl_file.h"
 #include "scene/toml/limits.h"
 #include "scene/toml/range.h"
 
@@ -46,6 +48,7 @@ struct Element {
 struct Header {
     Encoding encoding = Encoding::text;
     std::vector<Element> elements;
+    std::string_view texture;  // name of an image; empty: none
 };
 
 template <class Value>
@@ -68,6 +71,11 @@ std::string_view take_token(std::string_view& line) {
     const std::string_view token = line.substr(0, line.find_first_of(" \t"));
     line.remove_prefix(token.size());
     return token;
+}
+
+std::string_view trimmed(std::string_view text) {
+    const std::size_t first = text.find_first_not_of(" \t");
+    return first == text.npos ? "" : text.substr(first, text.find_last_not_of(" \t") + 1 - first);
 }
 
 Element read_element(std::string_view tokens) {
@@ -107,7 +115,9 @@ Header read_header(std::string_view& bytes) {
     Header header;
     for (std::string_view line = next_line(); line != "end_header"; line = next_line()) {
         const std::string_view token = take_token(line);
-        if (token == "format") {
+        if (token == "comment") {
+            if (take_token(line) == "TextureFile") header.texture = trimmed(line);
+        } else if (token == "format") {
             header.encoding = named<Encoding>(take_token(line), encodings, "format");
         } else if (token == "element") {
             header.elements.push_back(read_element(line));
@@ -227,10 +237,11 @@ std::optional<std::size_t> property_index(const Element& element, std::string_vi
     return std::nullopt;
 }
 
-/// The properties of three names, if the element has all of them.
-std::optional<std::array<std::size_t, 3>> triple(const Element& element, const std::array<const char*, 3>& names) {
-    std::array<std::size_t, 3> result{};
-    for (int i = 0; i < 3; ++i) {
+/// The properties of these names, if the element has all of them.
+template <std::size_t N>
+std::optional<std::array<std::size_t, N>> all_of(const Element& element, const std::array<const char*, N>& names) {
+    std::array<std::size_t, N> result{};
+    for (std::size_t i = 0; i < N; ++i) {
         const auto index = property_index(element, names[i], false);
         if (!index) return std::nullopt;
         result[i] = *index;
@@ -238,20 +249,40 @@ std::optional<std::array<std::size_t, 3>> triple(const Element& element, const s
     return result;
 }
 
-MeshFile::Corner corner_of(double index, const std::vector<Vec3>& normals, const MeshFile& mesh) {
+/// Data of vertices beside their positions; each list has one value per vertex, or none at all.
+struct VertexData {
+    std::vector<Vec3> normals;
+    std::vector<std::array<float, 3>> colors;  // linear light
+    std::vector<std::array<float, 2>> places;  // in the texture
+    std::uint32_t material = MeshFile::no_material;
+};
+
+MeshFile::Corner corner_of(double index, const VertexData& data, const MeshFile& mesh) {
     const std::size_t v = whole(index, double(mesh.positions.size()), "a face with a vertex");
-    return {static_cast<std::uint32_t>(v), normals.empty() ? Vec3(Vec3::Zero()) : normals[v]};
+    MeshFile::Corner corner;
+    corner.position = static_cast<std::uint32_t>(v);
+    if (v < data.normals.size()) corner.normal = data.normals[v];
+    if (v < data.colors.size()) corner.color = data.colors[v];
+    if (v < data.places.size()) corner.uv = data.places[v];
+    corner.material = data.material;
+    return corner;
+}
+
+/// The largest value of a color channel of this type.
+double full_channel(Type type) {
+    if (type == Type::float32 || type == Type::float64) return 1.0;
+    return type == Type::uint16 ? 65535.0 : 255.0;
 }
 
 /// Strips of triangles, each ended by -1; every second triangle is wound the other way.
-void add_strips(const std::vector<double>& indices, const std::vector<Vec3>& normals, MeshFile& mesh) {
+void add_strips(const std::vector<double>& indices, const VertexData& data, MeshFile& mesh) {
     std::vector<MeshFile::Corner> strip;
     for (const double index : indices) {
         if (index == -1.0) {
             strip.clear();
             continue;
         }
-        strip.push_back(corner_of(index, normals, mesh));
+        strip.push_back(corner_of(index, data, mesh));
         const std::size_t n = strip.size();
         if (n < 3) continue;
         if (n % 2 == 1)
@@ -263,12 +294,19 @@ void add_strips(const std::vector<double>& indices, const std::vector<Vec3>& nor
 
 }  // namespace
 
-MeshFile read_ply(std::string_view bytes) {
+MeshFile read_ply(std::string_view bytes, const std::filesystem::path& folder) {
     const Header header = read_header(bytes);
     Body body(bytes, header.encoding);
 
     MeshFile mesh;
-    std::vector<Vec3> normals;  // one per vertex, or none at all
+    VertexData data;
+    MeshImages images(folder);
+    if (!header.texture.empty())
+        if (const auto texture = images.texture(header.texture)) {
+            data.material = 0;
+            mesh.materials.emplace_back().texture = texture;
+        }
+    mesh.take(images);
     // A row for each line may have more columns than the header names.
     std::uint64_t rows = 0;
     for (const Element& element : header.elements)
@@ -276,7 +314,13 @@ MeshFile read_ply(std::string_view bytes) {
     const bool row_per_line = header.encoding == Encoding::text && body.lines_left() == rows;
     for (const Element& element : header.elements) {
         const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
-        const auto position = triple(element, {"x", "y", "z"}), normal = triple(element, {"nx", "ny", "nz"});
+        const auto position = all_of<3>(element, {"x", "y", "z"}), normal = all_of<3>(element, {"nx", "ny", "nz"});
+        // Programs write gray vertices beside a texture.
+        const auto color = mesh.materials.empty() ? all_of<3>(element, {"red", "green", "blue"}) : std::nullopt;
+        auto place = all_of<2>(element, {"s", "t"});
+        for (const auto& names : {std::array{"u", "v"}, std::array{"texture_u", "texture_v"}})
+            if (!place) place = all_of<2>(element, names);
+        const auto corner_places = property_index(element, "texcoord", true);
         auto corners = property_index(element, "vertex_indices", true);
         if (!corners) corners = property_index(element, "vertex_index", true);
         if (is_vertex && !position) throw MeshError("has vertices without x, y and z");
@@ -293,17 +337,30 @@ MeshFile read_ply(std::string_view bytes) {
             if (is_vertex) {
                 const auto& [x, y, z] = *position;
                 mesh.add_position({scalar[x], scalar[y], scalar[z]});
+                if (place) data.places.push_back({float(scalar[(*place)[0]]), 1.0f - float(scalar[(*place)[1]])});
+                if (color) {
+                    std::array<float, 3>& linear = data.colors.emplace_back();
+                    for (std::size_t c = 0; c < 3; ++c)
+                        linear[c] = linear_channel(
+                            float(scalar[(*color)[c]] / full_channel(element.properties[(*color)[c]].type)));
+                }
                 if (normal)
-                    normals.push_back(unit_or_zero({scalar[(*normal)[0]], scalar[(*normal)[1]], scalar[(*normal)[2]]}));
+                    data.normals.push_back(
+                        unit_or_zero({scalar[(*normal)[0]], scalar[(*normal)[1]], scalar[(*normal)[2]]}));
             } else if (is_face) {
                 polygon.clear();
-                for (const double index : list[*corners]) polygon.push_back(corner_of(index, normals, mesh));
+                for (const double index : list[*corners]) polygon.push_back(corner_of(index, data, mesh));
+                if (corner_places && list[*corner_places].size() == 2 * polygon.size())
+                    for (std::size_t i = 0; i < polygon.size(); ++i)
+                        polygon[i].uv = {float(list[*corner_places][2 * i]),
+                                         1.0f - float(list[*corner_places][2 * i + 1])};
                 mesh.add_polygon(polygon);
             } else if (is_strip) {
-                add_strips(list[*corners], normals, mesh);
+                add_strips(list[*corners], data, mesh);
             }
         }
     }
+    mesh.colored = !data.colors.empty();
     return mesh;
 }
 

@@ -3,11 +3,12 @@
 
 #include "scene/mesh/mesh_file.h"
 
+#include <filesystem>
 #include <string_view>
 
 namespace tumble {
 
 /// `bytes`: content of the file. Throws MeshError.
-MeshFile read_ply(std::string_view bytes);
+MeshFile read_ply(std::string_view bytes, const std::filesystem::path& folder);
 
 }  // namespace tumble

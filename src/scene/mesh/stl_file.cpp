@@ -35,7 +35,9 @@ private:
 
 void add_last_three(MeshFile& mesh) {
     const auto next = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.add_triangle({{{next - 3, Vec3::Zero()}, {next - 2, Vec3::Zero()}, {next - 1, Vec3::Zero()}}});
+    std::array<MeshFile::Corner, 3> corners;
+    for (std::uint32_t i = 0; i < 3; ++i) corners[i].position = next - 3 + i;
+    mesh.add_triangle(corners);
 }
 
 /// Keywords may have capitals.

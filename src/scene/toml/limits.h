@@ -16,6 +16,8 @@ inline constexpr std::int64_t key_parts = 16;  // a.b.c has three, and a scene n
 inline constexpr std::int64_t mesh_bytes =
     256 << 20;  // up to ten times the file in memory while it is read; also the limit of
                 // the sum of all other files that contain a glTF's buffers
+inline constexpr std::int64_t texture_side = 8192;         // pixels: 256 MiB with the float values of its mip maps
+inline constexpr std::int64_t texture_texels = 128 << 20;  // of one mesh file: 680 MiB with mip maps
 inline constexpr std::int64_t json_values = 10'000'000;    // of a glTF file: 16 to 100 bytes of memory each
 inline constexpr std::int64_t mesh_triangles = 5'000'000;  // 32-bit indices and about a gigabyte when welded
 

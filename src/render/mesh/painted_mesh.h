@@ -1,0 +1,36 @@
+// The vertices of a mesh with the colors of its file, one for each different corner, and its triangles by texture.
+#pragma once
+
+#include "scene/description/description.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace tumble {
+
+/// Attributes of a vertex beside those of MeshAsset::Vertex, as in shaders/body.vert.
+struct VertexPaint {
+    std::array<float, 2> uv;
+    std::array<float, 3> color;     // linear light, without the texture
+    std::array<float, 3> surface;   // roughness, metallic (below 0: those of the body), alpha below which is a hole
+    std::array<float, 3> emission;  // linear light
+};
+
+struct PaintedMesh {
+    /// Consecutive indices that share a texture. `material` has the texture, if any, and its wrapping.
+    struct Range {
+        const MeshMaterial* material;
+        std::size_t first, count;
+    };
+    std::vector<std::uint32_t> source;  // vertex of the mesh, for each vertex
+    std::vector<VertexPaint> paint;     // of each vertex
+    std::vector<std::uint32_t> indices;
+    std::vector<Range> ranges;
+};
+
+/// `indices`: of the triangles of the mesh, in the order of MeshAsset::indices.
+PaintedMesh paint_mesh(std::span<const std::uint32_t> indices, const MeshPaint& paint);
+
+}  // namespace tumble
