@@ -1,4 +1,4 @@
-// Values of the interface as those of the layers below, and back; to the bit.
+// Converts values of the interface to values of the layers below, and back; to the bit.
 #pragma once
 
 #include "core/error.h"

@@ -1,5 +1,5 @@
-// Each enum of the interface has the enumerators of an enum of the scene's description, in the same order. Their names in
-// scene files are in scene/fields/choices.h.
+// Each enum of the interface has the enumerators of an enum of the scene's description, in the same order. Their names
+// in scene files are in scene/fields/choices.h.
 #pragma once
 
 #include "core/error.h"

@@ -45,7 +45,7 @@ struct ImageResult {
     std::vector<RuleFigure> figures;        // of a compared pair
     std::string reason;                     // a sentence for each failed rule, one per line; empty for same and alike
     int width = 0, height = 0;              // pixels, of the reference, or of an added image; 0: unknown
-    int image_width = 0, image_height = 0;  // of an image of another size than the reference; else 0
+    int image_width = 0, image_height = 0;  // of an image of another size than the reference; otherwise 0
     bool accepted = false;                  // the image becomes the reference
     double seconds = 0.0;                   // of the comparison, and of the drawing where there is one
     std::int64_t differing_pixels = 0;      // with any difference
@@ -70,8 +70,8 @@ struct SetResult {
     bool fails(Verdict verdict) const;
     bool fails(const ImageResult& result) const { return !result.accepted && fails(result.verdict); }
 
-    /// 2 if an image is broken, else 3 if one is missing, else 1 if one differs or an added one is not allowed, else 0.
-    /// Accepted images do not count.
+    /// 2 if an image is broken, otherwise 3 if one is missing, otherwise 1 if one differs or an added one is not
+    /// allowed, otherwise 0. Accepted images do not count.
     int exit_code() const;
 };
 

@@ -49,8 +49,8 @@ Json json_of(const ImageResult& image) {
     return json;
 }
 
-/// Text for an attribute or an element. XML 1.0 allows no control characters but tab and line breaks, and a reader takes
-/// those of an attribute for spaces.
+/// Text for an attribute or an element. XML 1.0 allows no control characters but tab and line breaks, and a reader
+/// takes those of an attribute for spaces.
 std::string escaped(std::string_view text) {
     std::string xml;
     for (const char c : html_text(safe_lines(text, text.size() + message_text_bytes))) {
@@ -62,7 +62,7 @@ std::string escaped(std::string_view text) {
     return xml;
 }
 
-/// JUnit tells tests that fail from those that cannot be done.
+/// JUnit tells tests that fail from tests that cannot be done.
 bool is_error(Verdict verdict) { return verdict == Verdict::missing || verdict == Verdict::broken; }
 
 std::string testcase(const ImageResult& image, const SetResult& result) {

@@ -1,6 +1,7 @@
-// Pictures of the difference of two images: the first one dimmed to gray, with differences in red (beyond the tolerance) and
-// blue (within it, magnified). Images of two sizes both lie at the top left of a canvas that holds either: pixels of the first
-// one alone are yellow, pixels of the second one alone green, and the rest of the canvas is black.
+// Pictures of the difference of two images: the first one dimmed to gray, with differences in red (beyond the
+// tolerance) and blue (within it, magnified). Images of two sizes both lie at the top left of a canvas that holds
+// either: pixels of the first one alone are yellow, pixels of the second one alone green, and the rest of the canvas is
+// black.
 #pragma once
 
 #include "compare/image_compare.h"

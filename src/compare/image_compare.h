@@ -36,12 +36,13 @@ struct CompareOptions {
     std::optional<int> cluster = std::nullopt;
     /// Mean difference of a window, levels. Default: tolerance / 2 + 255 fraction.
     std::optional<double> window = std::nullopt;
-    /// Pixels of a window that may be off by more than half the tolerance in one direction. Default: as many as cluster.
+    /// Pixels of a window that may be off by more than half the tolerance in one direction. Default: as many as
+    /// cluster.
     std::optional<int> shade = std::nullopt;
 };
 
-/// Result of a rule and its place: the pixel that differs most for `pixels`, else the worst window's top left pixel (of
-/// equal ones the first from the top, then from the left).
+/// Result of a rule and its place: the pixel that differs most for `pixels`, otherwise the worst window's top left
+/// pixel (of equal ones the first from the top, then from the left).
 struct CompareRule {
     const char* name = "";
     double figure = 0.0, limit = 0.0;  // levels for `window`, pixels for the others
@@ -115,8 +116,8 @@ private:
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
 /// The same for picture files of any size: a few rows are in memory. Writes an image of the differences
-/// (difference_image.h) where that file is named, also if the sizes differ. Throws InputError where an image is missing or
-/// broken or the sizes differ, RunError where the difference cannot be written.
+/// (difference_image.h) where that file is named, also if the sizes differ. Throws InputError where an image is missing
+/// or broken or the sizes differ, RunError where the difference cannot be written.
 Comparison compare_png_files(const std::filesystem::path& a, const std::filesystem::path& b,
                              const CompareOptions& options, const std::filesystem::path& difference_file);
 

@@ -50,7 +50,7 @@ bool write_all(int file, std::string_view bytes) {
 }
 
 pid_t fork_child(ChildRules rules, const std::function<int()>& work) {
-    std::fflush(nullptr);  // else the child writes it once more
+    std::fflush(nullptr);  // otherwise the child writes it once more
     const pid_t program = ::getpid(), id = ::fork();
     if (id < 0) fail("cannot start a process");
     if (id > 0) return id;

@@ -10,7 +10,8 @@
 
 namespace tumble {
 
-/// Both ends of a pipe, which programs that are started do not inherit. Its destructor closes an end that is still open.
+/// Both ends of a pipe, which programs that are started do not inherit. Its destructor closes an end that is still
+/// open.
 class Pipe {
 public:
     /// Throws RunError.
@@ -39,9 +40,9 @@ struct ChildRules {
     bool own_group = true;     // no Ctrl-C of a terminal, no blocked signals
 };
 
-/// Forks. The child ends with the program, calls `work` and exits with the code that it returns, without the destructors of
-/// the program's objects. Preconditions: the program has no other thread, and `work` throws nothing. Throws RunError if no
-/// process can be started.
+/// Forks. The child ends with the program, calls `work` and exits with the code that it returns, without the
+/// destructors of the program's objects. Preconditions: the program has no other thread, and `work` throws nothing.
+/// Throws RunError if no process can be started.
 pid_t fork_child(ChildRules rules, const std::function<int()>& work);
 
 }  // namespace tumble

@@ -136,8 +136,8 @@ double logarithm(double x) {
 double hypotenuse(double x, double y) {
     x = std::fabs(x), y = std::fabs(y);
     if (x == HUGE_VAL || y == HUGE_VAL) return HUGE_VAL;
-    // A scale by a power of two rounds nothing that counts: beside a number in these bounds, one whose square underflows
-    // adds less than a rounding.
+    // A scale by a power of two rounds nothing that counts: beside a number in these bounds, one whose square
+    // underflows adds less than a rounding.
     constexpr double least = 0x1p-500, most = 0x1p+500, shift = 0x1p+600;
     const double larger = x < y ? y : x;
     if (larger > most) {

@@ -26,7 +26,7 @@ double exponential(double x);
 double logarithm(double x);
 
 /// sqrt(x^2 + y^2) without overflow or underflow on the way; relative error below 2.3e-16, one unit in the last place.
-/// With an infinite argument infinity, else with NaN NaN.
+/// With an infinite argument infinity, otherwise with NaN NaN.
 double hypotenuse(double x, double y);
 
 struct TanhSech {

@@ -17,7 +17,7 @@ struct SourceLocation {
 
 /// The input or the usage is wrong: exit code 2, and no output was written. what() is "FILE:LINE:COLUMN: error:
 /// message"
-/// with a known place, else "error: message".
+/// with a known place, otherwise "error: message".
 class InputError : public std::runtime_error {
 public:
     explicit InputError(const std::string& message);

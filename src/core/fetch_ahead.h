@@ -1,5 +1,5 @@
-// Reads memory into the cache ahead of its use. Processors foresee the strides of small elements only: a loop over elements
-// of kilobytes waits for each of them otherwise.
+// Reads memory into the cache ahead of its use. Processors foresee the strides of small elements only: a loop over
+// elements of kilobytes waits for each of them otherwise.
 #pragma once
 
 #include <cstddef>

@@ -16,7 +16,7 @@ inline constexpr std::size_t most_images_with_alpha = 256;
 
 class ImageMean {
 public:
-    /// `transparent`: with alpha; else alpha is ignored, and the mean is opaque.
+    /// `transparent`: with alpha; otherwise alpha is ignored, and the mean is opaque.
     explicit ImageMean(bool transparent = false);
 
     /// Adds an image of the size of the others.

@@ -1,5 +1,5 @@
-// Files that a command reads. Each is a regular file; links are followed. A folder, a pipe, a socket or a device is refused
-// without waiting for it: opening one may wait, or act on it.
+// Files that a command reads. Each is a regular file; links are followed. A folder, a pipe, a socket or a device is
+// refused without waiting for it: opening one may wait, or act on it.
 #pragma once
 
 #include <cstdint>

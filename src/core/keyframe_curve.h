@@ -1,5 +1,5 @@
 // Vectors that change with time along keyframes; constant before the first and after the last. Smooth: a cubic Hermite
-// spline without overshoot (monotone_spline.h), with zero slope at both ends. Linear: constant speed between keys.
+// spline without overshoot (smooth_slope()), with zero slope at both ends. Linear: constant speed between keys.
 #pragma once
 
 #include <Eigen/Core>

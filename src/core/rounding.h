@@ -6,7 +6,7 @@
 
 namespace tumble {
 
-/// The integer within a few roundings of x, else x. Precondition: x >= 0.
+/// The integer within a few roundings of x, otherwise x. Precondition: x >= 0.
 inline double rounded_if_nearly_whole(double x) {
     constexpr double rounding = 1e-12;  // relative; about 4500 units in the last place
     const double nearest = std::nearbyint(x);

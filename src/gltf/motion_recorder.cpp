@@ -104,8 +104,8 @@ void MotionRecorder::add(const Snapshot& snapshot, const CameraDescription& came
     started_ = true;
 }
 
-/// The pose in free flight under gravity, at a time near that of `from`: the rotation is that of the middle of the time,
-/// an error of its third power.
+/// The pose in free flight under gravity, at a time near that of `from`: the rotation is that of the middle of the
+/// time, an error of its third power.
 MotionRecorder::Pose MotionRecorder::flown(std::size_t body, const Pose& from, double time) const {
     const double t = time - from.time;
     const Vec3& gravity = scene_.simulation.gravity;
@@ -131,7 +131,7 @@ void MotionRecorder::add_impacts(std::size_t body, const Impacts& impacts, const
     const Pose first = flown(body, last, first_time);
     const Pose second = flown(body, now, last_time);
     if (first_time == last_time) {
-        // Else the body did not fly before or after the impact: a landing.
+        // Otherwise the body did not fly before or after the impact: a landing.
         if ((first.position - second.position).norm() <= key_tolerance &&
             small_turn(second.rotation * first.rotation.conjugate()).norm() <= key_rotation_tolerance)
             add_corner(body, first, second);

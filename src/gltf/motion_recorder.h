@@ -33,12 +33,12 @@ public:
     /// `reports`: of all bodies. The scene must outlive the recorder.
     MotionRecorder(const SceneDescription& scene, std::vector<BodyReport> reports, KeyKind kind);
 
-    /// Adds the next moment. `camera`: its pose then. `records`: since the moment before; null: without impacts at times
-    /// of their own.
+    /// Adds the next moment. `camera`: its pose then. `records`: since the moment before; null: without impacts at
+    /// times of their own.
     void add(const Snapshot& snapshot, const CameraDescription& camera, const ContactRecords* records);
     void finish();
 
-    /// By body: of its center of mass if it is dynamic, else of its origin.
+    /// By body: of its center of mass if it is dynamic, otherwise of its origin.
     const std::vector<PoseKeys>& bodies() const { return bodies_; }
     const PoseKeys& camera() const { return camera_; }
     /// Node of a body relative to the body's origin, body frame, m.

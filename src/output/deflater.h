@@ -17,8 +17,8 @@ public:
     Deflater();
     ~Deflater();
 
-    /// Compresses the concatenated segments into `room`, whose size must be at least bound() of their total. Returns the
-    /// number of bytes.
+    /// Compresses the concatenated segments into `room`, whose size must be at least bound() of their total. Returns
+    /// the number of bytes.
     std::size_t compress(std::initializer_list<std::span<const std::byte>> segments, End end,
                          std::span<std::byte> room);
 

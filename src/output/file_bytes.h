@@ -16,8 +16,8 @@ std::optional<std::string> bytes_of_file(const std::filesystem::path& path, std:
 
 // Detects damaged files.
 
-/// CRC-32, as in zip and PNG files and as Python's zlib.crc32() computes it, of the bytes after others with the checksum
-/// `before`; 0 for none.
+/// CRC-32, as in zip and PNG files and as Python's zlib.crc32() computes it, of the bytes after others with the
+/// checksum `before`; 0 for none.
 std::uint32_t crc32_of(std::uint32_t before, std::span<const std::byte> bytes);
 
 /// CRC-64 (ECMA-182, reflected). Any change within 64 neighboring bits gives another sum, and other changes give the

@@ -1,7 +1,8 @@
 // Several files of a folder that get their names together: all of them or none, also after the process is killed.
 //
-// The files are written into a hidden folder, and when all of them are on the disk, a journal of their names. Then they are
-// renamed. Without a journal, none has been renamed; with one whose process has ended, the next run renames the rest.
+// The files are written into a hidden folder, and when all of them are on the disk, a journal of their names. Then they
+// are renamed. Without a journal, none has been renamed; with one whose process has ended, the next run renames the
+// rest.
 #pragma once
 
 #include "output/confined_path.h"
@@ -22,8 +23,8 @@ public:
     explicit FileTransaction(const std::filesystem::path& folder, InnerLinks links = InnerLinks::followed)
         : folder_(folder), links_(links) {}
 
-    /// Writes a file for a name in the folder (confined_path.h); folders are made. Throws InputError, RunError. No existing
-    /// file changes before commit().
+    /// Writes a file for a name in the folder (confined_path.h); folders are made. Throws InputError, RunError. No
+    /// existing file changes before commit().
     void add(const std::filesystem::path& name, std::string_view bytes);
 
     /// Throws RunError; the next run then renames the files that are left.

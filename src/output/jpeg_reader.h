@@ -12,8 +12,8 @@
 
 namespace tumble {
 
-/// An image from top to bottom, as it is stored (an orientation for viewers is not followed): 8-bit sRGB with alpha 255.
-/// Memory: a few rows, or six bytes for each pixel of a progressive file.
+/// An image from top to bottom, as it is stored (an orientation for viewers is not followed): 8-bit sRGB with alpha
+/// 255. Memory: a few rows, or six bytes for each pixel of a progressive file.
 class JpegRows {
 public:
     /// Reads the header. Throws InputError naming the file (`name`) if it is no JPEG file, broken, too large or CMYK.

@@ -28,7 +28,7 @@ public:
     void add(std::string_view name, const ArrayShape& shape, std::span<const std::uint8_t> values);
 
     /// The whole file, valid until the next call. The archive is empty again. With a mark (64
-    /// characters), the file ends with a comment of it and a checksum (npz_check.h).
+    /// characters), the file ends with a comment of it and a checksum.
     std::span<const std::byte> finish(std::string_view mark = {});
 
     /// Upper bound of the size of an array in a file, including the end of the file, bytes.

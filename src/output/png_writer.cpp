@@ -109,7 +109,7 @@ void append_chunk(std::vector<std::byte>& to, std::string_view name,
     append_number(to, crc32_of(0, std::span<const std::byte>(to).subspan(first)));
 }
 
-/// R, G and B of the pixels from `first` on, less those of the pixel before.
+/// R, G and B of the pixels from `first` on, less R, G and B of the pixel before.
 void pack_pixels(const std::uint8_t* from, int first, int width, std::uint8_t* to) {
     for (int x = first; x < width; ++x)
         for (int c = 0; c < 3; ++c) to[3 * x + c] = static_cast<std::uint8_t>(from[4 * x + c] - from[4 * x - 4 + c]);
@@ -123,8 +123,8 @@ void pack_pixels_with_alpha(const std::uint8_t* from, int width, std::uint8_t* t
 
 #ifdef __x86_64__
 
-/// R, G and B from the second pixel on, four at a time; returns the first one that is left. Each store is four bytes too
-/// long; they are overwritten by the next store or by the remaining pixels.
+/// R, G and B from the second pixel on, four at a time; returns the first one that is left. Each store is four bytes
+/// too long; they are overwritten by the next store or by the remaining pixels.
 __attribute__((target("ssse3"))) int pack_fours(const std::uint8_t* from, int width, std::uint8_t* to) {
     const __m128i without_alpha = _mm_setr_epi8(0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14, -1, -1, -1, -1);
     int x = 1;

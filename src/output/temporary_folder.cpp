@@ -40,7 +40,7 @@ bool may_be_ours(const std::string& name, std::string_view prefix) {
                        [](char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0; });
 }
 
-/// The lock of its mark, which is free if its process has ended; else nothing.
+/// The lock of its mark, which is free if its process has ended; otherwise nothing.
 OpenFile lock_if_left(const fs::path& folder) {
     struct stat status {};
     if (::lstat(folder.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) || status.st_uid != ::geteuid()) return {};

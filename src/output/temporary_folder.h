@@ -17,7 +17,7 @@ struct LeftFolder {
     OpenFile lock;
 };
 
-/// Those with this prefix. Folders of other users, and others that merely have such a name, are not among them.
+/// The folders with this prefix. Folders of other users, and others that merely have such a name, are not among them.
 std::vector<LeftFolder> left_folders(const std::filesystem::path& parent, std::string_view prefix);
 void remove_left_folders(const std::filesystem::path& parent, std::string_view prefix);
 

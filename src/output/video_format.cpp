@@ -127,7 +127,7 @@ Arguments prores_4444(VideoQuality quality) {
             "16",   "-q:v",      quantizer,    "-threads", "4",       "-pix_fmt", "yuva444p10le"};
 }
 
-/// Arguments of the ffmpeg program, from -c:v on. For a GIF they are those of its lossless first stage, the same for
+/// Arguments of the ffmpeg program, from -c:v on. For a GIF they belong to its lossless first stage, the same for
 /// each quality.
 Arguments codec_arguments(VideoKind kind, const ClipOptions& options) {
     switch (kind) {

@@ -28,8 +28,8 @@ enum class PixelFormat {
 /// True for forms with half as many columns and rows of color, which need an even size.
 bool is_subsampled(PixelFormat form);
 
-/// The size of the pictures in a file, for images of that size. H.264 stores half as many colors in each direction and has even sides: the last column or row
-/// of an odd one is there twice. Other kinds keep odd sides.
+/// The size of the pictures in a file, for images of that size. H.264 stores half as many colors in each direction and
+/// has even sides: the last column or row of an odd one is there twice. Other kinds keep odd sides.
 ImageSize stored_size(VideoKind kind, const ImageSize& images);
 
 /// "640 x 360", or for odd sides "162 x 122 (161 x 121 and ...)".
@@ -75,8 +75,8 @@ VideoFormat video_format(const std::filesystem::path& clip, double fps, bool tra
 constexpr const char* clip_to_standard_output = "/dev/stdout";
 
 /// Arguments that make ffmpeg read raw frames of images of that size from its standard input (a matroska_stream.h) into
-/// `output`. For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known only when all
-/// frames are, and reading them twice keeps memory constant.
+/// `output`. For a GIF that is a lossless clip, from which gif_arguments() makes the GIF: the best 256 colors are known
+/// only when all frames are, and reading them twice keeps memory constant.
 std::vector<std::string> encoding_arguments(const VideoFormat& format, const ClipOptions& options,
                                             const ImageSize& images, const std::filesystem::path& output);
 std::vector<std::string> gif_arguments(const std::filesystem::path& lossless, const std::filesystem::path& output);

@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-// Lengths in sizes of the joint: the radius of its smaller body, or a share of the arm from the body's origin to the anchor.
+// Lengths in sizes of the joint: the radius of its smaller body, or a share of the arm from the body's origin to the
+// anchor.
 constexpr double half_axis = 0.8, arc_radius = 0.55, rail_end = 0.22, farthest_limit = 100.0, share_of_arm = 0.5;
 constexpr double arc_step = pi / 24.0;  // rad, between two points of an arc
 constexpr int cone_points = 48, cone_spokes = 4;

@@ -1,4 +1,5 @@
-// The sketch of a joint for overlays: its anchor, axes and limits, as points that are fixed in bodies. Made once for a scene.
+// The sketch of a joint for overlays: its anchor, axes and limits, as points that are fixed in bodies. Made once for a
+// scene.
 #pragma once
 
 #include "overlay/overlay_frame.h"
@@ -24,7 +25,7 @@ struct SketchPoint {
 
 struct SketchLine {
     std::vector<SketchPoint> points;
-    bool limit = false;  // of a limit, else of an axis
+    bool limit = false;  // of a limit, otherwise of an axis
 };
 
 struct JointSketch {

@@ -1,5 +1,5 @@
-// Makes the shapes of each frame from the state of the bodies and the log of contacts. It keeps the history that trails,
-// ghosts and visible impulses need, so frames are given in order and once each.
+// Makes the shapes of each frame from the state of the bodies and the log of contacts. It keeps the history that
+// trails, ghosts and visible impulses need, so frames are given in order and once each.
 #pragma once
 
 #include "overlay/joint_sketch.h"
@@ -84,7 +84,7 @@ private:
     std::vector<Trail> trails_;
     std::vector<Ghost> ghosts_;
     std::int64_t frames_ = 0;  // of the clip so far: with a shutter, the frames of snapshots are parts of these
-    std::deque<ImpactRecord> impacts_;  // those that are still visible
+    std::deque<ImpactRecord> impacts_;  // rings that are still visible
     OverlayFrame frame_;
 };
 

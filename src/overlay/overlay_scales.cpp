@@ -34,7 +34,7 @@ double rounded_down(double value) {
     return power;
 }
 
-// Eight bins in each factor of two, without logarithms: those of glibc depend on the processor.
+// Eight bins in each factor of two, without logarithms: glibc's logarithms depend on the processor.
 int bin_of(double size) {
     int exponent = 0;
     const double mantissa = std::frexp(size, &exponent);

@@ -39,7 +39,7 @@ bool draws_shapes(const OverlayDescription& overlay);
 bool needs_survey(const OverlayDescription& overlay);
 /// True if contacts and impacts have to be recorded.
 bool needs_records(const OverlayDescription& overlay);
-/// By body: 1 if the overlay shows it, else 0.
+/// By body: 1 if the overlay shows it, otherwise 0.
 std::vector<char> shown_bodies(const SceneDescription& scene);
 
 /// The vector of a record that an arrow shows: on B, or on A where only A is dynamic.

@@ -16,7 +16,7 @@ constexpr int tile = 16;  // pixels
 // A shape that lies in a surface counts as visible: relative depth, and pixels at the surface's distance.
 constexpr double depth_tolerance = 2e-3, depth_tolerance_pixels = 4.0;
 
-/// Thin shapes have a thin outline, which would else be all that is seen of them.
+/// Thin shapes have a thin outline, which would otherwise be all that is seen of them.
 double halo_width(double width) { return std::min(style::most_halo, style::halo_of_width * width); }
 
 float coverage(float distance) { return std::min(std::max(0.5f - distance, 0.0f), 1.0f); }
@@ -191,7 +191,8 @@ bool ShapeRaster::hidden(int x, int y, double nearness, const OverlayPaint& pain
     return nearness * (*depths_->at(x, y) * surface_factor_ + paint.allowance) < 1.0;
 }
 
-// Distances, coverage and visibility are computed for a run of pixels at a time, in loops that become vector instructions.
+// Distances, coverage and visibility are computed for a run of pixels at a time, in loops that become vector
+// instructions.
 template <class Distance, class Nearness>
 void ShapeRaster::draw_run(int y, int left, int right, const OverlayPaint& paint, double halo, const Distance& distance,
                            const Nearness& nearness) {

@@ -92,12 +92,13 @@ private:
     };
     void fill(const std::array<Eigen::Vector2d, 3>& places, const std::array<CornerValue, 3>& values, Color color,
               int columns, int rows);
-    /// Draws the pixels left to right - 1 of a row. distance(x): from the outline, pixels, positive outside; nearness(x):
-    /// 1 / depth, 1/m.
+    /// Draws the pixels left to right - 1 of a row. distance(x): from the outline, pixels, positive outside;
+    /// nearness(x): 1 / depth, 1/m.
     template <class Distance, class Nearness>
     void draw_run(int y, int left, int right, const OverlayPaint& paint, double halo, const Distance& distance,
                   const Nearness& nearness);
-    /// Calls draw(y, left, right) for runs with at least the pixels whose centers are within `reach` (pixels) of the line.
+    /// Calls draw(y, left, right) for runs with at least the pixels whose centers are within `reach` (pixels) of the
+    /// line.
     template <class Draw>
     void for_runs_along(const Eigen::Vector2d& from, const Eigen::Vector2d& to, double reach, const Draw& draw);
     void add_cover(const ScreenPoint& from, const ScreenPoint& to, double radius, const OverlayPaint& paint);

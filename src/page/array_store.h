@@ -1,5 +1,5 @@
-// Arrays of numbers behind the JSON header of the clip data. Each array is stored by byte planes, the lowest bytes of all
-// numbers first, because planes of the high bytes are nearly constant and compress to almost nothing.
+// Arrays of numbers behind the JSON header of the clip data. Each array is stored by byte planes, the lowest bytes of
+// all numbers first, because planes of the high bytes are nearly constant and compress to almost nothing.
 #pragma once
 
 #include <nlohmann/json.hpp>

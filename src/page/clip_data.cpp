@@ -16,8 +16,8 @@ namespace {
 
 using Json = ArrayStore::Json;
 
-// Bytes of impacts with all digits and of the bodies' events, compressed, and the most that a run has for them: less if many
-// bodies move, because their motion takes the rest of the page.
+// Bytes of impacts with all digits and of the bodies' events, compressed, and the most that a run has for them: less if
+// many bodies move, because their motion takes the rest of the page.
 constexpr std::size_t bytes_of_impact = 110, bytes_of_event = 140;
 constexpr std::size_t least_precise = 30'000, most_precise = 160'000, less_by_body = 1'300;
 

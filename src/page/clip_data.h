@@ -5,8 +5,8 @@
 //     const ClipData data = make_clip_data(clip);
 //     page << base64(data.bytes);
 //
-// Before compression: the length of a JSON header as a 32-bit number (little endian), the header in UTF-8, and the arrays
-// that it refers to (array_store.h).
+// Before compression: the length of a JSON header as a 32-bit number (little endian), the header in UTF-8, and the
+// arrays that it refers to (array_store.h).
 #pragma once
 
 #include "page/frame_channels.h"

@@ -1,5 +1,5 @@
-// Joints over a run, for the overlay of the page: their sketches, and by frame whether they hold, their limits, forces and
-// torques.
+// Joints over a run, for the overlay of the page: their sketches, and by frame whether they hold, their limits, forces
+// and torques.
 #pragma once
 
 #include "page/array_store.h"

@@ -1,5 +1,5 @@
-// The motion of a body as few moments between which it is a MotionSegment: its impacts, and as many frames as a tolerance
-// needs. A bouncing ball needs its impacts only.
+// The motion of a body as few moments between which it is a MotionSegment: its impacts, and as many frames as a
+// tolerance needs. A bouncing ball needs its impacts only.
 #pragma once
 
 #include "page/frame_channels.h"

@@ -12,9 +12,9 @@
 namespace tumble {
 namespace {
 
-// At level 0 positions are right within 1e-6 m and rotations within 1e-5 rad; each level divides by 4. A stepped motion's
-// velocities need no more digits; in exact mode they lead to impacts between frames. Coarser levels are for pages that
-// would be too large to open otherwise, as of a thousand bodies: their errors are stated, as all are.
+// At level 0 positions are right within 1e-6 m and rotations within 1e-5 rad; each level divides by 4. A stepped
+// motion's velocities need no more digits; in exact mode they lead to impacts between frames. Coarser levels are for
+// pages that would be too large to open otherwise, as of a thousand bodies: their errors are stated, as all are.
 constexpr Quanta level_0{1e-6, 1e-5, 2e-3, 4e-3}, level_0_exact{1e-6, 1e-5, 5e-5, 1e-4};
 constexpr int finest_level = 8, coarsest_level = -5;
 constexpr double most_bytes = 600e3;             // of a motion, compressed: coarser than level 0 only above
@@ -42,7 +42,7 @@ public:
     double bytes(int level) const {
         double bits = 0.0;
         for (int width = 0; width <= 64; ++width) {
-            // Differences of rounded numbers are one bit or so, even where those of exact ones are nearly zero.
+            // Differences of rounded numbers are one bit or so, even where differences of exact ones are nearly zero.
             const int left = std::max(1, width - 2 * (finest_level - level));
             bits += double(counts_[std::size_t(width)]) * (width > 0 ? left + bits_of_lengths : bits_of_zero);
         }

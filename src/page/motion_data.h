@@ -1,5 +1,5 @@
-// The motion of all bodies as numbers of the clip data: each body as the smallest of a single pose ("still"), moments with
-// exact motion between them ("keys"), and quantized frames ("frames").
+// The motion of all bodies as numbers of the clip data: each body as the smallest of a single pose ("still"), moments
+// with exact motion between them ("keys"), and quantized frames ("frames").
 #pragma once
 
 #include "page/array_store.h"

@@ -1,8 +1,8 @@
 // The motion of a body between two moments, as the player computes it too (web/src/data/segment.ts).
 //
 // The center moves along the cubic with the velocities of both ends: exact in free fall. The rotation is a uniform one
-// from end to end, followed by a small one that has the angular velocities of both ends, and the angular accelerations of
-// a torque-free body: exact for a uniform spin, and of sixth order in the time between the moments otherwise.
+// from end to end, followed by a small one that has the angular velocities of both ends, and the angular accelerations
+// of a torque-free body: exact for a uniform spin, and of sixth order in the time between the moments otherwise.
 #pragma once
 
 #include "core/vector.h"

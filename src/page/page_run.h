@@ -25,7 +25,7 @@ struct BodySample {
 struct BodyEvent {
     double time = 0.0;  // s, when the body is there: the start of the step, where a step resolves the impact
     StruckBody body;
-    bool exact = false;  // true if that is also the impact's time; else the impact has the time of the step's end
+    bool exact = false;  // true if that is also the impact's time; otherwise the impact has the time of the step's end
 };
 
 struct BodyRecord {
@@ -58,16 +58,17 @@ struct PageRun {
     SceneDescription scene;  // with its own timing
     std::string integrator;  // its name in a scene file
     std::int64_t frames = 0;
-    std::vector<BodyReport> reports;                   // by body
-    std::vector<BodyRecord> bodies;                    // by body
-    std::vector<CameraDescription> cameras;            // one, or one a frame if it moves
-    std::vector<EnergySample> energy;                  // by frame
-    std::vector<JointColumn> joints;                   // those that plots name
-    std::vector<PageImpact> impacts;                   // in order of time; the strongest, if there are too many
-    std::int64_t all_impacts = 0;                      // in the run
-    std::vector<std::vector<ContactRecord>> contacts;  // by frame; those with the largest forces, if there are too many
-    std::int64_t all_contacts = 0;                     // of all frames
-    std::vector<std::vector<ExternalLoad>> loads;      // by frame
+    std::vector<BodyReport> reports;         // by body
+    std::vector<BodyRecord> bodies;          // by body
+    std::vector<CameraDescription> cameras;  // one, or one a frame if it moves
+    std::vector<EnergySample> energy;        // by frame
+    std::vector<JointColumn> joints;         // quantities that plots name
+    std::vector<PageImpact> impacts;         // in order of time; the strongest, if there are too many
+    std::int64_t all_impacts = 0;            // in the run
+    // by frame; the contacts with the largest forces, if there are too many
+    std::vector<std::vector<ContactRecord>> contacts;
+    std::int64_t all_contacts = 0;                      // of all frames
+    std::vector<std::vector<ExternalLoad>> loads;       // by frame
     std::vector<std::vector<JointState>> joint_states;  // by frame, then by joint
     OverlayScales scales{};
 };

@@ -23,7 +23,7 @@ struct ShellLink {
     std::string text;
 };
 
-/// Members are plain text but for those that end in _html.
+/// Members are plain text, except names that end in _html.
 struct PageShell {
     std::string title;
     std::string language = "en";

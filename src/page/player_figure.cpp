@@ -12,7 +12,7 @@ using OrderedJson = nlohmann::ordered_json;
 
 OrderedJson triple(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-/// The film if there is one, else the poster.
+/// The film if there is one, otherwise the poster.
 std::string fallback_html(const PlayerFigure& figure) {
     const std::string size =
         figure.width > 0 ? fmt::format(" width=\"{}\" height=\"{}\"", figure.width, figure.height) : "";

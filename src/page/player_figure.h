@@ -29,7 +29,7 @@ struct PlayerOptions {
 };
 std::string options_json(const PlayerOptions& options);
 
-/// Members are plain text but for those that end in _html.
+/// Members are plain text, except names that end in _html.
 struct PlayerFigure {
     std::string clip;  // id of the ShellClip
     std::string id;    // of the figure; empty: none

@@ -56,7 +56,7 @@ constexpr const char* state_names[] = {"sticking", "sliding", "asleep", "touchin
 constexpr const char* feature_names[] = {"vertex on face", "face on vertex", "edge on edge",
                                          "face on face",   "sphere",         "mesh"};
 
-/// The caption of a table of counts, which are those of the kept records.
+/// The caption of a table of counts, which count the kept records.
 std::string counts_caption(const char* what, std::int64_t kept, std::int64_t all) {
     return kept == all ? what : fmt::format("{}, the {} strongest of {}", what, count_html(kept), count_html(all));
 }

@@ -18,8 +18,9 @@ constexpr int impact_bits = 10;           // of many impacts: 5e-4
 constexpr double load_rounding = 1e-9;    // of the weight
 constexpr double load_resolution = 1e-7;  // of the largest component
 
-/// Quanta of contacts: of few rows, which a reader may want as numbers, and of many, which are looked at. Of these, forces
-/// are squares of whole numbers, as small ones would take most of the bytes otherwise: a median force is right to 2 %.
+/// Quanta of contacts: of few rows, which a reader may want as numbers, and of many, which are looked at. Of these,
+/// forces are squares of whole numbers, as small ones would take most of the bytes otherwise: a median force is right
+/// to 2 %.
 struct ContactQuanta {
     double place, direction;  // m; of a unit vector
     double force;             // of the median force

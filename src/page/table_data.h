@@ -14,7 +14,7 @@ ArrayStore::Json make_joint_data(const PageRun& run, ArrayStore& arrays);
 /// `precise`: with all digits, and with the bodies' events, which must be part of the data.
 ArrayStore::Json make_impact_data(const PageRun& run, bool precise, ArrayStore& arrays);
 
-/// Rows of the same two bodies are written as differences to those of the frame before.
+/// Rows of the same two bodies are written as differences to their rows of the frame before.
 ArrayStore::Json make_contact_data(const PageRun& run, ArrayStore& arrays);
 
 /// Only of bodies with other loads than their weight.

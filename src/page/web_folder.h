@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// $TUMBLE_WEB if set; else share/tumble/web beside the installed program; else the folder web beside the program's own
-/// folder, where scripts/build-web puts it. Throws RunError that says how to build it.
+/// $TUMBLE_WEB if set; otherwise share/tumble/web beside the installed program; otherwise the folder web beside the
+/// program's own folder, where scripts/build-web puts it. Throws RunError that says how to build it.
 std::filesystem::path find_web_folder();
 
 }  // namespace tumble

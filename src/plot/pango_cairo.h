@@ -1,5 +1,5 @@
-// Cairo and Pango as canvas.cpp calls them. They are opened with the first canvas: 34 libraries and 8 MB come with them, and
-// most runs draw neither plots nor text.
+// Cairo and Pango as canvas.cpp calls them. They are opened with the first canvas: 34 libraries and 8 MB come with
+// them, and most runs draw neither plots nor text.
 #pragma once
 
 #include "core/dynamic_library.h"

@@ -37,7 +37,7 @@ bool is_analytic(const SceneDescription& description, const RenderSwitches& swit
 
 // The color and alpha of pixels without a body, if neither the sky nor planes are drawn.
 std::optional<std::array<float, 4>> plain_background(const RenderSwitches& switches, bool analytic) {
-    const float alpha = analytic ? float(sky_id) / 255.0f : 0.0f;  // a surface id, else coverage
+    const float alpha = analytic ? float(sky_id) / 255.0f : 0.0f;  // a surface id, otherwise coverage
     if (switches.transparent) return {{0.0f, 0.0f, 0.0f, alpha}};
     if (!switches.plain_background) return std::nullopt;
     const auto level = [&](std::size_t channel) { return float((*switches.plain_background)[channel]) / 255.0f; };
@@ -120,7 +120,7 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     s.changed.clear();
 
     FrameContext frame = s.setup.prepare(snapshot, s.passes.one_sample(), s.switches.full_redraw);
-    if (s.passes.plain_background()) frame.planes.clear();  // those of the scene still occlude bodies
+    if (s.passes.plain_background()) frame.planes.clear();  // planes of the scene still occlude bodies
     if (frame.unchanged) {
         s.setup.finish();
         return s.image;

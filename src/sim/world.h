@@ -36,7 +36,8 @@ public:
 
     /// Collects impacts, contacts and energy losses of each frame from now on. The motion is the same.
     void record_contacts();
-    /// The same with the energy ledger alone, in far less memory: the lists of the records stay empty, and save() has none.
+    /// The same with the energy ledger alone, in far less memory: the lists of the records stay empty, and save() has
+    /// none.
     void record_energy();
     /// Records of the last advance_frame(), or of the start. Precondition: record_contacts() or record_energy().
     const ContactRecords& contact_records() const;

@@ -11,8 +11,8 @@
 namespace tumble {
 
 /// Sentences about one frame, worst first and few: "crate.17 moved by 3 px (first differing frame 41, first differing
-/// contact at 0.68 s)", "color of floor (#808080 to #828282)", "camera (...)". `changed`: bounds of the differing pixels.
-/// Empty if the records do not differ in what the frame shows, or if one of them is not of this frame.
+/// contact at 0.68 s)", "color of floor (#808080 to #828282)", "camera (...)". `changed`: bounds of the differing
+/// pixels. Empty if the records do not differ in what the frame shows, or if one of them is not of this frame.
 std::vector<std::string> causes_between(const MotionRecord& before, const MotionRecord& after, std::int64_t frame,
                                         const Rectangle& changed);
 

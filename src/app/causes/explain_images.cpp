@@ -38,8 +38,8 @@ const std::array<double, 256>& linear_levels() {
     return table;
 }
 
-/// True if all channels become darker, or all brighter, by similar factors, as by a shadow: the light of the sky in it is
-/// not that of the lamp.
+/// True if all channels become darker, or all brighter, by similar factors, as by a shadow: the light of the sky in it
+/// is not that of the lamp.
 bool is_shaded(const std::uint8_t* before, const std::uint8_t* after) {
     double least = infinity, most = 0.0;
     for (int c = 0; c < 3; ++c) {

@@ -1,4 +1,5 @@
-// Causes of the differences of compared images: from motion records where both sides have one, else from the pixels.
+// Causes of the differences of compared images: from motion records where both sides have one, otherwise from the
+// pixels.
 #pragma once
 
 #include "app/causes/motion_record.h"

@@ -1,5 +1,5 @@
-// Motion record: values, poses, camera and first contacts of a run, small enough to stand beside its images. Two records
-// of one name tell the causes of differences between their images.
+// Motion record: values, poses, camera and first contacts of a run, small enough to stand beside its images. Two
+// records of one name tell the causes of differences between their images.
 #pragma once
 
 #include "core/image.h"
@@ -19,7 +19,7 @@ using ValueMap = std::map<std::string, std::string>;
 struct RecordedBody {
     std::string name;
     std::size_t kind = 0;  // index into PanelRecord::kinds
-    bool moves = false;    // else its pose is that of the start in every frame
+    bool moves = false;    // otherwise its pose is that of the start in every frame
 };
 
 /// Values that several bodies have in common.

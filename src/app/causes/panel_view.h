@@ -21,8 +21,8 @@ public:
     double time() const { return panel_.times[recorded_]; }  // s
     const RecordedPose& pose(std::size_t body) const;
 
-    /// Bounds of a body on the screen, in pixels of the image, cut at the panel; empty without a part in view. The whole
-    /// panel for a body without bounds, and for one that reaches behind the eye.
+    /// Bounds of a body on the screen, in pixels of the image, cut at the panel; empty without a part in view. The
+    /// whole panel for a body without bounds, and for one that reaches behind the eye.
     Rectangle bounds(std::size_t body) const;
 
     /// Pixels of these bounds in the part of the image that counts.

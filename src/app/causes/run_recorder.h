@@ -17,7 +17,7 @@ namespace tumble {
 /// Sees the frames of a panel from the first one on.
 class PanelRecorder : public SurveyObserver {
 public:
-    /// `frames`: those whose poses are recorded, ascending. `length`: frames that will be seen at most.
+    /// `frames`: frames whose poses are recorded, ascending. `length`: frames that will be seen at most.
     PanelRecorder(const ClipPanel& panel, const std::vector<std::int64_t>& frames, std::int64_t length);
 
     void see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) override;
@@ -44,7 +44,7 @@ private:
 /// The panels of a clip.
 class RunRecorder {
 public:
-    /// `frames`: those that are drawn, ascending. `length`: frames that the simulation makes.
+    /// `frames`: frames that are drawn, ascending. `length`: frames that the simulation makes.
     RunRecorder(const Composition& composition, std::vector<std::int64_t> frames, std::int64_t length);
 
     /// Recorder of a plot: its runs are the panels, whose first frame is recorded.

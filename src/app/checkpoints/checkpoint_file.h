@@ -13,11 +13,11 @@
 
 namespace tumble {
 
-// The clip that checkpoints belong to: by name, all that the state of a clip depends on. A run of another clip is refused
-// with the first value that differs.
+// The clip that checkpoints belong to: by name, all that the state of a clip depends on. A run of another clip is
+// refused with the first value that differs.
 
-/// Scene and settings, as in ("the size", "1280x720"), the most telling ones first. The last one is a sum over all of the
-/// scene.
+/// Scene and settings, as in ("the size", "1280x720"), the most telling ones first. The last one is a sum over all of
+/// the scene.
 using CheckpointIdentity = NamedValues;
 
 /// "the size: 640x360 there, 1280x720 here" of the first value that differs; empty if all are equal.
@@ -43,8 +43,8 @@ struct CheckpointHeader {
 
 std::vector<std::byte> checkpoint_bytes(const CheckpointHeader& header, std::span<const std::byte> content);
 
-/// The content of such bytes. Throws InputError, with the file's name, where the bytes are damaged or are no checkpoint,
-/// and where the header is not that of `expected`.
+/// The content of such bytes. Throws InputError, with the file's name, where the bytes are damaged or are no
+/// checkpoint, and where the header is not that of `expected`.
 std::vector<std::byte> checkpoint_content(const std::filesystem::path& file, std::span<const std::byte> bytes,
                                           const CheckpointHeader& expected);
 

@@ -116,8 +116,8 @@ FramesToEncode frames_to_encode(const EncodeCommand& command, const std::optiona
     return frames;
 }
 
-/// Bytes of at most this many frames: those in the queue, the one being read, and the one being written. ffmpeg holds
-/// the last one in three copies: converted, passed on, and in the pipe.
+/// Bytes of at most this many frames: the frames in the queue, the one being read, and the one being written. ffmpeg
+/// holds the last one in three copies: converted, passed on, and in the pipe.
 std::uint64_t buffered_image_bytes(const ImageSize& size, const VideoFormat& format, std::int64_t frames) {
     const auto images = std::uint64_t(std::min<std::int64_t>(frames, waiting_frames + 2));
     return images * 4 * std::uint64_t(size.width) * std::uint64_t(size.height) +

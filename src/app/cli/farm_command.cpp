@@ -37,7 +37,7 @@ struct FarmCommand {
     SlurmSettings slurm;
     bool write_only = false;          // does not submit the job
     std::filesystem::path job;        // of OpenJD (JSON)
-    int chunk = 0;                    // frames; 0: those of about 20 parts
+    int chunk = 0;                    // frames; 0: so many that there are about 20 parts
     std::string program = "tumble";   // on the machines of the farm
     std::filesystem::path status_of;  // folder of a job
     bool missing = false;             // only the numbers of the missing parts
@@ -183,12 +183,12 @@ int run_status(const FarmCommand& command) {
     return incomplete.empty() ? 0 : parts_missing;
 }
 
-// The options of `render` that decide the frames. `simulate` gets all of them but those of the drawing alone.
+// The options of `render` that decide the frames. `simulate` gets all of them but the options of drawing.
 constexpr std::array frame_options{"--size",  "--method",  "--set",     "--seed", "--fps",        "--duration",
                                    "--speed", "--shutter", "--overlay", "--plot", "--plot-place", "--blur-samples",
                                    "--vary",  "--layout",  "--samples", "--gl",   "--transparent"};
 constexpr std::array only_drawing{"--samples", "--gl", "--transparent"};
-// Those that `encode` gets.
+// The options that `encode` gets.
 constexpr std::array clip_options{"--quality", "--transparent"};
 
 template <class List>
@@ -229,7 +229,7 @@ std::vector<std::string> given_options(const CLI::App& command, const List& list
 void take_given_options(const CLI::App& command, FarmCommand& c) {
     c.render_options = given_options(command, frame_options);
     c.simulate_options = given_options(command, frame_options, only_drawing);
-    // The values of the scene must be those of the frames; `simulate` has no option for the samples of a pixel.
+    // The values of the scene must equal the values of the frames; `simulate` has no option for the samples of a pixel.
     for (const std::string& samples : command.get_option("--samples")->results())
         c.simulate_options.push_back("--set=output.samples=" + samples);
     c.encode_options = given_options(command, clip_options);

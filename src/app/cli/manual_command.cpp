@@ -50,7 +50,7 @@ OptionText read_option(CLI::Option& option) {
     return text;
 }
 
-/// The command with its options and commands, without those of group "", which the help does not show either.
+/// The command with its options and commands, without the group "", which the help does not show either.
 CommandText read_command(Command& command) {
     CommandText text{
         command.get_name(), command.get_description(), command.exit_codes, command.notes, command.examples, {}, {}, {}};

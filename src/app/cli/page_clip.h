@@ -22,7 +22,7 @@ struct PageScenes {
     std::vector<PageSource> sources;  // the scene files, and the values of the command line
 
     double duration() const;    // s, of the longest
-    std::string title() const;  // of the first scene, else its name
+    std::string title() const;  // of the first scene, otherwise its name
 };
 
 /// `labels`: of the runs; empty: made from the names and values. Throws InputError for a scene or plot that cannot be
@@ -43,7 +43,7 @@ struct PageFilm {
 void set_film_size(SceneOverrides& overrides, const SceneDescription& scene, int longest);
 
 struct FilmOptions {
-    bool with_film = true;  // else the poster alone
+    bool with_film = true;  // otherwise the poster alone
     double fps = 60.0;      // of the scenes
     double duration = 0.0;  // s, of the longest scene
 };

@@ -22,13 +22,15 @@ struct RenderCommand : ClipRequest {
     std::optional<std::filesystem::path> aov_folder;     // instead of the frames' folder
     RenderOptions drawing;
     ClipOptions clip_options{FrameTimes::constant_rate, VideoQuality::normal};
-    bool resume = false;                                    // keeps finished frames of the same clip
-    std::string call;                                       // the command as it was typed, for messages
-    std::optional<std::filesystem::path> from_checkpoints;  // folder; else the frames before the first are simulated
-    double shutter = 0.0;                                   // degrees: 360 is always open, 0 a single moment
-    int blur_samples = 8;                                   // images per frame while the shutter is open
-    std::optional<int> threads;                             // of the simulation; see simulation_threads_beside_drawing()
-    int workers = 1;                                        // render processes
+    bool resume = false;  // keeps finished frames of the same clip
+    std::string call;     // the command as it was typed, for messages
+    // folder; otherwise the frames before the first are simulated
+    std::optional<std::filesystem::path> from_checkpoints;
+    double shutter = 0.0;  // degrees: 360 is always open, 0 a single moment
+    int blur_samples = 8;  // images per frame while the shutter is open
+    // of the simulation; see simulation_threads_beside_drawing()
+    std::optional<int> threads;
+    int workers = 1;  // render processes
     bool quiet = false;
 };
 

@@ -193,7 +193,7 @@ public:
         }
     }
 
-    /// Without those of which all frames are kept.
+    /// Without clips of which all frames are kept.
     PipelineOutputs outputs() {
         return {folder_ && !plan_.frames.folder.empty() ? &*folder_ : nullptr,
                 plan_.frames.video.empty() ? nullptr : sink(), aovs_ && !plan_.frames.aovs.empty() ? &*aovs_ : nullptr};

@@ -15,7 +15,7 @@
 
 namespace tumble {
 
-/// The outputs of a render, and the frames that it draws for that: those of the command, less those that --resume
+/// The outputs of a render, and the frames that it draws for that: frames of the command, less frames that --resume
 /// keeps.
 struct RenderPlan {
     std::optional<std::filesystem::path> clip, folder, aov_folder;
@@ -25,7 +25,7 @@ struct RenderPlan {
     PipelineFrames frames;
     std::unique_ptr<SegmentedClip> segments;  // with --resume and a clip
 
-    /// Frames that an output needs, and those that are drawn: damage needs the frames before them too.
+    /// Frames that an output needs, and frames that are drawn: damage needs the frames before them too.
     std::int64_t needed() const { return frames.folder.united_with(frames.aovs).united_with(frames.video).count(); }
     std::int64_t to_draw() const { return frames.drawn.count(); }
     FrameOutputs outputs(const RenderCommand& command) const;

@@ -17,7 +17,7 @@ namespace {
 constexpr double named_share = 0.01;  // of the smaller body's thickness: more than hand-written numbers round
 constexpr std::size_t most_overlaps = 6, most_broken = 12;  // lines; the others are counted
 
-/// The meshes of a shape, those of its parts too.
+/// The meshes of a shape and of its parts.
 void add_meshes(const Shape& shape, std::vector<MeshShape>& meshes) {
     if (const auto* mesh = std::get_if<MeshShape>(&shape)) meshes.push_back(*mesh);
     if (const auto* compound = std::get_if<CompoundShape>(&shape))

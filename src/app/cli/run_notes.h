@@ -9,9 +9,9 @@
 
 namespace tumble {
 
-/// Lines that name meshes whose mass is not that of a volume, because they have none, and faces that were dropped; and bodies
-/// that overlap at the start: the contact pushes them apart, with energy out of nothing. Empty where there are none.
-/// Precondition: the world is at time 0.
+/// Lines that name meshes whose mass is not that of a volume, because they have none, and faces that were dropped; and
+/// bodies that overlap at the start: the contact pushes them apart, with energy out of nothing. Empty where there are
+/// none. Precondition: the world is at time 0.
 std::string start_notes(const SceneDescription& scene, const World& world);
 
 /// A joint that has broken in a run.

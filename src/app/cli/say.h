@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// Those of the process: like standard error, there is one stream of them.
+/// The messages of the process: like standard error, there is one stream of them.
 Messages& messages();
 
 /// Prints to standard error, or an event of the log for each line. A failure of the write has no effect.

@@ -86,7 +86,7 @@ void print_result(const SweepCounts& counts, const std::filesystem::path& folder
     say("{}\n", text);
 }
 
-/// Folders above those of the samples, below that of the sweep.
+/// Folders between the sweep's folder and the samples' folders.
 std::set<std::filesystem::path> inner_folders(const SweepPlan& plan) {
     std::set<std::filesystem::path> folders;
     if (plan.name.find('/') == std::string::npos) return folders;

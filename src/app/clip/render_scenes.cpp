@@ -19,7 +19,8 @@
 namespace tumble {
 namespace {
 
-// Parts of the height of the frame: a title of one line with the space around it; the distance of a legend from the edge.
+// Parts of the height of the frame: a title of one line with the space around it; the distance of a legend from the
+// edge.
 constexpr double title_height = 0.125, legend_margin = 0.02;
 
 std::string name_of(const ClipScene& clip_scene) {

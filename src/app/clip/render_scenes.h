@@ -36,12 +36,13 @@ public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
     RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
-    /// Simulates all scenes once, if a plot or the scale of arrows needs it, and fills them in. Leaves no thread behind.
+    /// Simulates all scenes once, if a plot or the scale of arrows needs it, and fills them in. Leaves no thread
+    /// behind.
     void survey_clip(int threads, Interrupt& interrupt);
 
     // The same by another run of the simulation, and its result in a checkpoint.
 
-    /// Those of a scene that have to see all of its frames, in order.
+    /// Consumers of a scene that have to see all of its frames, in order.
     std::vector<SurveyObserver*> observers(std::size_t index);
     /// Fills in what the observers have seen.
     void use_survey();
@@ -54,7 +55,7 @@ public:
     const SceneDescription& first() const { return *scenes.front().scene; }
     std::size_t bodies() const;
     World world(std::size_t index, int threads) const;
-    /// True if a panel shows dirty regions, which are those of a single render process.
+    /// True if a panel shows dirty regions, which only a single render process knows.
     bool shows_damage() const;
     /// The maker of a panel's overlay; null without one. Valid after survey_clip().
     std::unique_ptr<OverlayBuilder> overlay(std::size_t index) const;

@@ -23,7 +23,7 @@ std::optional<std::string> bytes_of(const ComparedPicture& picture, Verdict verd
         return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     }
     try {
-        if (verdict != Verdict::different) read_picture(picture.file);  // else it was read
+        if (verdict != Verdict::different) read_picture(picture.file);  // otherwise it was read
         return read_input_file(picture.file);
     } catch (const InputError&) {
         return std::nullopt;
@@ -32,7 +32,7 @@ std::optional<std::string> bytes_of(const ComparedPicture& picture, Verdict verd
 
 }  // namespace
 
-/// The reference that it was compared with, else a new one.
+/// The reference that it was compared with, otherwise a new one.
 fs::path AcceptedPictures::name_of(const ImagePair& pair) const {
     if (platform_) return fs::path(*platform_) / pair.name;
     if (!pair.reference || pair.reference->file.empty()) return pair.name;

@@ -12,15 +12,16 @@
 
 namespace tumble {
 
-/// Pictures that become references together. It writes picture files below the reference folder only, and through no link.
+/// Pictures that become references together. It writes picture files below the reference folder only, and through no
+/// link.
 class AcceptedPictures {
 public:
     /// With a platform, its folder gets the references.
     AcceptedPictures(const std::filesystem::path& folder, const std::optional<std::string>& platform)
         : folder_(folder), platform_(platform), files_(folder, InnerLinks::refused) {}
 
-    /// Takes the picture of a pair that is not alike, if it can be read, and marks the result. For several threads. Throws
-    /// InputError if its reference is a link, or no file; RunError.
+    /// Takes the picture of a pair that is not alike, if it can be read, and marks the result. For several threads.
+    /// Throws InputError if its reference is a link, or no file; RunError.
     void take(const ImagePair& pair, ImageResult& result);
 
     /// Gives all of them their names. Throws RunError.

@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-/// The frames of a clip, or those of a folder (frame_000000.png, ...), by their numbers.
+/// The frames of a clip, or of a folder (frame_000000.png, ...), by their numbers.
 class FrameSource {
 public:
     /// `fps`: of a clip (see ClipReader). Throws InputError if it is neither.

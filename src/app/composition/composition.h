@@ -70,7 +70,7 @@ struct Composition {
 /// "t = 1.234 s".
 std::string clock_text_at(double time);
 
-/// Those that are shown at the time (s), in order.
+/// Captions that are shown at the time (s), in order.
 std::vector<const Caption*> captions_at(const std::vector<Caption>& captions, double time);
 
 }  // namespace tumble

@@ -38,7 +38,7 @@ private:
 
 class FrameComposer {
 public:
-    /// `transparent`: the space around panels is; else it is white.
+    /// `transparent`: the space around panels is; otherwise it is white.
     FrameComposer(const Composition& composition, bool transparent);
 
     /// Composes the frame of that time (s).

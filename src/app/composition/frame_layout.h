@@ -31,7 +31,7 @@ struct FrameLayout {
     Rectangle header, captions, footer;     // above and below several panels and their plots; empty without one
     Rectangle area;                         // of all panels
     bool plots_on_picture = false;          // as an inset
-    std::vector<Rectangle> plots;           // below the panels one for each panel of the plot, else a single one
+    std::vector<Rectangle> plots;           // below the panels one for each panel of the plot, otherwise a single one
 };
 
 /// Sizes of text, gaps and margins are fractions of this length, pixels.

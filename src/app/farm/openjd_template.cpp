@@ -19,7 +19,8 @@ using TemplateJson = nlohmann::ordered_json;
 // Limits of the specification (2023-09).
 constexpr std::size_t most_parameters = 50, longest_value = 1024;
 
-/// A word of a command line that holds no parameter. The format has no escape for the braces, and no control characters.
+/// A word of a command line that holds no parameter. The format has no escape for the braces, and no control
+/// characters.
 std::string literal_word(const std::string& word) {
     if (word.find("{{") != std::string::npos || word.find("}}") != std::string::npos || has_control_characters(word))
         throw InputError(
@@ -48,7 +49,7 @@ TemplateJson input_parameter(const std::string& name, const std::string& descrip
 /// The name of a scene's parameter.
 std::string scene_name(std::size_t index) { return index == 0 ? "Scene" : fmt::format("Scene{}", index + 1); }
 
-/// The parameters of the scenes before those of the template, which get their defaults.
+/// The parameters of the scenes before the template's parameters, which get their defaults.
 TemplateJson template_parameters(const TemplateJson& others, const FarmJob& job, const fs::path& template_folder) {
     const TemplateJson defaults = {{"Clip", literal_word(job.clip.filename().string())},
                                    {"Frames", fmt::format("0-{}", job.frames - 1)},
@@ -81,7 +82,7 @@ void add_meshes(TemplateJson& list, const FarmJob& job, const fs::path& template
     }
 }
 
-/// The words of a step's command, with those of the job for their marks.
+/// The words of a step's command, with words of the job for their marks.
 TemplateJson step_words(const TemplateJson& words, const FarmJob& job, const std::vector<std::string>& options) {
     TemplateJson list;
     for (const TemplateJson& word : words) {

@@ -10,7 +10,7 @@ namespace tumble {
 /// True if the word means itself in a POSIX shell and in a line of #SBATCH, without quotes.
 bool is_plain_word(std::string_view text);
 
-/// The word as a POSIX shell reads it, for any characters: plain where possible, else in single quotes.
+/// The word as a POSIX shell reads it, for any characters: plain where possible, otherwise in single quotes.
 std::string shell_word(std::string_view text);
 
 /// "NAME=( WORD WORD )": an array of bash.

@@ -1,5 +1,6 @@
-// Job scripts for Slurm, in the job's folder: simulate.sh, frames.sh (an array of the parts), stitch.sh; settings.sh, which
-// these read; submit.sh, which submits them. Each can be run by hand with bash, on any machine that has the program.
+// Job scripts for Slurm, in the job's folder: simulate.sh, frames.sh (an array of the parts), stitch.sh; settings.sh,
+// which these read; submit.sh, which submits them. Each can be run by hand with bash, on any machine that has the
+// program.
 #pragma once
 
 #include "app/farm/farm_job.h"
@@ -20,7 +21,8 @@ struct SlurmSettings {
 /// Throws InputError for a folder or an option that Slurm's scripts cannot name.
 void check_slurm(const FarmJob& job, const SlurmSettings& settings);
 
-/// Makes the folder where it is missing, and writes the scripts. Precondition: check_slurm() has passed. Throws RunError.
+/// Makes the folder where it is missing, and writes the scripts. Precondition: check_slurm() has passed. Throws
+/// RunError.
 void write_slurm_scripts(const FarmJob& job, const SlurmSettings& settings);
 
 /// The files that it writes, in the folder of the job.
@@ -34,7 +36,8 @@ std::filesystem::path submit_script(const std::filesystem::path& job_folder);
 /// spelling that sbatch reads: "-oX", "-QoX", "--out=X".
 void check_sbatch_option(const std::string& option);
 
-/// "--KEY=VALUE" or "-K VALUE" as sbatch reads it from a line of #SBATCH. Precondition: check_sbatch_option() has passed.
+/// "--KEY=VALUE" or "-K VALUE" as sbatch reads it from a line of #SBATCH. Precondition: check_sbatch_option() has
+/// passed.
 std::string sbatch_line(const std::string& option);
 
 /// A value in such a line, which sbatch takes apart by its own rules: '#' begins a comment, quotes are removed.

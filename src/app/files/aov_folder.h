@@ -38,8 +38,8 @@ public:
     /// Writes it and the table, if they are not there. Throws RunError.
     void write_manifest();
 
-    /// Writes the file of one frame, without publishing it; table and manifest are there before the first one is published. Throws
-    /// RunError naming the file.
+    /// Writes the file of one frame, without publishing it; table and manifest are there before the first one is
+    /// published. Throws RunError naming the file.
     std::unique_ptr<TemporaryFile> write(std::int64_t frame, std::span<const std::byte> file);
 
     /// Writes the table of the numbers of a segmentation.

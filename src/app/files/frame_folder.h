@@ -29,11 +29,12 @@ std::vector<std::int64_t> numbers_in(const std::filesystem::path& folder, std::s
 /// The number in such a name; empty for another name.
 std::optional<std::int64_t> number_in(std::string_view name, std::string_view before, std::string_view after);
 
-/// Holds a folder during its lifetime, by a lock on a hidden file in it: alone, or together with other runs that share it.
-/// The lock ends with the process, even if it is killed; a file that a killed process left is taken over.
+/// Holds a folder during its lifetime, by a lock on a hidden file in it: alone, or together with other runs that share
+/// it. The lock ends with the process, even if it is killed; a file that a killed process left is taken over.
 class FolderLock {
 public:
-    /// Throws RunError if another run holds the folder and one of the two wants it alone, or if no file can be made in it.
+    /// Throws RunError if another run holds the folder and one of the two wants it alone, or if no file can be made in
+    /// it.
     FolderLock(const std::filesystem::path& folder, LockKind kind);
     ~FolderLock();
     FolderLock(const FolderLock&) = delete;
@@ -44,9 +45,9 @@ private:
     int file_ = -1;
 };
 
-/// A folder for the frames of this run, or of several that share it: each frame is written aside and renamed, so that two
-/// writers of the same frame are harmless. The folder is made if missing, and removed again if no file was ever written
-/// into it.
+/// A folder for the frames of this run, or of several that share it: each frame is written aside and renamed, so that
+/// two writers of the same frame are harmless. The folder is made if missing, and removed again if no file was ever
+/// written into it.
 class FrameFolder {
 public:
     /// Removes unfinished frames and AOVs of killed runs. Throws RunError if the folder cannot be made or written into,

@@ -1,4 +1,4 @@
-// Frames of a clip that are drawn: all, those from a time on, or any numbers ("1-10,30-40:2"). Earlier frames are
+// Frames of a clip that are drawn: all, the frames from a time on, or any numbers ("1-10,30-40:2"). Earlier frames are
 // simulated, so that frame n does not depend on the other frames of the set.
 #pragma once
 

@@ -1,5 +1,5 @@
-// Values by name, in order, as in ("size", "1280x720"). They identify a clip, and messages name those in which two clips
-// differ.
+// Values by name, in order, as in ("size", "1280x720"). They identify a clip, and messages name those in which two
+// clips differ.
 #pragma once
 
 #include <algorithm>

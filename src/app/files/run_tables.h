@@ -1,4 +1,4 @@
-// The tables of a run, a row or some rows for each frame: those of `tumble simulate`, and of the samples of sweeps.
+// The tables of a run, a row or some rows for each frame: of `tumble simulate`, and of the samples of sweeps.
 #pragma once
 
 #include "sim/world.h"

@@ -25,8 +25,9 @@ struct AcceptedImage {
 };
 
 /// Draws each case twice, divided into other processes and threads, and compares the two. Images that are the same
-/// pixel by pixel become references. A case with another image is refused as a whole; one that cannot be drawn is broken. All references get their names together. Throws InputError if one would not be below the suite's folder (references.h), RunError
-/// if one cannot be written, or after an interrupt.
+/// pixel by pixel become references. A case with another image is refused as a whole; one that cannot be drawn is
+/// broken. All references get their names together. Throws InputError if one would not be below the suite's folder
+/// (references.h), RunError if one cannot be written, or after an interrupt.
 std::vector<AcceptedImage> accept_cases(const GoldenSuite& suite, std::span<const GoldenCase* const> cases,
                                         const CaseDrawer& drawer, const AcceptOptions& options, Interrupt& interrupt);
 

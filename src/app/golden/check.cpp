@@ -86,7 +86,7 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
     result.platform = references.platform;
     const std::vector<ImagePlace> places = places_of(drawn);
     result.images.resize(places.size());
-    // Pairs with the same tolerances together: those of the suite, and those of each case with its own.
+    // Pairs with the same tolerances together: pairs of the suite, and of each case with tolerances of its own.
     std::map<const Tolerances*, std::vector<std::size_t>> groups;
     for (std::size_t i = 0; i < places.size(); ++i) {
         const ImagePair pair = pair_of(places[i], references.files);

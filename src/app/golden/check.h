@@ -17,8 +17,8 @@ struct CheckOptions {
     int workers = 1;                      // pairs at a time
 };
 
-/// A result for each image of the cases, in their order, with the causes of differences. An image without a reference is
-/// `missing`, a case that could not be drawn is `broken`.
+/// A result for each image of the cases, in their order, with the causes of differences. An image without a reference
+/// is `missing`, a case that could not be drawn is `broken`.
 SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn, const CheckOptions& options,
                       Interrupt& interrupt);
 

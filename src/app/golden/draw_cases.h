@@ -37,7 +37,7 @@ public:
 struct DrawnCase {
     const GoldenCase* golden = nullptr;
     std::filesystem::path folder;  // of the images and the record
-    bool drawn = false;            // in this run; else its images were in the cache
+    bool drawn = false;            // in this run; otherwise its images were in the cache
     double seconds = 0.0;          // of the drawing
     std::string error;             // of a case that cannot be drawn
 };

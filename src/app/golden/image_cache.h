@@ -1,7 +1,7 @@
 // Drawn images of earlier runs, by what they depend on. A folder for each case and key:
 //   CASE-0123456789abcdef/   CASE_000000.png, ..., CASE.motion.json
-// Images are renamed into it when they are whole, so that several runs may share a cache: each run that draws the images
-// of a key makes the same bytes.
+// Images are renamed into it when they are whole, so that several runs may share a cache: each run that draws the
+// images of a key makes the same bytes.
 #pragma once
 
 #include "app/golden/suite.h"
@@ -27,7 +27,8 @@ public:
     /// A new folder in the cache for the drawings of a run; those of killed runs are removed. Throws RunError.
     TemporaryFolder make_work_folder() const;
 
-    /// Moves the drawn files of a folder into the entry, and removes entries of other keys of the case. Throws RunError.
+    /// Moves the drawn files of a folder into the entry, and removes entries of other keys of the case. Throws
+    /// RunError.
     void store(const GoldenCase& golden, const std::filesystem::path& drawn, const std::filesystem::path& entry) const;
 
 private:
@@ -36,8 +37,8 @@ private:
     std::filesystem::path folder_;
 };
 
-/// The folder NAME-HASH of the suite in `base`. Without it: in tumble/golden of $XDG_CACHE_HOME or of ~/.cache, or of the
-/// temporary folder without a home.
+/// The folder NAME-HASH of the suite in `base`. Without it: in tumble/golden of $XDG_CACHE_HOME or of ~/.cache, or of
+/// the temporary folder without a home.
 std::filesystem::path cache_folder(const GoldenSuite& suite, const std::optional<std::filesystem::path>& base);
 
 }  // namespace tumble

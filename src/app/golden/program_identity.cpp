@@ -25,7 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Those that the drawing opens at run time: the software renderer, EGL with its driver, and Pango with Cairo.
+// Libraries that the drawing opens at run time: the software renderer, EGL with its driver, and Pango with Cairo.
 constexpr std::array drawing_libraries = {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so", "libEGL.so.1",
                                           "libpangocairo-1.0.so.0"};
 // Mesa and LLVM read them, and pixels may depend on them.
@@ -60,7 +60,7 @@ int add_library(dl_phdr_info* info, std::size_t, void* list) {
     return 0;
 }
 
-/// All libraries of the process, once those of the drawing are loaded.
+/// All libraries of the process, once the drawing's libraries are loaded.
 std::string loaded_libraries() {
     for (const char* name : drawing_libraries) ::dlopen(name, RTLD_LAZY | RTLD_LOCAL);
     std::vector<std::string> libraries;

@@ -20,8 +20,8 @@ void add_suite_inputs(const GoldenSuite& suite, OutputPlan& plan);
 /// The folder of the references, as an input.
 void add_reference_inputs(const GoldenSuite& suite, OutputPlan& plan);
 
-/// The references of the cases, as outputs. Throws InputError if one would not be below the folder of the references, or if
-/// a link leads this folder out of that of the suite.
+/// The references of the cases, as outputs. Throws InputError if one would not be below the folder of the references,
+/// or if a link leads this folder out of that of the suite.
 void add_references(const GoldenSuite& suite, std::span<const GoldenCase* const> cases,
                     const std::optional<std::string>& platform, OutputPlan& plan);
 

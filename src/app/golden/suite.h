@@ -35,7 +35,7 @@ struct GoldenCase {
     std::optional<std::string> of;         // quantities: the case is a plot of them
     std::optional<Tolerances> tolerances;  // in place of the suite's
 
-    /// The place of a key, else of the case.
+    /// The place of a key, otherwise of the case.
     const SourceLocation& place_of(std::string_view key) const;
     /// "NAME_000045.png".
     std::string image_name(std::int64_t frame) const;
@@ -50,7 +50,7 @@ struct GoldenSuite {
     std::vector<GoldenCase> cases;  // in the order of the file
 
     const GoldenCase* find(std::string_view name) const;
-    /// Those of the case, else of the suite.
+    /// Tolerances of the case, otherwise of the suite.
     const Tolerances& tolerances_of(const GoldenCase& golden) const;
     /// Tolerances of an image of a case (image_name()).
     PairTolerances tolerances_of(const std::string& image) const;
@@ -71,7 +71,7 @@ void with_place_of(const GoldenCase& golden, const std::function<void()>& action
 struct NewCase {
     std::filesystem::path scene;
     std::optional<std::string> name;   // without this, the scene's file name
-    std::vector<std::int64_t> frames;  // empty: those of [defaults], or the first one
+    std::vector<std::int64_t> frames;  // empty: the frames of [defaults], or the first one
     SceneOverrides overrides;
     bool transparent = false;
 };

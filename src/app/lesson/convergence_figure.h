@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// <figure class="convergence">; its colors are those of the page's theme.
+/// <figure class="convergence">; its colors follow the page's theme.
 std::string convergence_figure(const LessonConvergence& block, std::span<const ConvergenceLine> lines);
 
 }  // namespace tumble

@@ -105,8 +105,8 @@ void ask(const Lesson& lesson, std::size_t index, const LessonResult& result, Nu
     }
 }
 
-/// Mistakes with the indices of their lessons: equations whose sides differ by more than their tolerance. Stages without
-/// a clip are left out. Throws RunError if the compiler of lessons fails.
+/// Mistakes with the indices of their lessons: equations whose sides differ by more than their tolerance. Stages
+/// without a clip are left out. Throws RunError if the compiler of lessons fails.
 std::vector<std::pair<std::size_t, InputError>> wrong_numbers(const Course& course,
                                                               std::span<const LessonResult> results,
                                                               const std::filesystem::path& web_folder) {

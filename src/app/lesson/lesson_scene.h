@@ -18,7 +18,7 @@ struct LoadedScene {
     std::string label;  // tells it from the other runs of its stage; empty if it is the only one
 };
 
-/// Loads the scene with these overrides and those of its `set`. Throws InputError with a place.
+/// Loads the scene with these overrides and the overrides of its `set`. Throws InputError with a place.
 SceneDescription load_lesson_scene(const LessonScene& scene, const SceneOverrides& overrides, const BlockPlaces& places,
                                    FileList& read);
 

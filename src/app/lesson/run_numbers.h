@@ -12,7 +12,7 @@ namespace tumble {
 /// The values that the checks need of one run. The quantities of all checks are seen in one pass.
 class CheckedRun {
 public:
-    /// `checks`: those of this run. Throws InputError, with the place of its check, for an unknown quantity.
+    /// `checks`: the checks of this run. Throws InputError, with the place of its check, for an unknown quantity.
     CheckedRun(std::span<const StatedNumber* const> numbers, const SceneDescription& scene);
 
     SurveyObserver& observer() { return values_; }

@@ -110,7 +110,7 @@ std::string assignments(const ValueKind& kind) {
     return text;
 }
 
-/// The lines of a command in the two tables, and those of its commands.
+/// The lines of a command and of its commands in the two tables.
 void add_bash_command(const CommandText& command, const std::string& path, std::string& names, std::string& values) {
     std::vector<std::string> commands, options;
     for (const CommandText& part : command.commands) commands.push_back(part.name);

@@ -204,14 +204,14 @@ std::string nested_exit_codes(const std::string& path, const CommandText& comman
     return text;
 }
 
-/// The codes of the command, else those of the program; then those of its own commands.
+/// The codes of the command, otherwise of the program; then the codes of its own commands.
 std::string exit_status(const CommandText& program, const CommandText& command, const std::string& path) {
     const std::string text =
         heading("EXIT STATUS") + code_entries(command.exit_codes.empty() ? program.exit_codes : command.exit_codes);
     return &command == &program ? text : text + nested_exit_codes(path, command);
 }
 
-/// The variables that all commands read, and those that the help of the command names.
+/// The variables that all commands read, and variables that the help of the command names.
 std::string environment_of(const CommandText& command) {
     Rows rows = environment();
     const std::string text = all_text_of(command);

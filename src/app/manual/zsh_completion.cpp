@@ -53,7 +53,7 @@ std::string argument_line(const OptionText& argument, std::size_t place) {
     return fmt::format("'{}:{}:{}'", where, value_name(argument), action(argument.kind));
 }
 
-/// The function of a command, after those of its commands.
+/// The function of a command, after the functions of its commands.
 std::string function_of(const CommandText& command, const std::string& name) {
     std::string text, list, cases, lines;
     for (const CommandText& part : command.commands) {

@@ -17,7 +17,8 @@ struct RecordSettings {
     std::string label;                           // of the run, among several
     std::function<void(std::int64_t)> progress;  // called with the number of frames done; may be empty
     std::vector<SurveyObserver*> observers;      // that see the frames too
-    // Quantities of plots, separated by commas: the page has those of joints that are named here, and of bodies all.
+    // Quantities of plots, separated by commas: the page has all quantities of bodies, and the quantities of joints
+    // that are named here.
     std::string plot;
 };
 

@@ -30,7 +30,8 @@ class PanelRun {
 public:
     PanelRun(const PanelSource& source, Shutter shutter);
 
-    /// The poses of a frame. Frames are given in order; those from the end on are its last one, with a single sample.
+    /// The poses of a frame. Frames are given in order; frames from the end on repeat the last one, with a single
+    /// sample.
     PanelPoses next(std::int64_t frame);
     bool runs(std::int64_t frame) const { return frame < source_.end; }
     /// The overlay of that frame as bytes; none without one.
@@ -46,8 +47,8 @@ public:
     /// The state before the next frame is given, without the poses of drawing. Preconditions: a world, reach_next().
     PanelState save() const;
     /// Goes on from the state before `frame`; for a frame at or after the end, from that before the last one. Recorded
-    /// frames must begin there. Precondition: no frame has been given. Throws InputError where the bytes are not of such
-    /// a state.
+    /// frames must begin there. Precondition: no frame has been given. Throws InputError where the bytes are not of
+    /// such a state.
     void restore(const PanelState& state, std::int64_t frame);
     /// The frame from which recorded frames must begin, to go on from the state before `frame`.
     static std::int64_t first_recorded(std::int64_t frame, std::int64_t end) { return std::min(frame, end - 1); }

@@ -60,8 +60,8 @@ struct PipelineFrames {
 
 class Pipeline {
 public:
-    /// Simulates the frames up to the last one that is drawn, and draws those in the set. All arguments must outlive run(); the
-    /// render pool must have the same panels and make the outputs that are requested.
+    /// Simulates the frames up to the last one that is drawn, and draws those in the set. All arguments must outlive
+    /// run(); the render pool must have the same panels and make the outputs that are requested.
     Pipeline(std::span<const PanelSource> panels, const PipelineFrames& frames, RenderPool& render_pool,
              const PipelineOutputs& outputs, Shutter shutter = {});
 

@@ -15,7 +15,8 @@
 namespace tumble {
 namespace {
 
-// Names, texts and units are in quantity_texts.json, which pages have as well. A name that is not there does not compile.
+// Names, texts and units are in quantity_texts.json, which pages have as well. A name that is not there does not
+// compile.
 template <class Item, std::size_t n>
 consteval Item texts_of(const Item (&items)[n], std::string_view name) {
     for (const Item& item : items)

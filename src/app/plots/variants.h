@@ -21,7 +21,8 @@ struct Variant {
 std::vector<Variant> make_variants(std::span<const std::filesystem::path> scenes, const SceneOverrides& overrides,
                                    std::span<const std::string> vary);
 
-/// Gives the variants these labels, if there are any. Throws InputError if their numbers differ, or if two labels are alike.
+/// Gives the variants these labels, if there are any. Throws InputError if their numbers differ, or if two labels are
+/// alike.
 void label_variants(std::vector<Variant>& variants, std::span<const std::string> labels);
 
 }  // namespace tumble

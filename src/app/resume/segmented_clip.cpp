@@ -22,8 +22,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// With the frames that are drawn while ffmpeg completes a segment, a killed run loses at most a second. Shorter ones cost
-// more starts of ffmpeg, 0.2 s of CPU time each.
+// With the frames that are drawn while ffmpeg completes a segment, a killed run loses at most a second. Shorter ones
+// cost more starts of ffmpeg, 0.2 s of CPU time each.
 constexpr double segment_seconds = 0.8;
 // A shorter rest goes into the segment before it: a clip of one frame has no delay for B-frames, and joined ones then
 // have a gap in the decoding times.

@@ -1,7 +1,7 @@
 // A clip that survives the end of its run at any moment. It is written as segments of 0.8 s, each an encoded
 // file of its own in a folder beside the clip ("clip.mp4.parts"); the last step joins them. A later run with the same
-// scene, version and settings goes on after the last whole segment. The bytes of a segment depend on its frames only, so
-// the clip is the same however often its run was ended.
+// scene, version and settings goes on after the last whole segment. The bytes of a segment depend on its frames only,
+// so the clip is the same however often its run was ended.
 #pragma once
 
 #include "app/files/clip_sink.h"

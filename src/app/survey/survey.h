@@ -34,7 +34,7 @@ class SurveyObserver {
 public:
     virtual ~SurveyObserver() = default;
     virtual SurveyNeeds needs() const { return {}; }
-    /// `records`: of the frame (frame_sequence.h), if the world records contacts, else null.
+    /// `records`: of the frame (frame_sequence.h), if the world records contacts, otherwise null.
     virtual void see(const Snapshot& snapshot, const Survey& survey, const ContactRecords* records) = 0;
 };
 

@@ -83,7 +83,7 @@ public:
                        options);
     }
 
-    /// Adds a frame; spans without bytes repeat those of the frame before.
+    /// Adds a frame; spans without bytes repeat the frame before.
     void add(std::int64_t frame, std::span<const std::byte> png, std::span<const std::byte> pixels,
              std::span<const std::byte> aovs) {
         if (!png.empty()) png_ = png;

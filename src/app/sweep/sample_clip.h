@@ -1,4 +1,4 @@
-// Frames, AOVs and clip of a sample, drawn in the calling thread: the same bytes as those of `tumble render`.
+// Frames, AOVs and clip of a sample, drawn in the calling thread: the same bytes as by `tumble render`.
 #pragma once
 
 #include "app/clip/render_scenes.h"

@@ -30,7 +30,7 @@ private:
     std::uint64_t state_;
 };
 
-/// Listed values, or those of a range, as TOML.
+/// Listed values, or values of a range, as TOML.
 struct ValueList {
     std::vector<std::string> values;
 };

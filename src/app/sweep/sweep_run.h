@@ -33,8 +33,8 @@ struct SweepReports {
 /// Throws InputError or RunError. Returns the number of workers that fit into memory.
 int check_sweep(const SweepPlan& plan, const std::string& scene, int workers);
 
-/// Throws RunError after an interrupt, at the first failure if asked for, and if the folder cannot be written to; samples
-/// that were made stay. Precondition: check_sweep(), and the program has no other thread.
+/// Throws RunError after an interrupt, at the first failure if asked for, and if the folder cannot be written to;
+/// samples that were made stay. Precondition: check_sweep(), and the program has no other thread.
 SweepCounts run_sweep(const SweepPlan& plan, const std::string& scene, const SweepOptions& options,
                       const SweepReports& reports);
 

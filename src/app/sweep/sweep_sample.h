@@ -25,7 +25,7 @@ struct SweepSample {
 
     /// "friction = 0.4, mass = 2.0", for messages.
     std::string text(const SweepPlan& plan) const;
-    /// The fixed values and those of the axes, as "PATH=VALUE".
+    /// The fixed values and the values of the axes, as "PATH=VALUE".
     std::vector<std::string> assignments(const SweepPlan& plan) const;
 };
 

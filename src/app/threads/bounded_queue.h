@@ -39,7 +39,7 @@ public:
         return value;
     }
 
-    /// No more values will come; those in the queue are still delivered.
+    /// No more values will come; values in the queue are still delivered.
     void close() {
         const std::lock_guard lock(mutex_);
         closed_ = true;

@@ -2,8 +2,8 @@
 // process per core (render_process.h); the next free one takes the next pose. Pixels do not depend on the number of
 // processes: every frame equals a full redraw of its poses, and poses are filtered (pose_filter.h) before distribution.
 //
-// A frame in which nothing drawn has moved and no text has changed is not drawn: it repeats the previous one. AOVs (aov_renderer.h) use the
-// true poses: if only those have moved, the image is repeated, but not the AOVs.
+// A frame in which nothing drawn has moved and no text has changed is not drawn: it repeats the previous one. AOVs
+// (aov_renderer.h) use the true poses: if only those have moved, the image is repeated, but not the AOVs.
 #pragma once
 
 #include "app/composition/composition.h"
@@ -53,11 +53,13 @@ public:
 
     /// Takes poses until their queue ends, and delivers each finished frame in the order of the poses. Stops early if
     /// `deliver` returns false. For frames that are not in `frames`, poses are filtered but not drawn, so that resting
-    /// bodies look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process dies.
+    /// bodies look as if all frames had been drawn. Throws RunError naming the frame if drawing fails or a process
+    /// dies.
     void run(BoundedQueue<MotionBlurFrame>& poses, const std::function<bool(const Frame&)>& deliver,
              DrawingTimes& times, const FrameSet& frames);
 
-    /// Goes on with the poses of a panel that another run has filtered (PoseFilter). Precondition: run() has not been called.
+    /// Goes on with the poses of a panel that another run has filtered (PoseFilter). Precondition: run() has not been
+    /// called.
     void restore(std::size_t panel, std::span<const std::byte> poses);
 
     /// Ends the processes at once, from any thread; run() then returns.

@@ -27,7 +27,7 @@ public:
     /// poses. Throws RunError naming the frame if drawing fails or the process has died.
     DrawnFrame draw(const MotionBlurFrame& frame_poses, int slot);
 
-    // As those of WorkerProcess. A draw() that waits fails after kill().
+    // As in WorkerProcess. A draw() that waits fails after kill().
     void kill() { process_.kill(); }
     ProcessEnd finish() { return process_.finish(); }
     pid_t id() const { return process_.id(); }

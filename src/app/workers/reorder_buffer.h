@@ -16,8 +16,8 @@ namespace tumble {
 
 class ReorderBuffer {
 public:
-    /// `workers`: their number; `frames`: those to come. Each frame that does not follow the one before it in the set by
-    /// one must have all outputs.
+    /// `workers`: their number; `frames`: those to come. Each frame that does not follow the one before it in the set
+    /// by one must have all outputs.
     ReorderBuffer(std::size_t workers, FrameSet frames);
 
     /// Adds a drawn frame; `unchanged`: it is the same image as the previous frame of this worker.

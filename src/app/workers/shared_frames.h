@@ -51,7 +51,7 @@ public:
     void write_overlay(std::size_t panel, std::span<const std::byte> shapes);
     std::span<const std::byte> overlay(std::size_t panel) const;
 
-    /// Writes poses for the AOVs: those of the next frame only if motion is requested.
+    /// Writes poses for the AOVs: poses of the next frame only if motion is requested.
     void write_aov_poses(const AovPoses& poses);
     void read_aov_poses(AovPoses& poses) const;
 

@@ -35,8 +35,8 @@ class WorkerProcess {
 public:
     /// Forks. The child ends with the program, gets no Ctrl-C of a terminal, and has no blocked signals; it closes the
     /// sockets of the workers that were started before it, calls `work` with its end of the socket, and exits with the
-    /// code that `work` returns. Preconditions: the program has no other thread and no OpenGL context, and `work` throws
-    /// nothing. Throws RunError, naming the purpose ("drawing"), if there are no more processes or no memory.
+    /// code that `work` returns. Preconditions: the program has no other thread and no OpenGL context, and `work`
+    /// throws nothing. Throws RunError, naming the purpose ("drawing"), if there are no more processes or no memory.
     WorkerProcess(const char* purpose, std::span<const int> other_sockets, const std::function<int(int socket)>& work);
     /// Ends the process in any state.
     ~WorkerProcess();

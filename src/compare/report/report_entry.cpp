@@ -240,7 +240,7 @@ std::string details_html(const ReportEntry& entry) {
     const ImageResult& result = *entry.result;
     const std::string_view verdict = name_of(result.verdict);
     const std::string reasons = reasons_html(result);
-    const bool compared = !result.figures.empty();  // else the reason is all that there is to say
+    const bool compared = !result.figures.empty();  // otherwise the reason is all that there is to say
     return fmt::format(
         "<article id=\"image-{0}\" data-verdict=\"{1}\" aria-labelledby=\"title-{0}\" tabindex=\"-1\">\n<header><h2 "
         "id=\"title-{0}\"><span class=\"name\">{2}</span> <span class=\"verdict {1}\">{1}</span></h2>\n{3}</header>\n"

@@ -25,7 +25,7 @@ struct PairPictures {
     ImageSize reference_size, image_size, difference_size;
     PictureBytes flip, windows;  // heat maps of a comparable pair
     PictureBytes difference;     // of a pair of two sizes (difference_image.h)
-    PictureBytes thumbnail;      // of the image, else of the reference
+    PictureBytes thumbnail;      // of the image, otherwise of the reference
     float hottest_window = 0.0;  // levels that have the lightest color of `windows`
     std::optional<FlipFigures> figures;
     std::optional<double> ssim;
@@ -36,7 +36,7 @@ struct PairPictures {
     }
 };
 
-/// The pictures of each result, in their order: those of the first ones up to the number of bytes; later ones keep
+/// The pictures of each result, in their order: of the first results up to the number of bytes; later ones keep
 /// their thumbnails, where these are within it.
 std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>& results, std::int64_t most_bytes,
                                           int workers);

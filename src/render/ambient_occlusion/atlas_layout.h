@@ -10,7 +10,7 @@ namespace tumble {
 void lay_out_places(const RenderScene& scene, OcclusionAtlas& atlas);
 
 /// Allocates rectangles in the AO atlas on shelves (rows of rectangles): a rectangle is placed to the right of the
-/// previous one if it fits below the shelf's height, else on a new shelf.
+/// previous one if it fits below the shelf's height, otherwise on a new shelf.
 class ShelfPacker {
 public:
     ShelfPacker(int first_row, int most_rows) : row_(first_row), most_rows_(most_rows) {}

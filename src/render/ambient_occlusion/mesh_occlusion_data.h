@@ -1,5 +1,5 @@
-// The data that ambient occlusion keeps of a mesh: boxes that stand for it as an occluder, and the points at which its sky
-// visibility is computed.
+// The data that ambient occlusion keeps of a mesh: boxes that stand for it as an occluder, and the points at which its
+// sky visibility is computed.
 #pragma once
 
 #include "core/triangle_mesh.h"

@@ -80,7 +80,7 @@ struct AmbientOcclusion::State {
     int body_rows = 1;  // of the atlas; plane tiles are below them
     OcclusionChanges changes;
     const Snapshot* snapshot = nullptr;      // of the current update
-    std::vector<Occluder> occluders, moved;  // of all bodies; of those that moved, at both poses
+    std::vector<Occluder> occluders, moved;  // of all bodies; of bodies that moved, at both poses
     std::vector<std::uint32_t> first;        // first occluder of each body, and the end
     OccluderFinder finder{{}};
     bool anew = true;  // everything is to be recomputed

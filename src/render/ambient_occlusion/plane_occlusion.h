@@ -29,7 +29,7 @@ struct FrameOccluders {
     const FrameContext& frame;
     Vec3 reference;  // m
     const std::vector<Occluder>& all;
-    const std::vector<Occluder>& moved;  // those that moved since the previous frame, at both poses
+    const std::vector<Occluder>& moved;  // bodies that moved since the previous frame, at both poses
     bool anew;                           // any may have moved
 };
 

@@ -15,8 +15,8 @@ namespace tumble {
 /// Copies the rectangles of the drawn image to the frame, with alpha 255.
 void copy_opaque(const Image& drawn, const std::vector<Rectangle>& rectangles, Image& frame);
 
-/// Blends the edges in the dirty tiles of the frame, which must hold the drawn image there. `with_coverage`: the frame's
-/// alpha is coverage (antialiasing.h) and is blended too.
+/// Blends the edges in the dirty tiles of the frame, which must hold the drawn image there. `with_coverage`: the
+/// frame's alpha is coverage (antialiasing.h) and is blended too.
 void blend_analytic_edges(const Image& drawn, const std::vector<ScreenEdge>& edges, const DirtyTiles& dirty,
                           Image& frame, bool with_coverage = false);
 

@@ -52,7 +52,7 @@ private:
     VisibilityBufferRenderer finder_;
 };
 
-/// Detects frames whose values equal those of the frame before, to the bit.
+/// Detects frames whose values equal the values of the frame before, to the bit.
 class AovChanges {
 public:
     explicit AovChanges(const SceneDescription& scene) : path_(scene.camera) {}

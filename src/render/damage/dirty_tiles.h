@@ -1,4 +1,4 @@
-// Sets of tiles: of the frame, for example those to redraw, or those with shadows on planes; and of the shadow maps.
+// Sets of tiles: of the frame, for example tiles to redraw, or tiles with shadows on planes; and of the shadow maps.
 #pragma once
 
 #include "core/image.h"
@@ -20,9 +20,9 @@ struct CellGrid {
     int width = 0, height = 0;  // of the frame, pixels; the last column and row may be cut off
 };
 
-/// The rectangles of all cells for which `selected(column, row)` is true, in pixels: runs along a row, extended downward
-/// while the rows below have the same run. They do not overlap. They may include cells for which `free(column, row)` is
-/// true where that makes fewer rectangles.
+/// The rectangles of all cells for which `selected(column, row)` is true, in pixels: runs along a row, extended
+/// downward while the rows below have the same run. They do not overlap. They may include cells for which `free(column,
+/// row)` is true where that makes fewer rectangles.
 template <class Selected, class Free>
 std::vector<Rectangle> cell_rectangles(const CellGrid& grid, Selected selected, Free free) {
     enum Cell : char { none, spare, needed };
@@ -101,8 +101,9 @@ private:
     int count_ = 0;  // of marked tiles
 };
 
-/// The parts of the shadow maps to redraw: a coarse grid of cells over each, marked at the old and the new pose of a moved
-/// body. Bodies that stand still are redrawn where they touch a marked cell; in other cells that changes no depth.
+/// The parts of the shadow maps to redraw: a coarse grid of cells over each, marked at the old and the new pose of a
+/// moved body. Bodies that stand still are redrawn where they touch a marked cell; in other cells that changes no
+/// depth.
 class ShadowDirtyTiles {
 public:
     static constexpr int count = 24;  // cells per side: 32 texels each

@@ -40,8 +40,8 @@ public:
     FrameSetup(const FrameSetup&) = delete;
     FrameSetup& operator=(const FrameSetup&) = delete;
 
-    /// `whole`: of the bodies of the scene file. `full_redraw`: the frame never counts as unchanged. The result is valid
-    /// until the next call, or as long as the argument.
+    /// `whole`: of the bodies of the scene file. `full_redraw`: the frame never counts as unchanged. The result is
+    /// valid until the next call, or as long as the argument.
     FrameContext prepare(const Snapshot& whole, bool one_sample, bool full_redraw = false);
 
     /// Call when the prepared frame is drawn. Without it, after an exception, the next frame is made anew.

@@ -9,7 +9,7 @@
 namespace tumble {
 
 enum class GlBackend {
-    software,  // OSMesa where it is installed, else EGL's software device: the same driver, and the same pixels
+    software,  // OSMesa where it is installed, otherwise EGL's software device: the same driver, and the same pixels
     osmesa,
     egl,  // on a graphics card if there is one
 };
@@ -34,16 +34,16 @@ public:
 /// Makes a context, current in this thread. Throws RunError that names the missing part and the remedy.
 std::unique_ptr<GlContext> make_gl_context(GlBackend backend);
 
-/// True if the backend draws by Mesa's software renderer for CPUs: frames then have the same bytes by every backend. Opens
-/// and closes a context. Throws RunError.
+/// True if the backend draws by Mesa's software renderer for CPUs: frames then have the same bytes by every backend.
+/// Opens and closes a context. Throws RunError.
 bool draws_on_cpu(GlBackend backend);
 
 /// Mesa's off-screen interface: software drawing with no display, no device and no permissions. Throws RunError if the
 /// library is missing or cannot make a core context of the requested version.
 std::unique_ptr<GlContext> make_osmesa_context();
 
-/// EGL without a surface: the alternative for systems whose Mesa lacks OSMesa, and for graphics cards. Throws RunError if
-/// EGL is missing or offers no such display: surfaceless or of any device, or of its software device.
+/// EGL without a surface: the alternative for systems whose Mesa lacks OSMesa, and for graphics cards. Throws RunError
+/// if EGL is missing or offers no such display: surfaceless or of any device, or of its software device.
 enum class EglDisplayKind { any, software };
 std::unique_ptr<GlContext> make_egl_context(EglDisplayKind kind);
 

@@ -31,8 +31,8 @@ ShaderSource read_shader(const std::filesystem::path& folder, const std::string&
 
 // The folder of the shader files.
 
-/// $TUMBLE_SHADERS if set; else a folder beside the installed program or shared library; else the source tree of the
-/// build. Throws RunError that names the searched folders.
+/// $TUMBLE_SHADERS if set; otherwise a folder beside the installed program or shared library; otherwise the source tree
+/// of the build. Throws RunError that names the searched folders.
 std::filesystem::path find_shader_folder();
 
 }  // namespace tumble

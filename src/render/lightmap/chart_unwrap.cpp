@@ -242,7 +242,7 @@ private:
         }
     }
 
-    // Each texel takes its point from the triangle that contains it, else from the nearest triangle.
+    // Each texel takes its point from the triangle that contains it, otherwise from the nearest triangle.
     void fill() {
         const std::size_t count = std::size_t(result_.width) * std::size_t(result_.height);
         result_.positions.resize(count);

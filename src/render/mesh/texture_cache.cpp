@@ -17,8 +17,8 @@ GLuint TextureCache::name_of(const MeshMaterial& material) {
     return entry->second.name();
 }
 
-/// A magnified texture is interpolated linearly; a smaller one has the mip map nearest to its size, which costs half of a
-/// mixture of two. The shader chooses the level.
+/// A magnified texture is interpolated linearly; a smaller one has the mip map nearest to its size, which costs half of
+/// a mixture of two. The shader chooses the level.
 void TextureCache::fill(const MeshMaterial& material) const {
     const Texture white{{{1, 1, {{255, 255, 255, 255}}}}, 255};
     const Texture& texture = material.texture ? *material.texture : white;

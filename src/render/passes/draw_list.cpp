@@ -66,7 +66,7 @@ std::size_t ball_mesh_for(double radius, double error) {  // m
     return first_ball_mesh + level;
 }
 
-// The bounding balls of bodies that exist are those of their drawables.
+// The bounding balls of bodies that exist come from their drawables.
 BoundingBall ball_of(const DrawableBounds& bounds) { return {bounds.center, bounds.radius}; }
 
 struct PlacedCord {

@@ -1,5 +1,5 @@
-// The draw list of one frame: plain values made from the frame, ready for upload. Bodies that share a mesh form one batch
-// of instances, nearest first, so that hidden pixels are rejected early.
+// The draw list of one frame: plain values made from the frame, ready for upload. Bodies that share a mesh form one
+// batch of instances, nearest first, so that hidden pixels are rejected early.
 #pragma once
 
 #include "render/ambient_occlusion/occlusion_atlas.h"

@@ -101,8 +101,8 @@ void PlanePass::draw_sky(const FrameContext& frame) const {
 }
 
 void PlanePass::draw_background(const FrameContext& frame) const {
-    // Pixels at equal depth stay: bodies and regions that were drawn before. Regions are drawn over each other in order,
-    // so the last of several intersecting planes comes first here.
+    // Pixels at equal depth stay: bodies and regions that were drawn before. Regions are drawn over each other in
+    // order, so the last of several intersecting planes comes first here.
     gl_->DepthFunc(GL_LESS);
     for (std::size_t i = frame.planes.size(); i-- > 0;) {
         const PlanePatch& plane = frame.planes[i];

@@ -30,7 +30,7 @@ struct PerDrawable {
 /// A set of drawables: 1 for each that belongs to it.
 using DrawableMask = PerDrawable<char>;
 
-/// Those of planes and hidden bodies do not exist.
+/// Bounds of planes and hidden bodies do not exist.
 PerDrawable<DrawableBounds> make_drawables(const RenderScene& scene, const Snapshot& snapshot, const Camera& view);
 
 /// The corners of a box.

@@ -76,7 +76,7 @@ std::optional<PlanePatch> make_plane_patch(const RenderBody& proxy, const BodySt
                                    float(1.0 - 2.0 * near_distance * std::max(fall(corner), 0.0) / patch.height));
     if (patch.corners.size() < 3) return std::nullopt;
 
-    // The pattern's axes are those of the body, so that it moves with the body.
+    // The pattern's axes are the body's, so that it moves with the body.
     const PlaneAxes axes = plane_axes(proxy.plane.normal);
     const Vec3 from_origin = view.eye() - state.origin;
     patch.u = axis(state.orientation * axes.u, from_origin, cell);

@@ -1,4 +1,5 @@
-// The drawing of each kind of shape: the functions that its file in this folder gives. Compounds are drawn part by part.
+// The drawing of each kind of shape: the functions that its file in this folder gives. Compounds are drawn part by
+// part.
 #pragma once
 
 #include "render/shapes/ray_depths.h"
@@ -42,8 +43,8 @@ public:
 // closed: false if the inside of its surface is visible.
 // surface_triangles: three corners each, counter-clockwise seen from outside; none for planes and compounds.
 // surface_normal: outward and unit, at the intersection of a ray (x, y, 1) at a depth, in the frame of the shape (exact
-// for an axis-aligned box); of an open mesh seen from inside, the normal towards the eye. A mesh has its shading normal,
-// interpolated between the corners of the triangle.
+// for an axis-aligned box); of an open mesh seen from inside, the normal towards the eye. A mesh has its shading
+// normal, interpolated between the corners of the triangle.
 
 void set_proxy(RenderBody& proxy, const PlaneShape& shape, std::vector<RenderMesh>& meshes);
 double reach(const PlaneShape& shape);

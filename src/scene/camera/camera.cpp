@@ -11,7 +11,7 @@
 namespace tumble {
 namespace {
 
-/// Positions for the error if eye, target and up are inconsistent: those of the given keys.
+/// Source positions of the given keys, for the error if eye, target and up are inconsistent.
 struct ViewKeys {
     std::optional<TomlValue> eye, target, up;
 };

@@ -87,7 +87,7 @@ double drop_height(const std::vector<Ground>& grounds, const Vec3& point, const 
     return drop;
 }
 
-/// Local bounds; those of a mesh or compound are computed once for all bodies that share it.
+/// Local bounds; bounds of a mesh or compound are computed once for all bodies that share it.
 class BoundsOfShapes {
 public:
     Bounds operator()(const Shape& shape) {

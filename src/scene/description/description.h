@@ -164,7 +164,7 @@ struct MeshShape {
     MassFrom mass_from = MassFrom::solid;
     double thickness = 0.0;  // m, of a shell
     bool chosen = true;      // false: mass_from follows from the mesh, which has no volume of its own
-    bool painted = false;    // drawn with the colors of its file, which has some; else with those of its body
+    bool painted = false;    // drawn with the colors of its file, which has some; otherwise with those of its body
 
     const MeshPaint* paint() const { return painted ? asset->paint.get() : nullptr; }
 };
@@ -227,7 +227,7 @@ struct BodyDescription {
     std::vector<Keyframe> keyframes;           // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
 
-    /// Restitution and friction of the body in a pair (pair_rule.h): a dynamic body without values has these.
+    /// Restitution and friction of the body in a pair (PairRule): a dynamic body without values has these.
     static constexpr double default_restitution = 0.5, default_friction = 0.0;
     double restitution_in_pair() const {
         return restitution.value_or(dynamic() ? default_restitution : value_of_other);

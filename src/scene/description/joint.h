@@ -2,8 +2,8 @@
 //
 // A joint has a frame fixed in each of its two bodies. The pose of the second frame relative to the first has six
 // coordinates: three displacements along the axes of the first frame, and three angles. Each of them is locked, free or
-// limited. The types of joint are presets of these six; a distance joint has one coordinate, the distance of its anchors.
-// A gear has none: it couples the coordinates of two other joints.
+// limited. The types of joint are presets of these six; a distance joint has one coordinate, the distance of its
+// anchors. A gear has none: it couples the coordinates of two other joints.
 #pragma once
 
 #include "core/vector.h"

@@ -15,8 +15,8 @@ namespace tumble {
 struct Texture {
     struct Level {
         int width = 0, height = 0;
-        /// Rows from the top: red, green, blue as square roots of linear light, whose 8 bits lose less than half a level
-        /// of sRGB and which a shader decodes by one product; alpha as it is.
+        /// Rows from the top: red, green, blue as square roots of linear light, whose 8 bits lose less than half a
+        /// level of sRGB and which a shader decodes by one product; alpha as it is.
         std::vector<std::array<std::uint8_t, 4>> texels;
     };
     std::vector<Level> levels;       // each of half the size of the one before, down to one texel

@@ -25,8 +25,8 @@
 namespace tumble {
 namespace {
 
-// Values as bytes for a hash: fixed widths, little-endian, numbers of elements first, so that no two sequences of values
-// have the same bytes.
+// Values as bytes for a hash: fixed widths, little-endian, numbers of elements first, so that no two sequences of
+// values have the same bytes.
 
 class ValueHash {
 public:
@@ -78,8 +78,8 @@ private:
 
 enum class Content { all, motion };
 
-/// Adds each struct of a description by its fields (scene/fields), in their order. tests/scene/scene_hash_test.cpp varies
-/// each key.
+/// Adds each struct of a description by its fields (scene/fields), in their order. tests/scene/scene_hash_test.cpp
+/// varies each key.
 class DescriptionHash : public ValueHash, public FieldVisitor {
 public:
     explicit DescriptionHash(Content content) : all_(content == Content::all) {}

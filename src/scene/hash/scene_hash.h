@@ -10,16 +10,16 @@
 
 namespace tumble {
 
-/// SHA-256 of the whole description, 64 hexadecimal digits. The name of the scene's file counts only where the clip shows
-/// it: as the title overlay of a scene without a title.
+/// SHA-256 of the whole description, 64 hexadecimal digits. The name of the scene's file counts only where the clip
+/// shows it: as the title overlay of a scene without a title.
 std::string scene_hash(const SceneDescription& scene);
 
-/// SHA-256 of the part that the motion depends on: simulation, frame rate, bodies without their appearance, forces and wind. Equal
-/// for scenes that differ only in camera, light, colors, overlays, size or samples.
+/// SHA-256 of the part that the motion depends on: simulation, frame rate, bodies without their appearance, forces and
+/// wind. Equal for scenes that differ only in camera, light, colors, overlays, size or samples.
 std::string motion_hash(const SceneDescription& scene);
 
-/// Parts of a scene with a hash of each, to name those that two scenes differ in: "simulation", "camera" and the like.
-/// The title counts where it is shown. Duration, size, frame rate and samples are not in them.
+/// Parts of a scene with a hash of each, to name the parts in which two scenes differ: "simulation", "camera" and the
+/// like. The title counts where it is shown. Duration, size, frame rate and samples are not in them.
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene);
 
 }  // namespace tumble

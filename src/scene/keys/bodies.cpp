@@ -14,8 +14,8 @@
 namespace tumble {
 namespace {
 
-/// "file" is no material unless the scene has one of that name: the colors of a mesh file, which it has without a color of
-/// its own.
+/// "file" is no material unless the scene has one of that name: the colors of a mesh file, which it has without a color
+/// of its own.
 Material read_material(const TomlTable& table, const Shape& shape, const Materials& materials) {
     Material material, own;
     const auto name = table.find("material");

@@ -85,7 +85,7 @@ void enlarge(SceneTemplate& content, double scale, double mass_factor, MeshCache
     }
 }
 
-// Random numbers of instances are others than those of bodies, whose tables count from 0.
+// Random numbers of instances differ from random numbers of bodies, whose tables count from 0.
 constexpr std::uint64_t first_random_table = std::uint64_t(1) << 32;
 
 constexpr Range usable_factor{1e-30, 1e30, ""};  // of masses: forces and stiffness stay finite

@@ -75,8 +75,8 @@ private:
 
 }  // namespace
 
-// A hinge has its axle, a universal joint its cross, and a ball a thick pin along its first axis. A slider has a rod over
-// the way of its limits, in its first body where that is one.
+// A hinge has its axle, a universal joint its cross, and a ball a thick pin along its first axis. A slider has a rod
+// over the way of its limits, in its first body where that is one.
 std::vector<CordDescription> pins_of(const SceneDescription& scene, std::size_t index) {
     const JointDescription& joint = scene.joints[index];
     const auto first = side_of_pin(scene, joint.first, joint.anchor_first, joint.frame_first);

@@ -259,7 +259,7 @@ void read_span(const TomlTable& table, JointDescription& joint) {
     if (joint.end <= joint.start) value->fail("must end after it starts");
 }
 
-/// All keys but those of the type, the bodies and the place.
+/// All keys except the type, the bodies and the position.
 void read_laws(const JointTable& given, JointDescription& joint) {
     joint.collide = joint.type == JointType::distance;
     read_coordinates(given, joint);

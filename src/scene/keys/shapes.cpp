@@ -71,8 +71,8 @@ bool is_flat(const TriangleMesh& mesh) {
     }
 }
 
-/// The shape of a loaded mesh. The mass of a moving body is that of the enclosed volume; of a mesh without one, that of its
-/// hull, and of a flat mesh that of a shell. The key mass_from chooses another.
+/// The shape of a loaded mesh. The mass of a moving body is that of the enclosed volume; of a mesh without one, that of
+/// its hull, and of a flat mesh that of a shell. The key mass_from chooses another.
 MeshShape shape_of(const LoadedMesh& mesh, const TomlTable& table, BodyType type,
                    const std::string& which = "this one") {
     MeshShape shape{mesh.asset};

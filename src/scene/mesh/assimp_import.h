@@ -1,6 +1,6 @@
-// Import by assimp of the mesh formats that Tumble does not read itself (Collada, 3D Studio, OFF, FBX and more). It runs in
-// a child process with limits of memory and time: assimp allocates as much as a file claims, and a malformed file can
-// crash it.
+// Import by assimp of the mesh formats that Tumble does not read itself (Collada, 3D Studio, OFF, FBX and more). It
+// runs in a child process with limits of memory and time: assimp allocates as much as a file claims, and a malformed
+// file can crash it.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
@@ -14,8 +14,8 @@ namespace tumble {
 /// True if assimp reads files of that ending (".dae", lower case).
 bool assimp_reads(const std::string& extension);
 
-/// Imports the bytes of a file; no other file is opened but its images, in `folder` or below. Throws MeshError if they cannot be read, if the import
-/// crashes, or if it takes more memory or time than a mesh within limits.h needs.
+/// Imports the bytes of a file; no other file is opened but its images, in `folder` or below. Throws MeshError if they
+/// cannot be read, if the import crashes, or if it takes more memory or time than a mesh within limits.h needs.
 MeshFile import_with_assimp(std::string_view bytes, const std::filesystem::path& folder, const std::string& extension);
 
 }  // namespace tumble

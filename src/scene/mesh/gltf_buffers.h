@@ -15,8 +15,8 @@ namespace tumble {
 
 class GltfBuffers {
 public:
-    /// `binary`: the binary chunk of a GLB file, else empty; `file_bytes`: size of the file. The document and the chunk
-    /// must outlive the buffers. Other files are read from `folder` and below.
+    /// `binary`: the binary chunk of a GLB file, otherwise empty; `file_bytes`: size of the file. The document and the
+    /// chunk must outlive the buffers. Other files are read from `folder` and below.
     GltfBuffers(const Json& document, std::string_view binary, std::size_t file_bytes, std::filesystem::path folder)
         : document_(document), binary_(binary), folder_(std::move(folder)), bytes_read_(file_bytes) {}
 

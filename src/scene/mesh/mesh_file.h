@@ -62,8 +62,8 @@ struct MeshFile {
 enum class MeshImports { in_child_process, refused };
 
 /// The file's ending determines the reader: one of Tumble's, or assimp (assimp_import.h). Throws MeshError if the file
-/// is missing, of another kind, unreadable or empty, or has invalid indices or numbers, or has a broken image. Opens the
-/// file itself and the files of its buffers, materials and images in its folder and below; nothing else.
+/// is missing, of another kind, unreadable or empty, or has invalid indices or numbers, or has a broken image. Opens
+/// the file itself and the files of its buffers, materials and images in its folder and below; nothing else.
 MeshFile read_mesh_file(const std::filesystem::path& file, MeshImports imports = MeshImports::in_child_process);
 
 /// Text of a mesh file for a message: printable, and cut to this many characters.

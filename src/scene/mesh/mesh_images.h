@@ -19,8 +19,8 @@ public:
     /// Files are read from the folder of the mesh file, and below.
     explicit MeshImages(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
-    /// The bytes of the file of that name, or of its last part, because programs write paths of their own disk. Empty if
-    /// there is none: the name is kept in missing(). Throws MeshError if it is too large.
+    /// The bytes of the file of that name, or of its last part, because programs write paths of their own disk. Empty
+    /// if there is none: the name is kept in missing(). Throws MeshError if it is too large.
     std::optional<std::string> read(std::string_view name);
     /// The texture of a file; null if there is none, or if it is neither PNG nor JPEG.
     std::shared_ptr<const Texture> texture(std::string_view name);

@@ -169,8 +169,8 @@ LoadedMesh loaded(const MeshFile& read, const std::filesystem::path& file) {
         triangles.push_back(welded);
         corners.push_back(t);
     }
-    // A face that is listed twice counts twice in a volume. One that is listed for each side encloses none, but two solids
-    // may share a face.
+    // A face that is listed twice counts twice in a volume. One that is listed for each side encloses none, but two
+    // solids may share a face.
     const std::vector<char> again = repeated(triangles, false);
     std::size_t doubled = drop(triangles, again);
     drop(corners, again);

@@ -17,8 +17,8 @@
 namespace tumble {
 namespace {
 
-/// Calls visit(keyword, tokens) for every line that is not part of a curve or surface. A curve without an end is a single
-/// line: some programs write no more.
+/// Calls visit(keyword, tokens) for every line that is not part of a curve or surface. A curve without an end is a
+/// single line: some programs write no more.
 template <class Visit>
 void visit_lines(std::string_view bytes, const Visit& visit) {
     TextTokens tokens(bytes);

@@ -1,5 +1,5 @@
-// Wavefront OBJ files: positions, normals, texture coordinates, colors, polygons, their objects and their materials. Curves
-// are skipped.
+// Wavefront OBJ files: positions, normals, texture coordinates, colors, polygons, their objects and their materials.
+// Curves are skipped.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"

@@ -95,7 +95,8 @@ MeshFile read_binary(std::string_view bytes, std::uint32_t facets) {
 }  // namespace
 
 MeshFile read_stl(std::string_view bytes) {
-    // Binary files may begin with "solid" as well, so the length decides. Some have bytes of their program behind the facets.
+    // Binary files may begin with "solid" as well, so the length decides. Some have bytes of their program behind the
+    // facets.
     std::uint32_t facets = 0;
     const bool long_enough = bytes.size() >= binary_header_bytes + count_bytes;
     if (long_enough) std::memcpy(&facets, bytes.data() + binary_header_bytes, sizeof facets);

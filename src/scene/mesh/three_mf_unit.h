@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// m per unit: the attribute `unit` of the model in the archive `bytes`; a millimeter, as the format says, if it has none
-/// or cannot be found.
+/// m per unit: the attribute `unit` of the model in the archive `bytes`; a millimeter, as the format says, if it has
+/// none or cannot be found.
 double three_mf_unit(std::string_view bytes);
 
 }  // namespace tumble

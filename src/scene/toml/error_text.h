@@ -13,7 +13,7 @@ std::string number_text(double value);
 /// `"plain", "grid", "checker"`.
 std::string quoted_list(const std::vector<std::string_view>& names);
 
-/// ` (did you mean "duration"?)` if one of the known names is close to the given one; else empty.
+/// ` (did you mean "duration"?)` if one of the known names is close to the given one; otherwise empty.
 std::string did_you_mean(std::string_view given, const std::vector<std::string_view>& known);
 
 /// The same; without a close one ` (known: ...)` if there are few enough to read.

@@ -7,7 +7,8 @@
 
 namespace tumble {
 
-/// "60", "29.97" or "24000/1001" to frames per second. Fails at the position for another text and outside of the limits.
+/// "60", "29.97" or "24000/1001" to frames per second. Fails at the position for another text and outside of the
+/// limits.
 double read_frame_rate(std::string_view text, const SourcePosition& origin);
 
 /// The same of a fraction alone: a scene file gives numbers without quotes.

@@ -26,7 +26,7 @@ struct Range {
     std::string requirement() const;
 };
 
-/// The value if it is in the range; else fails at its position.
+/// The value if it is in the range; otherwise fails at its position.
 double checked(double value, const Range& range, const SourcePosition& origin);
 std::int64_t checked(std::int64_t value, std::int64_t min, std::int64_t max, const SourcePosition& origin);
 

@@ -14,8 +14,8 @@ namespace tumble {
 /// - PATH: keys joined by '.', as in "simulation.integrator", "body.crate.position" or "camera.keyframes.0.time". An
 ///   element of an array of tables is named by its "name" or by its number from 0. A key with a '.' stands in quotes.
 /// - VALUE: a TOML value; text that is none is a string.
-/// Throws InputError for a path without '=', and for an element that does not exist. Keys are checked where the document
-/// is read: errors about these values name the option.
+/// Throws InputError for a path without '=', and for an element that does not exist. Keys are checked where the
+/// document is read: errors about these values name the option.
 void set_values(toml::table& document, std::span<const std::string> assignments);
 
 /// "--set PATH" if the node or key comes from such an assignment.

@@ -1,5 +1,5 @@
-// Paths of an island's bodies in a step in which its groups of joined bodies fly, in equal parts, and the search for pairs
-// that meet on them.
+// Paths of an island's bodies in a step in which its groups of joined bodies fly, in equal parts, and the search for
+// pairs that meet on them.
 #pragma once
 
 #include "sim/ccd/trajectory.h"
@@ -14,9 +14,10 @@ namespace tumble {
 
 class FlightPaths {
 public:
-    /// Paths of all bodies (indices, ascending) with their present velocities, in `parts` equal parts of a step of `h` s.
+    /// Paths of all bodies (indices, ascending) with their present velocities, in `parts` equal parts of a step of `h`
+    /// s.
     void start(const std::vector<Body>& all, std::span<const std::uint32_t> bodies, int parts, double h);
-    /// A body (index among those of start()) has flown through a part.
+    /// A body (index in start()) has flown through a part.
     void add(std::size_t body, int part, const Body& before, const Body& after);
 
     /// True if two bodies of a manifold meet. Bodies that start() was not given keep their velocities.

@@ -188,8 +188,8 @@ void ForwardDynamics::push(int node, const Wrench& wrench) {
     link.effort.force -= wrench.force;
 }
 
-// Held about n: with a = D^-1 n and g = 1 / (n . a), C = D^-1 - g a a^T, U = (D; mixed^T) and w' = C (u - U^T A) + g b a for
-// the acceleration A without that of the joint. So I - U C U^T passes, which has the turning part g n n^T.
+// Held about n: with a = D^-1 n and g = 1 / (n . a), C = D^-1 - g a a^T, U = (D; mixed^T) and w' = C (u - U^T A) + g b
+// a for the acceleration A without that of the joint. So I - U C U^T passes, which has the turning part g n n^T.
 SpatialForce ForwardDynamics::pass_on_ball(Link& link, SpatialInertia& passed) {
     const SpatialInertia& inertia = link.inertia;
     const Vec3 &n = link.about, a = link.inverse * n;
@@ -207,8 +207,8 @@ SpatialForce ForwardDynamics::pass_on_ball(Link& link, SpatialInertia& passed) {
     return p;
 }
 
-// Articulated inertias and efforts from the leaves to the root (Featherstone 2008, equations 7.37 to 7.43, second loop of
-// Table 7.1); or efforts alone, with the inertias of the last sweep.
+// Articulated inertias and efforts from the leaves to the root (Featherstone 2008, equations 7.37 to 7.43, second loop
+// of Table 7.1); or efforts alone, with the inertias of the last sweep.
 template <bool factor>
 void ForwardDynamics::sweep_in() {
     const std::vector<TreeNode>& nodes = tree_.nodes();
@@ -398,7 +398,8 @@ void ForwardDynamics::look(const std::vector<Body>& bodies, std::span<const std:
     }
 }
 
-// Each node's share of the velocity of the body at the end of its joint, relative to the node before, at the body's point.
+// Each node's share of the velocity of the body at the end of its joint, relative to the node before, at the body's
+// point.
 void ForwardDynamics::find_speeds(std::span<const SpatialMotion> bodies, double* speeds) {
     const std::vector<TreeNode>& nodes = tree_.nodes();
     for (std::size_t i = 0, end = 0; i < nodes.size(); ++i) {

@@ -50,8 +50,8 @@ public:
                const SpatialMotion& acceleration);
     /// The ground stands still, at the tree's origin.
     void stand() { carried_ = false; }
-    /// Places, velocities and inertias of all nodes. Quaternions may have any length. Speeds of a ball are components in the
-    /// parent's frame.
+    /// Places, velocities and inertias of all nodes. Quaternions may have any length. Speeds of a ball are components
+    /// in the parent's frame.
     void move(const double* coordinates, const double* speeds);
     /// The same without inertias: for places and velocities alone.
     void place(const double* coordinates, const double* speeds);
@@ -63,8 +63,8 @@ public:
     void drive(int node, double effort) { links_[std::size_t(node)].drive += effort; }
     /// A torque (N m) of the parent on a ball node, between the same; components in the parent's frame.
     void twist(int node, const Vec3& torque) { links_[std::size_t(node)].twist += frame_of(node) * torque; }
-    /// Between move() and accelerate(): the coordinate of a revolute or prismatic node does not accelerate; or has a further
-    /// inertia (kg m^2, kg), as that of an implicit damper.
+    /// Between move() and accelerate(): the coordinate of a revolute or prismatic node does not accelerate; or has a
+    /// further inertia (kg m^2, kg), as that of an implicit damper.
     void hold(int node) { links_[std::size_t(node)].added = infinity; }
     void add_inertia(int node, double amount) { links_[std::size_t(node)].added += amount; }
     /// Between the same: n . (rates of a ball's speeds) is as given; n has components in the parent's frame. Not for
@@ -108,12 +108,12 @@ public:
     /// velocities at those speeds. They are the given ones if these fit the joints.
     void find_speeds(std::span<const SpatialMotion> bodies, double* speeds);
 
-    /// Force and moment (about the node's point) that the joint of a node gives to the rest of the tree behind it, after
-    /// accelerate() or respond(): I^a a + p^a, with the acceleration of the parent. Not of a free root.
+    /// Force and moment (about the node's point) that the joint of a node gives to the rest of the tree behind it,
+    /// after accelerate() or respond(): I^a a + p^a, with the acceleration of the parent. Not of a free root.
     SpatialForce joint_force(int node) const;
 
-    /// Force and moment (about the node's point) that the joint of each node gives to the rest of the tree behind it: by
-    /// the recursive Newton-Euler algorithm (Featherstone 2008, Table 5.1), after accelerate().
+    /// Force and moment (about the node's point) that the joint of each node gives to the rest of the tree behind it:
+    /// by the recursive Newton-Euler algorithm (Featherstone 2008, Table 5.1), after accelerate().
     void joint_forces(std::span<const Wrench> pushes, std::vector<SpatialForce>& forces) const;
 
     const Link& link(int node) const { return node == TreeNode::ground ? ground_ : links_[std::size_t(node)]; }

@@ -53,8 +53,8 @@ void IslandFlight::find_groups(const FlightStep& step) {
     std::erase_if(groups_, [](const Group& group) { return group.held.empty(); });
 }
 
-// Fine integrators find the limits; where rounding stops them, compositions of Verlet's method fly. By that method a step
-// that meets a limit is flown again by the method of Runge and Kutta.
+// Fine integrators find the limits; where rounding stops them, compositions of Verlet's method fly. By that method a
+// step that meets a limit is flown again by the method of Runge and Kutta.
 TreeFlight::Outcome IslandFlight::fly_part(const FlightStep& step, const Group& group, double from, double to,
                                            int& substeps) {
     using Outcome = TreeFlight::Outcome;

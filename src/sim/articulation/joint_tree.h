@@ -1,5 +1,6 @@
-// A spanning tree of an island of joined bodies, found from its joints, as a list of nodes from the roots to the leaves.
-// Joints that would close a loop are cut; so are distance joints and gears. Each tree hangs on the ground or has a free root.
+// A spanning tree of an island of joined bodies, found from its joints, as a list of nodes from the roots to the
+// leaves. Joints that would close a loop are cut; so are distance joints and gears. Each tree hangs on the ground or
+// has a free root.
 //
 // A node is a body, or a massless part between two coordinates of one joint, and moves relative to its parent by one
 // primitive joint: a universal joint is two revolute ones, a planar joint two prismatic ones and a revolute one.
@@ -63,10 +64,10 @@ using NodeKind = TreeNode::Kind;
 
 class JointTree {
 public:
-    /// Returns true if the joints connect these bodies (indices, ascending), no joint with laws closes a loop, and the others
-    /// close few.
-    /// Then nodes() are those of the present poses. The structure is kept from call to call while bodies and joints stay the
-    /// same. `all`: the joints that gears refer to.
+    /// Returns true if the joints connect these bodies (indices, ascending), no joint with laws closes a loop, and the
+    /// others close few.
+    /// Then nodes() belong to the present poses. The structure is kept from call to call while bodies and joints stay
+    /// the same. `all`: the joints that gears refer to.
     bool find(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, std::span<Joint* const> joints,
               std::span<const Joint> all = {});
 
@@ -94,8 +95,8 @@ public:
         int body, joint;
     };
     std::span<const Link> order() const { return order_; }
-    /// Compliance against turns about the principal axes of a joint's child (0) or parent (1), times the lever of a force
-    /// across each: the largest, 1/(kg m).
+    /// Compliance against turns about the principal axes of a joint's child (0) or parent (1), times the lever of a
+    /// force across each: the largest, 1/(kg m).
     double lever_of(int joint, int side) const { return hangs_[std::size_t(joint)].levers[std::size_t(side)]; }
     /// True if the joint is a single node.
     bool plain(int joint) const { return hangs_[std::size_t(joint)].plain; }
@@ -103,8 +104,8 @@ public:
     /// Where the first root hangs: the side of its joint that does not move, or the center of mass of a free tree.
     const Vec3& origin() const { return origin_; }
     const Quat& ground() const { return ground_; }
-    /// The body with a prescribed motion that the root hangs on (index in the world), and the anchor in its frame, m, from
-    /// the center of mass; Joint::world: the ground stands still.
+    /// The body with a prescribed motion that the root hangs on (index in the world), and the anchor in its frame, m,
+    /// from the center of mass; Joint::world: the ground stands still.
     std::uint32_t carrier() const { return carrier_; }
     const Vec3& carried_at() const { return carried_at_; }
     /// The joint that the root hangs on; no_joint: a free tree.

@@ -1,14 +1,14 @@
-// Spatial vectors and inertias (Featherstone 2008, Rigid Body Dynamics Algorithms, chapter 2): a rigid motion or a system
-// of forces as six numbers about one point, in world axes. The point of a link is its own joint, so that no digits are
-// lost in long chains, and a change of the point is a shift.
+// Spatial vectors and inertias (Featherstone 2008, Rigid Body Dynamics Algorithms, chapter 2): a rigid motion or a
+// system of forces as six numbers about one point, in world axes. The point of a link is its own joint, so that no
+// digits are lost in long chains, and a change of the point is a shift.
 #pragma once
 
 #include "core/vector.h"
 
 namespace tumble {
 
-/// Velocity or acceleration of a rigid body: of its rotation, and of its point at the reference. Accelerations are those
-/// of the material point, not Featherstone's: f = I a + b then has b = (w x I_P w; m w x (w x c)).
+/// Velocity or acceleration of a rigid body: of its rotation, and of its point at the reference. Accelerations are
+/// those of the material point, not Featherstone's: f = I a + b then has b = (w x I_P w; m w x (w x c)).
 struct SpatialMotion {
     Vec3 turn = Vec3::Zero();  // rad/s, or rad/s^2
     Vec3 move = Vec3::Zero();  // m/s, or m/s^2

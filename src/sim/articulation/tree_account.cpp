@@ -60,8 +60,8 @@ TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, i
     return s;
 }
 
-// Integrals of p x F from the last sample to this one, by Simpson's rule: the force in the middle is that which gives the
-// mean, and the point there follows from both ends and their rates.
+// Integrals of p x F from the last sample to this one, by Simpson's rule: the force in the middle is that which gives
+// the mean, and the point there follows from both ends and their rates.
 void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes,
                                   std::span<const Sample> ends, double t) {
     const double span = t - time_;
@@ -239,7 +239,7 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
         joint.impulse = {};
         joint.curving = {};
     }
-    // Else the caller has counted the way of the coordinate.
+    // Otherwise the caller has counted the way of the coordinate.
     if (!staged_ || joint.soft || !tree_.plain(index)) {
         const JointGeometry g = measure(joint, side(joint.a), side(joint.b));
         for (std::size_t c = 0; c < joint.count(); ++c)

@@ -25,15 +25,16 @@ public:
     /// From the present states of the bodies on.
     void begin(const TreeStep& step);
 
-    /// Impulses at time t (s, in the step), as the forces of sample(): before its first call, and between two at this time.
+    /// Impulses at time t (s, in the step), as the forces of sample(): before its first call, and between two at this
+    /// time.
     void strike(const ForwardDynamics& dynamics, double t, std::span<const Wrench> impulses);
-    /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places of
-    /// the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again at the same time
-    /// where the forces change.
+    /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places
+    /// of the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again at the
+    /// same time where the forces change.
     void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
                 std::span<const PushedImpulse> pushed);
-    /// In place of sample() for a stage of Verlet's method of `h` s (negative in some stages of compositions) about time t,
-    /// after ForwardDynamics::accelerate() or respond() in its middle.
+    /// In place of sample() for a stage of Verlet's method of `h` s (negative in some stages of compositions) about
+    /// time t, after ForwardDynamics::accelerate() or respond() in its middle.
     void add_stage(const ForwardDynamics& dynamics, double t, double h);
     /// Load of a joint (index among the island's) over its strength, after ForwardDynamics::accelerate().
     double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes);
@@ -57,8 +58,8 @@ public:
         carrier_ = body;
         carrier_end_ = end;
     }
-    /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false where
-    /// a limit is violated or a joint is loaded well beyond its strength.
+    /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false
+    /// where a limit is violated or a joint is loaded well beyond its strength.
     bool finish(std::span<const PushedImpulse> pushed);
     /// Then, once the joints have the work of their laws: their work on both bodies, and that of a carrier.
     void give_work();

@@ -1,5 +1,5 @@
-// TreeFlight: a tree whose root hangs on a kinematic body. Its pose, velocity and acceleration at the time of each evaluation
-// are the ground's.
+// TreeFlight: a tree whose root hangs on a kinematic body. Its pose, velocity and acceleration at the time of each
+// evaluation are the ground's.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 
@@ -7,7 +7,8 @@
 
 namespace tumble {
 
-// The ground at a time of the step (s), in the part that law_time_ is in. With `impulse` impulses act in place of forces.
+// The ground at a time of the step (s), in the part that law_time_ is in. With `impulse` impulses act in place of
+// forces.
 void TreeFlight::carry(double time, bool impulse) {
     if (!track()) return;
     const KeyframeTrack::Motion m = track()->at(step_->from + time, law_time_);

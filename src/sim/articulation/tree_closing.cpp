@@ -1,8 +1,8 @@
-// TreeFlight: steps that keep closure rows g(q) = 0. All methods keep them by their accelerations, and project the rest.
-// In a stage of Verlet's method that is symmetric too:
+// TreeFlight: steps that keep closure rows g(q) = 0. All methods keep them by their accelerations, and project the
+// rest. In a stage of Verlet's method that is symmetric too:
 //   u' = u + M^-1 G^T l at its start, such that g = 0 at its end, and u+ = u' + M^-1 G^T m there, such that G u+ = 0,
-// as in RATTLE (Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.1.4). So the stage has
-// second order, and compositions have theirs; and a mechanism at rest stays so, for l = m = 0.
+// as in RATTLE (Andersen 1983; Hairer, Lubich, Wanner, Geometric Numerical Integration, section VII.1.4). So the stage
+// has second order, and compositions have theirs; and a mechanism at rest stays so, for l = m = 0.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 #include "sim/joints/settings.h"
@@ -13,12 +13,13 @@
 namespace tumble {
 namespace {
 
-/// Largest energy of the impulses at one end of a stage, as a share of the kinetic one: in singular positions they would be
-/// blows, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
+/// Largest energy of the impulses at one end of a stage, as a share of the kinetic one: in singular positions they
+/// would be blows, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
 constexpr double closure_energy = 0.01;
 
 /// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the
-/// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test: JointReference.AFourBarPassesItsSingularPosition.
+/// stage: four-bars that lie flat twice a turn pass from 0.1 on. Related test:
+/// JointReference.AFourBarPassesItsSingularPosition.
 constexpr double joint_singular = 0.2;
 
 }  // namespace

@@ -7,15 +7,15 @@
 namespace tumble {
 namespace {
 
-/// Share of its compliance below which a row is redundant; and compliance added to all, as a share of the largest, whose
-/// error refinement removes. Not fitted: between rounding and the ratio of masses.
+/// Share of its compliance below which a row is redundant; and compliance added to all, as a share of the largest,
+/// whose error refinement removes. Not fitted: between rounding and the ratio of masses.
 constexpr double closure_redundant = 1e-10;
 constexpr double closure_compliance = 1e-12;
 
 }  // namespace
 
-// Rows that do not depend on those before them, by a Cholesky factorization with pivots: redundant ones hold by themselves.
-// They stay the same within a step, between whose ends they are not redundant to the last digit.
+// Rows that do not depend on those before them, by a Cholesky factorization with pivots: redundant ones hold by
+// themselves. They stay the same within a step, between whose ends they are not redundant to the last digit.
 void TreeClosures::choose() {
     const std::size_t m = rows_.size();
     used_.assign(m, 0);

@@ -1,6 +1,6 @@
-// Closure rows of a spanning tree: cut joints, distances and gears as forms G u = 0 of its speeds. Their forces follow from
-// M u' = f + G^T l and G u' = -G' u (Featherstone 2008, section 8.4): G M^-1 G^T is dense, and its columns are sweeps. Springs
-// of distance joints are forces between the same points.
+// Closure rows of a spanning tree: cut joints, distances and gears as forms G u = 0 of its speeds. Their forces follow
+// from M u' = f + G^T l and G u' = -G' u (Featherstone 2008, section 8.4): G M^-1 G^T is dense, and its columns are
+// sweeps. Springs of distance joints are forces between the same points.
 #pragma once
 
 #include "sim/articulation/forward_dynamics.h"
@@ -13,16 +13,16 @@ namespace tumble {
 
 class TreeClosures {
 public:
-    /// Finds the closure rows at the present poses. Returns false where joints are too wide open, where a rope is taut, or
-    /// where steps of `stage` s do not resolve a spring (0: steps of any length).
+    /// Finds the closure rows at the present poses. Returns false where joints are too wide open, where a rope is taut,
+    /// or where steps of `stage` s do not resolve a spring (0: steps of any length).
     bool find(const JointTree& tree, const TreeStep& step, double stage);
     bool empty() const { return parts_.empty(); }
     bool any_rows() const { return !rows_.empty(); }
     std::size_t rows() const { return rows_.size(); }
     std::size_t parts() const { return parts_.size(); }
     double fastest() const { return fastest_; }  // 1/s, of springs
-    /// Numbers of the sums of a part: impulse, angular impulse, moment about the origin of the bodies' coordinates and about
-    /// that of the falling frame, works on both bodies, heat of a damper.
+    /// Numbers of the sums of a part: impulse, angular impulse, moment about the origin of the bodies' coordinates and
+    /// about that of the falling frame, works on both bodies, heat of a damper.
     static constexpr int sums = 15;
 
     /// Rows, and forces of springs, at the places and speeds of the dynamics and coordinates q.
@@ -61,20 +61,21 @@ public:
     /// True if the step began near a singular position: a row depends on others but for this share.
     bool nearly_dependent(double share) const;
 
-    /// Forces of the rows are those of l; `springs`: those of springs stay, else there are none.
+    /// Forces of the rows are those of l; `springs`: those of springs stay, otherwise there are none.
     void give(const std::vector<double>& l, bool springs);
     void push(ForwardDynamics& dynamics) const;
     /// Adds the forces of all parts to those on the bodies.
     void add_to(const ForwardDynamics& dynamics, std::span<Wrench> pushes) const;
-    /// Adds the forces of all parts, times h, to their sums; at time t (s, in the step) and the velocities of the dynamics.
+    /// Adds the forces of all parts, times h, to their sums; at time t (s, in the step) and the velocities of the
+    /// dynamics.
     void add_sums(const ForwardDynamics& dynamics, const FallingFrame& frame, double t, double h, double* to) const;
     /// Adds the sums to the impulses by body.
     void add_impulses(const double* sums, std::vector<PushedImpulse>& list) const;
 
     /// Load of a cut joint over its strength.
     double load_of(int joint) const;
-    /// Gives the cut joints their forces, impulses and accounts, at the places of the bodies. Returns false where a limit is
-    /// violated or a joint is loaded well beyond its strength.
+    /// Gives the cut joints their forces, impulses and accounts, at the places of the bodies. Returns false where a
+    /// limit is violated or a joint is loaded well beyond its strength.
     bool finish(const TreeStep& step, const double* sums) const;
 
 private:

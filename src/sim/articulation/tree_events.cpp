@@ -1,5 +1,5 @@
-// TreeFlight: the moments in a step in which a limit is met or left, the friction of a joint changes, or a joint breaks.
-// The motion is smooth between them, so that the integrator keeps its order.
+// TreeFlight: the moments in a step in which a limit is met or left, the friction of a joint changes, or a joint
+// breaks. The motion is smooth between them, so that the integrator keeps its order.
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
 #include "sim/dynamics/integrators/runge_kutta_4.h"
@@ -11,8 +11,8 @@
 namespace tumble {
 namespace {
 
-/// Load over strength of a joint at both ends of a part of a step, above which its largest load between them is looked for.
-/// Not fitted: a part is half a radian of the motion.
+/// Load over strength of a joint at both ends of a part of a step, above which its largest load between them is looked
+/// for. Not fitted: a part is half a radian of the motion.
 constexpr double tree_near_break = 0.8;
 
 }  // namespace

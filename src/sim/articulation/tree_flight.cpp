@@ -13,18 +13,20 @@
 namespace tumble {
 namespace {
 
-/// Error of a step of the extrapolation, as a share of a radian, of the tree's mean radius and of its fastest rate: below,
-/// its results are as near to each other as rounding allows. Related test: TreeFlight.ADoublePendulumToTheLastDigits.
+/// Error of a step of the extrapolation, as a share of a radian, of the tree's mean radius and of its fastest rate:
+/// below, its results are as near to each other as rounding allows. Related test:
+/// TreeFlight.ADoublePendulumToTheLastDigits.
 constexpr double tree_tolerance = 2e-15;
 
 /// Error in units of that tolerance which may be rounding. Related test: TreeFlight.LightLinksBetweenHeavyBodies.
 constexpr double tree_rounding = 1e5;
 
-/// Error of the energy in a step of Verlet's method, as a share of the kinetic energy, above which the substeps are halved.
-/// Related test: Verlet.FastFreeTreesKeepTheirEnergy.
+/// Error of the energy in a step of Verlet's method, as a share of the kinetic energy, above which the substeps are
+/// halved. Related test: Verlet.FastFreeTreesKeepTheirEnergy.
 constexpr double verlet_energy = 1e-4;
 
-/// Substeps beyond which passes that do not close the joints leave the step to the rows. Not fitted: a bound of the cost.
+/// Substeps beyond which passes that do not close the joints leave the step to the rows. Not fitted: a bound of the
+/// cost.
 constexpr int closure_substeps = 64;
 
 constexpr int pushed_numbers = 7;  // by body
@@ -106,7 +108,8 @@ bool TreeFlight::start(double stage) {
     return y_.allFinite() && ((friction_.empty() && limits_.empty()) || begin_laws());
 }
 
-// The tree's speeds at the bodies' momenta: the nearest in the metric of their masses. Impulses in the joints make the change.
+// The tree's speeds at the bodies' momenta: the nearest in the metric of their masses. Impulses in the joints make the
+// change.
 void TreeFlight::fit() {
     const std::vector<double> still(std::size_t(tree_.speeds()), 0.0);
     carry(0.0, true);
@@ -159,8 +162,8 @@ double TreeFlight::kinetic_energy() const {
     return sum;
 }
 
-// Returns true if Verlet's method has kept the energy of a free tree, or if half as many substeps have kept it as well: then
-// the error is rounding.
+// Returns true if Verlet's method has kept the energy of a free tree, or if half as many substeps have kept it as well:
+// then the error is rounding.
 bool TreeFlight::keeps_energy() {
     if (!tree_.is_free() || pushed_ || !springs_.empty() || !closures_.empty()) return true;
     const double now = kinetic_energy(), fall = step_->h * frame_.gravity.norm();
@@ -260,8 +263,8 @@ double TreeFlight::fastest(const Vector& y, const Vector& dy) const {
     return worst;
 }
 
-// The change over h, from three results on until the error is rounding; returns the error in units of the tolerance. Two
-// results in succession differ by the error of the former; that of the latter is smaller by as much again.
+// The change over h, from three results on until the error is rounding; returns the error in units of the tolerance.
+// Two results in succession differ by the error of the former; that of the latter is smaller by as much again.
 double TreeFlight::extrapolate(const Vector& first, double h, double scale, Vector& change) {
     using namespace extrapolation;
     constexpr auto table = [] {

@@ -1,9 +1,10 @@
-// Flight of joined bodies that form a tree, in joint coordinates: gaps are zero by construction. The state stays that of
-// the bodies: coordinates and speeds are found at the start of a step, and the bodies placed at its end.
+// Flight of joined bodies that form a tree, in joint coordinates: gaps are zero by construction. The state stays that
+// of the bodies: coordinates and speeds are found at the start of a step, and the bodies placed at its end.
 //
-// By extrapolation with as many results and steps as the error demands (integrator = "exact"), by the method of Runge and
-// Kutta ("rk4"), or by Verlet's method: to second order, or composed ("splitting"). A free tree is computed in a frame that falls with its center of mass; its momentum and angular
-// momentum at the end are set to those at the start by a rigid motion of the whole.
+// By extrapolation with as many results and steps as the error demands (integrator = "exact"), by the method of Runge
+// and Kutta ("rk4"), or by Verlet's method: to second order, or composed ("splitting"). A free tree is computed in a
+// frame that falls with its center of mass; its momentum and angular momentum at the end are set to those at the start
+// by a rigid motion of the whole.
 #pragma once
 
 #include "sim/articulation/tree_account.h"
@@ -19,8 +20,8 @@
 
 namespace tumble {
 
-/// How a tree is integrated: by extrapolation, by the method of Runge and Kutta, or else by Verlet's method, composed to the
-/// given order.
+/// How a tree is integrated: by extrapolation, by the method of Runge and Kutta, or otherwise by Verlet's method,
+/// composed to the given order.
 struct TreeMethod {
     IntegratorKind kind = IntegratorKind::symplectic_euler;
     int order = 2;
@@ -45,15 +46,15 @@ public:
         declined,  // no tree, its joints have come apart, or a spring or friction along no coordinate
         stopped,   // a limit is violated, or a joint loaded beyond its strength: a step for the solver of contacts
     };
-    /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes bodies
-    /// and joints, and leaves them in any state where they have not flown.
+    /// Moves the bodies over the step from their present state, that of the start without the step's forces. Changes
+    /// bodies and joints, and leaves them in any state where they have not flown.
     ///
-    /// Parts of the step end where a limit is met or left, where the friction of a joint changes, and where a joint breaks:
-    /// the pieces then fly on.
+    /// Parts of the step end where a limit is met or left, where the friction of a joint changes, and where a joint
+    /// breaks: the pieces then fly on.
     ///
-    /// Verlet's method and its compositions (tree_verlet.cpp) take `substeps`, a power of two, and more where links under
-    /// tension swing fast or the velocities do not settle; `substeps` is then the number for the next step. They stop where
-    /// a limit is violated at the end.
+    /// Verlet's method and its compositions (tree_verlet.cpp) take `substeps`, a power of two, and more where links
+    /// under tension swing fast or the velocities do not settle; `substeps` is then the number for the next step. They
+    /// stop where a limit is violated at the end.
     Outcome advance(const TreeStep& step, TreeMethod method, int& substeps);
     Outcome advance(const TreeStep& step, IntegratorKind method) {
         int substeps = 1;
@@ -64,8 +65,8 @@ public:
     bool is_tree() const { return tree_.found(); }
     /// Evaluations of the dynamics in the last step.
     int evaluations() const { return evaluations_; }
-    /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next one should
-    /// have no fewer.
+    /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next
+    /// one should have no fewer.
     double swing() const { return swing_; }
     /// True if half the substeps would not have kept the energy of the last step.
     bool strains_energy() const { return strains_energy_; }
@@ -83,7 +84,8 @@ private:
         double scale;
         IntegratorKind method;
     };
-    // Changes that end a part of the step: those of friction, by coordinate, then the limits, then the breaks, by joint.
+    // Changes that end a part of the step: those of friction, by coordinate, then the limits, then the breaks, by
+    // joint.
     static constexpr std::size_t none = std::size_t(-1);
 
     bool start(double stage);
@@ -162,8 +164,9 @@ private:
     double energy_ = 0.0;      // J, kinetic, at the start
     double last_error_ = 0.0;  // J, with half the substeps
     std::optional<TreeAccount> account_;
-    // Coordinates, speeds, heats of dampers, works of motors, the time and sums of closures; where other forces than gravity act also the time, by body their impulse, moment and work, and
-    // the moment about the center of mass and the displacement of the whole.
+    // Coordinates, speeds, heats of dampers, works of motors, the time and sums of closures; where other forces than
+    // gravity act also the time, by body their impulse, moment and work, and the moment about the center of mass and
+    // the displacement of the whole.
     Vector y_;
     Vector fitted_;  // coordinates of the closures' matrices; empty: others
     int coordinates_ = 0, heats_ = 0, works_ = 0, closed_ = 0, extras_ = 0;  // number of coordinates; places in y

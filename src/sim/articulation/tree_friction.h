@@ -1,6 +1,7 @@
-// Dry friction of a tree's joints, of a constant bound: an effort against the motion of a coordinate, or a coordinate at
-// rest that is held while the effort which that takes is within the bound. Both are smooth between the moments in which
-// a coordinate comes to rest or is let go. A motor with a speed is friction against the motion relative to that speed.
+// Dry friction of a tree's joints, of a constant bound: an effort against the motion of a coordinate, or a coordinate
+// at rest that is held while the effort which that takes is within the bound. Both are smooth between the moments in
+// which a coordinate comes to rest or is let go. A motor with a speed is friction against the motion relative to that
+// speed.
 #pragma once
 
 #include "sim/articulation/forward_dynamics.h"
@@ -34,8 +35,8 @@ public:
     /// Unit of excess(): the bound of a held coordinate, or the speed of another one at the start of a part.
     double unit(std::size_t k, const double* speeds) const;
     /// A coordinate that moves from speed to speed (both along its direction) and is slower between them, by the cubic
-    /// through both ends of a part of `h` s: the share of the part at its least speed, if that is against its direction.
-    /// Else 0.
+    /// through both ends of a part of `h` s: the share of the part at its least speed, if that is against its
+    /// direction. Otherwise 0.
     double turns_back_at(std::size_t k, const double* speeds, const double* rates, const double* end_speeds,
                          const double* end_rates, double h) const;
 
@@ -51,8 +52,8 @@ public:
 
     /// J: works of motors less the heat, up to the coordinates and works.
     double work(const double* q, const double* works) const;
-    /// Adds the heat and the works (J, of motors) of the step to the joints' accounts, and gives the joints the impulses of
-    /// friction and motors, at the last coordinates; after accelerate().
+    /// Adds the heat and the works (J, of motors) of the step to the joints' accounts, and gives the joints the
+    /// impulses of friction and motors, at the last coordinates; after accelerate().
     void account(const TreeStep& step, const ForwardDynamics& dynamics, const double* q, const double* works) const;
 
 private:

@@ -11,8 +11,8 @@
 namespace tumble {
 namespace {
 
-/// Angle, rad, that a ball may be beyond its limit; and the turn, rad, over which the rate of the limit's direction is found.
-/// Not fitted: rounding of the angles, and of their differences.
+/// Angle, rad, that a ball may be beyond its limit; and the turn, rad, over which the rate of the limit's direction is
+/// found. Not fitted: rounding of the angles, and of their differences.
 constexpr double limit_of_ball = 1e-12;
 constexpr double limit_difference = 1e-3;
 

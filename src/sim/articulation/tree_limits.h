@@ -1,6 +1,7 @@
-// Limits of a tree's coordinates as modes of the motion. A coordinate that meets its limit rebounds by an impulse along it
-// alone; one that would be back at once is held while its load presses it on, and let go when that points inwards. The swing
-// and the twist of a ball have no coordinate: their rates are forms n . w of its speeds w, in the parent's frame.
+// Limits of a tree's coordinates as modes of the motion. A coordinate that meets its limit rebounds by an impulse along
+// it alone; one that would be back at once is held while its load presses it on, and let go when that points inwards.
+// The swing and the twist of a ball have no coordinate: their rates are forms n . w of its speeds w, in the parent's
+// frame.
 #pragma once
 
 #include "sim/articulation/tree_closures.h"
@@ -22,17 +23,18 @@ public:
     /// True if excess() needs ForwardDynamics::accelerate(): a coordinate is held, or a ball has limits.
     bool needs_rates() const;
 
-    /// After ForwardDynamics::move(): speeds (rad/s, m/s) at limits that are rounding beside the fastest body (m/s) become 0.
+    /// After ForwardDynamics::move(): speeds (rad/s, m/s) at limits that are rounding beside the fastest body (m/s)
+    /// become 0.
     void begin(const ForwardDynamics& dynamics, double* speeds, double fastest, double length);
     /// After ForwardDynamics::move(): holds.
     void drive(ForwardDynamics& dynamics, const double* speeds) const;
 
-    /// m or rad, at most 0 while nothing happens: how far a coordinate is beyond its limit; N or N m: how far the net effort
-    /// on a held one points inwards. After ForwardDynamics::move() and, where needs_rates(), accelerate().
+    /// m or rad, at most 0 while nothing happens: how far a coordinate is beyond its limit; N or N m: how far the net
+    /// effort on a held one points inwards. After ForwardDynamics::move() and, where needs_rates(), accelerate().
     double excess(std::size_t k, const ForwardDynamics& dynamics, const double* q) const;
     double unit(std::size_t k) const;
-    /// A coordinate that is within its limit at both ends of a part of `h` s, and beyond it between them, by the cubic through
-    /// both: the share of the part at its farthest point. Else 0.
+    /// A coordinate that is within its limit at both ends of a part of `h` s, and beyond it between them, by the cubic
+    /// through both: the share of the part at its farthest point. Otherwise 0.
     double passes_at(std::size_t k, const double* q, const double* speeds, const double* end, const double* end_speeds,
                      double h) const;
 
@@ -41,15 +43,16 @@ public:
     /// True if the coordinate is at its limit, and moves towards it; after ForwardDynamics::move().
     bool strikes(std::size_t k, const ForwardDynamics& dynamics, const double* q, const double* speeds) const;
 
-    /// An impact of one limit. Held coordinates pass it on while it presses them to their limits, and leave them else.
+    /// An impact of one limit. Held coordinates pass it on while it presses them to their limits, and leave them
+    /// otherwise.
     struct Impact {
         double approach = 0.0;  // rad/s, m/s
         double impulse = 0.0;   // N m s, N s
         bool rebounds = false;
     };
-    /// Changes the speeds; the dynamics are then those of the impact, with impulses in place of forces. A rebound that would
-    /// end within a share of `span` s does not happen; `rates` gives the rates of the speeds after the impact. Without an
-    /// approach nothing happens.
+    /// Changes the speeds; the dynamics are then those of the impact, with impulses in place of forces. A rebound that
+    /// would end within a share of `span` s does not happen; `rates` gives the rates of the speeds after the impact.
+    /// Without an approach nothing happens.
     Impact strike(std::size_t k, ForwardDynamics& dynamics, double* q, double* speeds, std::size_t numbers, double span,
                   const std::function<const double*()>& rates);
 
@@ -61,7 +64,8 @@ public:
     /// Both limits of a ball hold it, which the rows of the contact solver do.
     bool holds_twice() const;
 
-    /// Adds the losses of the step to the joints' accounts, and gives the joints the loads of their limits; after accelerate().
+    /// Adds the losses of the step to the joints' accounts, and gives the joints the loads of their limits; after
+    /// accelerate().
     void account(const TreeStep& step, const ForwardDynamics& dynamics) const;
 
 private:

@@ -10,7 +10,8 @@
 namespace tumble {
 namespace {
 
-/// Largest rate of a damper times the step in a flight by Verlet's method: speeds that fall faster would change their sign.
+/// Largest rate of a damper times the step in a flight by Verlet's method: speeds that fall faster would change their
+/// sign.
 constexpr double joint_flight_damper = 2.0;
 
 }  // namespace

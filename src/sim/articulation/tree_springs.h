@@ -1,5 +1,5 @@
-// Springs and dampers of a tree's joints as efforts along its coordinates, tau = K (rest - q) - C q', and their work; and
-// motors with one target, which are such springs up to a largest force.
+// Springs and dampers of a tree's joints as efforts along its coordinates, tau = K (rest - q) - C q', and their work;
+// and motors with one target, which are such springs up to a largest force.
 #pragma once
 
 #include "sim/articulation/forward_dynamics.h"
@@ -15,8 +15,8 @@ public:
     /// tree. Springs and dampers that steps of `stage` s (0: of any length) do not resolve are stiff.
     bool find(const JointTree& tree, const TreeStep& step, double stage);
     bool empty() const { return list_.empty(); }
-    /// Number of dampers, stiff springs and motors: each has a heat, a coordinate of the motion that grows at C q'^2, or a
-    /// work, which grows at tau q'.
+    /// Number of dampers, stiff springs and motors: each has a heat, a coordinate of the motion that grows at C q'^2,
+    /// or a work, which grows at tau q'.
     int dampers() const { return dampers_; }
     bool any_stiff() const { return stiff_; }
     /// Fastest rate (1/s) of a spring or damper, with its bodies free of other joints.
@@ -24,8 +24,9 @@ public:
 
     /// After ForwardDynamics::move() with coordinates q and speeds; gives the heats' rates, W.
     void drive(ForwardDynamics& dynamics, const double* q, const double* speeds, double* heat_rates) const;
-    /// The same for a stage of `h` s of Verlet's method, from coordinates and speeds at its start, with coordinates in its
-    /// middle: dampers follow the mean of the speeds, and stiff springs are implicit, by inertias (`first`) that are added.
+    /// The same for a stage of `h` s of Verlet's method, from coordinates and speeds at its start, with coordinates in
+    /// its middle: dampers follow the mean of the speeds, and stiff springs are implicit, by inertias (`first`) that
+    /// are added.
     void drive_stage(ForwardDynamics& dynamics, const double* start, const double* speeds, const double* middle,
                      double h, bool first) const;
     /// Adds the heats of the stage, which ends at speeds `after`.

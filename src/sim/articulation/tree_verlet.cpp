@@ -1,9 +1,9 @@
-// TreeFlight: Verlet's method in joint coordinates, of second order and symmetric, and its compositions. With u the speeds
-// and exp the rotation of a ball or a free root,
+// TreeFlight: Verlet's method in joint coordinates, of second order and symmetric, and its compositions. With u the
+// speeds and exp the rotation of a ball or a free root,
 //   q' = q moved by h u/2,   u+ = u + h a(q', (u + u+)/2),   q+ = q' moved by h u+/2
-// The speed of a free root is held in its own frame: it moves along a screw, which is exact for a tree that turns as a whole.
-// The accelerations depend on the speeds by centrifugal and gyroscopic terms and dampers alone: passes that share the
-// inertias of the middle find u+.
+// The speed of a free root is held in its own frame: it moves along a screw, which is exact for a tree that turns as a
+// whole. The accelerations depend on the speeds by centrifugal and gyroscopic terms and dampers alone: passes that
+// share the inertias of the middle find u+.
 #include "core/deterministic_math.h"
 #include "sim/articulation/settings.h"
 #include "sim/articulation/tree_flight.h"
@@ -16,8 +16,8 @@
 namespace tumble {
 namespace {
 
-/// Change of the speeds at the end of a stage of Verlet's method that ends its passes, as a share of the fastest one: of second
-/// order, and in compositions. Related test:
+/// Change of the speeds at the end of a stage of Verlet's method that ends its passes, as a share of the fastest one:
+/// of second order, and in compositions. Related test:
 /// Verlet.OrdersWithBallsAndFreeTrees; and rounding.
 constexpr double verlet_tolerance = 1e-8;
 constexpr double verlet_rounding = 1e-15;
@@ -34,8 +34,8 @@ void turn_quaternion(double* q, const double* speed, double h) {
     for (int k = 0; k < 4; ++k) q[k] = turned.coeffs()[k];
 }
 
-// A screw of constant angular velocity and velocity in the turning frame, for h seconds: the way of its point is V v h with
-// V = 1 + B w* + C w* w* for the rotation vector w, B = (1 - cos |w|)/|w|^2 and C = (|w| - sin |w|)/|w|^3.
+// A screw of constant angular velocity and velocity in the turning frame, for h seconds: the way of its point is V v h
+// with V = 1 + B w* + C w* w* for the rotation vector w, B = (1 - cos |w|)/|w|^2 and C = (|w| - sin |w|)/|w|^3.
 Vec3 way_of_screw(const double* speed, double h) {
     const Vec3 w = h * Vec3(speed[0], speed[1], speed[2]), v(speed[3], speed[4], speed[5]);
     const double square = w.squaredNorm();
@@ -99,7 +99,8 @@ double TreeFlight::take_pass(const double* speeds, double h) {
     return change > 0.0 ? change / fastest : change;
 }
 
-// Moves y by h seconds. With `counts` the forces of the stage, which begins at `time` (s, in the step), go to the account.
+// Moves y by h seconds. With `counts` the forces of the stage, which begins at `time` (s, in the step), go to the
+// account.
 bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     const double tolerance = stages_.size() == 1 ? verlet_tolerance : verlet_rounding;
     const Vec3 base = tree_.is_free() ? Vec3(Vec3::Zero()) : Vec3(-frame_.gravity);

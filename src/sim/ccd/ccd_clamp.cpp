@@ -12,8 +12,8 @@
 namespace tumble {
 namespace {
 
-/// A pair is also checked (beside tuning::fast_share) if it moves by more than this share of the smaller inner radius: an
-/// unchecked body overlaps by as much for a step. Related test: ThinWall.APlaneStopsThinBodiesAsABoxDoes.
+/// A pair is also checked (beside tuning::fast_share) if it moves by more than this share of the smaller inner radius:
+/// an unchecked body overlaps by as much for a step. Related test: ThinWall.APlaneStopsThinBodiesAsABoxDoes.
 constexpr double fast_deepest = 0.9;
 
 /// Bodies that touch when the step begins may overlap by the first share of the radius, or by the second more than

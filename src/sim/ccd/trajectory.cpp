@@ -35,7 +35,8 @@ Vec3 CurvedTurn::angular_velocity(double t) const {
     return body_spin(-vector(t), vector_rate(t));  // -theta: in the world
 }
 
-// |omega| <= |theta'|, since no singular value of the Jacobian exceeds 1. theta' is within the hull of its Bezier points.
+// |omega| <= |theta'|, since no singular value of the Jacobian exceeds 1. theta' is within the hull of its Bezier
+// points.
 double CurvedTurn::spin_bound(double span) const {
     const Vec3 middle = rate + 0.5 * span * bend;
     return std::max({rate.norm(), middle.norm(), vector_rate(span).norm()}) * (1.0 + above_rounding);

@@ -1,6 +1,6 @@
 // Trajectory of a body between two events: its center on a polynomial of time, its orientation constant, rotating
-// uniformly, in free rotation, or along a polynomial. All queries between two events use it; it is always evaluated from its start, so that
-// rounding does not accumulate.
+// uniformly, in free rotation, or along a polynomial. All queries between two events use it; it is always evaluated
+// from its start, so that rounding does not accumulate.
 #pragma once
 
 #include "core/vector.h"
@@ -11,8 +11,8 @@
 
 namespace tumble {
 
-// A rotation that changes its speed and axis: the rotation vector from its start is cubic in time (Hermite), through the
-// orientations and angular velocities of both ends. Error O(span^4) in between.
+// A rotation that changes its speed and axis: the rotation vector from its start is cubic in time (Hermite), through
+// the orientations and angular velocities of both ends. Error O(span^4) in between.
 
 struct CurvedTurn {
     Quat from = Quat::Identity();
@@ -88,11 +88,11 @@ public:
     /// From the body's present pose with constant velocities (m/s, rad/s).
     static Trajectory uniform(const Body& body, const Vec3& velocity, const Vec3& angular_velocity);
     /// From the body's present pose to the motion `end` after `span` s: cubic in the center (Hermite), error O(span^4)
-    /// in between. For bodies under nonconstant forces. Without torque the rotation is free, in closed form; else
+    /// in between. For bodies under nonconstant forces. Without torque the rotation is free, in closed form; otherwise
     /// uniform, error O(span^2) in between.
     static Trajectory towards(const Body& body, const Motion& end, double span, bool torque_free);
-    /// From the body's present motion to the motion `end` after `span` s: cubic in the center and in the rotation vector,
-    /// error O(span^4) in between. Turns of a radian and more are uniform, with an error O(span^2).
+    /// From the body's present motion to the motion `end` after `span` s: cubic in the center and in the rotation
+    /// vector, error O(span^4) in between. Turns of a radian and more are uniform, with an error O(span^2).
     static Trajectory between(const Body& body, const Motion& end, double span);
 
     /// The same rotation, but from time t with another velocity of the center: after an impact through the center.

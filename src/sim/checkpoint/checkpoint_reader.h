@@ -116,7 +116,7 @@ public:
     }
     template <class... T>
     void rebuilt(const T&...) {
-        TUMBLE_CHECK_EQ(made_, false);  // else the element belongs to keep_each()
+        TUMBLE_CHECK_EQ(made_, false);  // otherwise the element belongs to keep_each()
     }
     template <class... T>
     void scratch(const T&...) {}

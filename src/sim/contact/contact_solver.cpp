@@ -33,8 +33,8 @@ constexpr std::size_t soft_batch_of_nets = 512;
 /// Rolling.WheelsOfCornersStayOnTheGround and ContactEnergy.FastTumblingPlanksGainNothing.
 constexpr double direct_turn = 0.03;
 
-/// Pairs of bodies in contact in the whole scene, and their points, up to which all islands are solved directly: a rack of
-/// 15 balls on a table has 47 of both, 32 boxes on boxes have 128 points. Limit the cost. Related test:
+/// Pairs of bodies in contact in the whole scene, and their points, up to which all islands are solved directly: a rack
+/// of 15 balls on a table has 47 of both, 32 boxes on boxes have 128 points. Limit the cost. Related test:
 /// Rack.RollsApartAsItsMirrorImageWithoutRestitution.
 constexpr std::size_t direct_few_pairs = 48;
 constexpr std::size_t direct_few_points = 128;
@@ -63,8 +63,8 @@ constexpr std::size_t direct_budget = 8000;
 /// Islands per unit of parallel work of the direct solver. No result depends on it.
 constexpr std::size_t direct_parallel_grain = 4;
 
-/// Factor of the number of substeps of nets: gaps are as its inverse square, and the sweeps are a small part of the cost.
-/// 1, 2 or 4.
+/// Factor of the number of substeps of nets: gaps are as its inverse square, and the sweeps are a small part of the
+/// cost. 1, 2 or 4.
 constexpr int net_substeps = 2;
 
 /// Steps for which a net stays with the direct solver after it has touched joined bodies that sweeps do not know. Not
@@ -132,8 +132,8 @@ LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIsl
     return memory.load;
 }
 
-// The way of an island with joints. Where a net touches joined bodies that sweeps do not know, or its sweeps have overflowed,
-// it stays with the direct solver for a while.
+// The way of an island with joints. Where a net touches joined bodies that sweeps do not know, or its sweeps have
+// overflowed, it stays with the direct solver for a while.
 JointWay ContactSolver::way_of(const ContactProblem& problem, const ContactIslands& islands, std::size_t island) {
     if (problem.ways.empty()) return JointWay::direct;
     const IslandWay& way = problem.ways[island];

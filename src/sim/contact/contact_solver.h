@@ -43,8 +43,8 @@ public:
 
     void solve(const ContactProblem& step, const ContactIslands& islands, ThreadPool& pool);
 
-    /// At the end of a step: closes the joints of an island that CCD has stopped, see DirectSolver::close_poses(), and those
-    /// of all islands that were solved in sweeps.
+    /// At the end of a step: closes the joints of an island that CCD has stopped, see DirectSolver::close_poses(), and
+    /// those of all islands that were solved in sweeps.
     void close_clamped(const ContactProblem& problem, const ContactIslands& islands, std::size_t island);
     void close_swept(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
 

@@ -32,7 +32,7 @@ public:
     /// Precondition: the same bodies in every call. `pool`: visits the bodies and searches with all its threads.
     const std::vector<Pair>& update(const std::vector<Body>& bodies, double h, ThreadPool* pool = nullptr);
 
-    /// Pairs that are never found, ascending. Those of the last call are found again.
+    /// Pairs that are never found, ascending. Pairs of the last call are found again.
     void keep_apart(std::vector<Pair> pairs);
 
     /// Must be called when any body's `asleep` has been cleared: the next update then finds all awake bodies.

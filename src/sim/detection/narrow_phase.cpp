@@ -27,8 +27,8 @@ constexpr double matching_distance = 0.1;
 constexpr double missed_motion = 0.05;
 
 /// Angle of a body in a step, rad, above which several corners of a cylinder of 64 corners may reach the other surface
-/// (tuning::fast_rotation_turn is that of 200 corners). Above it, the points of a body on a plane are those that it rolls on.
-/// Related test: Rolling.WheelsOfCornersStayOnTheGround.
+/// (tuning::fast_rotation_turn is that of 200 corners). Above it, the points of a body on a plane are those that it
+/// rolls on. Related test: Rolling.WheelsOfCornersStayOnTheGround.
 constexpr double rolling_turn = 0.1;
 
 // Entries prefetched ahead of use: processing that many takes about as long as one fetch from memory.
@@ -279,7 +279,7 @@ void NarrowPhase::examine(std::uint32_t index, double h, Found& found) {
     if (!remembers_ || a.surface == ContactSurface::curved || b.surface == ContactSurface::curved)
         return search(index, reach, 0.0, h, found);
 
-    // The bodies' own motion is available and often small enough; else their relative motion is computed.
+    // The bodies' own motion is available and often small enough; otherwise their relative motion is computed.
     const double travel = a.travel + b.travel;
     Standing now = standing(entry, a, b, reach, last, double(last.spent) + (travel - last.travel));
     if (now == Standing::holds) return;

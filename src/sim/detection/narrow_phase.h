@@ -1,8 +1,8 @@
 // Exact manifolds of all pairs that may touch, distributed over the threads and put in order.
 //
 // A pair remembers its last result. A pair with a gap larger than its motion since then is skipped; a nearly unmoved
-// pair refreshes its persistent manifold; else the shapes are searched again. Only relative motion counts: a heap that
-// is carried along costs no more than one at rest.
+// pair refreshes its persistent manifold; otherwise the shapes are searched again. Only relative motion counts: a heap
+// that is carried along costs no more than one at rest.
 #pragma once
 
 #include "sim/detection/broad_phase.h"

@@ -11,9 +11,9 @@
 namespace tumble {
 namespace {
 
-/// A contact is neutral if its relative acceleration, and its relative velocity over the step, are below this share of the
-/// acceleration that presses its held body. Not fitted: above rounding and the speed that a landing leaves, far below a
-/// motion. Tests: tests/physics/pressed_row_test.cpp.
+/// A contact is neutral if its relative acceleration, and its relative velocity over the step, are below this share of
+/// the acceleration that presses its held body. Not fitted: above rounding and the speed that a landing leaves, far
+/// below a motion. Tests: tests/physics/pressed_row_test.cpp.
 constexpr double neutral_share = 1e-3;
 
 // Acceleration (m/s^2) of the body's point at `arm`: with its support where it has one.
@@ -26,8 +26,8 @@ Vec3 supported_acceleration(std::uint32_t k, const Vec3& arm, const std::vector<
     return free.acceleration(supports[k].on, carrier, body.position + arm - carrier.position);
 }
 
-// True if the bodies have no relative motion at the contact: its acceleration (m/s^2, along the normal) and its velocity
-// are small beside the acceleration that presses the held body, and that acceleration times h (s).
+// True if the bodies have no relative motion at the contact: its acceleration (m/s^2, along the normal) and its
+// velocity are small beside the acceleration that presses the held body, and that acceleration times h (s).
 bool neutral(const Contact& c, const Body& a, const Body& b, double acceleration, const Support& held, double h) {
     const double least = neutral_share * held.pressing;
     if (!(std::abs(acceleration) < least)) return false;
@@ -35,8 +35,8 @@ bool neutral(const Contact& c, const Body& a, const Body& b, double acceleration
     return v.norm() <= least * h;
 }
 
-// Acceleration (m/s^2) that presses a touching contact without overlap if it holds its bodies, else zero. `known`: the last
-// step has solved the contact's load.
+// Acceleration (m/s^2) that presses a touching contact without overlap if it holds its bodies, otherwise zero. `known`:
+// the last step has solved the contact's load.
 double holding(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
                const HoldLimits& limits, bool known, const Supports& supports) {
     const double part = relative_velocity(c, bodies[c.a], bodies[c.b]);

@@ -24,8 +24,8 @@ using Supports = std::vector<Support>;  // by body
 /// Support of a body that rests on the body `k`.
 std::uint32_t support_on(std::uint32_t k, const Body& body, const Supports& supports);
 
-/// n . (p_b'' - p_a'') of the contact's points (m/s^2) if only the supported bodies were held: by forces, the rotation of
-/// the bodies, and that of the normal. Negative: they press against each other.
+/// n . (p_b'' - p_a'') of the contact's points (m/s^2) if only the supported bodies were held: by forces, the rotation
+/// of the bodies, and that of the normal. Negative: they press against each other.
 double pressing_acceleration(const Contact& c, const Gap& gap, const std::vector<Body>& bodies, const FreeMotion& free,
                              const Supports& supports);
 
@@ -33,16 +33,17 @@ double pressing_acceleration(const Contact& c, const Gap& gap, const std::vector
 /// tolerance of the search for impacts: the end of such a hop cannot be found.
 bool hop_is_shorter(const Contact& c, const Body& a, const Body& b, double acceleration, double time);
 
-/// A contact that presses holds its bodies up to a gap that opens, and a speed that is reversed, in these times (s) at the
-/// acceleration of gravity, or at the contact's own if that is larger.
+/// A contact that presses holds its bodies up to a gap that opens, and a speed that is reversed, in these times (s) at
+/// the acceleration of gravity, or at the contact's own if that is larger.
 struct HoldLimits {
     double gravity;  // m/s^2
     double near, release;
 };
 
-/// Adds supports of the dynamic bodies that their contacts hold. A contact holds if its gap and its speed are within the
-/// limits and it would not part by itself. Overlapping bodies are held too, to be pushed out, and so are bodies that touch a
-/// held one at rest, until a solve has told the load between them. `solved`: whether that is so for a body's contacts.
+/// Adds supports of the dynamic bodies that their contacts hold. A contact holds if its gap and its speed are within
+/// the limits and it would not part by itself. Overlapping bodies are held too, to be pushed out, and so are bodies
+/// that touch a held one at rest, until a solve has told the load between them. `solved`: whether that is so for a
+/// body's contacts.
 void mark_held(const std::vector<Contact>& contacts, const std::vector<Gap>& gaps, const std::vector<Body>& bodies,
                const FreeMotion& free, const HoldLimits& limits, const std::function<bool(std::uint32_t)>& solved,
                Supports& supports);

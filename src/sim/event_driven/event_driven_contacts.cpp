@@ -185,7 +185,8 @@ void EventDrivenMotion::solve_rest(const std::vector<std::uint32_t>& landed, std
     if (!(rest > 0.0)) return;
     contact_manifolds_.clear();
     std::vector<std::uint32_t> touched;
-    for (const Manifold& m : cluster_.manifolds()) {  // including those of supporting bodies, which may lean on others
+    // including contacts of supporting bodies, which may lean on others
+    for (const Manifold& m : cluster_.manifolds()) {
         if (bodies[m.a].flying || bodies[m.b].flying) continue;
         contact_manifolds_.push_back(m);  // its small remaining bounce is lost
         for (const std::uint32_t k : {m.a, m.b})
@@ -315,7 +316,7 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
     for (const std::uint32_t k : going) {
         changed_.push_back(k);
         if (const std::uint32_t g = groups_.group(k); g != GroupFlights::none) {
-            // Joined bodies move for the same fraction of the time: else their joints would open.
+            // Joined bodies move for the same fraction of the time: otherwise their joints would open.
             CcdFraction all;
             for (const std::uint32_t member : groups_.groups()[g].bodies)
                 all.share = std::min(all.share, (*limits)[member].share);

@@ -11,12 +11,12 @@
 namespace tumble {
 namespace {
 
-/// A group of joined bodies is at rest, and stepped, if gravity gives its fastest point less than this share of g h in a
-/// step. Not fitted: rounding of a hanging chain against the first step of a pendulum.
+/// A group of joined bodies is at rest, and stepped, if gravity gives its fastest point less than this share of g h in
+/// a step. Not fitted: rounding of a hanging chain against the first step of a pendulum.
 constexpr double group_rest = 0.01;
 
-/// Half the length, in steps, of the first path on which a flying group's time of impact is found again, and the factor to
-/// a longer one. The path's error is of the order of the fourth power of its length. Not fitted.
+/// Half the length, in steps, of the first path on which a flying group's time of impact is found again, and the factor
+/// to a longer one. The path's error is of the order of the fourth power of its length. Not fitted.
 constexpr double refine_first = 1e-3;
 constexpr double refine_longer = 30.0;
 
@@ -45,8 +45,8 @@ void EventDrivenMotion::land_group(std::uint32_t group, std::vector<Body>& bodie
     }
 }
 
-// From the present state to the end of the step. Returns false, with the bodies as they were, where the group cannot fly
-// so far.
+// From the present state to the end of the step. Returns false, with the bodies as they were, where the group cannot
+// fly so far.
 bool EventDrivenMotion::fly_group(std::uint32_t group, std::vector<Body>& bodies, const EventTime& now) {
     const EventTime end{now.step + 1, 0.0};
     const double span = std::max(0.0, clock_.between(now, end));
@@ -127,7 +127,8 @@ void EventDrivenMotion::end_group_flights(std::vector<Body>& bodies, const Event
     }
 }
 
-// Flying groups with new states fly on. Those that cannot, as where a limit is near, are stepped to the end of the step.
+// Flying groups with new states fly on. Groups that cannot, as where a limit is near, are stepped to the end of the
+// step.
 void EventDrivenMotion::fly_groups(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now) {
     std::vector<std::uint32_t> starting, landed;
     for (const std::uint32_t k : changed_)
@@ -179,9 +180,9 @@ std::optional<ImpactCluster::Whereabouts> EventDrivenMotion::whereabouts(std::ui
     return ImpactCluster::Whereabouts{f.path.position(t), 0.125 * span * span * most};
 }
 
-// The time of an impact of a flying group that was found on its trajectory: found again on a short path about that time,
-// through the flight's own states at both ends. Where that has no impact, or begins after it, as where bodies graze each
-// other, a longer one is tried, up to the whole trajectory.
+// The time of an impact of a flying group that was found on its trajectory: found again on a short path about that
+// time, through the flight's own states at both ends. Where that has no impact, or begins after it, as where bodies
+// graze each other, a longer one is tried, up to the whole trajectory.
 TimeOfImpact EventDrivenMotion::refine(std::uint32_t i, std::uint32_t j, const TimeOfImpact& found,
                                        const std::vector<Body>& bodies, const EventTime& now, double limit) {
     for (double window = refine_first * h_;; window *= refine_longer) {

@@ -32,7 +32,8 @@ constexpr double shortest_hop = 1e-7;
 constexpr double impact_row_interval = 1e-3;
 constexpr int impacts_before_zeno_growth = 128;
 
-/// Impacts in a row from which on hops of invisible size count as contact. Related test: Zeno.FlatBoxRestsWhenABallDoes.
+/// Impacts in a row from which on hops of invisible size count as contact. Related test:
+/// Zeno.FlatBoxRestsWhenABallDoes.
 constexpr int impacts_before_zeno_check = 16;
 
 /// Neighbors up to which the box of a body in the search for neighbors grows (event_driven_motion.h),

@@ -4,8 +4,8 @@
 // Sigurgeirsson, Stuart, Wan 2001 for the queue). The cost of a scene scales with its impacts, not its steps.
 //
 // Bodies in contact are stepped by World and take part here with their motion through the step. A bounce below the Zeno
-// limit switches to contact; a body that no contact holds any more is released. Groups of joined bodies fly, land and are
-// released as a whole (group_flights.h).
+// limit switches to contact; a body that no contact holds any more is released. Groups of joined bodies fly, land and
+// are released as a whole (group_flights.h).
 #pragma once
 
 #include "sim/ccd/ccd_clamp.h"
@@ -48,7 +48,7 @@ class ContactLog;
 struct HalfSpaceFilter {
     Vec3 normal = Vec3::UnitY();
     double offset = 0.0;  // m: normal . p of its surface
-    bool valid = false;   // else this body is no half-space
+    bool valid = false;   // otherwise this body is no half-space
 
     /// True if a ball of this radius (m) about the center of a body certainly stays above for `horizon` s from the
     /// trajectory's time `from` on: it is above at the start and at the end, and does not fall and rise again in

@@ -1,8 +1,8 @@
 // Flight of groups of joined bodies between events: in each step from its start, or from an impact, to its end.
 //
 // A group that touches nothing moves in joint coordinates (tree_flight.h). A trajectory through the states at both ends
-// serves the search for impacts; the time of an impact is then refined by flying the group from its start to that time, so
-// it has the accuracy of the flight.
+// serves the search for impacts; the time of an impact is then refined by flying the group from its start to that time,
+// so it has the accuracy of the flight.
 #pragma once
 
 #include "sim/articulation/tree_flight.h"
@@ -43,12 +43,13 @@ public:
     Trajectory path(std::uint32_t body, double from, double to);
     /// The flight has not begun: its joints and bodies are as before it.
     void cancel(std::uint32_t group);
-    /// The flight ends `time` s after its start: adds its impulses to the joints' accounts, and leaves the bodies as they
-    /// are.
+    /// The flight ends `time` s after its start: adds its impulses to the joints' accounts, and leaves the bodies as
+    /// they are.
     void end(std::uint32_t group, double time);
     /// The same at the end of its span, for all groups that fly: moves their bodies there.
     void end_all();
-    /// Around a solve in place of a flight: keeps the loads of the joints, and adds the solve's impulses to their accounts.
+    /// Around a solve in place of a flight: keeps the loads of the joints, and adds the solve's impulses to their
+    /// accounts.
     void keep_loads(std::uint32_t group, std::vector<JointLoad>& loads) const;
     void take_solve(std::uint32_t group, const std::vector<JointLoad>& loads, std::size_t& next);
     const RigidState& start_of(std::uint32_t body) const { return flights_[group_of_[body]].first[place_[body]]; }

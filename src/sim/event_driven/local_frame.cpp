@@ -17,7 +17,8 @@ constexpr double same_place = 1e-9;
 // Coordinate along a direction in which no two places of a grid coincide.
 double along(const Vec3& v) { return v.x() + std::sqrt(2.0) * v.y() + std::sqrt(3.0) * v.z(); }
 
-// Sort key of bodies that are alike otherwise: the place first; then, for bodies at the same place, as planes often are, all other distinguishing values.
+// Sort key of bodies that are alike otherwise: the place first; then, for bodies at the same place, as planes often
+// are, all other distinguishing values.
 using Key = std::array<double, 12>;
 Key key_of(const Body& body) {
     const auto* space = std::get_if<HalfSpace>(&body.collider);
@@ -41,8 +42,8 @@ double on_grid(double value, double grid) {
     return grid > 0.0 && std::isfinite(value) ? std::floor(value / grid + 0.387) : value;
 }
 
-// Sorts by values that do not depend on the world's axes, as far as rounding allows: height, distance from the middle of
-// the moving bodies, size. A scene that is turned together with its gravity, or mirrored, so has the same order.
+// Sorts by values that do not depend on the world's axes, as far as rounding allows: height, distance from the middle
+// of the moving bodies, size. A scene that is turned together with its gravity, or mirrored, so has the same order.
 void sort_by_shape_of_scene(const std::vector<Body>& bodies, const Vec3& gravity, std::vector<std::uint32_t>& order) {
     Vec3 middle = Vec3::Zero();
     double count = 0.0, size = 0.0;

@@ -10,7 +10,7 @@ inline constexpr int most_blur_samples = 64;
 
 /// The timing of a simulation whose frames are speed / fps seconds of the scene's motion apart, for a clip of the
 /// scene's fps. Time remains a whole number of steps. The step is the scene's where steps_per_frame * speed is a whole
-/// number (the motion is then the same to the last bit), else the next smaller one that divides the frame. Throws
+/// number (the motion is then the same to the last bit), otherwise the next smaller one that divides the frame. Throws
 /// InputError for too many frames.
 FrameTiming timing_at_speed(const SceneDescription& scene, double speed);
 

@@ -24,8 +24,8 @@ public:
     /// Brings the world to the start of the next frame, without taking it: the time of a checkpoint.
     void reach_next();
 
-    /// Records of the world at the start of the last frame, if it records contacts, else null: the impacts since the
-    /// frame before, and the contacts of the last interval of the shutter.
+    /// Records of the world at the start of the last frame, if it records contacts, otherwise null: the impacts since
+    /// the frame before, and the contacts of the last interval of the shutter.
     const ContactRecords* records() const { return world_.records_contacts() ? &records_ : nullptr; }
 
     /// For checkpoints: see sim/checkpoint/archive.h.

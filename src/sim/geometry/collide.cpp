@@ -30,8 +30,8 @@ void find_near_parts(const Compound& whole, const Pose& pose, const CollisionSha
 bool at_seam(const Compound& whole, const Pose& pose, std::uint32_t k, const Manifold& m, const Vec3& outward) {
     const double size = whole.parts[k].reach;
     return m.count > 0 && std::all_of(m.points.begin(), m.points.begin() + m.count, [&](const ContactPoint& point) {
-               // Measured from the body's own surface: in a deep overlap, the point halfway between the surfaces is inside it
-               // anyway.
+               // Measured from the body's own surface: in a deep overlap, the point halfway between the surfaces is
+               // inside it anyway.
                const Vec3 probe = pose.to_body(point.position + (seam_probe * size - 0.5 * point.separation) * outward);
                bool inside = false;
                whole.tree.query(Bounds{probe, probe}.grown(seam_tolerance * size), [&](std::uint32_t other) {

@@ -19,7 +19,7 @@ void add_point(const Vec3& normal, const Vec3& position, double separation, std:
 
 struct Nearest {
     Vec3 point = Vec3::Zero();
-    bool inside = false;       // nearest point is inside the face; else on its border
+    bool inside = false;       // nearest point is inside the face; otherwise on its border
     Vec3 edge = Vec3::Zero();  // direction of the nearest edge; zero at a corner
 };
 
@@ -134,7 +134,7 @@ void collide_pair(const HalfSpace& a, const Polyhedron& b, const CollisionQuery&
     for (std::uint32_t i = 0; i < b.vertices.size(); ++i) keep(i);
     if (scratch.points.empty()) return;
     if (scratch.turning && scratch.points.size() > Manifold::capacity) {
-        // A rolling body keeps the points that it rolls on, not those that span the largest area with them.
+        // A rolling body keeps the points that it rolls on, not the points that span the largest area with them.
         scratch.points.clear();
         for (const std::uint32_t i : b.faces[b.face_at_support(-local, axis_preference(b.radius))].vertices) keep(i);
     }

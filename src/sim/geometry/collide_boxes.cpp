@@ -84,7 +84,7 @@ public:
     static double separation(const Edges& e, int j) {
         return e.square[j] < tuning::parallel_edges ? lowest : e.separation[j] / std::sqrt(e.square[j]);
     }
-    // Axis index: the faces of A, then those of B, then the edge pair i, j as 6 + 3 i + j.
+    // Axis index: the faces of A, then the faces of B, then the edge pair i, j as 6 + 3 i + j.
     double along(std::uint32_t axis) const {
         if (axis < 3) return faces_a()[int(axis)];
         return axis < 6 ? faces_b()[int(axis) - 3] : separation(edges(int(axis - 6) / 3), int(axis - 6) % 3);
@@ -214,7 +214,7 @@ bool clip(const Polygon& in, int axis, double sign, double limit, std::uint32_t 
 struct BoxFacing {
     const Polyhedron &reference, &incident;
     Vec3 center;  // of the incident box, in the reference box's frame
-    Mat3 axes;    // those of the incident box as columns, in the same frame
+    Mat3 axes;    // axes of the incident box as columns, in the same frame
     int axis;     // of the reference face's outward normal, and its sign
     double sign;
     bool on_b;  // the reference box is B

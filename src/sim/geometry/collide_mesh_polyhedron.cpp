@@ -1,6 +1,6 @@
 // Polyhedra against a triangle mesh, triangle by triangle. Internal edges must not catch a sliding body: a normal that
-// leans over the border of a triangle counts only if the mesh owns it there; else the triangle's own normal replaces
-// it.
+// leans over the border of a triangle counts only if the mesh owns it there; otherwise the triangle's own normal
+// replaces it.
 #include "sim/geometry/feature_contact.h"
 #include "sim/geometry/separating_axis.h"
 

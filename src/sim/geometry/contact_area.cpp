@@ -109,8 +109,8 @@ double twice_area(std::span<const Flat> corners) {
     return twice;
 }
 
-// Four points of a convex quadrilateral, in any order, become its corners in order: of the three orders those that cross
-// have less area.
+// Four points of a convex quadrilateral, in any order, become its corners in order: of the three orders, an order that
+// crosses have less area.
 void order_corners(std::span<Flat> points) {
     if (points.size() < 4) return;
     const auto area = [&] { return std::abs(twice_area(points)); };

@@ -26,8 +26,8 @@ ContactArea contact_area(std::span<const ContactPoint> polygon, const Vec3& norm
 /// The area that the shares, the spread and the area of `m` represent.
 ContactArea contact_area(const Manifold& m);
 
-/// Mean distance (m) of the area of `m` from any point of its plane: over the polygon of its points, moved and scaled to
-/// the area's centroid and size. Precondition: an area.
+/// Mean distance (m) of the area of `m` from any point of its plane: over the polygon of its points, moved and scaled
+/// to the area's centroid and size. Precondition: an area.
 double mean_distance(const Manifold& m, const Vec3& from);
 
 /// Sets the shares of the points of `m`, its spread and its area.

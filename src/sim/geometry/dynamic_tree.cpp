@@ -130,7 +130,7 @@ void DynamicTree::take_out(std::uint32_t item) {
     resize(sibling, box);
 }
 
-// Sets a child's box, and those of its ancestors as far as they change.
+// Sets a child's box, and the boxes of its ancestors as far as they change.
 void DynamicTree::resize(std::uint32_t child, Box box) {
     for (std::uint32_t node = parent(child); node != none; node = parent(child)) {
         Box& old = nodes_[node].box[side_of(child)];

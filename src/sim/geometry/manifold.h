@@ -63,7 +63,8 @@ struct Manifold {
     static constexpr int capacity = 4;  // spans most flat contact areas; a second manifold holds further points
 
     std::uint32_t a = 0, b = 0;  // body indices
-    std::uint32_t part = 0;      // of compounds and meshes: identifies the parts and the triangle that meet, else 0
+    // of compounds and meshes: identifies the parts and the triangle that meet, otherwise 0
+    std::uint32_t part = 0;
     std::int16_t count = 0;
     bool more = false;  // those of the same two faces' points that the first manifold has no room for
     SolvedBy solved_by = SolvedBy::sweeps;

@@ -121,7 +121,7 @@ void search_edges(const AxisQuery& query, const FaceAxis& face_a, const FaceAxis
     }
 }
 
-// The face of largest separation that shapes separated along `axis` slide past, if there is one; else `axis`.
+// The face of largest separation that shapes separated along `axis` slide past, if there is one; otherwise `axis`.
 SeparatingAxis grazed_face(const AxisQuery& query, const SeparatingAxis& axis, double smaller_radius,
                            AxisChoice choice) {
     const Polyhedron &a = query.a, &b = query.b;

@@ -14,7 +14,7 @@ namespace {
 constexpr double projection_spread_dependent = 1e-12;
 constexpr double projection_spread_independent = 1e-3;
 
-/// Most rows over which impulses are distributed with the least sum of squares among those that only push, with the most
+/// Most rows over which impulses are distributed with the least sum of squares among rows that only push, with the most
 /// Newton steps, the relative error of their sum, and the least second derivative. Beyond, the distribution stops short
 /// of that. Limits the cost; not fitted: rounding.
 constexpr std::size_t projection_even_rows = 128;
@@ -53,8 +53,8 @@ bool solve_symmetric(Eigen::MatrixXd& a, Eigen::VectorXd& x) {
     return true;
 }
 
-// The numbers (b c)+ of the least sum of squares for which b^T (b c)+ is `sum`: c minimizes |(b c)+|^2 / 2 - c . sum, by
-// Newton's method from the given c. Returns false where that does not converge.
+// The numbers (b c)+ of the least sum of squares for which b^T (b c)+ is `sum`: c minimizes |(b c)+|^2 / 2 - c . sum,
+// by Newton's method from the given c. Returns false where that does not converge.
 bool spread_evenly(const Eigen::MatrixXd& b, const Eigen::VectorXd& sum, Eigen::VectorXd c, Eigen::VectorXd& even) {
     const auto value = [&](const Eigen::VectorXd& at) {
         double square = 0.0;

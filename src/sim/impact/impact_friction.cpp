@@ -23,8 +23,9 @@ constexpr double friction_tolerance_step = 1e-5;
 constexpr std::size_t friction_few = 8;
 constexpr double friction_tolerance_many = 1e-6;
 
-/// Contacts of an impact up to which those with friction are relaxed at once, so that no order shows: a rack of 15 balls has
-/// 47. Beyond, one after the other takes fewer sweeps. Limits the cost. Related test: Rack.BouncesAsItsMirrorImage.
+/// Contacts of an impact up to which contacts with friction are relaxed at once, so that no order shows: a rack of 15
+/// balls has 47. Beyond, one after the other takes fewer sweeps. Limits the cost. Related test:
+/// Rack.BouncesAsItsMirrorImage.
 constexpr std::size_t friction_at_once = 128;
 
 /// Sweeps at once in which friction's limits follow the normal impulses. Not fitted: most impacts need fewer.
@@ -186,8 +187,8 @@ void ImpactFriction::find_crowds(const ImpactSystem& cluster) {
 
 // All blocks at once from the same velocities, so that no order of contacts shows in the answer: each as if its bodies'
 // masses were divided among their blocks (Tonge, Benevolenski and Voroshilov 2012, "Mass splitting"), accelerated
-// (Nesterov 1983) and restarted where that overshoots (O'Donoghue and Candes 2015). Returns the largest change of speed in a
-// sweep.
+// (Nesterov 1983) and restarted where that overshoots (O'Donoghue and Candes 2015). Returns the largest change of speed
+// in a sweep.
 double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
     find_crowds(cluster);
     moved_.assign(blocks_.size(), Step{});

@@ -139,7 +139,7 @@ private:
         restitution_.clear();
         bool any = false;
         for (std::size_t i = 0; i < cluster_.size(); ++i) {
-            // Else its speed is that of the last pass.
+            // Otherwise its speed is that of the last pass.
             if (!changed_[bodies_[i].first] && !changed_[bodies_[i].second]) continue;
             if (!(cluster_.speed(i) < -slow_) || (first && rests_[i])) continue;
             active_.push_back(demand(cluster_, i, 0.0));

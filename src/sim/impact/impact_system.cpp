@@ -14,8 +14,8 @@ constexpr double approach_relative = 1e-13;
 /// and those below this share of its largest speed. Not fitted: some ten units of rounding.
 constexpr double approach_rounding = 4e-15;
 
-/// An impulse counts, for friction and as a bounce, if it changes v_rel by more than this many times the rounding of speeds:
-/// 1e-9 of the fastest approach. Not fitted: far above the rounding of positions and normals. Related test:
+/// An impulse counts, for friction and as a bounce, if it changes v_rel by more than this many times the rounding of
+/// speeds: 1e-9 of the fastest approach. Not fitted: far above the rounding of positions and normals. Related test:
 /// Rack.BouncesAsItsMirrorImage.
 constexpr double impact_felt = 1e4;
 

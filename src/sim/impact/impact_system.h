@@ -43,7 +43,7 @@ public:
     ImpactSystem(const Island& island, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                  ImpactTrace* trace = nullptr);
 
-    /// Rows of contacts, then those of joints at their limits.
+    /// Rows of contacts, then rows of joints at their limits.
     std::size_t size() const { return rows_.size(); }
     std::size_t contacts() const { return index_.size(); }
     std::size_t bodies() const { return roots_.size(); }
@@ -94,8 +94,8 @@ public:
     void announce(std::size_t i, double amount, double restitution);
     void end_pass();
 
-    /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel. Returns the impulses of the
-    /// joints; the momenta before the impact must be those of the bodies.
+    /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel. Returns the impulses of
+    /// the joints; the momenta before the impact must be those of the bodies.
     std::vector<JointBlow> store(std::vector<Contact>& contacts, std::vector<Body>& bodies);
     /// The same without the contacts.
     std::vector<JointBlow> store_velocities(std::vector<Body>& bodies);
@@ -115,7 +115,7 @@ private:
     std::vector<MassRoot> roots_;
     Eigen::VectorXd velocity_, start_;  // present and initial y
     std::vector<std::uint32_t> index_;  // row to contact
-    std::vector<std::size_t> limit_;    // row, after those of contacts, to limit
+    std::vector<std::size_t> limit_;    // row, after the rows of contacts, to limit
     std::vector<VelocityRow> rows_;
     std::vector<double> length_, offset_, impulse_;
     double rounding_ = 0.0, wall_velocity_ = 0.0;

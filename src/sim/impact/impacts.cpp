@@ -10,8 +10,8 @@
 namespace tumble {
 namespace {
 
-/// Largest number of products of an impact of joined bodies, contacts squared times the numbers of a group: about 30 ms.
-/// Beyond, the solver of contacts bounces them. Limits the cost.
+/// Largest number of products of an impact of joined bodies, contacts squared times the numbers of a group: about 30
+/// ms. Beyond, the solver of contacts bounces them. Limits the cost.
 constexpr double impact_joined_work = 3e7;
 
 /// Rounds of friction with restitution for the contacts that friction makes approach again, and rounds in all. Not

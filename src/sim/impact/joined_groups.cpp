@@ -13,12 +13,13 @@ namespace tumble {
 namespace {
 
 /// Compliance of a joint's locked coordinates at an impact, of unit forms: square root of the rounding of double
-/// precision, where a pass removes all but a share of 1e-8 of an error for the least of the two causes, rounding and the
-/// compliance over the squared singular value (1e-2 for ragdolls, 1e-5 for a chain of a thousand links, 1e-8 for
+/// precision, where a pass removes all but a share of 1e-8 of an error for the least of the two causes, rounding and
+/// the compliance over the squared singular value (1e-2 for ragdolls, 1e-5 for a chain of a thousand links, 1e-8 for
 /// masses of 1 : 1e8). Not fitted: rounding.
 constexpr double impact_lock_compliance = 1e-8;
 
-/// Share of the first error at which the passes end, and the most passes. Not fitted: rounding, and a bound of the cost.
+/// Share of the first error at which the passes end, and the most passes. Not fitted: rounding, and a bound of the
+/// cost.
 constexpr double impact_lock_rounding = 1e-16;
 constexpr int impact_lock_passes = 60;
 

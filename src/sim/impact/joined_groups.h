@@ -1,9 +1,9 @@
 // Groups of joined bodies at an impact: their locked coordinates as equalities over mass-weighted velocities.
 //
-// Each locked coordinate is a unit form g: its rate is length (g . y + offset), and an impact leaves it as it is. With G
-// the forms of a group, the change of velocities lies in the null space of G, so a contact's form w acts as P w, with the
-// projection P = 1 - G^T (G G^T)^+ G. In the dual active set method (Goldfarb and Idnani 1983, section 3) this is the
-// equalities taken in first and never let go: all that follows works on contacts alone, by their forms P w.
+// Each locked coordinate is a unit form g: its rate is length (g . y + offset), and an impact leaves it as it is. With
+// G the forms of a group, the change of velocities lies in the null space of G, so a contact's form w acts as P w, with
+// the projection P = 1 - G^T (G G^T)^+ G. In the dual active set method (Goldfarb and Idnani 1983, section 3) this is
+// the equalities taken in first and never let go: all that follows works on contacts alone, by their forms P w.
 //
 // P is found by the augmented Lagrangian: with a compliance R, (1 + G^T G / R) z = G^T c / R and f = (c - G z) / R
 // remove the rates -c but for a share R / (R + s^2) along a singular value s of G, and are repeated. The matrix has a
@@ -28,7 +28,7 @@ public:
     struct Limit {
         std::size_t joint;  // index in the list of joints
         Vec3 direction;     // world, of the rate of B relative to A; points into the allowed range
-        bool turns;         // else it moves
+        bool turns;         // otherwise it moves
         double size;        // m, that makes a rate of turning a speed
         VelocityRow form;   // of the bodies alone; m/s
         double offset;      // m/s, by bodies that are not dynamic
@@ -56,7 +56,7 @@ public:
     JoinedRow project(const VelocityRow& form, std::uint32_t own, VelocityRow& row);
     bool joined(std::uint32_t place) const { return group_of_[place] != VelocityRow::none; }
 
-    /// Makes a change of y fit the joints, and returns their impulses: by joint, then those of gears on their second
+    /// Makes a change of y fit the joints, and returns their impulses: by joint, then of gears on their second
     /// joints; without the work.
     std::vector<JointBlow> blows(Eigen::VectorXd& change);
 

@@ -5,9 +5,9 @@
 
 namespace tumble::tuning {
 
-/// Approach speeds below this times |g| h, or times the load speed of the contact (load_speed()), do not bounce. Gravity
-/// gives a resting contact g h in each step, its load the load speed; twice that is distinct from it. Not fitted. Tests:
-/// tests/sim/contact_scenes.h, tests/physics/pressed_test.cpp.
+/// Approach speeds below this times |g| h, or times the load speed of the contact (load_speed()), do not bounce.
+/// Gravity gives a resting contact g h in each step, its load the load speed; twice that is distinct from it. Not
+/// fitted. Tests: tests/sim/contact_scenes.h, tests/physics/pressed_test.cpp.
 inline constexpr double restitution_threshold = 2.0;
 
 /// Contacts of an impact that are solved together exactly. The cost grows with the cube of the contacts: 1 ms at

@@ -20,7 +20,7 @@ struct JoinedRow {
     std::uint32_t bodies_a = 0, bodies_b = 0;  // number of bodies from places a and b of the row on
     std::uint32_t own = 0;                     // index in ImpactSystem: the form of the struck bodies alone
     double sign = 1.0;
-    std::vector<double> numbers;  // six for each body, those of a first
+    std::vector<double> numbers;  // six for each body, of the first body
 
     std::span<const double> on_a() const { return std::span(numbers).first(6 * std::size_t(bodies_a)); }
     std::span<const double> on_b() const { return std::span(numbers).subspan(6 * std::size_t(bodies_a)); }

@@ -20,7 +20,7 @@ bool gear_holds(const Joint& gear, std::span<const Joint> joints) {
                        [&](std::size_t k) { return joints[k].active && !joints[k].broken; });
 }
 
-// The bodies of the gear stand for those of its joints: dynamic ones, two different ones where there are such, and
+// The bodies of the gear stand for the bodies of its joints: dynamic ones, two different ones where there are such, and
 // rather the second ones of the joints.
 void build_gear(Joint& gear, std::span<const Joint> joints, const std::vector<Body>& bodies) {
     const Joint &first = joints[gear.description.geared[0]], &second = joints[gear.description.geared[1]];

@@ -43,7 +43,7 @@ bool gear_holds(const Joint& gear, std::span<const Joint> joints);
 /// Sets the bodies and the size of a gear between joints that are built.
 void build_gear(Joint& gear, std::span<const Joint> joints, const std::vector<Body>& bodies);
 
-/// The present coordinates become those of the relation: where the gear begins to hold.
+/// The gear's relation starts at the present coordinates: where the gear begins to hold.
 void engage_gear(Joint& gear, std::span<const Joint> joints, const std::vector<Body>& bodies);
 
 /// Error of a gear's relation at the present poses, m: angles times the size of the first joint.

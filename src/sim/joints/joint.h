@@ -1,6 +1,6 @@
 // A joint in motion: its two frames, the laws of its coordinates, and the impulses of the last step.
 //
-// The six coordinates are those of the second frame in the first: displacements along its x, y and z, then angles about
+// The six coordinates locate the second frame in the first: displacements along its x, y and z, then angles about
 // them. A distance joint has the first alone, the distance of its anchors. A gear has none (see gear.h).
 #pragma once
 
@@ -106,9 +106,10 @@ struct JointGeometry {
 
 /// Where the two frames of a joint are, world.
 struct JointFrames {
-    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();      // m
-    Mat3 a = Mat3::Identity(), b = Mat3::Identity();            // columns: axes of the frames
-    Quat turn_a = Quat::Identity(), turn_b = Quat::Identity();  // the same; of joints that lock all turns, else unused
+    Vec3 anchor_a = Vec3::Zero(), anchor_b = Vec3::Zero();  // m
+    Mat3 a = Mat3::Identity(), b = Mat3::Identity();        // columns: axes of the frames
+    // the same; of joints that lock all turns, otherwise unused
+    Quat turn_a = Quat::Identity(), turn_b = Quat::Identity();
 };
 
 /// Sets the locked coordinates, and leaves the others alone.

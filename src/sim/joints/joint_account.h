@@ -5,8 +5,8 @@
 
 namespace tumble {
 
-/// Work of a joint's laws since the start of the account, J: the impulse of each row times the mean of its speeds before
-/// and after, so that the sum is the change of kinetic energy.
+/// Work of a joint's laws since the start of the account, J: the impulse of each row times the mean of its speeds
+/// before and after, so that the sum is the change of kinetic energy.
 struct JointWork {
     double motors = 0.0;    // by motors on the bodies, and in springs of joints that begin to hold later
     double carriers = 0.0;  // by kinematic bodies, through the joint

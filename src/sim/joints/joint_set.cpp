@@ -82,7 +82,8 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
             if (!axis.spring) continue;
             JointSpring& spring = joint.springs[k] = *axis.spring;
             if (!(spring.frequency > 0.0)) continue;
-            // K = m w^2 and C = 2 zeta m w, with the mass at the start: else the spring would change with the pose.
+            // K = m w^2 and C = 2 zeta m w, with the mass at the start: otherwise the spring would change with the
+            // pose.
             const double gives = compliance_along(bodies, joint, g, k), mass = gives > 0.0 ? 1.0 / gives : 0.0;
             const double rate = 2.0 * pi * spring.frequency;
             spring.stiffness = mass * rate * rate;

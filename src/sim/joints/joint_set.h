@@ -21,7 +21,8 @@ public:
     bool empty() const { return joints_.empty(); }
     std::vector<Joint>& joints() { return joints_; }
     const std::vector<Joint>& joints() const { return joints_; }
-    /// The bodies of each joint that holds in this step, in the order of active(); of a gear, one of each of its joints.
+    /// The bodies of each joint that holds in this step, in the order of active(); of a gear, one of each of its
+    /// joints.
     const std::vector<BodyPair>& pairs() const { return pairs_; }
     /// Indices of the joints that hold, ascending.
     const std::vector<std::uint32_t>& active() const { return active_; }

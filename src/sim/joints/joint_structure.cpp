@@ -30,7 +30,7 @@ std::size_t locked_rows(const JointGroup& group, const JointSet& joints) {
     return rows;
 }
 
-// Joints beyond those of trees, with one node for all that is fixed; gears form none.
+// Joints beyond the spanning trees, with one node for all that is fixed; gears form none.
 std::size_t loops_of(const JointGroup& group, const JointSet& joints, const std::vector<Body>& bodies) {
     const std::size_t fixed = group.bodies.size();
     DisjointSets sets(fixed + 1);

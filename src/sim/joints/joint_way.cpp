@@ -19,17 +19,18 @@ constexpr std::size_t net_bodies = 256;
 constexpr double net_work = 100.0;
 constexpr std::size_t net_bodies_of_ropes = 64;
 
-/// Largest number of bodies of a figure. Not fitted: sweeps carry a blow along a few joints in a substep, not along a chain
-/// of a hundred.
+/// Largest number of bodies of a figure. Not fitted: sweeps carry a blow along a few joints in a substep, not along a
+/// chain of a hundred.
 constexpr std::size_t figure_most = 64;
 
-/// Largest compliance at an anchor by a body's turns over that by its mass, for joints that lock or limit turns and for others:
-/// sweeps lose its square, and itself, of the digits of single precision. Not fitted: a hundredth of the digits is left.
+/// Largest compliance at an anchor by a body's turns over that by its mass, for joints that lock or limit turns and for
+/// others: sweeps lose its square, and itself, of the digits of single precision. Not fitted: a hundredth of the digits
+/// is left.
 constexpr double turn_leverage = 300.0;
 constexpr double point_leverage = 1e4;
 
-/// Largest ratio of the masses that a joint of a net or figure connects: sweeps stretch joints that hold a heavy body by light
-/// ones. Not fitted: far from such loads.
+/// Largest ratio of the masses that a joint of a net or figure connects: sweeps stretch joints that hold a heavy body
+/// by light ones. Not fitted: far from such loads.
 constexpr double net_mass_ratio = 16.0;
 
 bool integrator_known(const Body& body) { return body.integrator == IntegratorKind::symplectic_euler; }

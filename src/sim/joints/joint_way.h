@@ -1,7 +1,8 @@
 // The way in which joined bodies move in a step, decided once per island before the forces.
 //
 // free     nothing is touched: flight in joint coordinates (sim/articulation)
-// sweeps   in single precision (sim/contact/soft): nets, whose joints are so entangled that a direct solution is dear, and
+// sweeps   in single precision (sim/contact/soft): nets, whose joints are so entangled that a direct solution is dear,
+// and
 //          crowds of figures, with all that they touch
 // direct   contacts and joints in one solution (sim/contact/direct)
 #pragma once
@@ -50,7 +51,7 @@ struct IslandWay {
 /// - all others are solved directly
 JointWay choose_way(const MechanismFacts& mechanism, const ContactFacts& contacts);
 
-/// Groups that are solved in sweeps, if sweeps know their joints: none, those that are dear to factor, or all.
+/// Groups that are solved in sweeps, if sweeps know their joints: none, groups that are costly to factor, or all.
 enum class SweepRule : std::uint8_t { none, dear, all };
 SweepRule sweep_rule(const SimulationSettings& settings);
 
@@ -93,7 +94,7 @@ public:
 
 private:
     std::vector<MechanismFacts> groups_;
-    std::vector<std::uint32_t> group_;         // by body; those of no group: none
+    std::vector<std::uint32_t> group_;         // by body; none for a body of no group
     std::uint64_t found_ = ~std::uint64_t(0);  // JointSet::changes() of the groups
 };
 

@@ -22,7 +22,7 @@ int place_in(std::span<const std::uint32_t> bodies, std::uint32_t body) {
 
 }  // namespace
 
-// Kruskal's method: joints with laws first, then those that would be the most rows.
+// Kruskal's method: joints with laws first, then joints that would be the most rows.
 bool span_joints(std::span<const std::uint32_t> bodies, std::span<const Joint* const> joints,
                  std::span<const Joint> all, SpanningJoints& tree) {
     const std::size_t n = bodies.size(), m = joints.size();

@@ -1,4 +1,4 @@
-// A spanning tree of joined bodies: the joints that are its edges, and those that are cut. The ground is one node.
+// A spanning tree of joined bodies: the joints that are its edges, and the joints that are cut. The ground is one node.
 #pragma once
 
 #include "sim/joints/joint.h"
@@ -19,8 +19,8 @@ struct SpanningJoints {
     bool free = true;        // no joint holds the bodies to the ground
 };
 
-/// Finds it for bodies (indices, ascending) and their joints; `all`: the joints that gears refer to. Returns false where the
-/// joints do not connect the bodies, or a joint with laws would be cut.
+/// Finds it for bodies (indices, ascending) and their joints; `all`: the joints that gears refer to. Returns false
+/// where the joints do not connect the bodies, or a joint with laws would be cut.
 bool span_joints(std::span<const std::uint32_t> bodies, std::span<const Joint* const> joints,
                  std::span<const Joint> all, SpanningJoints& tree);
 

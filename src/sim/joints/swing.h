@@ -15,8 +15,8 @@ struct SwingAxes {
 };
 SwingAxes swing_axes(const Joint& joint, const JointGeometry& g);
 
-/// Square of the rate of the swing (1/s^2) over the tension (N), of a body with the joint at `arm` (m) from its center of
-/// mass. A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
+/// Square of the rate of the swing (1/s^2) over the tension (N), of a body with the joint at `arm` (m) from its center
+/// of mass. A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
 double swing_compliance(const SwingAxes& axes, const Vec3& arm, const Mat3& inverse_inertia);
 
 }  // namespace tumble

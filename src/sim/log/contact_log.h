@@ -32,8 +32,8 @@ public:
 
     void begin_frame(const std::vector<Body>& bodies);
 
-    /// Adds one impact with the entries of its trace, at the bodies' poses of the impact. Their velocities are those after
-    /// it; `blows`: the impulses of joints.
+    /// Adds one impact with the entries of its trace, at the bodies' poses of the impact. Their velocities are those
+    /// after it; `blows`: the impulses of joints.
     void add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
                     const ImpactTime& when, std::span<const JointBlow> blows = {});
     /// The same for an impact of one entry without friction, at a point (m) in the bodies' coordinates.
@@ -47,8 +47,8 @@ public:
     void add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
                       const std::vector<ManifoldImpulse>& totals);
 
-    /// Adds the impulse of a joint in this frame on body B (N s, N m s about the origin of the bodies' coordinates) and its
-    /// work on each body, J. `nobody`: the world.
+    /// Adds the impulse of a joint in this frame on body B (N s, N m s about the origin of the bodies' coordinates) and
+    /// its work on each body, J. `nobody`: the world.
     void add_joint(std::uint32_t a, std::uint32_t b, const Impulse& on_b, double work_a, double work_b);
     static constexpr std::uint32_t nobody = UINT32_MAX;
 
@@ -64,8 +64,8 @@ public:
     void start_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
     void end_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
 
-    /// The records of the frame that ends now and lasted `duration` s (0 for the first frame). `touching`: the manifolds
-    /// of the present poses; without records none are needed.
+    /// The records of the frame that ends now and lasted `duration` s (0 for the first frame). `touching`: the
+    /// manifolds of the present poses; without records none are needed.
     ContactRecords finish_frame(const std::vector<Body>& bodies, const ForceField& forces,
                                 const std::vector<Manifold>& touching, double duration);
 

@@ -85,8 +85,8 @@ void FreeRotation::begin(const Vec3& principal_inertia, const Quat& principal_ax
     // The azimuth is that of one body axis, the pole, either axis 1 or axis 3. Its rate is, for axis 1,
     //   |L| (m2^2/I2 + m3^2/I3) / (m2^2 + m3^2) = |L| (1/I3 + (1/I2 - 1/I3) M2^2/M3^2 sn^2 / (1 + nu sn^2))
     // with nu = M1^2/M3^2, and for axis 3 the same with the axes 1 and 3 exchanged, sn^2 M2^2/M1^2 and
-    // nu = M2^2/M1^2 - 1. Both are valid; the code chooses the one whose two terms are smaller, because their rounding errors remain.
-    // Per |L| t, with t the time of about one revolution, they are:
+    // nu = M2^2/M1^2 - 1. Both are valid; the code chooses the one whose two terms are smaller, because their rounding
+    // errors remain. Per |L| t, with t the time of about one revolution, they are:
     const double slowness =
         1.0 + 1.0 / (i2 * phase_rate_ / rate);  // of u: the initial phase counts as much as its change
     const double phases_1 = 1.0 / i3 + d31 * a / (i3 * (i3 * b + i1 * a)) * slowness;

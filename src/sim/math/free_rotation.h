@@ -81,12 +81,12 @@ private:
     Quat start_ = Quat::Identity();  // orientation at t = 0; of the periodic kinds, relative to the frame of m at t = 0
     Quat to_principal_ = Quat::Identity();
     Vec3 axis_ = Vec3::UnitY();  // steady: of L, world, unit
-    double rate_ = 0.0;          // rad/s; steady: of the rotation; else of the azimuth where sn = 0
+    double rate_ = 0.0;          // rad/s; steady: of the rotation; otherwise of the azimuth where sn = 0
 
     // Principal axes in the order (pole, a, b), a right-handed frame: index and sign of each.
     std::array<int, 3> order_{0, 1, 2};
     std::array<double, 3> sign_{1.0, 1.0, 1.0};
-    bool pole_circulates_ = false;  // the pole is the axis that m circles (dn); else it is that of cn
+    bool pole_circulates_ = false;  // the pole is the axis that m circles (dn); otherwise it is that of cn
     double amplitude_cn_ = 0.0, amplitude_sn_ = 0.0, amplitude_dn_ = 0.0;  // amplitudes of m / |L|, signed
     double phase_rate_ = 0.0, phase_start_ = 0.0;                          // lambda (rad/s), u0
     double half_period_ = 0.0;                                             // 2 K

@@ -30,7 +30,8 @@ public:
         Vec3 linear = Vec3::Zero();   // m/s^2, of the origin
         Vec3 angular = Vec3::Zero();  // rad/s^2, world frame
     };
-    /// The motion at a time, by the part of the path between two keys that holds the time `within`: on both sides of a key.
+    /// The motion at a time, by the part of the path between two keys that holds the time `within`: on both sides of a
+    /// key.
     Motion at(double time, double within) const;
     Acceleration acceleration(double time, double within) const;
     /// The first key after a time, s; infinity: none.

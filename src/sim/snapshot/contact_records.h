@@ -1,7 +1,7 @@
 // Impacts and contacts of a frame, external loads, joints and energy losses, as plain values: the rows of the tables
-// --impacts, --contacts and --loads. A frame's records cover the time from the frame before it. Bodies are named by their index
-// in the scene, A before B; vectors are in the world frame; normals point from A to B, and impulses and forces act on B
-// (the opposite ones on A).
+// --impacts, --contacts and --loads. A frame's records cover the time from the frame before it. Bodies are named by
+// their index in the scene, A before B; vectors are in the world frame; normals point from A to B, and impulses and
+// forces act on B (the opposite ones on A).
 #pragma once
 
 #include "core/vector.h"
@@ -20,7 +20,7 @@ enum class ContactFeatures : std::uint8_t { vertex_face, face_vertex, edge_edge,
 struct ImpactTime {
     double time = 0.0;       // s
     std::int64_t frame = 0;  // the last frame at or before it
-    bool exact = false;      // true if it is the impact's own time, else the end of the step that resolves it
+    bool exact = false;      // true if it is the impact's own time, otherwise the end of the step that resolves it
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [time, frame, exact] = self;

@@ -16,7 +16,7 @@ struct JointReport {
     std::size_t bodies = 0;              // dynamic ones with joints
     std::size_t degrees_of_freedom = 0;  // of these: 6 a body minus the rank of the joints' rows
     std::size_t groups = 0, trees = 0;   // trees: groups without loops
-    std::size_t loops = 0;               // joints beyond those of a tree from the world
+    std::size_t loops = 0;               // joints beyond a tree from the world
     std::size_t rows = 0;                // locked coordinates
     std::size_t redundant = 0;           // rows that follow from others
     // Groups by JointWay, where they touch nothing, and where they touch something.

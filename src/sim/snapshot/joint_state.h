@@ -11,7 +11,7 @@ namespace tumble {
 
 struct JointState {
     Vec3 point = Vec3::Zero();                         // m, world: the second body's anchor
-    std::array<bool, 6> free{};                        // by coordinate: free or limited, else locked
+    std::array<bool, 6> free{};                        // by coordinate: free or limited, otherwise locked
     std::array<double, 6> position{}, speed{};         // m and rad, m/s and rad/s, by coordinate; locked: 0
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();  // N, N m, world: on the second body, mean of the last step
     Vec3 mean_force = Vec3::Zero(), mean_torque = Vec3::Zero();  // N, N m: the same, mean of the last frame

@@ -56,7 +56,7 @@ public:
     }
 
 private:
-    /// Joined bodies move for the same fraction of the step: else their joints would open.
+    /// Joined bodies move for the same fraction of the step: otherwise their joints would open.
     const std::vector<CcdFraction>& joined(const std::vector<CcdFraction>& limits, const ContactIslands& islands) {
         joined_ = limits;
         for (std::size_t k = 0; k < islands.size(); ++k) {

@@ -32,7 +32,7 @@ public:
     /// Logs the forces of `span` s on a sleeping body: its contacts carry them.
     void log_asleep(const StepContext& step, std::uint32_t i, double span, const Vec3& place) const;
 
-    /// Takes the body's present momenta for those that the forces alone would have given it.
+    /// Regards the body's present momenta as the momenta that the forces alone would have given it.
     void accept(std::uint32_t body, const BodySet& set);
     /// Sets the body back to its momenta before the forces: the start of an integrator of higher order.
     void set_back(std::uint32_t i, Body& body) const;
@@ -44,8 +44,8 @@ public:
     }
 
     /// Removes the effect of the lost part of a step from a clamped body that moved for the fraction `share` of it. In
-    /// contact the work of the forces along the lost displacement is removed; else the forces have acted for as long as
-    /// it moved. Forces at points that end at some time give all of their impulse.
+    /// contact the work of the forces along the lost displacement is removed; otherwise the forces have acted for as
+    /// long as it moved. Forces at points that end at some time give all of their impulse.
     void lose_time(std::uint32_t i, Body& body, double share, bool in_contact) const;
 
     /// For checkpoints: see sim/checkpoint/archive.h.

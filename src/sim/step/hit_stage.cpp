@@ -34,14 +34,14 @@ bool flat(const Body& body) { return std::holds_alternative<HalfSpace>(body.coll
 
 // A hit is looked for where points have moved in the step by more than this share of the smaller radius.
 constexpr double least_way = 0.002;
-// It is resolved at its own time if its normal differs from the present one by an angle whose cosine is below 1 minus this:
-// 1e-6 rad for curved surfaces, half a degree for faces.
+// It is resolved at its own time if its normal differs from the present one by an angle whose cosine is below 1 minus
+// this: 1e-6 rad for curved surfaces, half a degree for faces.
 constexpr double least_turn_of_curve = 1e-12;
 constexpr double least_turn = 3.8e-5;
 // Body pairs of an island, up to which balls hit edges at their own times. Limits the cost.
 constexpr std::size_t most_pairs_of_edges = 16;
-// Contacts of a hit, and hits of a step for each manifold of an island: they limit the cost. Beyond, the impact is that of
-// the step's end.
+// Contacts of a hit, and hits of a step for each manifold of an island: they limit the cost. Beyond, the impact is that
+// of the step's end.
 constexpr std::size_t most_contacts = 64;
 constexpr std::size_t most_hits_each = 4;
 
@@ -109,8 +109,8 @@ bool loaded(std::uint32_t body, const HitIsland& island, const std::vector<Manif
     });
 }
 
-// Impulse of the forces in the last `lag` s. The path of the Euler methods is a polygon on the parabola of the flight: its
-// velocity is that of the middle of the step.
+// Impulse of the forces in the last `lag` s. The path of the Euler methods is a polygon on the parabola of the flight:
+// its velocity is that of the middle of the step.
 Impulse late_forces(std::uint32_t k, const StepContext& step, double lag) {
     const Body& body = step.set.bodies[k];
     const Wrench wrench = step.forces.field().throughout(k, body, step.clock.seconds(step.index - 1), step.start());
@@ -199,7 +199,7 @@ void HitStage::find_touch(const Hit& hit, const StepContext& step) {
     }
 }
 
-// Adds a body to those of a hit, at its place then.
+// Adds a body to a hit, at its pose then.
 void HitStage::join(std::uint32_t k, double lag, const HitIsland& island, const std::vector<Manifold>& manifolds,
                     const StepContext& step) {
     Body& body = step.set.bodies[k];
@@ -284,7 +284,8 @@ bool HitStage::add_touching(std::uint32_t a, std::uint32_t b, std::span<const st
     return !found_.empty();
 }
 
-// The bodies that touch one of the cluster, and their contacts. Returns false for more bodies than an impact should have.
+// The bodies that touch one of the cluster, and their contacts. Returns false for more bodies than an impact should
+// have.
 bool HitStage::gather(const Hit& hit, const HitIsland& island, const std::vector<Manifold>& manifolds,
                       const StepContext& step) {
     cluster_.clear();
@@ -319,7 +320,7 @@ bool HitStage::gather(const Hit& hit, const HitIsland& island, const std::vector
     return std::none_of(cluster_.begin(), cluster_.end(), [&](const Member& m) { return bodies[m.body].jointed; });
 }
 
-// Resolves the impact of a hit. Returns whether it was one; else the bodies stay as they are.
+// Resolves the impact of a hit. Returns whether it was one; otherwise the bodies stay as they are.
 bool HitStage::strike(const Hit& hit, const HitIsland& island, const std::vector<Manifold>& manifolds,
                       const StepContext& step) {
     std::vector<Body>& bodies = step.set.bodies;

@@ -1,7 +1,8 @@
-// Hits within a step, at their own times. At the end of a step the bodies overlap, and the normal and the points of that
-// pose are not those of the hit: a ball that is hit off its center would leave in a wrong direction. So the bodies go back
-// to the poses in which they met, get their impulses there, and go on with their new velocities for the rest of the step,
-// in which they may meet others. This keeps the momenta, the angular momentum about any point, and the energy.
+// Hits within a step, at their own times. At the end of a step the bodies overlap, and the normal and the points of
+// that pose are not those of the hit: a ball that is hit off its center would leave in a wrong direction. So the bodies
+// go back to the poses in which they met, get their impulses there, and go on with their new velocities for the rest of
+// the step, in which they may meet others. This keeps the momenta, the angular momentum about any point, and the
+// energy.
 #pragma once
 
 #include "sim/ccd/time_of_impact.h"

@@ -1,5 +1,5 @@
-// Joined bodies in a step: decides the way of each island, before the forces, and keeps the states at its end of islands
-// that are free.
+// Joined bodies in a step: decides the way of each island, before the forces, and keeps the states at its end of
+// islands that are free.
 #pragma once
 
 #include "sim/articulation/island_flight.h"

@@ -12,9 +12,9 @@
 namespace tumble {
 namespace {
 
-/// With time-stepped impacts, a bounce that would separate slower than this times |g| h, or times the load speed, does not
-/// happen either: the hop would last two steps, and the body would stay in an overlap and be lifted out of it. Related test:
-/// ContactEnergy.ABodyThatHardlyBouncesLandsAtTheSurface.
+/// With time-stepped impacts, a bounce that would separate slower than this times |g| h, or times the load speed, does
+/// not happen either: the hop would last two steps, and the body would stay in an overlap and be lifted out of it.
+/// Related test: ContactEnergy.ABodyThatHardlyBouncesLandsAtTheSurface.
 constexpr double restitution_rebound = 1.0;
 
 // True if the body's rotation in flight is nonuniform, or too large for one tangent: if the body is clamped, its
@@ -32,8 +32,8 @@ SteppedMotion::SteppedMotion(const SceneDescription& scene, const BodySet& set, 
 
 double SteppedMotion::rebound_share() const { return restitution_rebound; }
 
-// Explicit Euler moves a pose by the velocities of the step's start, all others by those of its end; the rotation by
-// their mean.
+// Explicit Euler moves a pose by the velocities of the step's start, other methods by the velocities of its end; the
+// rotation by their mean.
 BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const StepContext& step) const {
     if (body.placed) return step.joined.motion(i, step.set, step.h);
     const bool before = body.dynamic() && !body.jointed && body.integrator == IntegratorKind::explicit_euler;

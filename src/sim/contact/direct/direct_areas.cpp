@@ -1,5 +1,5 @@
-// DirectSolver: friction of contact areas that several manifolds share (contact_areas.h). The rows of the first constraint
-// act at the centroid of the area, within the limits of all loads; the others have normal rows alone.
+// DirectSolver: friction of contact areas that several manifolds share (contact_areas.h). The rows of the first
+// constraint act at the centroid of the area, within the limits of all loads; the others have normal rows alone.
 #include "sim/contact/direct/direct_solver.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ void DirectSolver::join_area(ConstraintRows& constraint, const ContactProblem& p
     constraint.rubs = false;
     constraint.first = *found;
     constraint.next = std::exchange(first.next, own);
-    // The impulses of the last step, in the directions of the first; the common body may be A of one and B of the other.
+    // The impulses of the last step, in the directions of the first; the common body may be A of one and B of the
+    // other.
     const double side = geometry.normal.dot(first.geometry.normal) < 0.0 ? -1.0 : 1.0;
     const Vec3 friction = side * (m.friction[0] * geometry.tangent_1 + m.friction[1] * geometry.tangent_2);
     first.friction[0].estimate += friction.dot(first.geometry.tangent_1);

@@ -1,5 +1,5 @@
-// DirectSolver: the passes that close the joints of an island at the end of a step or substep, for its velocities and for
-// the position correction.
+// DirectSolver: the passes that close the joints of an island at the end of a step or substep, for its velocities and
+// for the position correction.
 #include "sim/contact/direct/direct_solver.h"
 #include "sim/contact/direct/settings.h"
 #include "sim/dynamics/integrator.h"
@@ -12,8 +12,8 @@
 namespace tumble {
 namespace {
 
-/// Factor of that compliance where two passes in a row leave more than half of the error. Not fitted: a pass then leaves a
-/// hundredth, and the impulses lose two more digits.
+/// Factor of that compliance where two passes in a row leave more than half of the error. Not fitted: a pass then
+/// leaves a hundredth, and the impulses lose two more digits.
 constexpr double joint_stiffer = 1e-2;
 
 /// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
@@ -33,14 +33,14 @@ constexpr double joint_round_tolerance = 1e-8;
 constexpr int joint_singular_rounds = 8;
 
 /// Error, in sizes of the joint, at which the joints of an island in contact count as closed after
-/// tuning::direct_rounds rounds, and once the impulses have settled; and error of a gap at the end of the step, in sizes
-/// of the contact, once they have settled. Not fitted: the next step closes the rest.
+/// tuning::direct_rounds rounds, and once the impulses have settled; and error of a gap at the end of the step, in
+/// sizes of the contact, once they have settled. Not fitted: the next step closes the rest.
 constexpr double joint_contact_closed = 1e-7;
 constexpr double joint_contact_settled = 1e-8;
 constexpr double joint_corner_closed = 1e-5;
 
-/// Least turn, rad, of a body in a step in which the gaps of corners are closed: the rest of the gap is half its square, in
-/// sizes of the contact. Not fitted: less is invisible.
+/// Least turn, rad, of a body in a step in which the gaps of corners are closed: the rest of the gap is half its
+/// square, in sizes of the contact. Not fitted: less is invisible.
 constexpr double joint_corner_turn = 0.005;
 
 /// Change of the velocities in a round, as a share of the change in the step, at which the impulses in contact count as
@@ -115,8 +115,8 @@ void DirectSolver::predict_ends(const JointIsland& island, bool moved) {
     }
 }
 
-// One Newton step, where it solves the whole problem: joints alone, none of which reaches or leaves a bound. The rest is
-// rounding, and left to the next pass.
+// One Newton step, where it solves the whole problem: joints alone, none of which reaches or leaves a bound. The rest
+// is rounding, and left to the next pass.
 bool DirectSolver::step_linear() {
     if (!constraints_.empty()) return false;
     joints_.evaluate_speeds(velocity_);
@@ -131,7 +131,8 @@ bool DirectSolver::step_linear() {
     return factored_;
 }
 
-// Beside contacts, and where Newton's method stalls on its bounds, the friction of joints starts soft as that of contacts.
+// Beside contacts, and where Newton's method stalls on its bounds, the friction of joints starts soft as that of
+// contacts.
 void DirectSolver::set_friction_compliance(double compliance) {
     friction_compliance_ = compliance;
     if (joint_friction_softens_) joints_.soften_friction(compliance / (tuning::direct_friction_stiff * compliance_));
@@ -154,8 +155,9 @@ bool DirectSolver::moves_no_body() const {
     return true;
 }
 
-// Moves the targets of contacts such that the gaps at the end of the step are those of corners on their arcs over the turned
-// faces, and not of corners on the tangents. Returns the largest change of a gap under load, in sizes of the contact.
+// Moves the targets of contacts such that the gaps at the end of the step are those of corners on their arcs over the
+// turned faces, and not of corners on the tangents. Returns the largest change of a gap under load, in sizes of the
+// contact.
 double DirectSolver::close_contacts(const JointIsland& island) {
     const ContactProblem& problem = island.problem;
     const double h = problem.settings.h;
@@ -196,9 +198,9 @@ double DirectSolver::close_contacts(const JointIsland& island) {
     return worst;
 }
 
-// Where the passes do not converge, as where contacts and joints exclude each other, the last one would leave large impulses
-// and their energy. The velocities then fit joints and contacts at the start of the part: a projection that gains no energy,
-// and leaves gaps of second order.
+// Where the passes do not converge, as where contacts and joints exclude each other, the last one would leave large
+// impulses and their energy. The velocities then fit joints and contacts at the start of the part: a projection that
+// gains no energy, and leaves gaps of second order.
 void DirectSolver::fit_start(const JointIsland& island) {
     joints_.aim_at_start(island);
     for (ConstraintRows& constraint : constraints_) {
@@ -211,8 +213,8 @@ void DirectSolver::fit_start(const JointIsland& island) {
     close_joints(island, false);
 }
 
-// Newton's method, the rounds of the multipliers, and with `moving` the passes that close the joints at the end of the part,
-// all in one loop: each pass uses the last solution.
+// Newton's method, the rounds of the multipliers, and with `moving` the passes that close the joints at the end of the
+// part, all in one loop: each pass uses the last solution.
 DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool moving) {
     joint_friction_softens_ = !constraints_.empty();
     set_friction_compliance(tuning::direct_friction_soft * compliance_);

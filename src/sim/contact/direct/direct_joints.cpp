@@ -19,12 +19,12 @@
 namespace tumble {
 namespace {
 
-/// Largest factor of the estimates of impulses from a part of a step to a longer one. Not fitted: the forces of a very short
-/// part are rounding.
+/// Largest factor of the estimates of impulses from a part of a step to a longer one. Not fitted: the forces of a very
+/// short part are rounding.
 constexpr double direct_longer = 16.0;
 
-/// Compliance of rigid rows, over the island's mass and its number of joints. A round makes the error of a chain about a
-/// thousand times smaller, at any length, because the softest motion of n links has a compliance of pi^2 / n over
+/// Compliance of rigid rows, over the island's mass and its number of joints. A round makes the error of a chain about
+/// a thousand times smaller, at any length, because the softest motion of n links has a compliance of pi^2 / n over
 /// their mass. Smaller values add rounding to the impulses.
 constexpr double joint_compliance = 1e-2;
 
@@ -116,8 +116,8 @@ bool DirectSolver::moves_freely(const JointIsland& island) {
     return false;
 }
 
-// Gives the solution to the bodies: the impulses, equal and opposite. Where Newton's steps stopped on the way they do not
-// fit the velocities, which are nearer to the solution.
+// Gives the solution to the bodies: the impulses, equal and opposite. Where Newton's steps stopped on the way they do
+// not fit the velocities, which are nearer to the solution.
 void DirectSolver::apply_solution(const JointIsland& island) {
     std::vector<Body>& bodies = island.problem.bodies;
     if (consistent_) {
@@ -296,8 +296,8 @@ void DirectSolver::kick(const JointIsland& part) {
     }
 }
 
-// Between two parts: the velocities fit the joints, and limits that are met give their rebound. Contacts take no part: where
-// they are pressed, the next part stops them.
+// Between two parts: the velocities fit the joints, and limits that are met give their rebound. Contacts take no part:
+// where they are pressed, the next part stops them.
 void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting) {
     std::vector<ConstraintRows> contacts;
     contacts.swap(constraints_);
@@ -374,8 +374,8 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         if (problem.totals)
             for (const std::uint32_t k : manifolds) (*problem.totals)[k] = {};
     };
-    // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces too.
-    // So are those of loops: with half of the forces at both ends and fitted velocities they are RATTLE's.
+    // Steps that fine integrators leave to the rows, as that of a joint that breaks at once, are exact for even forces
+    // too. So are those of loops: with half of the forces at both ends and fitted velocities they are RATTLE's.
     loops_ = manifolds.empty() && has_loops(island);
     cut_ = loops_ || (manifolds.empty() && fine_integrator(joined_integrator(problem.bodies, bodies)));
     for (bool cut = cut_; !solve_jointed_step(island, manifolds, substeps); cut = cut_) {

@@ -161,8 +161,8 @@ DirectSolver::Weights DirectSolver::push_weights(const ConstraintRows& constrain
     return w;
 }
 
-// The matrix of the masses. Joined bodies are pushed as if all had the same mass: else the links between heavy bodies would
-// be thrown.
+// The matrix of the masses. Joined bodies are pushed as if all had the same mass: otherwise the links between heavy
+// bodies would be thrown.
 void DirectSolver::set_masses(bool pushing) {
     matrix_.set_zero();
     for (std::size_t i = 0; i < masses_.size(); ++i) {
@@ -374,8 +374,8 @@ std::pair<double, double> DirectSolver::next_round() {
     return most;
 }
 
-// Where friction itself carries the load that limits it, as at a ball wedged at a friction coefficient near 1, the limits
-// follow each other by a factor near 1. Every third time they take their limit (Aitken's extrapolation).
+// Where friction itself carries the load that limits it, as at a ball wedged at a friction coefficient near 1, the
+// limits follow each other by a factor near 1. Every third time they take their limit (Aitken's extrapolation).
 void DirectSolver::follow_limits(int time) {
     for (ConstraintRows& constraint : constraints_) {
         double(&last)[2] = constraint.last_limits;

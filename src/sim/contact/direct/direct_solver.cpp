@@ -33,7 +33,7 @@ constexpr double direct_closing = 1e-3;
 constexpr double push_share = 0.2;
 
 // Joined bodies bounce here and not in the stage of impacts, which knows no joints: -e v_rel- (notes eq. 14) of a point
-// that touches and approaches fast; else 0.
+// that touches and approaches fast; otherwise 0.
 double rebound(const Manifold& m, const ContactConstraint::Point& p, const BodiesInStep& bodies,
                const ConstraintSettings& settings) {
     const double e = pair_restitution(bodies.a, bodies.b);
@@ -203,7 +203,7 @@ bool DirectSolver::admissible() const {
     return within_cones();
 }
 
-// Gives the contacts' impulses to the bodies; `reached` marks those that got one, by index in the island.
+// Gives the contacts' impulses to the bodies; `reached` marks bodies that got one, by index in the island.
 void DirectSolver::apply_contacts(const ContactProblem& problem, std::vector<bool>& reached) {
     sum_area_loads();
     for (const ConstraintRows& constraint : constraints_) {
@@ -275,8 +275,8 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
 //
 // A contact row closes a gap at constant speed from the start of the step, as if the corner had landed then and the
 // other corner no longer carried the body. At 60 steps per second a rocking block so loses a tenth of its energy in
-// each landing, beyond the loss of the landing itself. In n substeps, each as long as the soft solver's substep, it is an
-// n-th of that.
+// each landing, beyond the loss of the landing itself. In n substeps, each as long as the soft solver's substep, it is
+// an n-th of that.
 int DirectSolver::landing_substeps(const ContactProblem& problem, std::span<const std::uint32_t> bodies) const {
     if (bodies.size() != 1) return 1;
     bool lands = false, stands = false;

@@ -38,9 +38,9 @@ public:
     bool solve(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                std::span<const std::uint32_t> manifolds, std::span<const std::uint32_t> joints = {});
 
-    /// Closes the joints at the present poses by the least displacements in the metric of the masses, and makes the velocities
-    /// fit them. Momenta stay, and so does the center of mass of a free island. Joints that are wide open, as those whose
-    /// anchors were placed apart, stay so.
+    /// Closes the joints at the present poses by the least displacements in the metric of the masses, and makes the
+    /// velocities fit them. Momenta stay, and so does the center of mass of a free island. Joints that are wide open,
+    /// as those whose anchors were placed apart, stay so.
     void close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                      std::span<const std::uint32_t> joints);
 

@@ -16,7 +16,7 @@ public:
     void clear_numbers() {
         for (Side& side : sides_) side.six = {};
     }
-    /// Adds `factor` times six numbers to those of a body of the island.
+    /// Adds `factor` times six numbers to the six numbers of a body of the island.
     void add_side(int body, const double* six, double factor);
 
     double dot(const std::vector<double>& u) const;

@@ -1,5 +1,5 @@
-// The fit at the end of a step by rows: impulses that make the velocities fit the joints at the new poses. Without it they
-// are those along the chords of the step, and their energy is too large by up to (h w)^2 / 4 of it.
+// The fit at the end of a step by rows: impulses that make the velocities fit the joints at the new poses. Without it
+// they are those along the chords of the step, and their energy is too large by up to (h w)^2 / 4 of it.
 #include "core/deterministic_math.h"
 #include "sim/contact/direct/direct_solver.h"
 #include "sim/dynamics/integrator.h"
@@ -16,12 +16,12 @@ namespace {
 /// The velocities fit the joints to this share of the fastest one at the end of a step by rows. Not fitted: rounding.
 constexpr double joint_fits = 1e-14;
 
-/// Share of its bound up to which a motor or dry friction counts as holding its speed at the end of a step: the bound of
-/// friction follows the loads, and the impulse of a slipping joint is not quite at it. Not fitted.
+/// Share of its bound up to which a motor or dry friction counts as holding its speed at the end of a step: the bound
+/// of friction follows the loads, and the impulse of a slipping joint is not quite at it. Not fitted.
 constexpr double joint_fit_below = 0.999;
 
-/// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted: bodies
-/// that turn by a radian in a step open their joints by less.
+/// Largest error, in sizes of the joint, that is closed where CCD stops joined bodies within the step. Not fitted:
+/// bodies that turn by a radian in a step open their joints by less.
 constexpr double joint_clamped_open = 0.1;
 
 /// Rounds of a solve for these displacements. Not fitted: two more passes would do the same.
@@ -68,8 +68,8 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
             if (row.starts_ball) ball = hypotenuse(row.impulse, hypotenuse(rows_[k + 1].impulse, rows_[k + 2].impulse));
             const bool in_ball = j.turns_alike() && row.law == Joint::friction;
             const double size = in_ball ? ball : std::abs(row.impulse);
-            // A limit that is met or bounces holds no speed; nor does friction that slips, or a motor at its bound. Along the
-            // rim of a cone the swing itself changes.
+            // A limit that is met or bounces holds no speed; nor does friction that slips, or a motor at its bound.
+            // Along the rim of a cone the swing itself changes.
             const bool rigid = row.law == Joint::lock;
             const Strike* strike = struck && is_limit(row) ? strike_of(block.joint, row) : nullptr;
             const bool limits =
@@ -106,7 +106,8 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
     }
 }
 
-// After start_fit(): the locks ask for the displacements that close them. Returns the largest gap, in sizes of the joint.
+// After start_fit(): the locks ask for the displacements that close them. Returns the largest gap, in sizes of the
+// joint.
 double JointRows::ask_to_close(const JointIsland& island) {
     double worst = 0.0;
     for (const Block& block : blocks_) {
@@ -166,8 +167,8 @@ void DirectSolver::fit_velocities(const JointIsland& island, JointRows::Booking 
     joints_.forget_strikes();
 }
 
-// At the present poses, `ahead` s after those of the carriers. The contacts are no longer needed. `solved`: the rows have the
-// impulses of the solve.
+// At the present poses, `ahead` s after those of the carriers. The contacts are no longer needed. `solved`: the rows
+// have the impulses of the solve.
 void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking booking, double ahead, bool solved,
                             bool struck) {
     const ContactProblem& problem = island.problem;
@@ -180,7 +181,7 @@ void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking bookin
     // The fit belongs to the forces at the end of a part.
     if (!kicked_) joints_.keep_velocities(island, false);
     kicked_ = false;
-    // At rest all speeds are rounding: those that the impulses give and take count.
+    // At rest all speeds are rounding: the speeds that the impulses add and remove count.
     const double fits = joint_fits * std::max(fastest_, joints_.largest_impulse() / lightest_);
     joints_.start_fit(island, ahead, solved, struck);
     joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;

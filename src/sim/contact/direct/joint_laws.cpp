@@ -61,8 +61,8 @@ void JointRows::push_row(const Row& row) {
         added.estimate = std::clamp(row.turns() ? last / length_ : last, row.least, row.most);
 }
 
-// Rate of a coordinate, m/s or rad/s, and the two measures of its load: the part that forces and carriers of this step have
-// added, and the change of the rate by an impulse on the two bodies without their other joints.
+// Rate of a coordinate, m/s or rad/s, and the two measures of its load: the part that forces and carriers of this step
+// have added, and the change of the rate by an impulse on the two bodies without their other joints.
 JointRows::LimitRates JointRows::limit_rates(const JointIsland& island, const Row& row, const Vec3& point) const {
     const Joint& j = joint(blocks_.back());
     LimitRates rates;

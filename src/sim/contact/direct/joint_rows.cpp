@@ -85,7 +85,7 @@ void JointRows::advance_speeds(double along) {
     }
 }
 
-// f = y where |y| <= most, else most y / |y|; y = e + (b - J u) / R.
+// f = y where |y| <= most, otherwise most y / |y|; y = e + (b - J u) / R.
 JointRows::BallFriction JointRows::ball_friction(const Row* row, double along) {
     BallFriction ball;
     for (Eigen::Index i = 0; i < 3; ++i)
@@ -385,7 +385,7 @@ void JointRows::add_push(std::vector<double>& push) const {
 
 double JointRows::close_push(const JointIsland& island, std::span<const JointSide> ends,
                              const std::vector<double>& push) {
-    const double h = island.problem.settings.h;  // s: the step, where the rows are those of its last substep
+    const double h = island.problem.settings.h;  // s: the step, where the rows belong to its last substep
     double worst = 0.0;
     for (const Block& block : blocks_) {
         const Joint& j = joint(block);
@@ -414,7 +414,7 @@ void JointRows::store(const JointIsland& island, bool apply, bool settled) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
             j.impulse[row.coordinate][row.law] = amount;
-            if (row.law == Joint::lock && h_ * tuning::joint_swing_substeps >= step_)  // else it is rounding
+            if (row.law == Joint::lock && h_ * tuning::joint_swing_substeps >= step_)  // otherwise it is rounding
                 j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
         }
         const JointLoad load = load_of(block);

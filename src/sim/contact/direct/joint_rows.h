@@ -1,4 +1,5 @@
-// The joints of one island as rows of the Jacobian J over its velocities, for the direct solver (docs/explanation/joints.md).
+// The joints of one island as rows of the Jacobian J over its velocities, for the direct solver
+// (docs/explanation/joints.md).
 //
 // Each row is one law of one coordinate: its impulse is
 //   f = clamp(e + (b - J u) / R, least, most)
@@ -101,7 +102,7 @@ public:
     double length() const { return length_; }  // m, of the island
     /// True if the impulses of the last step have settled: only then are they estimates of the next ones.
     bool estimated() const;
-    /// True if the joints form no loop: else their impulses are not unique, and the last step gives no estimate.
+    /// True if the joints form no loop: otherwise their impulses are not unique, and the last step gives no estimate.
     bool tree() const { return tree_; }
     std::span<Block> blocks() { return blocks_; }
     void clear() {
@@ -110,8 +111,8 @@ public:
         rows_.clear();
     }
 
-    /// Begins a step of `h` s. Limits with restitution are open until they are met: find_strikes(). Without `bounce` they are
-    /// as those without. Rebounds that `least_hop` steps of their load would stop do not happen.
+    /// Begins a step of `h` s. Limits with restitution are open until they are met: find_strikes(). Without `bounce`
+    /// they are as those without. Rebounds that `least_hop` steps of their load would stop do not happen.
     void start_step(double h, bool bounce, double least_hop = 0.5 * tuning::limit_hop) {
         step_ = part_ = h;
         bounce_ = bounce;
@@ -119,15 +120,16 @@ public:
         strikes_.clear();
     }
     void stop_bounces() { bounce_ = false; }
-    /// Keeps those of the open limits that are met first until `ends`, the poses at the end of the part that was solved. The
-    /// next load() closes them. `kicks`: the rest of the forces acts at the end. Returns whether there are any.
+    /// Keeps those of the open limits that are met first until `ends`, the poses at the end of the part that was
+    /// solved. The next load() closes them. `kicks`: the rest of the forces acts at the end. Returns whether there are
+    /// any.
     bool find_strikes(const JointIsland& island, std::span<const JointSide> ends, bool kicks);
     std::span<const Strike> strikes() const { return strikes_; }
     void forget_strikes() { strikes_.clear(); }
 
     /// Rows for the present poses. `compliance` (1/kg) of the rigid rows.
     void load(const JointIsland& island, double compliance);
-    /// Pairs of island bodies coupled by joints, appended to those of the contacts.
+    /// Pairs of island bodies coupled by joints, appended to the pairs in contact.
     void add_pairs(std::vector<BlockCholesky::Pair>& pairs);
 
     void evaluate_speeds(const std::vector<double>& u);
@@ -182,24 +184,25 @@ public:
     /// Sets targets that move `share` of each error out in the step. Returns whether there are such errors.
     bool start_push(const JointIsland& island, double share, PushStiffness stiffness);
     void add_push(std::vector<double>& push) const;  // push += J^T (e + weight b)
-    /// H += weight J^T J over all rows; over those without bounds, whose weight is the same in all passes; over the others.
+    /// H += weight J^T J over all rows; over those without bounds, whose weight is the same in all passes; over the
+    /// others.
     enum class Which { all, unbounded, bounded };
     void add_weights(BlockCholesky& matrix, Which which) const;
-    /// Moves the targets of closed joints by their errors at `ends`, the poses with the push. Returns the largest error,
-    /// in sizes of the joint.
+    /// Moves the targets of closed joints by their errors at `ends`, the poses with the push. Returns the largest
+    /// error, in sizes of the joint.
     double close_push(const JointIsland& island, std::span<const JointSide> ends, const std::vector<double>& push);
 
     /// For account(): the velocities at the start of the step (`first`), or of a later substep.
     void keep_velocities(const JointIsland& island, bool first);
-    /// The source of the impulses: the solve of the step, the fit at its end, or the fit where CCD has stopped the bodies,
-    /// whose work is lost as in an impact.
+    /// The source of the impulses: the solve of the step, the fit at its end, or the fit where CCD has stopped the
+    /// bodies, whose work is lost as in an impact.
     enum class Booking { solve, fit, stop };
     /// Adds the impulses and their work to the joints' accounts, once the bodies have their new velocities.
     void account(const JointIsland& island, Booking booking = Booking::solve);
 
-    /// Prepares the rows for the fit at the present poses. Locks, and motors, friction and limits that held their speed in
-    /// the solve, hold it again, within the rest of their bounds; the other rows get no impulse. `ahead` (s): time by which
-    /// carriers are placed ahead of their present poses. `solved`: the rows have the impulses of the solve.
+    /// Prepares the rows for the fit at the present poses. Locks, and motors, friction and limits that held their speed
+    /// in the solve, hold it again, within the rest of their bounds; the other rows get no impulse. `ahead` (s): time
+    /// by which carriers are placed ahead of their present poses. `solved`: the rows have the impulses of the solve.
     /// `struck`: limits that are met give their rebound.
     void start_fit(const JointIsland& island, double ahead, bool solved, bool struck);
     /// Fastest speed (m/s) that misses a row of the fit; after evaluate_speeds().

@@ -16,7 +16,7 @@ BodyVelocity mean_of(const BodyVelocity& before, const Body& after) {
 void add_work(JointWork& work, Joint::Law law, double done, bool catches) {
     switch (law) {
         case Joint::lock:
-            if (catches) work.impacts -= done;  // else zero but for the integrator's error
+            if (catches) work.impacts -= done;  // otherwise zero but for the integrator's error
             break;
         case Joint::lower:
         case Joint::upper:

@@ -92,7 +92,7 @@ void ContactAreas::add_areas(std::span<const ContactIslands::Repeated> group, co
     }
 }
 
-// Keeps the faces that touch, or nearly do, with all their corners; in a landing, those that will meet first.
+// Keeps the faces that touch, or nearly do, with all their corners; in a landing, faces that will meet first.
 void ContactAreas::keep_touching(const std::vector<Manifold>& manifolds, const std::vector<Body>& bodies) {
     double least = infinity;
     for (const std::uint32_t k : together_) least = std::min(least, lowest(manifolds[k]));

@@ -1,4 +1,4 @@
-// Contact areas of several manifolds: faces of the same two bodies that meet in one plane, as those of tiles, of the
+// Contact areas of several manifolds: faces of the same two bodies that meet in one plane, as with tiles, of the
 // parts of a compound, or of the triangles of a mesh. Bodies that stand count as one.
 //
 // How such faces share the load is indeterminate, and a solver's choice would turn a sliding body aside. So their
@@ -21,7 +21,8 @@ struct SharedArea {
     std::uint32_t first = 0, count = 0;  // range in ContactAreas::members()
 
     /// Torsional friction holds `levers` (N s m) times mu for a load (N s) whose center lies `aside` from the centroid:
-    /// that of an even pressure, and where the center of the load is elsewhere, enough for the moment of friction there.
+    /// that of an even pressure, and where the center of the load is elsewhere, enough for the moment of friction
+    /// there.
     double levers(double load, double moment) const {
         return mean_distance * load + (1.0 - mean_distance / radius) * moment;
     }

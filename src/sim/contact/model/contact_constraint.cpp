@@ -10,8 +10,9 @@
 namespace tumble {
 namespace {
 
-/// Turn of a normal, rad, until two bodies without restitution meet: those that turn more are not stopped at the surface, but
-/// meet in an overlap that the impact resolves. Related test: OffCenter.BallsLeaveAlongTheLineOfTheirCenters.
+/// Angle of a normal, rad, until two bodies without restitution meet: bodies that turn more are not stopped at the
+/// surface, but meet in an overlap that the impact resolves. Related test:
+/// OffCenter.BallsLeaveAlongTheLineOfTheirCenters.
 constexpr double meeting_turn = 1e-3;
 
 // The stored direction of friction; before the first step, any direction across the normal.

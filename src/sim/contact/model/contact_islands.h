@@ -48,8 +48,8 @@ public:
         return std::span(pairs_).subspan(first_manifold_[island],
                                          first_manifold_[island + 1] - first_manifold_[island]);
     }
-    /// A manifold whose bodies meet in further manifolds too. Bodies that contacts do not move count as one: `second` is
-    /// UINT32_MAX for all of them.
+    /// A manifold whose bodies meet in further manifolds too. Bodies that contacts do not move count as one: `second`
+    /// is UINT32_MAX for all of them.
     struct Repeated {
         std::uint32_t first, second, manifold;
         auto operator<=>(const Repeated&) const = default;

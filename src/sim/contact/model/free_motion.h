@@ -1,5 +1,5 @@
-// Motion of bodies in a step as if neither contacts nor joints acted on them: by forces, by their own rotation, and on the
-// paths of kinematic bodies. It tells whether a contact presses, and how hard.
+// Motion of bodies in a step as if neither contacts nor joints acted on them: by forces, by their own rotation, and on
+// the paths of kinematic bodies. It tells whether a contact presses, and how hard.
 #pragma once
 
 #include "sim/contact/model/contact.h"
@@ -26,7 +26,7 @@ struct FreeMotion {
 };
 
 /// Gap of a contact as its acceleration depends on it. Arms (m, world) from the bodies' centers: to the points of a
-/// CurvedGap, to the center of a BallOverFace, else to the contact.
+/// CurvedGap, to the center of a BallOverFace, otherwise to the contact.
 struct Gap {
     Vec3 normal;  // away from A
     Corners corners;
@@ -45,8 +45,8 @@ double gap_acceleration(const Gap& gap, const Body& a, const Body& b, const Vec3
 double last_load(const Manifold& manifold, int point, const Body& a, const Body& b);
 
 /// Speed (m/s) with which the bodies approach within a step at a point of their manifold because they are pressed
-/// together, if nothing stops them. A contact that rests on a support approaches at this speed in each step; an impact is
-/// faster. The larger one of two estimates:
+/// together, if nothing stops them. A contact that rests on a support approaches at this speed in each step; an impact
+/// is faster. The larger one of two estimates:
 /// - tuning::load_left of the speed that the manifold's impulses of the last step took from the approach: the load of
 ///   other bodies, joints and motors is in them;
 /// - the acceleration of the gap by forces and by the motion of a kinematic body: for the first step of a load.

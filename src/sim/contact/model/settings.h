@@ -1,4 +1,4 @@
-// Constants that both contact solvers share, and those of sleeping.
+// Constants that both contact solvers share, and constants of sleeping.
 #pragma once
 
 #include <array>
@@ -22,9 +22,9 @@ inline constexpr double friction_far_weight = 0.01;
 /// SpinFriction.AHeavyEndSlidesStraight.
 inline constexpr double spin_share = 0.2;
 
-/// Share of the speed that a contact's load gives in a step with which the contact may still approach when the next step
-/// begins, because its solver is not exact. Not the whole: the loads under a rigid body on many supports are not unique, and
-/// with them as thresholds some of the supports would bounce and others not. Related tests: those of
+/// Share of the speed that a contact's load gives in a step with which the contact may still approach when the next
+/// step begins, because its solver is not exact. Not the whole: the loads under a rigid body on many supports are not
+/// unique, and with them as thresholds some of the supports would bounce and others not. Related tests: those of
 /// tests/physics/pressed_test.cpp and ManyContacts.FlatBoxOnABedOfBalls.
 inline constexpr double load_left = 0.01;
 

@@ -53,7 +53,8 @@ constexpr int sleep_samples = 4;
 constexpr double sleep_steady = 0.97;
 
 /// A velocity decays if its change loses at least this times the share that the velocity loses: a velocity that goes
-/// to 0 as exp(-t/T) has 1, one that turns around has less as it nears 0. Related test: JointRest.ADoorThatTurnsBackStaysAwake.
+/// to 0 as exp(-t/T) has 1, one that turns around has less as it nears 0. Related test:
+/// JointRest.ADoorThatTurnsBackStaysAwake.
 constexpr double sleep_decay = 0.5;
 
 /// Changes of velocity between two samples below this share of g h are rounding of the contact solver. Not fitted:
@@ -117,9 +118,9 @@ bool SleepMonitor::follow(Spans& spans, const Body& body, double h) {
     return rests;
 }
 
-// Way (m) of the surface that is left to a motion that decays; infinite for others. With the shares l of the velocity and k
-// of its change that are lost from sample to sample, exp(-t/T) has k = l and the way |v| T; even braking, after which a
-// body turns back, has k = 0.
+// Way (m) of the surface that is left to a motion that decays; infinite for others. With the shares l of the velocity
+// and k of its change that are lost from sample to sample, exp(-t/T) has k = l and the way |v| T; even braking, after
+// which a body turns back, has k = 0.
 double SleepMonitor::way_left(const Trend& before, const Trend& now, double since) {
     const auto lost = [](const Trend::Velocity& from, const Trend::Velocity& to) {
         return 1.0 - to.dot(from) / from.squaredNorm();

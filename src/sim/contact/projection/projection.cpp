@@ -10,19 +10,20 @@
 namespace tumble {
 namespace {
 
-/// The passes end when all locked coordinates are closed to this share of the smaller body. There is one in any case, else
-/// bodies at rest would drift apart and jump back. Not fitted: below the error of a step.
+/// The passes end when all locked coordinates are closed to this share of the smaller body. There is one in any case,
+/// otherwise bodies at rest would drift apart and jump back. Not fitted: below the error of a step.
 constexpr double projection_closed = 2e-5;
 
 /// Largest number of passes. Each squares the error, in sizes of the body. Not fitted: three close 0.3 sizes.
 constexpr int projection_passes = 4;
 
-/// Errors below this share of the smaller body are closed with the inertias of the pass before. Not fitted: the next error
-/// is at most this share of the last one.
+/// Errors below this share of the smaller body are closed with the inertias of the pass before. Not fitted: the next
+/// error is at most this share of the last one.
 constexpr double projection_small = 0.01;
 
-/// Joints that are open by more than this share of the smaller body are pulled in by tuning::joint_push_share of it in a
-/// step, as anchors that were placed apart. Not fitted: bodies that turn by a radian in a step open their joints by less.
+/// Joints that are open by more than this share of the smaller body are pulled in by tuning::joint_push_share of it in
+/// a step, as anchors that were placed apart. Not fitted: bodies that turn by a radian in a step open their joints by
+/// less.
 constexpr double projection_wide = 1.0;
 
 double along(const Vec3& direction, bool turns, const SpatialForce& f) {
@@ -122,8 +123,8 @@ void Projection::load_inertia(const Body& body, Link& link) {
     link.inertia.moving = {m, 0.0, 0.0, m, 0.0, m};
 }
 
-// The error of the node's joint at the present poses, in sizes, and the displacement that closes it. `refresh`: finds the
-// free directions and the inertia too.
+// The error of the node's joint at the present poses, in sizes, and the displacement that closes it. `refresh`: finds
+// the free directions and the inertia too.
 double Projection::measure(const Tree& tree, std::size_t i, const std::vector<Body>& bodies, double h,
                            std::vector<Link>& links, bool refresh) const {
     const Node& node = nodes_[tree.first + i];

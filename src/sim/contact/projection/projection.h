@@ -1,7 +1,7 @@
 // Projection of gaps: the least displacements, in the metric of the masses, that close the joints of a tree.
 //   minimize du^T M du / 2   under   J du = -g
-// From the leaves to the root each subtree is replaced by its inertia about its joint, less what the free directions of the
-// joint do not pass on; the displacements follow from the root to the leaves. Momenta stay, and so does
+// From the leaves to the root each subtree is replaced by its inertia about its joint, less what the free directions of
+// the joint do not pass on; the displacements follow from the root to the leaves. Momenta stay, and so does
 // the center of mass of a tree without an anchor.
 #pragma once
 
@@ -27,8 +27,9 @@ public:
     /// Prepares for calls from so many threads.
     void prepare(std::size_t threads) { links_.resize(std::max(links_.size(), threads)); }
 
-    /// Closes the trees of an island at the end of a step of `h` s: carriers move after it, by their velocities. Groups with
-    /// loops stay as they are. Returns the sum of all displacements x momenta, N m s, which the angular momentum has gained.
+    /// Closes the trees of an island at the end of a step of `h` s: carriers move after it, by their velocities. Groups
+    /// with loops stay as they are. Returns the sum of all displacements x momenta, N m s, which the angular momentum
+    /// has gained.
     Vec3 close(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h, std::size_t thread);
 
 private:
@@ -57,7 +58,8 @@ private:
         double pivot = 0.0;    // 1 / (s . I s)
         double effort = 0.0;   // impulse along it
     };
-    /// A node in the passes. Inertias and motions are about its joint, those of a root without one about its center of mass.
+    /// A node in the passes. Inertias and motions are about its joint, those of a root without one about its center of
+    /// mass.
     struct Link {
         Vec3 position;
         Quat orientation;

@@ -29,8 +29,8 @@ inline constexpr double soft_least_give = 0.25;
 /// below any visible size. Test: SoftKernel.AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved.
 inline constexpr double soft_slop = 2e-5;
 
-/// Least share of the compliance of a turn that is left where the anchors stay together. Not fitted: above the rounding of
-/// single precision.
+/// Least share of the compliance of a turn that is left where the anchors stay together. Not fitted: above the rounding
+/// of single precision.
 inline constexpr double soft_least_turn_gives = 1e-5;
 
 }  // namespace tumble::tuning

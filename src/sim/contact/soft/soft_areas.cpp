@@ -82,7 +82,7 @@ void SoftAreas::pack(const ContactProblem& problem, std::size_t group) {
             const Manifold& m = problem.manifolds[k];
             const Vec3 normal = member.swapped ? Vec3(-m.normal) : m.normal;
             const Vec3 last = turned(member.swapped, Vec3(m.friction[0], m.friction[1], m.torsion));
-            if (first) {  // bodies, normal and directions are those of the first
+            if (first) {  // bodies, normal and directions of the first manifold
                 first = false;
                 const std::size_t g = member.lane / width, its = member.lane % width;
                 bodies_[2 * width * group + l] = lanes_.bodies[2 * width * g + its];

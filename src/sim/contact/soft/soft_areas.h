@@ -1,6 +1,6 @@
-// Friction of contact areas that several manifolds share (contact_areas.h) in the soft kernel. Such an area has a lane of
-// its own, like that of a manifold with a single point: the center of the load of all its manifolds, whose own lanes are
-// without friction.
+// Friction of contact areas that several manifolds share (contact_areas.h) in the soft kernel. Such an area has a lane
+// of its own, like that of a manifold with a single point: the center of the load of all its manifolds, whose own lanes
+// are without friction.
 #pragma once
 
 #include "sim/contact/model/contact_areas.h"

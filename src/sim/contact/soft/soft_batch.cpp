@@ -24,10 +24,10 @@ constexpr double soft_damping = 2.0;
 /// on it.
 constexpr std::size_t soft_shared_groups = 24;
 
-/// Share of a joint's gap that is closed in a substep, and share of its impulse that a push gives up. Impulses add up from
-/// substep to substep: without the second, slow waves of a net grow by a quarter of the first in a substep; with it, a
-/// joint under the tension T is left open by about leak / rate T d^2 / m. Trees, whose gaps are closed at the end of each step,
-/// have no leak. Related test: Nets.HangsAsTheDirectSolverDoes.
+/// Share of a joint's gap that is closed in a substep, and share of its impulse that a push gives up. Impulses add up
+/// from substep to substep: without the second, slow waves of a net grow by a quarter of the first in a substep; with
+/// it, a joint under the tension T is left open by about leak / rate T d^2 / m. Trees, whose gaps are closed at the end
+/// of each step, have no leak. Related test: Nets.HangsAsTheDirectSolverDoes.
 constexpr double soft_joint_rate = 0.05;
 constexpr double soft_joint_leak = 0.01;
 

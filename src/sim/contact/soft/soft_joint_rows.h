@@ -4,8 +4,8 @@
 // give a force, f on B and -f on A, at B's anchor. The arms turn with the bodies, from substep to substep, as the
 // poses will: R(t) with the rotation vector t since the start of the step.
 //
-// A turning joint is a point joint that also gives a torque: it locks or limits turns about up to three axes, which turn
-// with A (TurnRows). A driven joint is one with dampers or friction too.
+// A turning joint is a point joint that also gives a torque: it locks or limits turns about up to three axes, which
+// turn with A (TurnRows). A driven joint is one with dampers or friction too.
 #pragma once
 
 #include "sim/contact/soft/soft_kernel.h"
@@ -50,7 +50,7 @@ struct TurnRows {
     Real circle, twist;  // coordinate y grows by (circle z + twist x)^2: of a swing along the border of a cone
     // In a round cone the axes follow the swing: x halfway between the twist axes of A and B, y the axis of the swing.
     // Coordinate y is the sine of the angle beyond the cone.
-    Real round;  // 1: of a round cone, else 0
+    Real round;  // 1: of a round cone, otherwise 0
     Real limit_sine, limit_cosine;
     Vector3<Real> twist_a, twist_b;        // unit, world, at the start of the step
     Vector3<Real> pull_x, pull_y, pull_z;  // 1/kg m, speed at the anchors by an impulse about each axis
@@ -82,7 +82,7 @@ struct JointGroups {
     const std::uint16_t* moved = nullptr;
     const JointKind* kinds = nullptr;
     float* turns = nullptr;                      // of the groups that turn
-    const std::uint32_t* turn_places = nullptr;  // by group: its place among those that turn
+    const std::uint32_t* turn_places = nullptr;  // by group: its index among groups that turn
 };
 
 using JointLane = LaneOf<JointRows<float>>;

@@ -387,8 +387,8 @@ void SoftJoints::account(const ContactProblem& problem, std::size_t group) const
         const BodyVelocity a = mean_at(problem, j.a, j.point), b = mean_at(problem, j.b, j.point);
         step.work_a = -force.dot(a.velocity) - kept.torque.dot(a.angular_velocity);
         step.work_b = force.dot(b.velocity) + kept.torque.dot(b.angular_velocity);
-        // All that a joint takes from its bodies is lost: by friction and dampers, else at limits, where it catches its
-        // bodies, and by sweeps that damp.
+        // All that a joint takes from its bodies is lost: by friction and dampers, otherwise at limits, where it
+        // catches its bodies, and by sweeps that damp.
         const Vec3 turning = b.angular_velocity - a.angular_velocity;
         const double rubbed = kept.friction.dot(turning), damped = kept.damping.dot(turning);
         step.work.heat -= rubbed;

@@ -61,8 +61,8 @@ public:
         double mass = 1.0;     // kg, of the kernel's numbers
         double substep = 0.0;  // s
     };
-    /// `joints`: of the batch, indices into JointSet::joints(). Layout and joints must outlive the other calls. `again`: they
-    /// were swept in the last step too, and have no state of flights left.
+    /// `joints`: of the batch, indices into JointSet::joints(). Layout and joints must outlive the other calls.
+    /// `again`: they were swept in the last step too, and have no state of flights left.
     void open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units, bool again);
     std::size_t size() const { return joints_.size(); }
     soft::JointGroups groups() {

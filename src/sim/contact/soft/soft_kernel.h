@@ -76,7 +76,7 @@ struct ManifoldRows {
     PointRows<Real> point[4];
 };
 
-/// Numbers of rows; a group has its manifolds' rows first, then those of their points, one point after the other.
+/// Numbers of rows; a group has its manifolds' rows first, then the rows of their points, one point after the other.
 inline constexpr std::size_t point_rows = sizeof(PointRows<float>) / sizeof(float),
                              group_rows = sizeof(ManifoldRows<float>) / sizeof(float),
                              manifold_rows = group_rows - 4 * point_rows;
@@ -133,8 +133,8 @@ inline constexpr int inertia_floats = 8;
 /// Groups of one kernel's width.
 struct Groups {
     float* rows = nullptr;                  // aligned to 64 bytes
-    const std::uint32_t* bodies = nullptr;  // per group: offsets of the states of all lanes' A, then those of B
-    const std::uint16_t* moved = nullptr;   // per group: bit mask of lanes whose A impulses move, then of those whose B
+    const std::uint32_t* bodies = nullptr;  // per group: offsets of the states of all lanes' A, then of all lanes' B
+    const std::uint16_t* moved = nullptr;   // per group: bit mask of lanes whose A impulses move, then of lanes whose B
     const std::uint8_t* points = nullptr;   // per group: largest number of points of a lane
 };
 /// Bodies that impulses do not move are read and never written. Slot 0 stands still.
@@ -175,12 +175,13 @@ struct Kernel {
     /// from the velocities and sums the impulses.
     void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
-    /// The friction of shared areas alone (soft_areas.h), whose point has the loads of all manifolds. `counts`: adds it to
-    /// the sums.
+    /// The friction of shared areas alone (soft_areas.h), whose point has the loads of all manifolds. `counts`: adds it
+    /// to the sums.
     void (*rub)(const Groups&, std::size_t first, std::size_t last, const Bodies&, bool counts);
     /// Adds the step's impulses into `force` and `moment`.
     void (*sum)(const Groups&, std::size_t first, std::size_t last);
-    /// The same for joints; they are pushed and relaxed after the contacts of a sweep, and warm started in each substep.
+    /// The same for joints; they are pushed and relaxed after the contacts of a sweep, and warm started in each
+    /// substep.
     void (*prepare_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&);
     void (*warm_start_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&);
     void (*push_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);

@@ -121,8 +121,8 @@ void prepare(const Groups& groups, std::size_t first, std::size_t last, const Bo
         m.inverse_inertia_a = of_a;
         m.inverse_inertia_b = of_b;
 
-        // Friction acts at the centroid of the area where all points touch or nearly do; else at the centroid of the
-        // touching points.
+        // Friction acts at the centroid of the area where all points touch or nearly do; otherwise at the centroid of
+        // the touching points.
         const Lanes near = friction_near * m.size;
         Lanes far{};  // number of points not near
         for (int i = 0; i < g.points; ++i) far += m.point[i].separation < near ? Lanes{} : m.point[i].present;
@@ -279,8 +279,8 @@ inline void solve_friction(Rows& m, const Speeds<points>& speeds, Changes<points
         const Lanes t = (square - sliding_square) * (1.0f / (spinning_square - sliding_square));
         const Lanes arm = spins ? reach * root(square) : Lanes{}, per_arm = spins ? 1.0f / arm : Lanes{};
         limit = spins ? limit * root(1.0f - t * (1.0f - bent + bent * t) * (1.0f - spinning_limit)) : limit;
-        // Else one mass for all directions: friction then ends up opposite to the slip; separate masses would turn it
-        // aside.
+        // Otherwise one mass for all directions: friction then ends up opposite to the slip; separate masses would turn
+        // it aside.
         const Lanes mass = spins ? smaller(m.sliding_mass, m.torsional_mass * per_arm * per_arm) : m.sliding_mass;
         const Lanes s1 = m.friction.x - mass * v1, s2 = m.friction.y - mass * v2,
                     s3 = per_arm * m.friction.z - mass * arm * v3;

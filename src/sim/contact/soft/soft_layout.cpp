@@ -82,8 +82,8 @@ void JointLayout::color(std::span<const Place> places, std::size_t slots, std::s
 namespace {
 
 constexpr std::size_t colors = 64;  // bits of a mask; a manifold without a free color is solved after all others
-// Manifolds of a color are grouped by cost: those with impulses before those without, which may stay idle, and by their
-// number of points: no lane waits for another's fourth.
+// Manifolds of a color are grouped by cost: first manifolds with impulses, then manifolds without, which may stay idle,
+// and by their number of points: no lane waits for another's fourth.
 constexpr std::size_t costs = 2 * Manifold::capacity;
 std::size_t cost_class(const Manifold& m) {
     return std::size_t(Manifold::capacity - m.count) + (normal_impulse(m) > 0.0 ? 0 : Manifold::capacity);
@@ -237,8 +237,8 @@ void SoftLayout::close(const IslandBatch& batch, const std::vector<std::uint32_t
     first_color_.push_back(first_group_.size() - 1);
 }
 
-// The manifolds without a free color follow as if solved one by one in their order: each has the first color after those
-// of all earlier ones that share a body with it. Between others the order makes no difference.
+// The manifolds without a free color follow as if solved one by one in their order: each has the first color after
+// those of all earlier ones that share a body with it. Between others the order makes no difference.
 void SoftLayout::add_rest(const IslandBatch& batch, const std::vector<std::uint32_t>& slot, std::size_t lanes) {
     std::vector<std::vector<std::uint32_t>> rest;    // by color: manifolds
     std::vector<std::uint32_t> next(taken_.size());  // by slot: the first color after those of its manifolds
@@ -278,7 +278,7 @@ void BodyBlocks::add(std::span<const std::uint32_t> island, const std::vector<Bo
     open_ = false;
 }
 
-// The items are ascending by body, and so are those of each half.
+// The items are ascending by body, in each half too.
 void BodyBlocks::cut(std::span<PlacedBody> items) {
     if (items.size() <= most_) {
         for (const PlacedBody& item : items) order_.push_back(item.body);

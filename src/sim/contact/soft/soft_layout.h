@@ -40,7 +40,7 @@ public:
     std::size_t first_group(std::size_t color) const { return first_group_[color]; }
     soft::JointKind kind(std::size_t group) const { return kinds_[group]; }
     const soft::JointKind* kinds() const { return kinds_.data(); }
-    /// By group: its place among those that turn; of others meaningless.
+    /// By group: its index among groups that turn; meaningless for other groups.
     const std::uint32_t* turn_places() const { return turn_places_.data(); }
     std::size_t turning_groups() const { return turning_; }
     /// By lane of all groups: index among the places; none in unused lanes.

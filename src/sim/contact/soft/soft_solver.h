@@ -6,8 +6,8 @@
 // relaxation: Catto 2011, "Soft Constraints", and 2024, "Solver2D"). An overlap s < 0 asks for the velocity
 //   b = w / (2 z + w d) s,   mass factor  m = c / (1 + c),   impulse factor  k = 1 / (1 + c),   c = d w (2 z + w d)
 // of a damped spring of angular frequency w and damping ratio z over a substep d; except between unlike masses,
-// of b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Points that do not touch yet (s > 0) may approach by
-// s/d and no more.
+// of b (1 + min(1, |s| / s2)), with s2 the overlap that is twice as stiff. Points that do not touch yet (s > 0) may
+// approach by s/d and no more.
 //
 // Friction: a force f at one point of the manifold, the centroid of its contact area, |f| <= mu sum N_i, and a
 // torsional moment T about its normal, |T| <= mu N d, with d the area's mean distance from there. Where T does not stop
@@ -38,8 +38,8 @@ public:
     explicit SoftSolver(std::size_t bodies, const soft::Kernel& kernel = soft::best_kernel());
     ~SoftSolver();
 
-    /// `batches`: batches of manifolds (ascending) and dynamic bodies of one island or several; batches share no dynamic
-    /// body.
+    /// `batches`: batches of manifolds (ascending) and dynamic bodies of one island or several; batches share no
+    /// dynamic body.
     /// `same`: as in the last call, down to the manifolds' pairs. The result depends neither on the batching nor on the
     /// number of threads.
     using Batch = IslandBatch;

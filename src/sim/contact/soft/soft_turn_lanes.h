@@ -23,7 +23,8 @@ inline Vector turned_by(const Spin& q, const Vector& r) {
     return r + all(2.0f) * (q.w * across + cross(q.v, across));
 }
 
-// Rotation vector of B relative to A, in the frame of A's start: of conj(a) b, as a series in the sine of half its angle.
+// Rotation vector of B relative to A, in the frame of A's start: of conj(a) b, as a series in the sine of half its
+// angle.
 inline Vector turn_between(const Spin& a, const Spin& b) {
     const Vector v = a.w * b.v - b.w * a.v - cross(a.v, b.v);
     const Lanes s = dot(v, v);
@@ -75,8 +76,8 @@ inline Tensor inverse_of(const Tensor& k) {
             scale * (k.xx * k.yy - k.xy * k.xy)};
 }
 
-// After find_turns(), with the mass at the anchors. With the compliances C about the axes, A at the anchors and B between
-// them, an impulse f = -A^-1 (v + B j) that keeps the anchors together leaves C - B^T A^-1 B.
+// After find_turns(), with the mass at the anchors. With the compliances C about the axes, A at the anchors and B
+// between them, an impulse f = -A^-1 (v + B j) that keeps the anchors together leaves C - B^T A^-1 B.
 inline void prepare_turns(const Hold& m, Turn& t) {
     const auto pull = [&](const Vector& n, Vector& spin) {
         const Vector of_a = m.inertia_a * n, of_b = m.inertia_b * n;
@@ -96,7 +97,7 @@ inline void prepare_turns(const Hold& m, Turn& t) {
     const auto damps = [&](Lanes soft, Lanes rigid) { return soft > 0.0f ? 1.0f / (rigid + soft) : Lanes{}; };
     t.damps = {damps(t.softness.x, t.gives.xx), damps(t.softness.y, t.gives.yy), damps(t.softness.z, t.gives.zz)};
     t.single = {m.present / t.gives.xx, m.present / t.gives.yy, m.present / t.gives.zz};
-    // Locked axes are solved at once, and so are those with friction; others have the compliance 1, coupled with none.
+    // Locked axes and axes with friction are solved at once; other axes have the compliance 1, coupled with none.
     const Vector l = t.locked, r = t.rubs;
     const auto alone = [&](Lanes locked, Lanes rubs, Lanes gives) {
         return (locked + rubs) * gives + (1.0f - locked - rubs);
@@ -133,7 +134,8 @@ inline Vector solve_drives(const Hold& m, Turn& t, Vector& speed) {
     damped.z = damp(&Vector::z);
     speed = {speed.x + t.gives.xz * damped.z, speed.y + t.gives.yz * damped.z, speed.z + t.gives.zz * damped.z};
     t.damping_sum = t.damping_sum + from_axes(t, damped);
-    // Stops the turn, if within the limit; else one mass for all axes, so that friction ends up opposite to the turn.
+    // Stops the turn, if within the limit; otherwise one mass for all axes, so that friction ends up opposite to the
+    // turn.
     Vector held = t.friction - each(t.rubs, t.mass * each(t.rubs, speed));
     const Lanes limit = t.rough + t.bearing * root(dot(m.impulse, m.impulse)), size = root(dot(held, held));
     const auto slides = size > limit;

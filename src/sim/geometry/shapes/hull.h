@@ -29,7 +29,7 @@ struct Polyhedron {
     double radius = 0.0;  // m, largest distance of a vertex from the center of mass
     // m, least distance of a face's plane from the center of mass; 0 if that lies outside
     double inner_radius = 0.0;
-    BoundsTree edge_tree;  // over the edges, to find those that reach into a region
+    BoundsTree edge_tree;  // over the edges, to find edges that reach into a region
     std::vector<std::uint32_t> first_neighbor,
         neighbors;                    // of vertex i: [first_neighbor[i], first_neighbor[i + 1])
     bool is_box = false;              // box: faces 2k and 2k+1 have normals +k and -k, which shortens axis searches

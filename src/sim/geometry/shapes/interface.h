@@ -71,8 +71,8 @@ struct RoundedHull {
 };
 inline const Vec3 origin_point = Vec3::Zero();
 
-/// Features by which a collision shape touches others: a plane; a curved surface; corners, edges and faces; triangles on
-/// either side; or those of several parts.
+/// Features by which a collision shape touches others: a plane; a curved surface; corners, edges and faces; triangles
+/// on either side; or those of several parts.
 enum class ContactSurface : std::uint8_t { plane, curved, polyhedral, triangles, parts };
 
 struct HalfSpace;
