@@ -13,7 +13,7 @@ using namespace tumble::bench;
 struct Settings {
     int gyroscopic = BT_ENABLE_GYROSCOPIC_FORCE_IMPLICIT_BODY;
     bool swept = false;   // a sphere swept with fast bodies
-    bool elastic = true;  // settings for bounces; else for rest
+    bool elastic = true;  // settings for bounces; otherwise for rest
     int iterations = 50;  // default 10
     bool sleep = false;
     bool direct = false;  // Dantzig's solver for all constraints at once, in place of sequential impulses

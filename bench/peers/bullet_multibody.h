@@ -9,7 +9,7 @@ namespace tumble::bench {
 
 struct MultibodySettings {
     int iterations = 10;
-    bool rk4 = false;  // else semi-implicit Euler
+    bool rk4 = false;  // otherwise semi-implicit Euler
 };
 
 /// Null where multibodies cannot represent the scene: with distances, loops of sliders, cones and breaking joints.

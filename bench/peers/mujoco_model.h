@@ -9,7 +9,7 @@ namespace tumble::bench {
 
 struct MujocoSettings {
     std::string integrator = "Euler", solver = "Newton";
-    bool stiff = true;     // the shortest stable time constant, two steps; else the default of 20 ms
+    bool stiff = true;     // the shortest stable time constant, two steps; otherwise the default of 20 ms
     int iterations = 100;  // at most, of the solver
 };
 

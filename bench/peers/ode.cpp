@@ -14,7 +14,7 @@ namespace {
 using namespace tumble::bench;
 
 struct Settings {
-    bool elastic = true;  // settings for bounces; else for rest
+    bool elastic = true;  // settings for bounces; otherwise for rest
     bool full = false;    // dWorldStep instead of the quick step
     bool sleep = false;
 };

@@ -19,7 +19,7 @@ struct AovFrame {
     int width = 0, height = 0;               // pixels
     std::vector<float> depth;                // 1 per pixel: m along the view axis, infinity where nothing is
     std::vector<float> normal;               // 3 per pixel: unit, world frame; 0 where nothing is
-    std::vector<std::int32_t> segmentation;  // 1 per pixel: 0 where nothing is, else 1 + the index of the body
+    std::vector<std::int32_t> segmentation;  // 1 per pixel: 0 where nothing is, otherwise 1 + the index of the body
     std::vector<float> motion;               // 2 per pixel: columns and rows to the point's place in the next frame
     std::vector<std::uint8_t> albedo;        // 3 per pixel: sRGB
 };

@@ -16,7 +16,7 @@ enum class ContactFeatures { vertex_face, face_vertex, edge_edge, face_face, sph
 /// One impulse at a contact point, in one pass of the impact law.
 struct Impact {
     double time = 0.0;        // s
-    bool exact_time = false;  // the impact's own time, else the end of the step that resolves it
+    bool exact_time = false;  // the impact's own time, otherwise the end of the step that resolves it
     std::int64_t frame = 0;   // the last frame at or before the time
     std::size_t a = 0, b = 0;
     Vec3 point;   // m

@@ -18,7 +18,7 @@ struct ClipTiming {
 };
 
 /// Simulates the frames of a clip in order. Frame n shows the scene at the time n * speed / fps, and with a shutter
-/// also at later moments. The step is that of the scene where it divides the time between two moments; else it is the
+/// also at later moments. The step is that of the scene where it divides the time between two moments; otherwise it is the
 /// next shorter one that does. Not for several threads at once.
 class FrameSequence {
 public:

@@ -12,7 +12,7 @@ struct JointState {
     Vec3 point;  // m, of the second body's anchor
     // Six coordinates: displacements along x, y and z of the first body's joint frame, then angles about them. A distance
     // joint has the first alone, the distance of its anchors.
-    std::array<bool, 6> free{};                 // or limited, else locked
+    std::array<bool, 6> free{};                 // or limited, otherwise locked
     std::array<double, 6> position{}, speed{};  // m and rad, m/s and rad/s; of locked coordinates: 0
     Vec3 force, torque;                         // N, N m about the anchor: means over the frame
     Vec3 moment;                                // N m about the world origin, of both: mean over the frame

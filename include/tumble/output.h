@@ -121,7 +121,7 @@ private:
 /// The table of `tumble simulate --impacts`: one row per impulse.
 class ImpactTable {
 public:
-    /// `file` with the ending .npz: one array per column (see docs/reference/tables.md); else CSV.
+    /// `file` with the ending .npz: one array per column (see docs/reference/tables.md); otherwise CSV.
     ImpactTable(const std::string& file, const Scene& scene);
     ~ImpactTable();
     ImpactTable(ImpactTable&&) noexcept;

@@ -14,12 +14,12 @@ TUMBLE_BEGIN
 enum class Backend {
     osmesa,
     egl,       // on a graphics card if there is one
-    software,  // OSMesa where it is installed, else EGL's software device: the same pixels
+    software,  // OSMesa where it is installed, otherwise EGL's software device: the same pixels
 };
 
 struct RenderOptions {
     Backend backend = Backend::software;
-    std::string shader_folder;  // empty: $TUMBLE_SHADERS, else the installed one
+    std::string shader_folder;  // empty: $TUMBLE_SHADERS, otherwise the installed one
     bool transparent = false;   // bodies alone, on a transparent background: straight alpha
 };
 

@@ -218,7 +218,7 @@ struct Force {
     std::string body;         // its name, or its index as text
     Vec3 point;               // m, body frame, from the body's origin
     Vec3 force;               // N
-    bool body_frame = false;  // the force turns with the body; else it is in the world frame
+    bool body_frame = false;  // the force turns with the body; otherwise it is in the world frame
     double start = 0.0;       // s
     double end = std::numeric_limits<double>::infinity();  // s
 };

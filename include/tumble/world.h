@@ -40,7 +40,7 @@ public:
 
     /// The state of all bodies: at time 0 that of the scene.
     Snapshot snapshot() const;
-    /// States of all joints, in the order of the scene; forces of the last advance_frame(), else 0.
+    /// States of all joints, in the order of the scene; forces of the last advance_frame(), otherwise 0.
     std::vector<JointState> joints() const;
     /// Finds the contacts of the present poses, which costs about as much as a step.
     Energies energies() const;

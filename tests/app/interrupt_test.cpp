@@ -12,7 +12,7 @@ namespace {
 void expect_default_disposition() {
     struct sigaction action {};
     sigaction(SIGTERM, nullptr, &action);
-    ASSERT_EQ(action.sa_handler, SIG_DFL) << "else this test could not fail";
+    ASSERT_EQ(action.sa_handler, SIG_DFL) << "otherwise this test could not fail";
 }
 
 TEST(Interrupt, ASignalIsTakenOnce) {

@@ -20,8 +20,9 @@ BAD = [("What rests, rests.", "free relative"), ("It tells what was read.", "fre
        ("The ball keeps his spin.", "a body is 'it'"), ("A process waits for ever.", "for ever"), ("Measured by turns.", "by turns"),
        ("With the engine of now it is faster.", "of now"), ("It lies .7 mm lower.", "number without 0"),
        ("The centre of the ball.", "British spelling"), ("Gives all bodies a colour.", "British spelling"),
-       ("Textures are rasterised.", "British spelling"), ("A body behind its neighbours.", "British spelling")]
-GOOD = ["Resting bodies stay at rest.", "Users who need more open an issue.", "What does a force do?", "It takes 0.7 mm and 3.5 s.",
+       ("Textures are rasterised.", "British spelling"), ("A body behind its neighbours.", "British spelling"),
+       ("Given by the scene, else 0.", "else for otherwise")]
+GOOD = ["Resting bodies stay at rest.", "Users who need more open an issue.", "What does a force do?", "It takes 0.7 mm and 3.5 s.", "It does nothing else.",
         "See `centre` and `what rests`.", "The center of a gray body, in meters.", "A promise, a rise, an exercise, otherwise precise."]
 PLACES = {
     "src/a.cpp": "// {}\nint main() {{}}\n",

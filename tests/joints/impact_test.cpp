@@ -16,7 +16,7 @@ using namespace testing;
 /// An impact of bodies that joints hold; all joints are in one island.
 struct JoinedScene : ImpactScene {
     std::vector<Joint> joints;
-    std::vector<JointBlow> blows;
+    std::vector<JointImpulse> blows;
 
     Joint& join(JointType type, std::uint32_t a, std::uint32_t b, const Vec3& point, const Vec3& axis = Vec3::UnitZ()) {
         Joint& joint = joints.emplace_back();
@@ -50,7 +50,7 @@ struct JoinedScene : ImpactScene {
         const ImpactSettings settings{.law = law, .friction = friction > 0.0, .complete = complete};
         const int passes = resolve_impacts(island, contacts, bodies, settings, nullptr, &blows);
         for (const Contact& c : contacts) add_impact(c, bodies[c.a], bodies[c.b]);
-        for (const JointBlow& blow : blows) take_blow(blow, bodies);
+        for (const JointImpulse& blow : blows) apply_joint_impulse(blow, bodies);
         for (Body& b : bodies)
             if (b.dynamic()) b.derive();
         return passes;
@@ -217,7 +217,7 @@ TEST(JointImpact, GainsNoEnergyWithFrictionAndRestitution) {
             EXPECT_LT(s.parting(), 1e-12) << seed;
             EXPECT_LT(s.approach(), 1e-9) << seed;
             double work = 0.0;
-            for (const JointBlow& blow : s.blows) work += std::abs(blow.work_a + blow.work_b);
+            for (const JointImpulse& blow : s.blows) work += std::abs(blow.work_a + blow.work_b);
             EXPECT_LT(work, 1e-12) << seed;
         }
 }

@@ -108,7 +108,7 @@ TEST(Nets, SwingsAsWithTheDirectSolver) {
     }
     EXPECT_LT(direct_gap, 2e-6);
     EXPECT_LT(gap, 3e-4);
-    EXPECT_GT(gap, 1e-9);  // else it was solved directly
+    EXPECT_GT(gap, 1e-9);  // otherwise it was solved directly
     EXPECT_LT(off, 1e-2);  // of 2.9 m
 }
 

@@ -42,7 +42,7 @@ TEST(SweptTurns, ARodSwingsOnAHinge) {
     }
     EXPECT_NEAR(low, quarter, 3e-3);
     EXPECT_LT(gap, 1e-4);
-    EXPECT_GT(world.joint_report().swept(), 0u);  // else it was solved directly
+    EXPECT_GT(world.joint_report().swept(), 0u);  // otherwise it was solved directly
     EXPECT_LT(std::abs(world.snapshot().bodies[0].center_of_mass.z()), 1e-4);
 }
 

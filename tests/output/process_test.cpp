@@ -73,7 +73,7 @@ TEST(Process, LongOutputIsCutToItsEnd) {
 TEST(Process, ADeadReaderRaisesNoSignal) {
     struct sigaction action {};
     sigaction(SIGPIPE, nullptr, &action);
-    ASSERT_EQ(action.sa_handler, SIG_DFL) << "else this test could not fail";
+    ASSERT_EQ(action.sa_handler, SIG_DFL) << "otherwise this test could not fail";
     Process process(shell, {"-c", "exec <&-; echo gone >&2; exit 3"});
     const std::string text(4'000'000, 'x');
     EXPECT_FALSE(process.write(bytes_of(text)));

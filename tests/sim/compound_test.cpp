@@ -175,7 +175,7 @@ TEST(CompoundContact, IsTheUnionOverItsParts) {
                     }));
                 }
                 std::sort(parts.begin(), parts.end());
-                // A body may rest on one triangle with several normals; else the part indices are distinct.
+                // A body may rest on one triangle with several normals; otherwise the part indices are distinct.
                 if (!std::holds_alternative<std::shared_ptr<const CollisionMesh>>(b)) {
                     EXPECT_EQ(std::adjacent_find(parts.begin(), parts.end()), parts.end());
                 }

@@ -23,7 +23,7 @@ ImpactScene falling_ball(double e, double mu, const Vec3& velocity, const Vec3& 
 }  // namespace
 
 // A solid ball: an impulse J across gives the contact point 7/2 J/m. It slides through the impact when mu (1+e) v_n is
-// below 2/7 of the slip, else it leaves rolling: Delta v_t = min of the two, against the slip.
+// below 2/7 of the slip, otherwise it leaves rolling: Delta v_t = min of the two, against the slip.
 TEST(BallWithSpin, SlidesOrSticks) {
     Random random(151);
     int slid = 0, stuck = 0;

@@ -388,7 +388,7 @@ TEST(SoftKernel, TorsionalFrictionIsMuTimesTheLevers) {
     }
 }
 
-// Friction acts at the point given by the shares, if all points touch; else in the middle of those that do.
+// Friction acts at the point given by the shares, if all points touch; otherwise in the middle of those that do.
 TEST(SoftKernel, FrictionActsAtTheCentroidOfTheArea) {
     for (const Kernel* kernel : kernels())
         for (const double gap : {0.0, 0.1}) {

@@ -102,7 +102,7 @@ BodyPairs::BodyPairs(const PanelRecord& before, const PanelRecord& after) {
         if (!found[i]) added.push_back(i);
 }
 
-std::vector<Cause> look_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs) {
+std::vector<Cause> appearance_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs) {
     std::vector<Cause> causes = value_changes(before, after, pairs, &BodyKind::look);
     add_group(before, pairs.removed, pairs.removed.size() > 1 ? "are missing" : "is missing", causes);
     add_group(after, pairs.added, pairs.added.size() > 1 ? "are new" : "is new", causes);

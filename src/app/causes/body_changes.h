@@ -24,7 +24,7 @@ struct BodyPairs {
 };
 
 /// Bodies that are added or removed, and differences of shape, color, ...
-std::vector<Cause> look_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
+std::vector<Cause> appearance_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);
 
 /// Differences of mass, restitution, friction, velocities of the start, ...: they have an effect only by the motion.
 std::vector<Cause> matter_changes(const PanelView& before, const PanelView& after, const BodyPairs& pairs);

@@ -96,7 +96,7 @@ std::vector<Cause> panel_causes(const PanelRecord& a, const PanelRecord& b, cons
     std::vector<Cause> causes;
     add_camera(before, after, causes);
     add_seen_values(value_differences(a.values, b.values), causes);
-    std::ranges::move(look_changes(before, after, pairs), std::back_inserter(causes));
+    std::ranges::move(appearance_changes(before, after, pairs), std::back_inserter(causes));
     add_motion(before, after, pairs, place, causes);
     return causes;
 }

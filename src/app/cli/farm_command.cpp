@@ -174,7 +174,7 @@ int run_openjd(const FarmCommand& command) {
 
 int run_status(const FarmCommand& command) {
     const FarmJob job = read_farm_file(whole_path(command.status_of));
-    const FarmStatus status = look_at_farm(job);
+    const FarmStatus status = find_farm_status(job);
     const std::vector<int> incomplete = status.incomplete();
     if (!command.missing)
         put("{}", status_text(job, status));

@@ -457,7 +457,7 @@ void add_add(Command& golden) {
     command
         .add_option_function<std::string>(
             "--frames", [&added](const std::string& text) { added.frames = read_frames(text); },
-            "Numbers of the frames, from 0; without this: those of [defaults], else the first one")
+            "Numbers of the frames, from 0; without this: the frames of [defaults], otherwise the first one")
         ->type_name("N,N");
     add_size(command, added.overrides.width, added.overrides.height, "Picture size, in place of the scene's");
     add_frames_of_time(command, added.overrides);

@@ -64,7 +64,7 @@ std::vector<int> FarmStatus::incomplete() const {
     return numbers;
 }
 
-FarmStatus look_at_farm(const FarmJob& job) {
+FarmStatus find_farm_status(const FarmJob& job) {
     const fs::path folder = frames_folder(job.folder);
     const std::optional<FrameIdentity> manifest = read_manifest(manifest_path(folder, FrameFiles::pictures));
     const std::optional<std::string> mark = manifest ? std::optional(manifest->mark()) : std::nullopt;

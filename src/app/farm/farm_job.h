@@ -60,7 +60,7 @@ struct FarmStatus {
 };
 
 /// Reads each frame's file, and does not unpack it: the job that makes the clip does.
-FarmStatus look_at_farm(const FarmJob& job);
+FarmStatus find_farm_status(const FarmJob& job);
 
 /// The state as text of several lines, with the commands that draw the missing parts.
 std::string status_text(const FarmJob& job, const FarmStatus& status);

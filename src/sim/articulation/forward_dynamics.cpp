@@ -377,8 +377,8 @@ void ForwardDynamics::coordinate_rates(const double* coordinates, const double* 
     }
 }
 
-void ForwardDynamics::look(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
-                           const double* coordinates) {
+void ForwardDynamics::set_state(const std::vector<Body>& bodies, std::span<const std::uint32_t> island,
+                                const double* coordinates) {
     start();
     const std::vector<TreeNode>& nodes = tree_.nodes();
     for (std::size_t i = 0; i < nodes.size(); ++i) {

@@ -103,8 +103,8 @@ public:
     void coordinate_rates(const double* coordinates, const double* speeds, double* rates) const;
 
     /// The places of all nodes by the present poses of the bodies, for find_speeds().
-    void look(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const double* coordinates);
-    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after look() or move(); and its
+    void set_state(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const double* coordinates);
+    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after set_state() or move(); and its
     /// velocities at those speeds. They are the given ones if these fit the joints.
     void find_speeds(std::span<const SpatialMotion> bodies, double* speeds);
 

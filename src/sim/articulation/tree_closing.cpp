@@ -14,7 +14,7 @@ namespace tumble {
 namespace {
 
 /// Largest energy of the impulses at one end of a stage, as a share of the kinetic one: in singular positions they
-/// would be blows, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
+/// would be impulses, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
 constexpr double closure_energy = 0.01;
 
 /// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the
@@ -60,7 +60,7 @@ double TreeFlight::most_energy(double h) const {
 void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
                                double time) {
     move_still(at);
-    closures_.look(dynamics_, at.data());
+    closures_.linearize(dynamics_, at.data());
     closures_.give(closures_.shared(impulses), false);
     closures_.push(dynamics_);
     std::vector<double> change(std::size_t(tree_.speeds()));
@@ -115,7 +115,7 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
         if (counts) account_->restart_stage();
         if (!stage(end, h, time, counts)) return false;
         dynamics_.place(end.data(), end.data() + coordinates_);
-        closures_.look_at_forms(dynamics_, end.data());
+        closures_.linearize_forms(dynamics_, end.data());
         const double error = closures_.error();
         if (error <= closed || (error < tuning::joint_rounding && error >= 0.5 * last)) break;
         if (!std::isfinite(error) || pass == tuning::closure_passes || (pass > 4 && error >= 0.9 * last)) {
@@ -159,7 +159,7 @@ bool TreeFlight::close(double time) {
     double last = infinity;
     for (int pass = 0; pass < tuning::closure_passes; ++pass) {
         move_still(y_);
-        closures_.look(dynamics_, y_.data());
+        closures_.linearize(dynamics_, y_.data());
         const double error = closures_.error();
         if (!(error < tuning::joint_flight_open)) return false;
         if (error <= closures_.place_rounding() || error >= 0.5 * last) break;

@@ -141,7 +141,7 @@ JointSide TreeClosures::pose_of(const Side& side, const ForwardDynamics& dynamic
     return {link.position(), link.orientation};
 }
 
-void TreeClosures::look_at(Part& part, const ForwardDynamics& dynamics) {
+void TreeClosures::linearize_part(Part& part, const ForwardDynamics& dynamics) {
     for (Side* side : {&part.a, &part.b}) {
         if (side->node == TreeNode::ground) {
             side->point = side->pose.position + side->pose.orientation * side->anchor;
@@ -162,8 +162,8 @@ void TreeClosures::look_at(Part& part, const ForwardDynamics& dynamics) {
     part.heat = part.damping * rate * rate;
 }
 
-void TreeClosures::look(const ForwardDynamics& dynamics, const double* q) {
-    for (Part& part : parts_) look_at(part, dynamics);
+void TreeClosures::linearize(const ForwardDynamics& dynamics, const double* q) {
+    for (Part& part : parts_) linearize_part(part, dynamics);
     for (std::size_t r = 0; r < rows_.size();) {
         Row& first = rows_[r];
         const Part& part = parts_[std::size_t(first.part)];
@@ -218,7 +218,7 @@ void TreeClosures::look(const ForwardDynamics& dynamics, const double* q) {
 void TreeClosures::drive(ForwardDynamics& dynamics) {
     if (std::none_of(parts_.begin(), parts_.end(), [](const Part& part) { return part.spring; })) return;
     for (Part& part : parts_) {
-        look_at(part, dynamics);
+        linearize_part(part, dynamics);
         for (const Side* side : {&part.a, &part.b}) {
             if (!part.spring || side->node == TreeNode::ground) continue;
             const Vec3 force = side == &part.b ? part.force : Vec3(-part.force);
@@ -283,7 +283,7 @@ void TreeClosures::add_side(const Side& side, const Row& row, const ForwardDynam
     }
 }
 
-// G at the places of look().
+// G at the coordinates of linearize().
 void TreeClosures::fill(const ForwardDynamics& dynamics) {
     forms_.assign(rows_.size() * speeds_, 0.0);
     for (std::size_t r = 0; r < rows_.size(); ++r) {
@@ -305,7 +305,7 @@ void TreeClosures::fill(const ForwardDynamics& dynamics) {
 
 void TreeClosures::load(ForwardDynamics& dynamics, const double* q) {
     const std::size_t m = rows_.size();
-    look(dynamics, q);
+    linearize(dynamics, q);
     fill(dynamics);
     columns_.resize(forms_.size());
     dynamics.set_aside();
@@ -331,7 +331,7 @@ void TreeClosures::accelerate(ForwardDynamics& dynamics, const Vec3& base, const
         dynamics.accelerate(base, rates);
     if (rows_.empty()) return;
     if (same_places)
-        look(dynamics, q);
+        linearize(dynamics, q);
     else
         load(dynamics, q);
     std::vector<double> side(rows_.size());

@@ -26,10 +26,10 @@ public:
     static constexpr int sums = 15;
 
     /// Rows, and forces of springs, at the places and speeds of the dynamics and coordinates q.
-    void look(const ForwardDynamics& dynamics, const double* q);
+    void linearize(const ForwardDynamics& dynamics, const double* q);
     /// The same with the forms G.
-    void look_at_forms(const ForwardDynamics& dynamics, const double* q) {
-        look(dynamics, q);
+    void linearize_forms(const ForwardDynamics& dynamics, const double* q) {
+        linearize(dynamics, q);
         fill(dynamics);
     }
     /// Adds the forces of the springs.
@@ -42,14 +42,14 @@ public:
     /// Compliance of the rows, as a share of the largest, where that is more than rounding demands.
     void set_compliance(double share) { compliance_ = share; }
 
-    /// Largest error of the rows of look(), in sizes of their joints; of a cut joint, rad or sizes.
+    /// Largest error of the rows of linearize(), in sizes of their joints; of a cut joint, rad or sizes.
     double error() const;
     /// The error that is rounding, in the same unit.
     double place_rounding() const;
     /// G u, and errors, as sides of the equations; in the length's unit.
     std::vector<double> speeds_of(const double* u) const;
     std::vector<double> errors() const;
-    /// Impulses l with G M^-1 G^T l = side, by the matrices of load(); or with G of the other's look_at_forms().
+    /// Impulses l with G M^-1 G^T l = side, by the matrices of load(); or with G of the other's linearize_forms().
     std::vector<double> solve(const std::vector<double>& side) const { return solve_by(matrix_, side); }
     std::vector<double> solve(const std::vector<double>& side, const TreeClosures& forms) const;
     /// The same impulses with equal loads on redundant rows.
@@ -113,7 +113,7 @@ private:
     bool add_joint(int index, const TreeStep& step, double stage);
     void add_gear(int index, const TreeStep& step);
     void find_paths(Part& part) const;
-    void look_at(Part& part, const ForwardDynamics& dynamics);
+    void linearize_part(Part& part, const ForwardDynamics& dynamics);
     double acceleration_of(const Row& row, const ForwardDynamics& dynamics, const double* rates) const;
     void add_side(const Side& side, const Row& row, const ForwardDynamics& dynamics, double sign, double* form) const;
     void fill(const ForwardDynamics& dynamics);

@@ -92,7 +92,7 @@ bool TreeFlight::start(double stage) {
     law_time_ = 0.5 * (step.from + next_change(step.from));
     if (jolted()) return false;
     carry(0.0);
-    dynamics_.look(step.bodies, step.island, y_.data());
+    dynamics_.set_state(step.bodies, step.island, y_.data());
     velocities_.resize(step.island.size());
     for (std::size_t i = 0; i < step.island.size(); ++i) {
         const Body& body = step.bodies[step.island[i]];
@@ -145,7 +145,7 @@ bool TreeFlight::fits() {
         off = std::max({off, (link.center_velocity() + frame_.velocity - body.velocity).norm(),
                         step_->length * (link.velocity.turn - body.angular_velocity).norm()});
     }
-    closures_.look_at_forms(dynamics_, y_.data());
+    closures_.linearize_forms(dynamics_, y_.data());
     for (const double rate : closures_.speeds_of(y_.data() + coordinates_)) off = std::max(off, std::abs(rate));
     return off <= tuning::tree_misfit * fastest;
 }
@@ -460,7 +460,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
         const double next = next_change(now);
-        if (track() && !track()->smooth() && next < end) return Outcome::declined;  // a blow of the carrier
+        if (track() && !track()->smooth() && next < end) return Outcome::declined;  // a impulse of the carrier
         law_time_ = 0.5 * (now + next);
         const double until = next < end ? next - step.from : step.h;
         if (!(method.verlet() ? integrate_verlet(until, substeps) : integrate(until, method.kind)))

@@ -91,7 +91,7 @@ ContactSolver::ContactSolver(std::size_t bodies, Choice choice, Effort effort)
       loads_(bodies),
       soft_(bodies) {}
 
-void ContactSolver::look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
+void ContactSolver::measure_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool) {
     const double most = direct_turn / problem.settings.h;
     pool.for_bodies(islands.bodies(), tuning::parallel_bodies, [&](std::uint32_t i) {
         const Body& body = problem.bodies[i];
@@ -119,8 +119,8 @@ LoadEstimate ContactSolver::load(const ContactProblem& problem, const ContactIsl
                                  int holds, double enough) {
     const auto bodies = islands.bodies(island);
     Memory& memory = memory_[bodies[0]];
-    if (memory.looked-- > 0) return memory.load;
-    memory.looked = holds;
+    if (memory.estimate_steps-- > 0) return memory.load;
+    memory.estimate_steps = holds;
     memory.load = {};
     double mass = 0.0, least = std::numeric_limits<double>::infinity();
     for (const std::uint32_t i : bodies) {
@@ -293,7 +293,7 @@ void ContactSolver::solve(const ContactProblem& step, const ContactIslands& isla
     areas_.find(islands.repeated(), step.manifolds, step.bodies);
     ContactProblem problem = step;
     if (!areas_.empty()) problem.areas = &areas_;
-    look_at_bodies(problem, islands, pool);
+    measure_bodies(problem, islands, pool);
     choose(problem, islands);
     failed_.assign(direct_.size(), 0);
     pool.for_each(direct_.size(), direct_parallel_grain, [&](std::size_t k, std::size_t) {

@@ -68,12 +68,12 @@ private:
         std::size_t work = 0;        // block operations of one factorization
         bool direct = false;         // solved directly in the last step
         LoadEstimate load;           // of the last evaluation
-        int looked = 0;              // steps for which the estimate holds
+        int estimate_steps = 0;      // steps for which the estimate holds
         double lost = 0.0;           // J, of a net: IslandBatch::lost
         template <class Archive, class Self>
         static void visit(Archive& archive, Self& self) {
-            auto& [solver, wait, failures, factorizations, work, direct, load, looked, lost] = self;
-            archive.count(wait, factorizations, looked);
+            auto& [solver, wait, failures, factorizations, work, direct, load, estimate_steps, lost] = self;
+            archive.count(wait, factorizations, estimate_steps);
             archive.between(0, failures, tuning::direct_most_failures);
             archive.any(work);
             archive.keep(direct, load, lost);
@@ -85,7 +85,7 @@ private:
         double load_ratio;
         std::size_t work;
     };
-    void look_at_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
+    void measure_bodies(const ContactProblem& problem, const ContactIslands& islands, ThreadPool& pool);
     bool turns_fast(std::span<const std::uint32_t> bodies) const;
     void choose(const ContactProblem& problem, const ContactIslands& islands);
     bool rolls(const ContactProblem& problem, std::span<const std::uint32_t> manifolds) const;

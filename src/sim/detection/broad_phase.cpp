@@ -47,7 +47,7 @@ Bounds bounds_of_step(const Body& body, double h) {
 
 const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>& bodies, double h, ThreadPool* pool) {
     if (!built_) build(bodies);
-    if (look_for_awake_) find_awake(bodies);
+    if (search_awake_) find_awake(bodies);
     searches_.resize(pool ? std::size_t(pool->size()) : 1);
     if (searches_.size() > 1 && awake_.size() >= tuning::parallel_bodies)
         find_leavers(bodies, h, *pool);
@@ -116,7 +116,7 @@ void BroadPhase::find_awake(const std::vector<Body>& bodies) {
         // Sleeping bodies are visited once more, and once at the start to enter the tree.
         if (body.moves() && (!body.asleep || kind_ == Pairs::all || !resting_tree_.holds(i))) awake_.push_back(i);
     }
-    look_for_awake_ = false;
+    search_awake_ = false;
 }
 
 // True if the body's state holds: inside its fat bounds, and awake or ballistic as in the last update.

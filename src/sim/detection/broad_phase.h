@@ -36,7 +36,7 @@ public:
     void keep_apart(std::vector<Pair> pairs);
 
     /// Must be called when any body's `asleep` has been cleared: the next update then finds all awake bodies.
-    void bodies_woke() { look_for_awake_ = true; }
+    void bodies_woke() { search_awake_ = true; }
 
     /// Moving bodies that are awake or ballistic, ascending, as of the last update.
     const std::vector<std::uint32_t>& awake() const { return awake_; }
@@ -44,9 +44,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [kind, built, look_for_awake, fixed, half_spaces, awake, fixed_tree, active_tree, resting_tree, states,
+        auto& [kind, built, search_awake, fixed, half_spaces, awake, fixed_tree, active_tree, resting_tree, states,
                moved, searches, fell_asleep, pairs, added, spare, apart] = self;
-        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree, look_for_awake, awake, moved, fell_asleep);
+        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree, search_awake, awake, moved, fell_asleep);
         archive.keep(active_tree, resting_tree, pairs, apart);
         archive.by_body_or_none(states);
         archive.scratch(searches, added, spare);
@@ -73,7 +73,7 @@ private:
     void find_pairs_of(std::uint32_t i, const std::vector<Body>& bodies, Search& search) const;
 
     Pairs kind_;
-    bool built_ = false, look_for_awake_ = true;
+    bool built_ = false, search_awake_ = true;
     std::vector<std::uint32_t> fixed_, half_spaces_, awake_;
     BoundsTree fixed_tree_;
     DynamicTree active_tree_, resting_tree_;  // each body is in one of them, according to its state

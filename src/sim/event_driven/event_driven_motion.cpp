@@ -228,7 +228,7 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     EventTime next = std::min(f.boxed_until, f.until);
     double horizon = clock_.between(now, next);
     const MovingBody self = moving_body(i, bodies, now);
-    const auto look = [&](std::uint32_t j) {
+    const auto consider = [&](std::uint32_t j) {
         if (!f.swept.overlaps(events_[j].swept)) return;
         const double limit = std::min(horizon, clock_.between(now, events_[j].until));
         TimeOfImpact found = search_.find(self, moving_body(j, bodies, now), limit);
@@ -244,7 +244,7 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
     if (flying)
         for (const std::uint32_t j : neighbor_boxes_.fixed(i))
             if (!half_spaces_[j].valid || !half_spaces_[j].stays_below(f.path, bodies[i].radius, self.since, horizon))
-                look(j);
+                consider(j);
     const Ballistic& ball = balls_[i];
     const Vec3 at = f.path.position(self.since), velocity = f.path.velocity(self.since);
     for (const std::uint32_t j : neighbor_boxes_.moving(i)) {
@@ -257,7 +257,7 @@ void EventDrivenMotion::predict(std::uint32_t i, const std::vector<Body>& bodies
             const double closing = -d.dot(v), reach = ball.radius + other.radius, c = d.squaredNorm() - reach * reach;
             if (!(closing > 0.0) || c > 2.0 * closing * horizon || closing * closing < v.squaredNorm() * c) continue;
         }
-        if (flying || bodies[j].flying) look(j);
+        if (flying || bodies[j].flying) consider(j);
     }
     if (f.event == BodyEvent::Event::leaves_box && f.met != CcdFraction::none && f.until <= f.boxed_until) {
         f.event = BodyEvent::Event::impact;
@@ -446,7 +446,8 @@ void EventDrivenMotion::collide(std::uint32_t i, std::uint32_t j, std::vector<Bo
                           .complete = true,
                           .span = h_},
                          log_ ? &trace_ : nullptr);
-    if (log_ && changed) log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now), cluster_.blows());
+    if (log_ && changed)
+        log_->add_impact(trace_, cluster_.contacts(), bodies, impact_time(now), cluster_.joint_impulses());
     if (!changed && meeting) {  // no more of these in this step
         events_[i].meetings = tuning::meetings_in_step;
         changed_.push_back(i);

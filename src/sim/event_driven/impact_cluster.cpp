@@ -128,7 +128,7 @@ bool ImpactCluster::grow(std::vector<Body>& bodies, const NeighborBoxes& neighbo
             if (reach_[i] == Reach::none || !bodies[k].dynamic() || contains(expanded_, k)) continue;
             if (reach_[i] == Reach::impulse)
                 expand(k, bodies, neighbor_boxes, bring);
-            else if (!bodies[k].flying || !add_once(looked_at_, k) || !approaches(k, bodies, neighbor_boxes, bring))
+            else if (!bodies[k].flying || !add_once(examined_, k) || !approaches(k, bodies, neighbor_boxes, bring))
                 continue;
             grown = true;
         }
@@ -163,14 +163,14 @@ Island ImpactCluster::island(std::vector<Body>& bodies, const Bring& bring) {
 // An impact of too much work is one of the bodies without their joints, which answer in the next step.
 void ImpactCluster::resolve_island(Island& island, std::vector<Body>& bodies, const ImpactSettings& settings,
                                    ImpactTrace* trace) {
-    blows_.clear();
+    joint_impulses_.clear();
     broken_.clear();
     if (trace) *trace = {};
     if (island.joints.empty()) {
         resolve_impacts(island, contacts_, bodies, settings, trace);
         return;
     }
-    if (resolve_breaking(island, contacts_, bodies, settings, trace, blows_, broken_) != too_large) return;
+    if (resolve_breaking(island, contacts_, bodies, settings, trace, joint_impulses_, broken_) != too_large) return;
     island.joints.clear();
     resolve_impacts(island, contacts_, bodies, settings, trace);
 }
@@ -184,7 +184,7 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
     for (widening_ = 1.0; widening_ <= 1e4 && receivers_.empty(); widening_ *= 1e2) {
         brought_.clear();
         expanded_.clear();
-        looked_at_.clear();
+        examined_.clear();
         pairs_.clear();
         manifolds_.clear();
         expand(a, bodies, neighbor_boxes, bring);
@@ -212,10 +212,10 @@ bool ImpactCluster::resolve(std::uint32_t a, std::uint32_t b, std::vector<Body>&
             for (const std::uint32_t k : {c.a, c.b})
                 if (bodies[k].dynamic()) add_once(receivers_, k);
         }
-        for (const JointBlow& blow : blows_) {
-            if (blow.force.isZero(0.0) && blow.torque.isZero(0.0)) continue;
-            take_blow(blow, bodies);
-            for (const std::uint32_t k : {blow.at->a, blow.at->b})
+        for (const JointImpulse& impulse : joint_impulses_) {
+            if (impulse.force.isZero(0.0) && impulse.torque.isZero(0.0)) continue;
+            apply_joint_impulse(impulse, bodies);
+            for (const std::uint32_t k : {impulse.at->a, impulse.at->b})
                 if (k != Joint::world && bodies[k].dynamic()) add_once(receivers_, k);
         }
     }

@@ -50,19 +50,19 @@ public:
     const std::vector<Gap>& gaps() const { return gaps_; }  // by contact
     const std::vector<Manifold>& manifolds() const { return manifolds_; }
     const std::vector<std::uint32_t>& impulse_receivers() const { return receivers_; }
-    const std::vector<JointBlow>& blows() const { return blows_; }
+    const std::vector<JointImpulse>& joint_impulses() const { return joint_impulses_; }
     /// Joints that broke.
     const std::vector<Joint*>& broken() const { return broken_; }
 
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [groups, brought, expanded, looked_at, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
-               scratch, widening, broken, blows] = self;
+        auto& [groups, brought, expanded, examined, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
+               scratch, widening, broken, joint_impulses] = self;
         archive.rebuilt(groups);
         archive.keep(scratch, widening);
-        archive.scratch(brought, expanded, looked_at, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
-                        broken, blows);
+        archive.scratch(brought, expanded, examined, receivers, pairs, manifolds, contacts, gaps, own, before, reach,
+                        broken, joint_impulses);
     }
 
 private:
@@ -79,7 +79,7 @@ private:
     void resolve_island(Island& island, std::vector<Body>& bodies, const ImpactSettings& settings, ImpactTrace* trace);
 
     GroupFlights& groups_;
-    std::vector<std::uint32_t> brought_, expanded_, looked_at_, receivers_;
+    std::vector<std::uint32_t> brought_, expanded_, examined_, receivers_;
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;
     std::vector<Manifold> manifolds_;
     enum class Reach : char { none, motion, impulse };  // effect of an impact on the two bodies of a contact
@@ -91,7 +91,7 @@ private:
     CollisionScratch scratch_;
     double widening_ = 1.0;
     std::vector<Joint*> broken_;
-    std::vector<JointBlow> blows_;  // of the last resolution
+    std::vector<JointImpulse> joint_impulses_;  // of the last resolution
 };
 
 }  // namespace tumble

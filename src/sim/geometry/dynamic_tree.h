@@ -29,7 +29,7 @@ public:
     /// Calls visit(item) for each item whose box overlaps, in an order that depends on the tree's history.
     template <class Visit>
     void query(const Bounds& box, Stack& stack, Visit&& visit) const {
-        const auto look = [&](std::uint32_t child) {
+        const auto visit = [&](std::uint32_t child) {
             if (!leaf(child))
                 stack.push_back(child);
             else if (items_[item_of(child)].box.overlaps(box))
@@ -38,12 +38,12 @@ public:
         if (root_ == none) return;
         const Box wide(box);
         stack.clear();
-        look(root_);
+        visit(root_);
         while (!stack.empty()) {
             const Node& node = nodes_[stack.back()];
             stack.pop_back();
             for (int side = 1; side >= 0; --side)
-                if (node.box[side].overlaps(wide)) look(node.child[side]);
+                if (node.box[side].overlaps(wide)) visit(node.child[side]);
         }
     }
 

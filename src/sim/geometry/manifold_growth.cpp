@@ -55,13 +55,13 @@ bool sank(double reduced, double deepest, double radius) {
 bool missed(std::span<const Manifold> before, const Manifold& found, std::span<const ContactPoint> reduced,
             double radius) {
     double deepest = std::numeric_limits<double>::infinity(), deepest_known = deepest;
-    const auto look_at = [&](const ContactPoint& p) {
+    const auto extend = [&](const ContactPoint& p) {
         deepest = std::min(deepest, p.separation);
         for (const Manifold& m : before)
             if (m.part == found.part && m.has(p.feature)) deepest_known = std::min(deepest_known, p.separation);
     };
-    std::for_each(found.points.begin(), found.points.begin() + found.count, look_at);
-    std::for_each(reduced.begin(), reduced.end(), look_at);
+    std::for_each(found.points.begin(), found.points.begin() + found.count, extend);
+    std::for_each(reduced.begin(), reduced.end(), extend);
     return std::isfinite(deepest_known) && sank(deepest, deepest_known, radius);
 }
 

@@ -127,7 +127,7 @@ SeparatingAxis grazed_face(const AxisQuery& query, const SeparatingAxis& axis, d
     const Polyhedron &a = query.a, &b = query.b;
     const Pose& b_in_a = query.b_in_a;
     SeparatingAxis grazed = axis;
-    const auto look = [&](const Polyhedron& shape, const Polyhedron& other, const Pose& pose, bool of_b) {
+    const auto search = [&](const Polyhedron& shape, const Polyhedron& other, const Pose& pose, bool of_b) {
         for (std::uint32_t f = 0; f < shape.faces.size(); ++f) {
             const Polyhedron::Face& face = shape.faces[f];
             const double height = face.normal.dot(pose.position) - face.offset;
@@ -146,8 +146,8 @@ SeparatingAxis grazed_face(const AxisQuery& query, const SeparatingAxis& axis, d
                 grazed = candidate;
         }
     };
-    look(a, b, b_in_a, false);
-    look(b, a, inverse(b_in_a), true);
+    search(a, b, b_in_a, false);
+    search(b, a, inverse(b_in_a), true);
     return grazed;
 }
 

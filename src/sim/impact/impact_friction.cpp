@@ -266,7 +266,7 @@ ImpactFriction::State ImpactFriction::state(const ImpactSystem& cluster, const B
              block.second_row.dot(cluster.velocity()) + block.second_offset}};
 }
 
-void ImpactFriction::look(const ImpactSystem& cluster, std::vector<State>& states) const {
+void ImpactFriction::collect(const ImpactSystem& cluster, std::vector<State>& states) const {
     states.clear();
     for (const Block& block : blocks_) states.push_back(state(cluster, block));
 }
@@ -296,11 +296,11 @@ void ImpactFriction::limit_energy(ImpactSystem& cluster) {
         return all;
     };
     const auto mean = [](double from, double to) { return 0.5 * (from + to); };
-    look(cluster, kept_);
+    collect(cluster, kept_);
     if (sum(start_, kept_, mean) <= 0.0) return;
     set(cluster, kept_, start_, 1.0);
     relax_all(cluster, Normal::fixed);
-    look(cluster, least_);
+    collect(cluster, least_);
     // gain(s) = g0 + s slope + s^2 bend, from g0 <= 0 at s = 0 to more than 0 at s = 1: the root in between, without
     // cancellation.
     const double g0 = std::min(0.0, sum(start_, least_, mean)),
@@ -313,7 +313,7 @@ void ImpactFriction::limit_energy(ImpactSystem& cluster) {
 
 bool ImpactFriction::apply(ImpactSystem& cluster) {
     add_blocks(cluster);
-    look(cluster, start_);
+    collect(cluster, start_);
     for (std::size_t k = 0; k < blocks_.size(); ++k) blocks_[k].kept = start_[k].speed[0];
     const double most = relax_all(cluster, Normal::adapted);
     limit_energy(cluster);

@@ -69,7 +69,7 @@ private:
     double tolerance() const;
     int most_sweeps() const;
     static State state(const ImpactSystem& cluster, const Block& block);
-    void look(const ImpactSystem& cluster, std::vector<State>& states) const;
+    void collect(const ImpactSystem& cluster, std::vector<State>& states) const;
     void set(ImpactSystem& cluster, const std::vector<State>& from, const std::vector<State>& to, double share);
     void limit_energy(ImpactSystem& cluster);
 

@@ -152,11 +152,11 @@ void ImpactSystem::end_pass() {
     ++trace_->passes;
 }
 
-std::vector<JointBlow> ImpactSystem::store_velocities(std::vector<Body>& bodies) {
-    std::vector<JointBlow> blows;
+std::vector<JointImpulse> ImpactSystem::store_velocities(std::vector<Body>& bodies) {
+    std::vector<JointImpulse> joint_impulses;
     if (groups_) {
         // The change that the sums of the impulses make: to rounding that of the rows.
-        blows = groups_->blows(pushed_);
+        joint_impulses = groups_->joint_impulses(pushed_);
         for (std::uint32_t i = 0; i < roots_.size(); ++i)
             if (groups_->joined(i)) {
                 const Eigen::Index first = 6 * Eigen::Index(i);
@@ -175,22 +175,22 @@ std::vector<JointBlow> ImpactSystem::store_velocities(std::vector<Body>& bodies)
         const JoinedGroups::Limit& limit = groups_->limits()[limit_[k]];
         const std::size_t row = contacts() + k;
         const Vec3 impulse = impulse_[row] * limit.size * limit.direction;
-        JointBlow& blow = blows[limit.joint];
-        (limit.turns ? blow.torque : blow.force) += impulse;
-        blow.lost -= 0.5 * impulse_[row] * (speed_at_start(row) + speed(row));
+        JointImpulse& impulse = joint_impulses[limit.joint];
+        (limit.turns ? impulse.torque : impulse.force) += impulse;
+        impulse.lost -= 0.5 * impulse_[row] * (speed_at_start(row) + speed(row));
     }
-    for (JointBlow& blow : blows) find_work(blow, bodies);
-    return blows;
+    for (JointImpulse& impulse : joint_impulses) find_work(impulse, bodies);
+    return joint_impulses;
 }
 
-std::vector<JointBlow> ImpactSystem::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) {
-    std::vector<JointBlow> blows = store_velocities(bodies);
+std::vector<JointImpulse> ImpactSystem::store(std::vector<Contact>& contacts, std::vector<Body>& bodies) {
+    std::vector<JointImpulse> joint_impulses = store_velocities(bodies);
     for (std::size_t i = 0; i < index_.size(); ++i) {
         Contact& c = contacts[index_[i]];
         c.impact = impulse_[i];
         if (felt(i)) c.bounce_velocity = std::max(0.0, speed(i));
     }
-    return blows;
+    return joint_impulses;
 }
 
 }  // namespace tumble

@@ -96,9 +96,9 @@ public:
 
     /// Writes the velocities of changed bodies, and each touching contact's impulse and v_rel. Returns the impulses of
     /// the joints; the momenta before the impact must be those of the bodies.
-    std::vector<JointBlow> store(std::vector<Contact>& contacts, std::vector<Body>& bodies);
+    std::vector<JointImpulse> store(std::vector<Contact>& contacts, std::vector<Body>& bodies);
     /// The same without the contacts.
-    std::vector<JointBlow> store_velocities(std::vector<Body>& bodies);
+    std::vector<JointImpulse> store_velocities(std::vector<Body>& bodies);
 
 private:
     std::uint32_t place(std::uint32_t body) const;

@@ -87,7 +87,7 @@ void add_friction(ImpactSystem& cluster, const ImpactSettings& settings, ImpactF
 }  // namespace
 
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                    const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>* blows) {
+                    const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointImpulse>* joint_impulses) {
     if (!may_collide(island, contacts, bodies, settings)) return 0;
     ImpactSystem cluster(island, contacts, bodies, trace);
     if (!island.joints.empty() && cluster.work() > impact_joined_work) return too_large;
@@ -103,8 +103,8 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
             friction.apply(cluster);
         friction.store(cluster, contacts);
     }
-    std::vector<JointBlow> of_joints = cluster.store(contacts, bodies);
-    if (blows) *blows = std::move(of_joints);
+    std::vector<JointImpulse> of_joints = cluster.store(contacts, bodies);
+    if (joint_impulses) *joint_impulses = std::move(of_joints);
     if (trace) complete_trace(cluster, *trace);
     return passes;
 }
@@ -155,7 +155,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     if (!island.joints.empty()) {
         for (std::size_t i = 0; i < cluster.contacts(); ++i)
             if (lambda[i] > 0.0) cluster.push(i, sign[i] * lambda[i]);
-        for (const JointBlow& blow : cluster.store_velocities(bodies)) take_blow(blow, bodies);
+        for (const JointImpulse& impulse : cluster.store_velocities(bodies)) apply_joint_impulse(impulse, bodies);
     }
     for (std::size_t i = 0; i < cluster.contacts(); ++i) {
         const Contact& c = cluster.contact(i);

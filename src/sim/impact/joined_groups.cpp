@@ -327,29 +327,29 @@ JoinedRow JoinedGroups::project(const VelocityRow& form, std::uint32_t own, Velo
     return result;
 }
 
-std::vector<JointBlow> JoinedGroups::blows(Eigen::VectorXd& change) {
-    std::vector<JointBlow> blows(joints_.size());
+std::vector<JointImpulse> JoinedGroups::joint_impulses(Eigen::VectorXd& change) {
+    std::vector<JointImpulse> joint_impulses(joints_.size());
     for (std::size_t k = 0; k < joints_.size(); ++k) {
         const bool gear = joints_[k]->gear();
-        blows[k].joint = joints_[k];
-        blows[k].at = gear ? &all_joints_[joints_[k]->description.geared[0]] : joints_[k];
-        blows[k].point = points_[k];
+        joint_impulses[k].joint = joints_[k];
+        joint_impulses[k].at = gear ? &all_joints_[joints_[k]->description.geared[0]] : joints_[k];
+        joint_impulses[k].point = points_[k];
     }
     project(change);
     for (std::size_t k = 0; k < locks_.size(); ++k) {
         const Lock& lock = locks_[k];
         const double impulse = given_[k] / lock.length;
-        (lock.turns ? blows[lock.joint].torque : blows[lock.joint].force) += impulse * lock.direction;
+        (lock.turns ? joint_impulses[lock.joint].torque : joint_impulses[lock.joint].force) += impulse * lock.direction;
         if (!lock.gear()) continue;
-        JointBlow second;
+        JointImpulse second;
         second.joint = joints_[lock.joint];
         second.at = &all_joints_[second.joint->description.geared[1]];
         second.second = true;
         second.point = other_points_[lock.joint];
         (lock.other_turns ? second.torque : second.force) = impulse * lock.other_direction;
-        blows.push_back(second);
+        joint_impulses.push_back(second);
     }
-    return blows;
+    return joint_impulses;
 }
 
 }  // namespace tumble

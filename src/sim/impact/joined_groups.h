@@ -13,7 +13,7 @@
 
 #include "sim/impact/mass_root.h"
 #include "sim/impact/velocity_row.h"
-#include "sim/joints/joint_blow.h"
+#include "sim/joints/joint_impulse.h"
 #include "sim/math/block_cholesky.h"
 
 #include <cstdint>
@@ -58,7 +58,7 @@ public:
 
     /// Makes a change of y fit the joints, and returns their impulses: by joint, then of gears on their second
     /// joints; without the work.
-    std::vector<JointBlow> blows(Eigen::VectorXd& change);
+    std::vector<JointImpulse> joint_impulses(Eigen::VectorXd& change);
 
 private:
     /// A locked coordinate, or the relation of a gear: a sum of two coordinates, of up to four bodies.

@@ -10,7 +10,7 @@ struct Outcome {
     int passes = 0;
     std::vector<Contact> contacts;         // of the island
     std::vector<BodyVelocity> velocities;  // by body of the island
-    std::vector<JointBlow> blows;
+    std::vector<JointImpulse> joint_impulses;
     ImpactTrace trace;
 };
 
@@ -43,22 +43,22 @@ void drop_loose_gears(Island& island) {
 }
 
 int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                     const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>& blows,
+                     const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointImpulse>& joint_impulses,
                      std::vector<Joint*>& broken) {
-    const int passes = resolve_impacts(island, contacts, bodies, settings, trace, &blows);
+    const int passes = resolve_impacts(island, contacts, bodies, settings, trace, &joint_impulses);
     double most = 1.0;
     Island weaker = island;
-    for (const JointBlow& blow : blows) {
-        const double over = blow.over(settings.span);
+    for (const JointImpulse& impulse : joint_impulses) {
+        const double over = impulse.over(settings.span);
         if (!(over > 1.0)) continue;
         most = std::max(most, over);
-        if (std::erase(weaker.joints, blow.joint) > 0) broken.push_back(blow.joint);
+        if (std::erase(weaker.joints, impulse.joint) > 0) broken.push_back(impulse.joint);
     }
     drop_loose_gears(weaker);
     if (most == 1.0) return passes;
     const double share = 1.0 / most;
     Outcome strong;
-    strong.blows = blows;
+    strong.joint_impulses = joint_impulses;
     if (trace) strong.trace = *trace;
     for (const std::uint32_t k : island.bodies) {
         strong.velocities.push_back({bodies[k].velocity, bodies[k].angular_velocity});
@@ -70,8 +70,8 @@ int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::
         contacts[k].impact_friction.setZero();
     }
     if (trace) *trace = {};
-    blows.clear();
-    const int passes_without = resolve_breaking(weaker, contacts, bodies, settings, trace, blows, broken);
+    joint_impulses.clear();
+    const int passes_without = resolve_breaking(weaker, contacts, bodies, settings, trace, joint_impulses, broken);
     for (std::size_t i = 0; i < island.contacts.size(); ++i) {
         Contact& c = contacts[island.contacts[i]];
         const Contact& other = strong.contacts[i];
@@ -84,20 +84,20 @@ int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::
         body.velocity = mix(body.velocity, strong.velocities[i].velocity, share);
         body.angular_velocity = mix(body.angular_velocity, strong.velocities[i].angular_velocity, share);
     }
-    for (JointBlow& blow : strong.blows) {
-        const auto weak = std::find_if(blows.begin(), blows.end(), [&](const JointBlow& other) {
-            return other.joint == blow.joint && other.second == blow.second;
+    for (JointImpulse& impulse : strong.joint_impulses) {
+        const auto weak = std::find_if(joint_impulses.begin(), joint_impulses.end(), [&](const JointImpulse& other) {
+            return other.joint == impulse.joint && other.second == impulse.second;
         });
-        const JointBlow none;
-        const JointBlow& other = weak == blows.end() ? none : *weak;
-        blow.force = mix(other.force, blow.force, share);
-        blow.torque = mix(other.torque, blow.torque, share);
-        blow.lost = mix(other.lost, blow.lost, share);
+        const JointImpulse none;
+        const JointImpulse& other = weak == joint_impulses.end() ? none : *weak;
+        impulse.force = mix(other.force, impulse.force, share);
+        impulse.torque = mix(other.torque, impulse.torque, share);
+        impulse.lost = mix(other.lost, impulse.lost, share);
     }
-    blows = std::move(strong.blows);
-    for (JointBlow& blow : blows) {
-        find_work(blow, bodies);
-        blow.breaks = std::find(broken.begin(), broken.end(), blow.joint) != broken.end();
+    joint_impulses = std::move(strong.joint_impulses);
+    for (JointImpulse& impulse : joint_impulses) {
+        find_work(impulse, bodies);
+        impulse.breaks = std::find(broken.begin(), broken.end(), impulse.joint) != broken.end();
     }
     if (trace) mix_traces(ImpactTrace(*trace), strong.trace, share, *trace);
     return std::max(passes, passes_without);

@@ -15,7 +15,7 @@ void drop_loose_gears(Island& island);
 
 /// resolve_impacts() with the strengths of the joints. `broken`: gets joints that break; their states are not changed.
 int resolve_breaking(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
-                     const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointBlow>& blows,
+                     const ImpactSettings& settings, ImpactTrace* trace, std::vector<JointImpulse>& joint_impulses,
                      std::vector<Joint*>& broken);
 
 }  // namespace tumble

@@ -125,7 +125,7 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
 
 /// The bodies of an impact: each impulse is subtracted once.
 void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts,
-                            const std::vector<Body>& bodies, std::span<const JointBlow> blows) {
+                            const std::vector<Body>& bodies, std::span<const JointImpulse> joint_impulses) {
     const auto at = [&](std::uint32_t body) -> StruckBody& {
         if (struck_[body] == none) {
             struck_[body] = records_.struck.size();
@@ -140,11 +140,11 @@ void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>
         push_before(at(c.a), bodies[c.a], {-j, -c.arm_a.cross(j)});
         push_before(at(c.b), bodies[c.b], {j, c.arm_b.cross(j)});
     }
-    for (const JointBlow& blow : blows)
-        for (const auto& [body, sign] : {std::pair(blow.at->a, -1.0), std::pair(blow.at->b, 1.0)}) {
+    for (const JointImpulse& impulse : joint_impulses)
+        for (const auto& [body, sign] : {std::pair(impulse.at->a, -1.0), std::pair(impulse.at->b, 1.0)}) {
             if (body == Joint::world || struck_[body] == none) continue;
-            const Vec3 turn = (blow.point - bodies[body].position).cross(blow.force) + blow.torque;
-            push_before(records_.struck[struck_[body]], bodies[body], {sign * blow.force, sign * turn});
+            const Vec3 turn = (impulse.point - bodies[body].position).cross(impulse.force) + impulse.torque;
+            push_before(records_.struck[struck_[body]], bodies[body], {sign * impulse.force, sign * turn});
         }
 }
 
@@ -180,7 +180,8 @@ void ContactLog::add_struck_work(const Contact& c, const Vec3& j, const std::vec
 }
 
 void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts,
-                            const std::vector<Body>& bodies, const ImpactTime& when, std::span<const JointBlow> blows) {
+                            const std::vector<Body>& bodies, const ImpactTime& when,
+                            std::span<const JointImpulse> joint_impulses) {
     if (!has_records()) {
         for (const ImpactTrace::Entry& entry : trace.entries) {
             const Contact& c = contacts[entry.contact];
@@ -188,7 +189,7 @@ void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>
         }
         return;
     }
-    add_struck(trace, contacts, bodies, blows);
+    add_struck(trace, contacts, bodies, joint_impulses);
     for (std::size_t k = 0; k < trace.entries.size(); ++k) {
         const ImpactTrace::Entry& entry = trace.entries[k];
         const Contact& c = contacts[entry.contact];

@@ -33,9 +33,9 @@ public:
     void begin_frame(const std::vector<Body>& bodies);
 
     /// Adds one impact with the entries of its trace, at the bodies' poses of the impact. Their velocities are those
-    /// after it; `blows`: the impulses of joints.
+    /// after it; `joint_impulses`: the impulses of joints.
     void add_impact(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
-                    const ImpactTime& when, std::span<const JointBlow> blows = {});
+                    const ImpactTime& when, std::span<const JointImpulse> joint_impulses = {});
     /// The same for an impact of one entry without friction, at a point (m) in the bodies' coordinates.
     void add_entry(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
                    const std::vector<Body>& bodies, const ImpactTime& when);
@@ -113,7 +113,7 @@ private:
     void add_record(const ImpactTrace::Entry& entry, const Contact& contact, const Vec3& point,
                     const std::vector<Body>& bodies, const ImpactTime& when);
     void add_struck(const ImpactTrace& trace, const std::vector<Contact>& contacts, const std::vector<Body>& bodies,
-                    std::span<const JointBlow> blows);
+                    std::span<const JointImpulse> joint_impulses);
     /// Marks the bodies of an impact of impulse `j` (N s on B) as touched, and adds its work.
     void add_struck_work(const Contact& contact, const Vec3& j, const std::vector<Body>& bodies);
     Impulse momenta(const Body& body, const Vec3& place, const Vec3& momentum) const;

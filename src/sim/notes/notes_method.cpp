@@ -113,7 +113,7 @@ void NotesMethod::step(const StepContext& step) {
         advance_pose(body, before ? old.velocity : body.velocity, before ? old.angular_velocity : body.angular_velocity,
                      step.h, step.settings.rotation);
         body.derive();
-        step.check.look_at(i, set.bodies);
+        step.check.examine(i, set.bodies);
     }
 }
 

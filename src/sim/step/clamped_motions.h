@@ -26,7 +26,7 @@ public:
         any_fast_ = false;
         BodySet& set = step.set;
         step.pool.for_bodies(set.moving, tuning::parallel_bodies, [&](std::uint32_t i) {
-            step.check.look_at(i, set.bodies);
+            step.check.examine(i, set.bodies);
             BodyVelocity& motion = set.motions[i];
             motion = motion_of(i, std::as_const(set.bodies[i]));
             if (clamp_.fast(i, motion, step.h) && !any_fast_) any_fast_ = true;

@@ -13,7 +13,7 @@ std::int64_t EventDrivenStage::run_events(const StepContext& step, std::int64_t 
     events_.join(step.joints, bodies, step.forces.field());
     const std::int64_t reached = events_.run(bodies, step.sleep, step.forces.field(), until);
     events_.place(bodies, reached);
-    step.check.look_at(step.set.awake, bodies, step.pool);
+    step.check.examine(step.set.awake, bodies, step.pool);
     return reached;
 }
 

@@ -59,16 +59,16 @@ void ImpactStage::resolve(const StepContext& step, ContactDetection& detection) 
         if (collides(k, detection, step, threshold(step))) add_island(k, step, detection);
     if (struck_.empty()) return;
     traces_.assign(step.log ? colliding_.size() : 0, {});
-    blows_.assign(colliding_.size(), {});
+    joint_impulses_.assign(colliding_.size(), {});
     step.pool.for_each(colliding_.size(), tuning::parallel_grain,
                        [&](std::size_t i, std::size_t) { resolve_island(step, i); });
     for (std::size_t i = 0; i < traces_.size(); ++i)
-        step.log->add_impact(traces_[i], contacts_, bodies, step.impact_time(), blows_[i]);
+        step.log->add_impact(traces_[i], contacts_, bodies, step.impact_time(), joint_impulses_[i]);
     // Eqs. 9 and 10: the contribution of the impulses to P and L, equal and opposite to the last bit.
     for (const Contact& c : contacts_)
         if (c.impact > 0.0) add_impact(c, bodies[c.a], bodies[c.b]);
-    for (const std::vector<JointBlow>& blows : blows_)
-        for (const JointBlow& blow : blows) take_blow(blow, bodies);
+    for (const std::vector<JointImpulse>& joint_impulses : joint_impulses_)
+        for (const JointImpulse& impulse : joint_impulses) apply_joint_impulse(impulse, bodies);
 }
 
 void ImpactStage::add_island(std::size_t k, const StepContext& step, ContactDetection& detection) {
@@ -142,7 +142,7 @@ void ImpactStage::resolve_island(const StepContext& step, std::size_t index) {
         return;
     }
     std::vector<Joint*> broken;
-    resolve_breaking(island, contacts_, step.set.bodies, impacts, trace, blows_[index], broken);
+    resolve_breaking(island, contacts_, step.set.bodies, impacts, trace, joint_impulses_[index], broken);
     for (Joint* joint : broken) {
         joint->broken = true;
         joint->broken_at = step.end();

@@ -34,8 +34,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [contacts, colliding, struck, traces, blows] = self;
-        archive.scratch(contacts, colliding, struck, traces, blows);
+        auto& [contacts, colliding, struck, traces, joint_impulses] = self;
+        archive.scratch(contacts, colliding, struck, traces, joint_impulses);
     }
 
 private:
@@ -48,11 +48,11 @@ private:
     void add_contacts_under_load(const Manifold& manifold, const StepContext& step, Struck& struck);
     void resolve_island(const StepContext& step, std::size_t island);
 
-    std::vector<Contact> contacts_;              // of the colliding islands, point by point
-    std::vector<Island> colliding_;              // islands with impacts in this step
-    std::vector<Struck> struck_;                 // manifolds of these islands
-    std::vector<ImpactTrace> traces_;            // by entry of colliding_; for the log
-    std::vector<std::vector<JointBlow>> blows_;  // by entry of colliding_
+    std::vector<Contact> contacts_;                          // of the colliding islands, point by point
+    std::vector<Island> colliding_;                          // islands with impacts in this step
+    std::vector<Struck> struck_;                             // manifolds of these islands
+    std::vector<ImpactTrace> traces_;                        // by entry of colliding_; for the log
+    std::vector<std::vector<JointImpulse>> joint_impulses_;  // by entry of colliding_
 };
 
 }  // namespace tumble

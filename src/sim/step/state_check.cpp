@@ -11,7 +11,7 @@
 
 namespace tumble {
 
-void StateCheck::look_at(std::uint32_t i, const std::vector<Body>& bodies) {
+void StateCheck::examine(std::uint32_t i, const std::vector<Body>& bodies) {
     const Body& body = bodies[i];
     // One value that is not finite makes the sum not finite.
     if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() +
@@ -21,8 +21,8 @@ void StateCheck::look_at(std::uint32_t i, const std::vector<Body>& bodies) {
     }
 }
 
-void StateCheck::look_at(std::span<const std::uint32_t> chosen, const std::vector<Body>& bodies, ThreadPool& pool) {
-    pool.for_bodies(chosen, tuning::parallel_bodies, [&](std::uint32_t i) { look_at(i, bodies); });
+void StateCheck::examine(std::span<const std::uint32_t> chosen, const std::vector<Body>& bodies, ThreadPool& pool) {
+    pool.for_bodies(chosen, tuning::parallel_bodies, [&](std::uint32_t i) { examine(i, bodies); });
 }
 
 void stop_if_not_finite(const StepContext& step) {

@@ -14,8 +14,8 @@ namespace tumble {
 class StateCheck {
 public:
     /// Checks a body; any thread may call it.
-    void look_at(std::uint32_t body, const std::vector<Body>& bodies);
-    void look_at(std::span<const std::uint32_t> chosen, const std::vector<Body>& bodies, ThreadPool& pool);
+    void examine(std::uint32_t body, const std::vector<Body>& bodies);
+    void examine(std::span<const std::uint32_t> chosen, const std::vector<Body>& bodies, ThreadPool& pool);
 
     /// Index of the lowest body found, by any thread; `none` if all are finite.
     std::uint32_t found() const { return first_; }

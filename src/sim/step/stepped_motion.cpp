@@ -61,7 +61,7 @@ void SteppedMotion::advance(const StepContext& step, ContactDetection& detection
         [&](std::uint32_t i) { return turns_freely(i, step); });
     step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
         move(i, limits[i], step);
-        step.check.look_at(i, set.bodies);
+        step.check.examine(i, set.bodies);
     });
 }
 

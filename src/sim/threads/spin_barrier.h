@@ -19,8 +19,8 @@ public:
             round_.store(round + 1, std::memory_order_release);
             return;
         }
-        for (int looked = 0; round_.load(std::memory_order_acquire) == round; ++looked) {
-            if (looked < patience)
+        for (int tries = 0; round_.load(std::memory_order_acquire) == round; ++tries) {
+            if (tries < patience)
                 __builtin_ia32_pause();
             else
                 std::this_thread::yield();

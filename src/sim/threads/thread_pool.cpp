@@ -13,10 +13,10 @@ namespace {
 constexpr int patience = 100, yielding_patience = 600;
 
 template <class Ready>
-bool look_for(Ready&& ready) {
-    for (int looked = 0; looked < patience + yielding_patience; ++looked) {
+bool spin_until(Ready&& ready) {
+    for (int tries = 0; tries < patience + yielding_patience; ++tries) {
         if (ready()) return true;
-        if (looked < patience)
+        if (tries < patience)
             __builtin_ia32_pause();
         else
             std::this_thread::yield();
@@ -41,7 +41,7 @@ void ThreadPool::live(std::size_t thread) {
     std::size_t seen = 0;
     while (true) {
         const auto called = [&] { return stop_ || round_ != seen; };
-        if (!look_for(called)) {
+        if (!spin_until(called)) {
             std::unique_lock lock(mutex_);
             start_.wait(lock, called);
         }
@@ -108,7 +108,7 @@ void ThreadPool::start() {
 
 void ThreadPool::wait_for_workers() {
     const auto done = [&] { return running_ == 0; };
-    if (!look_for(done)) {
+    if (!spin_until(done)) {
         std::unique_lock lock(mutex_);
         done_.wait(lock, done);
     }

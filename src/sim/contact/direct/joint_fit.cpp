@@ -108,7 +108,7 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
 
 // After start_fit(): the locks ask for the displacements that close them. Returns the largest gap, in sizes of the
 // joint.
-double JointRows::ask_to_close(const JointIsland& island) {
+double JointRows::request_close(const JointIsland& island) {
     double worst = 0.0;
     for (const Block& block : blocks_) {
         const Joint& j = joint(block);
@@ -213,7 +213,7 @@ double DirectSolver::aim_at_gaps(const JointIsland& island) {
     std::fill(free_.begin(), free_.end(), 0.0);
     joints_.start_fit(island, island.problem.settings.h, false, false);
     joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
-    const double widest = joints_.ask_to_close(island);
+    const double widest = joints_.request_close(island);
     velocity_ = free_;
     joints_.evaluate_speeds(velocity_);
     return widest;

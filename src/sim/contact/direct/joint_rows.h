@@ -208,7 +208,7 @@ public:
     /// Fastest speed (m/s) that misses a row of the fit; after evaluate_speeds().
     double misfit() const;
     double largest_impulse() const;  // N s
-    double ask_to_close(const JointIsland& island);
+    double request_close(const JointIsland& island);
     /// Joints that break under the loads of the solve and the fit together.
     void break_under_loads(const JointIsland& island);
 

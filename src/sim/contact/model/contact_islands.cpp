@@ -13,7 +13,7 @@ constexpr std::uint32_t no_island = UINT32_MAX;
 ContactIslands::ContactIslands(std::size_t bodies) : members_(bodies) {}
 
 // Reads only bodies that may take part: bodies lie far apart in memory.
-ContactIslands::Role ContactIslands::look(std::uint32_t i, const std::vector<Body>& bodies) {
+ContactIslands::Role ContactIslands::role_of(std::uint32_t i, const std::vector<Body>& bodies) {
     Member& member = members_[i];
     if (member.round != round_) member = {.round = round_, .role = bodies[i].dynamic() ? Role::aside : Role::still};
     return member.role;
@@ -27,7 +27,7 @@ std::uint32_t ContactIslands::root(std::uint32_t i) {
 
 // Returns one of the two bodies that takes part, or `no_island`.
 std::uint32_t ContactIslands::connect(std::uint32_t a, std::uint32_t b, const std::vector<Body>& bodies) {
-    const auto role = [&](std::uint32_t i) { return i == UINT32_MAX ? Role::still : look(i, bodies); };
+    const auto role = [&](std::uint32_t i) { return i == UINT32_MAX ? Role::still : role_of(i, bodies); };
     const Role role_a = role(a), role_b = role(b);
     if (role_a == Role::aside || role_b == Role::aside) return no_island;
     std::uint32_t held = no_island;

@@ -69,7 +69,7 @@ public:
 private:
     // still: not moved by contacts. aside: asleep or ballistic, not affected by the contacts of this step.
     enum class Role : std::uint8_t { still, takes_part, aside };
-    Role look(std::uint32_t i, const std::vector<Body>& bodies);
+    Role role_of(std::uint32_t i, const std::vector<Body>& bodies);
     std::uint32_t root(std::uint32_t i);
     std::uint32_t connect(std::uint32_t a, std::uint32_t b, const std::vector<Body>& bodies);
     void list_repeated(std::uint32_t place, bool still_a, bool still_b, bool same_pair);

@@ -8,7 +8,7 @@
 namespace tumble {
 
 /// Impulses on B, the opposite ones on A, at one point.
-struct JointBlow {
+struct JointImpulse {
     Joint* joint = nullptr;
     const Joint* at = nullptr;          // the joint whose bodies it acts on: of a gear, one of its two joints
     bool second = false;                // of a gear: its second joint
@@ -20,14 +20,14 @@ struct JointBlow {
 
     bool breaks = false;  // the joint breaks: its work is heat
 
-    /// How far the blow exceeds the joint's strength, at most 1 where it holds. A force is the mean over `h` s.
+    /// How far the impulse exceeds the joint's strength, at most 1 where it holds. A force is the mean over `h` s.
     double over(double h) const;
 };
 
 /// Adds the impulses to the momenta, P and L, and to the account of the joint.
-void take_blow(const JointBlow& blow, std::vector<Body>& bodies);
+void apply_joint_impulse(const JointImpulse& impulse, std::vector<Body>& bodies);
 
-/// The work of the blow, from the bodies' velocities (after it) and momenta (before it).
-void find_work(JointBlow& blow, const std::vector<Body>& bodies);
+/// The work of the impulse, from the bodies' velocities (after it) and momenta (before it).
+void find_work(JointImpulse& impulse, const std::vector<Body>& bodies);
 
 }  // namespace tumble
