@@ -11,7 +11,12 @@ namespace tumble {
 
 class DisjointSets {
 public:
-    explicit DisjointSets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+    explicit DisjointSets(std::size_t count = 0) { reset(count); }
+    /// Makes each number a set of its own.
+    void reset(std::size_t count) {
+        parent_.resize(count);
+        std::iota(parent_.begin(), parent_.end(), 0u);
+    }
 
     std::size_t root(std::size_t i) {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];

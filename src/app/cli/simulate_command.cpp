@@ -188,8 +188,8 @@ void check_tables(const SimulateCommand& command, const FileList& inputs) {
 void simulate_tables(const SimulateCommand& command) {
     const double start = wall_seconds();
     FileList inputs;
-    const auto shared = std::make_shared<const SceneDescription>(
-        load_scene(command.scenes.front(), command.overrides, &inputs));
+    const auto shared =
+        std::make_shared<const SceneDescription>(load_scene(command.scenes.front(), command.overrides, &inputs));
     const SceneDescription& description = *shared;
     check_tables(command, inputs);
     const v0::Scene scene = v0::make_scene(shared, std::move(inputs));
@@ -409,9 +409,8 @@ void add_simulate(Command& command) {
         ->option_text("stepped|exact|I.csv");
     CLI::Option* const contacts =
         command
-            .add_option(
-                "--contacts", c.tables.contacts,
-                "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
+            .add_option("--contacts", c.tables.contacts,
+                        "CSV or .npz: one row per frame and contact point, with forces and slip; - is standard\noutput")
             ->check(file_name("csv npz"))
             ->transform(or_standard_output())
             ->type_name("C.csv");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <functional>
-#include <numeric>
 
 namespace tumble {
 namespace {
@@ -86,13 +85,7 @@ std::optional<bool> sheet_behind(const CollisionMesh& s, std::uint32_t t, const 
 
 // Fills `piece` with the connected pieces among the given triangles.
 void find_pieces(const CollisionMesh& s, std::span<const std::uint32_t> triangles, SideScratch& scratch) {
-    auto& piece = scratch.piece;
-    piece.resize(triangles.size());
-    std::iota(piece.begin(), piece.end(), 0u);
-    const auto first = [&](std::uint32_t k) {
-        while (piece[k] != k) k = piece[k] = piece[piece[k]];
-        return k;
-    };
+    scratch.joined.reset(triangles.size());
     scratch.at_edges.clear();
     for (std::uint32_t k = 0; k < triangles.size(); ++k)
         for (const std::uint32_t edge : s.triangles[triangles[k]].edge) scratch.at_edges.emplace_back(edge, k);
@@ -101,10 +94,10 @@ void find_pieces(const CollisionMesh& s, std::span<const std::uint32_t> triangle
         const auto [edge, k] = scratch.at_edges[i - 1];
         const auto [other_edge, other] = scratch.at_edges[i];
         if (edge != other_edge || s.triangles[triangles[k]].sheet != s.triangles[triangles[other]].sheet) continue;
-        const std::uint32_t one = first(k), two = first(other);
-        piece[std::max(one, two)] = std::min(one, two);
+        scratch.joined.join(k, other);
     }
-    for (std::uint32_t k = 0; k < triangles.size(); ++k) piece[k] = first(k);
+    scratch.piece.resize(triangles.size());
+    for (std::uint32_t k = 0; k < triangles.size(); ++k) scratch.piece[k] = std::uint32_t(scratch.joined.root(k));
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // (Baerentzen and Aanaes 2005, "Signed distance computation using the angle weighted pseudonormal").
 #pragma once
 
+#include "core/disjoint_sets.h"
 #include "sim/geometry/shapes/mesh.h"
 
 #include <optional>
@@ -15,6 +16,7 @@ namespace tumble {
 struct SideScratch {
     std::vector<char> behind;  // per triangle of the query: the point is behind it
     std::vector<std::pair<std::uint32_t, std::uint32_t>> at_edges;
+    DisjointSets joined;
     std::vector<std::uint32_t> piece;  // per triangle of the query: the first triangle of its connected piece
     struct Piece {                     // per triangle of the query, valid for the first ones
         bool mixed = false;            // true if the planes disagree
