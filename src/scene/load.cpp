@@ -61,17 +61,17 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     MeshCache meshes(imports, std::move(supplied));
     const Materials materials = read_materials(root);
     const std::filesystem::path folder = file.parent_path();
-    const BodySources sources{materials, folder, scene.simulation, meshes};
+    FileList files;
+    const BodySources sources{materials, folder, scene.simulation, meshes, files};
     scene.bodies = read_bodies(root, sources);
-    FileList template_files;
-    const SceneTemplates templates = read_templates(root, sources, template_files);
+    const SceneTemplates templates = read_templates(root, sources);
     read_instances(root, templates, sources, scene.bodies, scene.joints);
     read_chains(root, sources, scene.bodies, scene.joints);
     read_joints(root, scene.bodies, scene.joints);
     check_method_of_joints(root, scene);
     if (read != nullptr) {
         read->push_back(file);
-        read->insert(read->end(), template_files.begin(), template_files.end());
+        read->insert(read->end(), files.begin(), files.end());
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());
     }
     if (overrides.integrator)  // the option applies to every body

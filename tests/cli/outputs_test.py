@@ -166,6 +166,14 @@ class OneFile(program.ProgramTest):
         self.write("out/frame_000003.png", program.SCENE)
         self.refused("render", "out/frame_000003.png", "--frames", "out", said="is read")
 
+    def test_a_file_of_poses(self):
+        self.write("rows.csv", "x,y,z\n0,9,0\n")
+        self.write("posed.toml", program.SCENE + '[[body]]\nshape = { type = "sphere", radius = 0.2 }\nposes = "rows.csv"\n')
+        (self.folder / "link.csv").symlink_to("rows.csv")
+        for option, file in (("--energy", "rows.csv"), ("--trajectory", "link.csv"), ("--contacts", "./rows.csv")):
+            self.refused("simulate", "posed.toml", option, file, said="rows.csv")
+        self.check(0, "simulate", "posed.toml", "--energy", "e.csv")
+
     def test_buffers_of_a_mesh(self):
         positions = struct.pack("<12f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1)
         indices = struct.pack("<12H", 0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3)

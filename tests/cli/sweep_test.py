@@ -194,6 +194,11 @@ position = [0.0, 3.0, 0.0]
 """)
         self.compare(RANDOM.format(samples=2).replace("samples = 2", 'samples = 2\nname = "a/b/{index}"') + OUTPUTS, [])
 
+    def test_poses_are_found_from_the_resolved_scene(self):
+        self.write("rows.csv", "x,y,z\n0,3,0\n2,3,0\n")
+        self.write("boxes.toml", SCENE + '[[body]]\nname = "posed"\nshape = { type = "sphere", radius = 0.3 }\nposes = "rows.csv"\n')
+        self.compare(RANDOM.format(samples=2).replace("samples = 2", 'samples = 2\nname = "a/b/{index}"') + OUTPUTS, [])
+
     def test_the_number_of_workers_changes_nothing(self):
         self.write("plan.toml", RANDOM.format(samples=4) + OUTPUTS)
         for workers in (1, 3):

@@ -94,7 +94,8 @@ Json record_json(const ValueMap& values) {
 
 Json record_json(const BodyKind& kind) {
     Json json{{"look", record_json(kind.look)}, {"matter", record_json(kind.matter)}, {"round", kind.round}};
-    if (!kind.bounds.empty()) json["bounds"] = Json::array({record_json(kind.bounds.min), record_json(kind.bounds.max)});
+    if (!kind.bounds.empty())
+        json["bounds"] = Json::array({record_json(kind.bounds.min), record_json(kind.bounds.max)});
     return json;
 }
 

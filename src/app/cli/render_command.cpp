@@ -261,7 +261,8 @@ void add_render_options(CLI::App& command, RenderCommand& c) {
         .add_option("--samples", c.overrides.samples, "Samples per pixel, in place of the scene's: 1 is fast, 4 smooth")
         ->check(number())
         ->type_name("N");
-    add_choice<GlBackend>(command, "--gl", c.drawing.backend, {{"software", GlBackend::software}, {"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
+    add_choice<GlBackend>(command, "--gl", c.drawing.backend,
+                          {{"software", GlBackend::software}, {"osmesa", GlBackend::osmesa}, {"egl", GlBackend::egl}},
                           "OpenGL backend: software (the default) draws on the CPU, by OSMesa or, where that is "
                           "missing,\nby EGL; egl uses a GPU if there is one. On the CPU all give the same bytes");
     add_clip_times(command, c);

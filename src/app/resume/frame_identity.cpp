@@ -121,8 +121,10 @@ std::string differences(const FrameIdentity& there, const FrameIdentity& here) {
 std::string manifest_text(const FrameIdentity& identity) {
     Json scenes = Json::array();
     for (const FrameIdentity::Scene& scene : identity.scenes)
-        scenes.push_back(
-            {{"file", scene.file}, {"label", scene.label}, {"hash", scene.hash}, {"parts", json_of_values(scene.parts)}});
+        scenes.push_back({{"file", scene.file},
+                          {"label", scene.label},
+                          {"hash", scene.hash},
+                          {"parts", json_of_values(scene.parts)}});
     const Json json = {{"format", manifest_format},  {"version", identity.version},
                        {"mark", identity.mark()},    {"frames", identity.frames},
                        {"fps", identity.fps},        {"settings", json_of_values(identity.settings)},

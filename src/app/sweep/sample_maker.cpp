@@ -26,31 +26,33 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The name of a mesh file for a scene in another folder.
-void move_mesh(toml::table& shape, const fs::path& from, const fs::path& to) {
-    toml::value<std::string>* file = shape["file"].as_string();
-    if (file == nullptr || shape["type"].value<std::string>() != "mesh") return;
+/// The name of a file for a scene in another folder.
+void move_file(toml::value<std::string>* file, const fs::path& from, const fs::path& to) {
+    if (file == nullptr) return;
     const fs::path name(file->get());
     if (name.empty() || name.is_absolute()) return;
     file->get() = fs::absolute(from / name).lexically_normal().lexically_relative(fs::absolute(to).lexically_normal());
 }
 
-void move_meshes(toml::node& node, const fs::path& from, const fs::path& to) {
+/// Files of meshes and of poses.
+void move_files(toml::node& node, const fs::path& from, const fs::path& to) {
     if (toml::table* table = node.as_table()) {
-        move_mesh(*table, from, to);
-        for (auto&& [key, inner] : *table) move_meshes(inner, from, to);
+        toml::table& keys = *table;
+        if (keys["type"].value<std::string>() == "mesh") move_file(keys["file"].as_string(), from, to);
+        move_file(keys["poses"].as_string(), from, to);
+        for (auto&& [key, inner] : keys) move_files(inner, from, to);
     } else if (toml::array* array = node.as_array()) {
-        for (toml::node& inner : *array) move_meshes(inner, from, to);
+        for (toml::node& inner : *array) move_files(inner, from, to);
     }
 }
 
-/// As TOML, for `tumble render`, or as JSON for other programs. `folder`: where the text will be; names of mesh files
+/// As TOML, for `tumble render`, or as JSON for other programs. `folder`: where the text will be; names of files
 /// become relative to it. Throws InputError.
 std::string resolved_scene(const std::string& text, const fs::path& scene, const std::vector<std::string>& assignments,
                            const fs::path& folder, SceneForm form) {
     toml::table document = parse_toml(text, scene.string());
     set_values(document, assignments);
-    move_meshes(document, scene.parent_path(), folder);
+    move_files(document, scene.parent_path(), folder);
     if (form == SceneForm::json) return json_of(document).dump(2) + "\n";
     return toml_document_text(document);
 }

@@ -87,7 +87,7 @@ void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
            "string"});
     field(self.keyframes, "keyframes", ByCode(), {"see [keyframes](#keyframes)", "none", {}, "array of tables"});
     field(self.interpolation, "interpolation", ByType(), {"see [keyframes](#keyframes)"});
-    for (const char* one : {"grid", "scatter", "scale", "colors"})
+    for (const char* one : {"grid", "scatter", "scale", "colors", "poses"})
         field.key(one, {"see [many bodies from one table](#many-bodies-from-one-table)", "none"});
     if constexpr (requires { self.appearance; }) field.shown(self.appearance);
 }

@@ -3,8 +3,10 @@
 #include "core/safe_text.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/motion.h"
+#include "scene/keys/posed_bodies.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
+#include "scene/toml/toml_file.h"
 
 #include <fmt/format.h>
 
@@ -45,7 +47,51 @@ void name_bodies(const TomlTable& table, bool are_copies, std::size_t first_inde
     }
 }
 
+/// Fails where the table and the columns of its file have the same value.
+void check_poses(const TomlTable& table, const PosedBodies& posed) {
+    const auto refuse = [&](const char* key, bool given_twice, std::string_view columns) {
+        if (const auto value = table.find(key); value && given_twice)
+            value->origin().fail(
+                fmt::format("and the columns ({}) of poses exclude each other: give one of them", columns));
+    };
+    refuse("name", posed.names, "body");
+    refuse("position", true, "x, y, z");
+    refuse("rotation", posed.rotations, "qw, qx, qy, qz");
+    refuse("velocity", posed.velocities, "vx, vy, vz");
+    refuse("angular_velocity", posed.angular_velocities, "wx, wy, wz");
+}
+
+/// The bodies of poses = "FILE.csv".
+std::vector<BodyDescription> read_poses(const TomlTable& table, const TomlValue& value, const BodyDescription& model,
+                                        std::size_t before, const BodySources& sources, BodyNames& names) {
+    for (const char* key : {"grid", "scatter"})
+        if (const auto other = table.find(key)) other->origin().fail("and poses exclude each other: give one of them");
+    if (model.type == BodyType::kinematic)
+        value.origin().fail("is for dynamic and fixed bodies (given a kinematic one)");
+    if (endless(model.shape)) value.origin().fail("is for bodies of finite size (given a plane, which is endless)");
+    std::filesystem::path file;
+    const std::string text = read_named_file(value, "file of poses", sources, file);
+    PosedBodies posed = read_posed_bodies(text, file.string(), model, names, std::int64_t(before));
+    check_poses(table, posed);
+    if (!posed.names) name_bodies(table, true, before, names, posed.bodies);
+    return std::move(posed.bodies);
+}
+
 }  // namespace
+
+std::string read_named_file(const TomlValue& value, const std::string& what, const BodySources& sources,
+                            std::filesystem::path& file) {
+    const std::string name = value.text();
+    if (name.empty()) value.fail("must not be empty");
+    file = (sources.folder / std::filesystem::path(name)).lexically_normal();
+    try {
+        std::string text = read_toml_file(file, what, limits::scene_bytes);
+        sources.files.push_back(file);
+        return text;
+    } catch (const InputError& error) {
+        value.origin().fail(fmt::format("\"{}\": {}", safe_text(name, path_text_bytes), error.message()));
+    }
+}
 
 BodyNames::BodyNames(const std::vector<BodyDescription>& bodies) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
@@ -100,12 +146,15 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
         ShapeRequest shape = read_shape(table.require("shape"), type, sources.folder, sources.meshes);
         const BodyDescription model = read_body_model(table, type, shape, sources);
         const auto copies = read_copies(table, type, shape);
-
+        const auto poses = table.find("poses");
         check_number_of_bodies(static_cast<std::int64_t>(bodies.size()) + (copies ? number_of(*copies) : 1),
                                copies ? copies->origin : table.origin());
         std::vector<BodyDescription> made{model};
         if (copies) made = make_copies(*copies, model, shape, sources.meshes, sources.settings.seed, number);
-        name_bodies(table, copies.has_value(), bodies.size(), names, made);
+        if (poses)
+            made = read_poses(table, *poses, model, bodies.size(), sources, names);
+        else
+            name_bodies(table, copies.has_value(), bodies.size(), names, made);
         if (bodies.empty())
             bodies = std::move(made);
         else

@@ -1,4 +1,4 @@
-// [[body]]: the bodies of the scene, with grids and scatters expanded.
+// [[body]]: the bodies of the scene, with grids, scatters and files of poses expanded.
 #pragma once
 
 #include "scene/description/description.h"
@@ -9,8 +9,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <set>
 #include <string>
+#include <unordered_set>
 #include <vector>
 
 namespace tumble {
@@ -18,10 +18,15 @@ namespace tumble {
 /// Sources of bodies, beside their tables.
 struct BodySources {
     const Materials& materials;
-    const std::filesystem::path& folder;  // of relative mesh paths
+    const std::filesystem::path& folder;  // of relative paths
     const SimulationSettings& settings;
     MeshCache& meshes;
+    std::vector<std::filesystem::path>& files;  // gets those that are read, beside meshes
 };
+
+/// The text of the file that the value names, at most limits::scene_bytes. `file`: gets its path. `what`: "template".
+std::string read_named_file(const TomlValue& value, const std::string& what, const BodySources& sources,
+                            std::filesystem::path& file);
 
 /// Names of the bodies of a scene: given ones are unique.
 class BodyNames {
@@ -32,7 +37,7 @@ public:
     void take(const std::string& name, const SourcePosition& origin);
 
 private:
-    std::set<std::string> taken_;
+    std::unordered_set<std::string> taken_;  // only for lookups
 };
 
 /// Reads all body tables in file order.

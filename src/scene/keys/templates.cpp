@@ -1,10 +1,7 @@
 #include "scene/keys/templates.h"
 
-#include "core/safe_text.h"
 #include "scene/keys/chains.h"
 #include "scene/keys/joints.h"
-#include "scene/toml/limits.h"
-#include "scene/toml/toml_file.h"
 
 #include <fmt/format.h>
 
@@ -29,43 +26,31 @@ SceneTemplate read_content(const TomlTable& table, const BodySources& sources, c
 }
 
 /// A scene of bodies, joints and chains only, with its own materials.
-SceneTemplate read_template_file(const TomlValue& value, const BodySources& sources,
-                                 std::vector<std::filesystem::path>& files) {
-    const std::string name = value.text();
-    if (name.empty()) value.fail("must not be empty");
-    if (name.find('\0') != std::string::npos) value.fail("must not hold a zero byte");
-    const std::filesystem::path file = (sources.folder / std::filesystem::path(name)).lexically_normal();
-    std::string text;
-    try {
-        text = read_toml_file(file, "template", limits::scene_bytes);
-    } catch (const InputError& error) {
-        value.origin().fail(fmt::format("\"{}\": {}", safe_text(name, path_text_bytes), error.message()));
-    }
-    files.push_back(file);
+SceneTemplate read_template_file(const TomlValue& value, const BodySources& sources) {
+    std::filesystem::path file;
+    const std::string text = read_named_file(value, "template", sources, file);
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"template", {file.string(), 1, 1}}, "the file of a template");
     refuse_instances(root);
     root.expect_keys({"format", "title", "materials", "body", "joint", "chain"});
     const Materials materials = read_materials(root);
     const std::filesystem::path folder = file.parent_path();
-    return read_content(root, {materials, folder, sources.settings, sources.meshes}, value.origin());
+    return read_content(root, {materials, folder, sources.settings, sources.meshes, sources.files}, value.origin());
 }
 
-SceneTemplate read_template(const TomlTable& table, const BodySources& sources,
-                            std::vector<std::filesystem::path>& files) {
+SceneTemplate read_template(const TomlTable& table, const BodySources& sources) {
     refuse_instances(table);
     table.expect_keys({"file", "body", "joint", "chain"});
     const auto file = table.find("file");
     if (!file) return read_content(table, sources, table.origin());
     for (const char* key : {"body", "joint", "chain"})
         if (const auto value = table.find(key)) value->origin().fail("and file exclude each other: give one of them");
-    return read_template_file(*file, sources, files);
+    return read_template_file(*file, sources);
 }
 
 }  // namespace
 
-SceneTemplates read_templates(const TomlTable& root, const BodySources& sources,
-                              std::vector<std::filesystem::path>& files) {
+SceneTemplates read_templates(const TomlTable& root, const BodySources& sources) {
     SceneTemplates templates;
     const auto value = root.find("template");
     if (!value) return templates;
@@ -73,7 +58,7 @@ SceneTemplates read_templates(const TomlTable& root, const BodySources& sources,
     for (const auto& [name, content] : value->table().entries()) {
         TomlTable table = content.table();
         table.set_title(fmt::format("[template.{}]", name));
-        templates.emplace(name, read_template(table, sources, files));
+        templates.emplace(name, read_template(table, sources));
     }
     return templates;
 }

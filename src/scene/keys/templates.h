@@ -5,7 +5,6 @@
 #include "scene/keys/bodies.h"
 #include "scene/toml/toml_reader.h"
 
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -20,8 +19,7 @@ struct SceneTemplate {
 
 using SceneTemplates = std::map<std::string, SceneTemplate, std::less<>>;
 
-/// Reads all templates. Files of templates are appended to `files`.
-SceneTemplates read_templates(const TomlTable& root, const BodySources& sources,
-                              std::vector<std::filesystem::path>& files);
+/// Reads all templates.
+SceneTemplates read_templates(const TomlTable& root, const BodySources& sources);
 
 }  // namespace tumble
