@@ -1,4 +1,5 @@
-// The trajectory of a scene file as CSV, as `tumble simulate --trajectory` writes it: trajectory_table SCENE.toml > T.csv
+// The trajectory of a scene file as CSV, as `tumble simulate --trajectory` writes it: trajectory_table SCENE.toml >
+// T.csv
 #include <tumble/tumble.h>
 
 #include <cstdio>

@@ -1,5 +1,5 @@
-// A rod of 1 m, 0.1 m thick, 1 kg, from 90 degrees on a hinge that breaks, for the benchmarks and the tests: closed form
-// of 30 digits.
+// A rod of 1 m, 0.1 m thick, 1 kg, from 90 degrees on a hinge that breaks, for the benchmarks and the tests: closed
+// form of 30 digits.
 #pragma once
 
 namespace tumble::bench::breaking_pendulum {

@@ -8,8 +8,8 @@ namespace tumble::bench {
 /// True if `body` is the world or a body that does not move.
 bool is_fixed(const Scene& scene, std::size_t body);
 
-/// A spanning forest of the joint graph, by breadth: from the world where a group of bodies is joined to it, otherwise from
-/// the middle of the group, so that it is as shallow as it can be. Distance joints are no edges of the forest.
+/// A spanning forest of the joint graph, by breadth: from the world where a group of bodies is joined to it, otherwise
+/// from the middle of the group, so that it is as shallow as it can be. Distance joints are no edges of the forest.
 struct JointForest {
     struct Node {
         std::size_t body = 0;

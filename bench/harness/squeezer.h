@@ -1,6 +1,7 @@
-// Andrews' squeezing mechanism, IFToMM's A03, as plain numbers for the benchmarks and the tests: seven bodies in a plane,
-// ten hinges, a crank that turns 15.9 rad in 0.03 s. Parameters: test set for initial value problems; Hairer and Wanner,
-// Solving Ordinary Differential Equations II. References: 113-bit arithmetic; the published values agree to 1.4e-9.
+// Andrews' squeezing mechanism, IFToMM's A03, as plain numbers for the benchmarks and the tests: seven bodies in a
+// plane, ten hinges, a crank that turns 15.9 rad in 0.03 s. Parameters: test set for initial value problems; Hairer and
+// Wanner, Solving Ordinary Differential Equations II. References: 113-bit arithmetic; the published values agree to
+// 1.4e-9.
 #pragma once
 
 #include <array>

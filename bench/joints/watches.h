@@ -19,8 +19,8 @@ struct EndError {
 std::function<std::unique_ptr<Watch>(const Scene&, double)> watch_end(const std::optional<EndError>& end,
                                                                       double energy_scale);
 
-/// Largest changes over their starts: of energy, and of momentum and angular momentum about the origin, over the sums of
-/// the magnitudes of all bodies; and the largest gap.
+/// Largest changes over their starts: of energy, and of momentum and angular momentum about the origin, over the sums
+/// of the magnitudes of all bodies; and the largest gap.
 std::function<std::unique_ptr<Watch>(const Scene&, double)> watch_momentum();
 
 /// Gap at the end and the speed of the fastest body there: of speed cases.

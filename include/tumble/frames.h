@@ -18,8 +18,8 @@ struct ClipTiming {
 };
 
 /// Simulates the frames of a clip in order. Frame n shows the scene at the time n * speed / fps, and with a shutter
-/// also at later moments. The step is that of the scene where it divides the time between two moments; otherwise it is the
-/// next shorter one that does. Not for several threads at once.
+/// also at later moments. The step is that of the scene where it divides the time between two moments; otherwise it is
+/// the next shorter one that does. Not for several threads at once.
 class FrameSequence {
 public:
     /// Makes a World of that many threads. Throws Error (input) with the field of the timing, or where the clip has
@@ -33,8 +33,9 @@ public:
     std::int64_t frame_count() const;
 
     /// The next frame, from frame 0 on: one snapshot, or `blur_samples` of them in order of time with a shutter, which
-    /// is open for as many equal parts: each is the middle of one. Their `frame` is its number. There is no last one: motion AOVs of a clip's last frame need the frame after it. Throws
-    /// Error (run) with the step and the body when a state is not finite; the sequence cannot go on after that.
+    /// is open for as many equal parts: each is the middle of one. Their `frame` is its number. There is no last one:
+    /// motion AOVs of a clip's last frame need the frame after it. Throws Error (run) with the step and the body when a
+    /// state is not finite; the sequence cannot go on after that.
     std::vector<Snapshot> next();
 
 private:

@@ -67,7 +67,8 @@ struct Joint {
     std::optional<double> start_angle;           // degrees
     std::optional<double> start_position;        // m
 
-    // Coordinates: the displacement or the angle of a joint that has one, and the angle of a cylindrical one (turn_...).
+    // Coordinates: the displacement or the angle of a joint that has one, and the angle of a cylindrical one
+    // (turn_...).
     std::optional<std::array<double, 2>> limits, turn_limits, second_limits;  // m, or degrees
     std::optional<std::array<double, 2>> swing;                               // degrees, half angles about y and z
     std::optional<std::array<double, 2>> twist;                               // degrees

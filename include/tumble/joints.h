@@ -1,4 +1,5 @@
-// Joints of a frame. Forces act on the second body, the opposite ones on the first. SI units, world frame; angles in rad.
+// Joints of a frame. Forces act on the second body, the opposite ones on the first. SI units, world frame; angles in
+// rad.
 #pragma once
 
 #include "vector.h"
@@ -10,8 +11,8 @@ TUMBLE_BEGIN
 
 struct JointState {
     Vec3 point;  // m, of the second body's anchor
-    // Six coordinates: displacements along x, y and z of the first body's joint frame, then angles about them. A distance
-    // joint has the first alone, the distance of its anchors.
+    // Six coordinates: displacements along x, y and z of the first body's joint frame, then angles about them. A
+    // distance joint has the first alone, the distance of its anchors.
     std::array<bool, 6> free{};                 // or limited, otherwise locked
     std::array<double, 6> position{}, speed{};  // m and rad, m/s and rad/s; of locked coordinates: 0
     Vec3 force, torque;                         // N, N m about the anchor: means over the frame

@@ -19,8 +19,8 @@ TUMBLE_BEGIN
 
 enum class PngAlpha { dropped, kept };
 
-/// 8-bit RGB, or RGBA with `kept`. The bytes are those of `tumble render --frames`, with `kept` those of `--transparent`.
-/// Throws Error (input) where the pixels do not fit the size.
+/// 8-bit RGB, or RGBA with `kept`. The bytes are those of `tumble render --frames`, with `kept` those of
+/// `--transparent`. Throws Error (input) where the pixels do not fit the size.
 void write_png(const std::string& file, const Image& image, PngAlpha alpha = PngAlpha::dropped);
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.
 Image read_png(const std::string& file);
@@ -45,9 +45,9 @@ struct Comparison {
 /// Throws Error (input) where the sizes differ or an option is out of its range.
 Comparison compare_images(const Image& a, const Image& b, const CompareOptions& options = {});
 
-/// The same for PNG and JPEG files of any size: a few rows of each are in memory. Writes an image of the differences (red
-/// beyond the tolerance, blue within it; of two sizes yellow and green where only one has pixels) where that file is named.
-/// Throws Error (input) also where an image is missing or broken.
+/// The same for PNG and JPEG files of any size: a few rows of each are in memory. Writes an image of the differences
+/// (red beyond the tolerance, blue within it; of two sizes yellow and green where only one has pixels) where that file
+/// is named. Throws Error (input) also where an image is missing or broken.
 Comparison compare_png_files(const std::string& a, const std::string& b, const CompareOptions& options = {},
                              const std::string& difference = {});
 

@@ -41,8 +41,8 @@ public:
     const Image& render(const Snapshot& snapshot);
 
     /// The mean, in linear light, of the images at these moments: motion blur (see FrameSequence). At least one, of
-    /// transparent images at most 256; each counts as rendered. The image belongs to the renderer and is valid until the
-    /// next call. Throws like render().
+    /// transparent images at most 256; each counts as rendered. The image belongs to the renderer and is valid until
+    /// the next call. Throws like render().
     const Image& render_blurred(const std::vector<Snapshot>& moments);
 
     /// Takes note of a frame that is not drawn. A body that moves by less than 0.02 pixels is drawn where it was, so

@@ -31,7 +31,8 @@ struct Energies {
     int contacts = 0;                                    // touching contact points
     double max_penetration = 0.0;                        // m, deepest overlap
     double kinetic_linear = 0.0, kinetic_angular = 0.0;  // J, of translation and of rotation
-    // J, from the start on; zero without World::record_contacts(). kinetic + potential + elastic + losses - work stays constant.
+    // J, from the start on; zero without World::record_contacts(). kinetic + potential + elastic + losses - work stays
+    // constant.
     double work = 0.0;  // by wind, forces at points, motors and kinematic bodies
     double impact_loss = 0.0, friction_loss = 0.0;
     double elastic = 0.0;     // in joints' springs, at that time

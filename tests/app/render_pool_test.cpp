@@ -60,8 +60,8 @@ Snapshot at_frame(std::int64_t n) {
 
 MotionBlurFrame sharp(std::int64_t n) { return {n, at_frame(n).time, {{at_frame(n)}}, {}, {}}; }
 
-/// The shutter is open while the box moves to its next place; without movement, all blur samples are the same. The box is
-/// elsewhere when the shutter opens, which no image shows.
+/// The shutter is open while the box moves to its next place; without movement, all blur samples are the same. The box
+/// is elsewhere when the shutter opens, which no image shows.
 MotionBlurFrame blurred(std::int64_t n) {
     MotionBlurFrame frame_poses = sharp(n);
     frame_poses.panels[0][0].bodies[2].origin.x() += 0.5;

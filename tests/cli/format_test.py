@@ -44,12 +44,20 @@ class Format(unittest.TestCase):
     def test_a_long_file_is_found(self):
         with tempfile.TemporaryDirectory(prefix="tumble-format-") as folder:
             long = pathlib.Path(folder, "long.cpp")
-            long.write_text("int f();\n" * 501)
+            long.write_text("int f();\n" * 601)
             run = check(folder)
             self.assertEqual(run.returncode, 1, run.stderr)
-            self.assertIn("501 lines", run.stderr)
+            self.assertIn("601 lines", run.stderr)
             long.write_text("int f();\n" * 600)
             self.expect(check(folder), 0)
+
+    def test_a_long_comment_is_found(self):
+        with tempfile.TemporaryDirectory(prefix="tumble-format-") as folder:
+            long = pathlib.Path(folder, "long.cpp")
+            long.write_text("// " + "word " * 24 + "\nint f();\n")
+            run = check(folder)
+            self.assertEqual(run.returncode, 1, run.stderr)
+            self.assertIn("long.cpp:1: a comment of more than 120 columns", run.stderr)
 
 
 if __name__ == "__main__":

@@ -23,7 +23,8 @@ Color3 hunt_lab(const Pixel& color) {
         const double v = color[c] / 255.0;
         linear[c] = v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4);
     }
-    // IEC 61966-2-1 to four digits would do: the exact matrix is that of the primaries and the white (0.31271, 0.32902).
+    // IEC 61966-2-1 to four digits would do: the exact matrix is that of the primaries and the white (0.31271,
+    // 0.32902).
     const double m[3][3] = {
         {0.4123867, 0.3575915, 0.1804505}, {0.2126368, 0.7151830, 0.0721802}, {0.0193306, 0.1191972, 0.9503726}};
     Color3 f;

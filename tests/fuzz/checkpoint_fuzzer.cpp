@@ -1,6 +1,6 @@
-// Files of checkpoints with a right checksum and wrong values: a state, or a motion, is read and gone on from, or refused
-// by an InputError. Layouts change, so that an input is no file but a recipe: a scene, a time, and edits of the file of
-// that state; the checksum is made after them.
+// Files of checkpoints with a right checksum and wrong values: a state, or a motion, is read and gone on from, or
+// refused by an InputError. Layouts change, so that an input is no file but a recipe: a scene, a time, and edits of the
+// file of that state; the checksum is made after them.
 #include "app/checkpoints/checkpoint_file.h"
 #include "app/checkpoints/clip_state.h"
 #include "app/checkpoints/frame_record.h"

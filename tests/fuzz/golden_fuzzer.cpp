@@ -1,5 +1,5 @@
-// A suite of golden images: the result has cases whose references lie in its folder, or is an InputError that is safe to
-// print. Nothing is read but the text.
+// A suite of golden images: the result has cases whose references lie in its folder, or is an InputError that is safe
+// to print. Nothing is read but the text.
 #include "app/golden/suite.h"
 #include "core/check.h"
 #include "core/error.h"

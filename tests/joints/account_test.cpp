@@ -43,8 +43,8 @@ double largest_error(World& world, int frames) {
     return worst;
 }
 
-// A box between the world and a box, on sliders: nothing but the springs' forces, so that the sum closes to rounding; by
-// the default method but for its error of (h w)^2/8 of the energy, which comes and goes.
+// A box between the world and a box, on sliders: nothing but the springs' forces, so that the sum closes to rounding;
+// by the default method but for its error of (h w)^2/8 of the energy, which comes and goes.
 TEST(JointAccount, SpringsAndDampersKeepTheSum) {
     for (const IntegratorKind kind : {IntegratorKind::symplectic_euler, IntegratorKind::exact}) {
         SceneDescription scene = empty_scene();

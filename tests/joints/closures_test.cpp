@@ -1,4 +1,5 @@
-// Loops of joints, gears and rods in flight, in coordinates of a spanning tree, against closed forms and conservation laws.
+// Loops of joints, gears and rods in flight, in coordinates of a spanning tree, against closed forms and conservation
+// laws.
 #include "core/deterministic_math.h"
 #include "joint_scenes.h"
 #include "tree_scene.h"
@@ -14,8 +15,8 @@ using namespace tumble::testing;
 
 namespace {
 
-/// Two upright cranks of 1 m and a coupler, thin rods of 1 kg, without gravity: the coupler does not turn, and the inertia
-/// about the angle of a crank is that of both cranks about their ends and m r^2 of the coupler.
+/// Two upright cranks of 1 m and a coupler, thin rods of 1 kg, without gravity: the coupler does not turn, and the
+/// inertia about the angle of a crank is that of both cranks about their ends and m r^2 of the coupler.
 constexpr double crank_inertia = 2.0 * (1.0 / 3.0 + 1e-6 / 12.0) + 1.0;
 
 SceneDescription parallelogram(double speed) {

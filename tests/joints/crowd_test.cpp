@@ -1,5 +1,5 @@
-// Crowds of figures, which are solved in sweeps: the decision, closed joints, sleep, threads and checkpoints; and random
-// trees, which stay finite.
+// Crowds of figures, which are solved in sweeps: the decision, closed joints, sleep, threads and checkpoints; and
+// random trees, which stay finite.
 #include "sim/checkpoint/archive.h"
 #include "sim/joints/joint_way.h"
 #include "sim/random_shapes.h"
@@ -33,8 +33,8 @@ void add_figure(SceneDescription& scene, const Vec3& place, const Quat& q) {
     }
 }
 
-/// Figures of five bodies fall on a floor, apart or in a heap. Joints of one axis have friction; in a heap all have, or a
-/// limb that hangs free would swing for long.
+/// Figures of five bodies fall on a floor, apart or in a heap. Joints of one axis have friction; in a heap all have, or
+/// a limb that hangs free would swing for long.
 SceneDescription crowd(int figures, bool heap = false) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = 4;

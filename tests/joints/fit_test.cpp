@@ -1,4 +1,5 @@
-// Velocities that fit the joints at the end of each step by rows, and at the start of flights: energies and their ledger.
+// Velocities that fit the joints at the end of each step by rows, and at the start of flights: energies and their
+// ledger.
 #include "joint_scenes.h"
 
 #include <gtest/gtest.h>
@@ -46,7 +47,8 @@ TEST(JointFit, AMisfitIsLostOnceAndTheTreeFlies) {
             }
 }
 
-/// A light plate and a small heavy box that whirls about it, at speeds and a friction in proportion to the rate of steps.
+/// A light plate and a small heavy box that whirls about it, at speeds and a friction in proportion to the rate of
+/// steps.
 SceneDescription whirling_pair(ImpactMode mode, int rate, double friction) {
     const double share = rate / 960.0;
     SceneDescription scene = empty_scene(1);

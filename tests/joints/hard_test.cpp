@@ -147,8 +147,8 @@ TEST(JointHard, ARopeAndARod) {
     }
 }
 
-// Two rods with velocities that contradict their joints, one beyond its limit, and joints too weak for that: both break in
-// the first step. All of the energy that they take is counted.
+// Two rods with velocities that contradict their joints, one beyond its limit, and joints too weak for that: both break
+// in the first step. All of the energy that they take is counted.
 TEST(JointHard, JointsThatBreakAtOnceLoseWhatTheyTake) {
     for (const IntegratorKind integrator : {IntegratorKind::runge_kutta_4, IntegratorKind::exact})
         for (const int steps : {1, 16})

@@ -134,8 +134,8 @@ TEST(JointImpact, CenterOfPercussion) {
     }
 }
 
-// A ball as heavy as the door at the struck point: the door takes its speed, returns it at its limit, and the ball leaves
-// with e times its speed.
+// A ball as heavy as the door at the struck point: the door takes its speed, returns it at its limit, and the ball
+// leaves with e times its speed.
 TEST(JointImpact, ADoorAtItsLimit) {
     for (const double e : {1.0, 0.5, 0.0}) {
         JoinedScene s;

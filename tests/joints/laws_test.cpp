@@ -47,7 +47,8 @@ TEST(JointLaws, AMotorOpensADoorToItsLimit) {
     EXPECT_NEAR(world.joint_states()[0].position[3], 0.5 * std::numbers::pi, 1e-12);
 }
 
-// At 100 rad/s and 60 steps a second the limit comes in the first step, which starts with velocities that fit the joint.
+// At 100 rad/s and 60 steps a second the limit comes in the first step, which starts with velocities that fit the
+// joint.
 TEST(JointLaws, AFastRodStopsAtItsLimit) {
     SceneDescription scene = pendulum_scene(0.5 * std::numbers::pi, 1);
     scene.simulation.gravity = Vec3::Zero();

@@ -50,8 +50,9 @@ TEST(JointMotion, ADoublePendulumConvergesWithItsGapAtRounding) {
     EXPECT_LT(fine.gap, 1e-12);
 }
 
-// Links that turn by 0.2 rad/s here and there pull the chain taut: by the sum of their centripetal forces, 1e5 times the
-// force on the link at its end. The solver of contacts, which takes the steps that no flight can, leaves gaps of 1e-7 m.
+// Links that turn by 0.2 rad/s here and there pull the chain taut: by the sum of their centripetal forces, 1e5 times
+// the force on the link at its end. The solver of contacts, which takes the steps that no flight can, leaves gaps of
+// 1e-7 m.
 TEST(JointMotion, ALongChainFliesFromItsFirstStep) {
     SceneDescription scene = empty_scene();
     scene.output.fps = 240.0;

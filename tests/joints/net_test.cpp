@@ -17,8 +17,8 @@ std::size_t place_in(int side, int row, int column) { return std::size_t(row * s
 
 constexpr double upright = -1.0;  // in place of a height: the first row is the highest
 
-// A net of balls of 1 kg, 0.5 m apart, horizontal at height y or upright: on ball joints halfway, or with distance joints
-// between the centers. Bodies and joints come first.
+// A net of balls of 1 kg, 0.5 m apart, horizontal at height y or upright: on ball joints halfway, or with distance
+// joints between the centers. Bodies and joints come first.
 SceneDescription net_scene(int side, Links links, double y = 0.0, int steps_per_frame = 4) {
     SceneDescription scene;
     scene.simulation.steps_per_frame = steps_per_frame;
@@ -112,7 +112,8 @@ TEST(Nets, SwingsAsWithTheDirectSolver) {
     EXPECT_LT(off, 1e-2);  // of 2.9 m
 }
 
-// At rest a joint under the tension T is open by leak / rate T d^2 / m: of eight balls 0.2 * 8 * 9.81 / 960^2 = 1.7e-5 m.
+// At rest a joint under the tension T is open by leak / rate T d^2 / m: of eight balls 0.2 * 8 * 9.81 / 960^2 = 1.7e-5
+// m.
 TEST(Nets, HangsAsWithTheDirectSolver) {
     for (const Links links : {Links::balls, Links::rods, Links::ropes}) {
         SceneDescription scene = net_scene(8, links, upright);

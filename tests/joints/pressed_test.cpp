@@ -1,5 +1,5 @@
-// Limits with restitution under load: a joint that forces, motors or an accelerating carrier press on its limit does not
-// rebound in each step, and carries the load. Impacts remain impacts.
+// Limits with restitution under load: a joint that forces, motors or an accelerating carrier press on its limit does
+// not rebound in each step, and carries the load. Impacts remain impacts.
 #include "joint_scenes.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
-// Jointed mechanisms against closed forms and references of 20 digits: tops, four-bars, Bricard's mechanism, struck rods.
+// Jointed mechanisms against closed forms and references of 20 digits: tops, four-bars, Bricard's mechanism, struck
+// rods.
 #include "joint_scenes.h"
 
 #include <gtest/gtest.h>
@@ -41,8 +42,8 @@ double lean_of(const World& world) {
     return std::atan2(std::hypot(e.x(), e.z()), e.y());
 }
 
-// Spherical pendulum, 120 degrees from up, azimuth rate 4 rad/s: the other turning angle 159.34712544119114 degrees, half
-// the period of 0.405923390506001434 s later.
+// Spherical pendulum, 120 degrees from up, azimuth rate 4 rad/s: the other turning angle 159.34712544119114 degrees,
+// half the period of 0.405923390506001434 s later.
 TEST(JointReference, ASphericalPendulum) {
     const double lean = 120.0 * pi / 180.0;
     const Vec3 e(std::sin(lean), std::cos(lean), 0.0);

@@ -17,7 +17,8 @@ bool all_asleep(const World& world) {
                        [](const BodyState& body) { return body.asleep || body.mass == 0.0; });
 }
 
-/// A trunk with a head and four limbs of two parts, with limits, dry friction and dampers, dropped on a floor with a step.
+/// A trunk with a head and four limbs of two parts, with limits, dry friction and dampers, dropped on a floor with a
+/// step.
 SceneDescription fallen_figure_scene(int trial) {
     SceneDescription scene = ground_scene(0.0, 0.6, 4);
     BodyDescription& stone = add_box(scene, {2.0, 0.2, 6.0}, {1.3, 0.1, 0.0});
@@ -59,7 +60,8 @@ SceneDescription fallen_figure_scene(int trial) {
     return scene;
 }
 
-/// A rod hinged to the world about z, hanging, `angle` (rad) aside, with a damper that lets it sink back as exp(-t / `time`).
+/// A rod hinged to the world about z, hanging, `angle` (rad) aside, with a damper that lets it sink back as exp(-t /
+/// `time`).
 SceneDescription damped_rod_scene(double angle, double time) {
     SceneDescription scene = pendulum_scene(angle, 4);
     scene.simulation.sleep = true;
@@ -78,8 +80,8 @@ TEST(JointRest, AJammedFigureFallsAsleep) {
     }
 }
 
-// theta = theta_0 exp(-t/T) with T = 3 s, whose velocity changes by less than a thirtieth from sample to sample: it falls asleep
-// where the way that is left, theta of the surface, is 2e-4 radii, and not before.
+// theta = theta_0 exp(-t/T) with T = 3 s, whose velocity changes by less than a thirtieth from sample to sample: it
+// falls asleep where the way that is left, theta of the surface, is 2e-4 radii, and not before.
 TEST(JointRest, ADampedRodFallsAsleepNearItsEnd) {
     World world(damped_rod_scene(0.3, 3.0));
     int frame = 0;
@@ -90,8 +92,8 @@ TEST(JointRest, ADampedRodFallsAsleepNearItsEnd) {
     EXPECT_GT(left, 1e-4);
 }
 
-// A door on hinges that lean by an angle of 1e-5 or 1e-7, pushed up: it turns back after 1.3 s, and sleep changes no digit.
-// With a damper its velocity decays too, and reverses.
+// A door on hinges that lean by an angle of 1e-5 or 1e-7, pushed up: it turns back after 1.3 s, and sleep changes no
+// digit. With a damper its velocity decays too, and reverses.
 TEST(JointRest, ADoorThatTurnsBackStaysAwake) {
     for (const double slope : {1e-5, 1e-7})
         for (const double damping : {0.0, 0.2})

@@ -6,8 +6,8 @@
 
 namespace tumble {
 
-// Where Newton's method stalls in its first round, the ends of the bodies are those of the velocities it has reached: the
-// limit looked for its impact at the ends of another island, or of none.
+// Where Newton's method stalls in its first round, the ends of the bodies are those of the velocities it has reached:
+// the limit looked for its impact at the ends of another island, or of none.
 TEST(StuckJoints, LookForImpactsOfLimitsAtTheEndsOfTheirOwnBodies) {
     World world(parse_scene(R"(
 format = 1

@@ -196,7 +196,8 @@ TEST(TreeFlight, StopsAtALimitAndAtAStrength) {
     EXPECT_NEAR(weak.list[0]->broken_at, bench::breaking_pendulum::time, 1.0 / 960.0);
 }
 
-// At its time within a step, from where the rod flies freely: constant angular velocity, and the parabola of its center.
+// At its time within a step, from where the rod flies freely: constant angular velocity, and the parabola of its
+// center.
 TEST(TreeFlight, AJointBreaksAtItsTime) {
     using namespace bench::breaking_pendulum;
     for (const double rate : {60.0, 77.0, 960.0}) {
@@ -299,7 +300,8 @@ TEST(TreeFlight, FastTurns) {
     }
 }
 
-// By extrapolation and by Verlet's method: the same motion and the same forces, for each type and both orders of the bodies.
+// By extrapolation and by Verlet's method: the same motion and the same forces, for each type and both orders of the
+// bodies.
 TEST(TreeFlight, MethodsAgree) {
     for (const JointType type : {JointType::fixed, JointType::hinge, JointType::ball, JointType::slider,
                                  JointType::universal, JointType::cylindrical, JointType::planar, JointType::six_dof})

@@ -27,8 +27,8 @@ SceneDescription braked_pendulum(double torque, int steps_per_frame = 1) {
     return scene;
 }
 
-// Where a swing ends that begins at rest at `start` (rad from hanging, above 0): the energy lost is the torque times the
-// angle that it covers.
+// Where a swing ends that begins at rest at `start` (rad from hanging, above 0): the energy lost is the torque times
+// the angle that it covers.
 double end_of_swing(double start, double torque) {
     double low = -pi, high = start;  // of the other turning point
     const auto left = [&](double end) {
@@ -117,8 +117,8 @@ TEST(TreeFriction, ASpringComesToRestWhereFrictionHoldsIt) {
         }
 }
 
-// Three rods, some of whose hinges are held and let go again: the energy that leaves is the heat of friction, and the motion
-// does not depend on the step.
+// Three rods, some of whose hinges are held and let go again: the energy that leaves is the heat of friction, and the
+// motion does not depend on the step.
 TEST(TreeFriction, HeldHingesAreLetGoAtTheirBound) {
     const auto run_at = [](int rate) {
         SceneDescription scene = double_pendulum_scene(1);

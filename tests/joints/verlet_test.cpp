@@ -171,8 +171,8 @@ TEST(Verlet, FastSwingsTakeSubsteps) {
     EXPECT_NEAR(t.energy(), energy, 1e-2 * energy);
 }
 
-// A door on its edge that a motor turns by 90 degrees: x'' + C/I x' + K/I x = 0 from rest. Beyond its largest torque, which
-// is 157 N m at the start, the rows hold it back.
+// A door on its edge that a motor turns by 90 degrees: x'' + C/I x' + K/I x = 0 from rest. Beyond its largest torque,
+// which is 157 N m at the start, the rows hold it back.
 TEST(Verlet, AMotorTurnsADoorToItsTarget) {
     const auto error = [](IntegratorKind kind, int rate, double most) {
         SceneDescription scene = empty_scene(1);
@@ -210,7 +210,8 @@ TEST(Verlet, AMotorTurnsADoorToItsTarget) {
     EXPECT_GT(error(IntegratorKind::exact, 60, 100.0), 1e-2);
 }
 
-// A light plate that a heavy body whirls about at a phase of 0.06 a step: one step by step would err by 3 % of the energy.
+// A light plate that a heavy body whirls about at a phase of 0.06 a step: one step by step would err by 3 % of the
+// energy.
 TEST(Verlet, FastFreeTreesKeepTheirEnergy) {
     SceneDescription scene;
     scene.simulation.gravity.setZero();

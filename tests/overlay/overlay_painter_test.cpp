@@ -1,5 +1,5 @@
-// Pixels of overlays over rendered frames: their places by the camera's intrinsics, and the equality of incremental and full
-// drawing.
+// Pixels of overlays over rendered frames: their places by the camera's intrinsics, and the equality of incremental and
+// full drawing.
 #include "overlay/overlay_painter.h"
 
 #include "overlay/overlay_builder.h"

@@ -1,5 +1,5 @@
-// Writes the data of a clip for the tests of the player's decoder: write_clip OUT SCENE [PATH=VALUE...]. OUT gets base64;
-// the sizes and errors are printed.
+// Writes the data of a clip for the tests of the player's decoder: write_clip OUT SCENE [PATH=VALUE...]. OUT gets
+// base64; the sizes and errors are printed.
 #include "app/page/record_run.h"
 #include "core/error.h"
 #include "page/clip_data.h"

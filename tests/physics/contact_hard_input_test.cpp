@@ -209,7 +209,8 @@ TEST(ContactHardInput, NeedlesAndPlatesFallInAHeap) {
     EXPECT_LE(world.measure().kinetic, 1e-3);
 }
 
-// 1 m on 100 m; and 100 m, 1 m and 1 mm beside each other, 1e15 in mass. Each rests within a hundred-thousandth of its size.
+// 1 m on 100 m; and 100 m, 1 m and 1 mm beside each other, 1e15 in mass. Each rests within a hundred-thousandth of its
+// size.
 TEST(ContactHardInput, AMillimeterAndAHundredMeters) {
     SceneDescription scene = ground_scene(0.0, 0.5, 4);
     const double sizes[] = {100.0, 1.0, 100.0, 1.0, 0.001};

@@ -153,8 +153,8 @@ TEST(ExactFrame, AKilometerAwayTheMotionIsTheSame) {
     }
 }
 
-// A turn by a right angle differs by rounding, and by what rounding grows to. (Other turns differ by single precision where
-// the direct solver hands an island to the soft one.)
+// A turn by a right angle differs by rounding, and by what rounding grows to. (Other turns differ by single precision
+// where the direct solver hands an island to the soft one.)
 TEST(ExactFrame, AScenePutOnItsSideMovesAlike) {
     for (const Vec3& axis : {Vec3(Vec3::UnitX()), Vec3(Vec3::UnitZ())}) {
         const Quat by = turn(axis, 0.5 * pi);

@@ -191,7 +191,8 @@ TEST(SettlingBall, PathIsTheClosedForm) {
     EXPECT_NEAR(path, 5.0 * 1.64 / 0.36, 1e-5);
 }
 
-// --- Rows of balls, e = 1, no gravity -----------------------------------------------------------------------------------
+// --- Rows of balls, e = 1, no gravity
+// -----------------------------------------------------------------------------------
 
 namespace {
 

@@ -1,5 +1,6 @@
-// A light body that jams between the floor and the foot of a stack: its impulses are a millionth of the stack's, and the
-// solution must be found all the same. Each solve that fails drops the whole stack into soft contact for some steps.
+// A light body that jams between the floor and the foot of a stack: its impulses are a millionth of the stack's, and
+// the solution must be found all the same. Each solve that fails drops the whole stack into soft contact for some
+// steps.
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

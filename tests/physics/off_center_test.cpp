@@ -1,5 +1,5 @@
-// Hits that are not central, by steps: the bodies leave in the direction of the pose in which they met, wherever the end of
-// the step lies, and the momenta, the angular momentum and the energy are kept.
+// Hits that are not central, by steps: the bodies leave in the direction of the pose in which they met, wherever the
+// end of the step lies, and the momenta, the angular momentum and the energy are kept.
 #include "scene/load.h"
 #include "sim/world.h"
 #include "support/scenes.h"

@@ -1,5 +1,5 @@
-// Touching bodies that forces press together without gravity: a load passes through bodies that have no force of their own,
-// in both modes, and makes no impacts.
+// Touching bodies that forces press together without gravity: a load passes through bodies that have no force of their
+// own, in both modes, and makes no impacts.
 #include "scene/load.h"
 #include "sim/world.h"
 

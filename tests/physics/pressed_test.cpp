@@ -1,5 +1,5 @@
-// Contacts under load with restitution: a support that pushes, forces and wind make no impact of a step's approach, however
-// strong they are beside gravity, and contact forces carry the load. Impacts remain impacts.
+// Contacts under load with restitution: a support that pushes, forces and wind make no impact of a step's approach,
+// however strong they are beside gravity, and contact forces carry the load. Impacts remain impacts.
 #include "scene/load.h"
 #include "sim/world.h"
 

@@ -1,5 +1,5 @@
-// Pool balls racked in a triangle on a table, broken along the axis of symmetry: the motion stays symmetric. Each impact
-// and each step solves many contacts at once, and no order of contacts or bodies may show in the answer.
+// Pool balls racked in a triangle on a table, broken along the axis of symmetry: the motion stays symmetric. Each
+// impact and each step solves many contacts at once, and no order of contacts or bodies may show in the answer.
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>

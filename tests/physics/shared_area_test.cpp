@@ -113,7 +113,8 @@ std::string name(const Way& way) {
     return "solver " + std::to_string(int(way.solver)) + " impacts " + std::to_string(int(way.impacts));
 }
 
-// Compares with the path of one box on one box: within 2 % of its length, or of the plate's side for a spin on the spot.
+// Compares with the path of one box on one box: within 2 % of its length, or of the plate's side for a spin on the
+// spot.
 void compare(const Path& one, const Path& other, const Start& start, const Way& way, const std::string& what) {
     const double scale = start.velocity.isZero() ? 1.0 : length_of(one);
     EXPECT_LT(apart(one, other), 0.02 * scale) << what << ", " << name(way);

@@ -1,5 +1,5 @@
-// Edges of shadows in images that are coarser than the shadow map, compared with exact areas; and light where nothing is
-// in shadow: before lit walls, beside bodies far away, and above bodies that are hidden by a plane.
+// Edges of shadows in images that are coarser than the shadow map, compared with exact areas; and light where nothing
+// is in shadow: before lit walls, beside bodies far away, and above bodies that are hidden by a plane.
 #include "drawing.h"
 #include "example_scenes.h"
 

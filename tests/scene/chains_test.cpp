@@ -73,8 +73,8 @@ TEST(Chains, AreStraightWithoutSag) {
     EXPECT_EQ(scene_of("links = 4\nfrom = [1, 2, 3]\nto = [1, 2, -5]").joints.size(), 3u) << "both ends are free";
 }
 
-// Equal links hang so that the tangents of their slopes grow evenly: the vertical force on a link's end differs from that
-// on the other by its weight, and the horizontal one is the same all along.
+// Equal links hang so that the tangents of their slopes grow evenly: the vertical force on a link's end differs from
+// that on the other by its weight, and the horizontal one is the same all along.
 TEST(Chains, HangAtRest) {
     for (const std::string to : {"[3, 2, 0]", "[2, 3.5, 1]", "[-1.5, -1, 2]"})
         for (const std::string slack : {"length = 5", "length = 9", "sag = 0.01", "sag = 0.75", "sag = 2"})

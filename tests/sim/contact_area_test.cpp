@@ -35,7 +35,8 @@ struct Polygon {
 
 }  // namespace
 
-// Rectangles: ((a^2 d + b^2 d ...) in closed form), with d the diagonal: d/6 + b^2/(12 a) ln((a + d)/b) + a^2/(12 b) ln((b + d)/a).
+// Rectangles: ((a^2 d + b^2 d ...) in closed form), with d the diagonal: d/6 + b^2/(12 a) ln((a + d)/b) + a^2/(12 b)
+// ln((b + d)/a).
 TEST(ContactArea, OfRectangles) {
     Random random(3);
     for (const double b : {1.0, 0.5, 0.25, 0.1, 0.01}) {

@@ -1,5 +1,5 @@
-// Each kind of shape against brute force: its bounds, mass, rays and collision shape against a dense mesh of its surface
-// and sums over a grid of points.
+// Each kind of shape against brute force: its bounds, mass, rays and collision shape against a dense mesh of its
+// surface and sums over a grid of points.
 #include "random_shapes.h"
 #include "sim/geometry/shapes/shape.h"
 #include "support/compounds.h"

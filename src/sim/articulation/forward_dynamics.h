@@ -104,8 +104,8 @@ public:
 
     /// The places of all nodes by the present poses of the bodies, for find_speeds().
     void set_state(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const double* coordinates);
-    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after set_state() or move(); and its
-    /// velocities at those speeds. They are the given ones if these fit the joints.
+    /// Speeds of the tree at given velocities of its bodies (of the center of mass), after set_state() or move(); and
+    /// its velocities at those speeds. They are the given ones if these fit the joints.
     void find_speeds(std::span<const SpatialMotion> bodies, double* speeds);
 
     /// Force and moment (about the node's point) that the joint of a node gives to the rest of the tree behind it,

@@ -21,7 +21,7 @@ void TreeFlight::carry(double time, bool impulse) {
                     impulse ? velocity : acceleration);
 }
 
-// The velocity of the carrier jumps at the start of the step: such a impulse is left to the contact solver.
+// The velocity of the carrier jumps at the start of the step: such an impulse is left to the contact solver.
 bool TreeFlight::jolted() const {
     if (!track()) return false;
     const double from = step_->from;

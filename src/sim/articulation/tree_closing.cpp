@@ -14,7 +14,8 @@ namespace tumble {
 namespace {
 
 /// Largest energy of the impulses at one end of a stage, as a share of the kinetic one: in singular positions they
-/// would be impulses, where a mechanism can move to first order alone. Not fitted: of fourth order in the step elsewhere.
+/// would be impulses, where a mechanism can move to first order alone. Not fitted: of fourth order in the step
+/// elsewhere.
 constexpr double closure_energy = 0.01;
 
 /// Compliance of a flight's rows over that of a body, in units of the fourth power of the largest relative turn in the

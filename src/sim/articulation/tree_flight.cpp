@@ -460,7 +460,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     const double end = step.from + step.h;
     for (double now = step.from; now < end;) {
         const double next = next_change(now);
-        if (track() && !track()->smooth() && next < end) return Outcome::declined;  // a impulse of the carrier
+        if (track() && !track()->smooth() && next < end) return Outcome::declined;  // an impulse of the carrier
         law_time_ = 0.5 * (now + next);
         const double until = next < end ? next - step.from : step.h;
         if (!(method.verlet() ? integrate_verlet(until, substeps) : integrate(until, method.kind)))

@@ -11,8 +11,8 @@ namespace tumble {
 /// momenta are not: add_impact()); sets the impact, impact_friction and bounce_velocity of each contact that takes
 /// part. Returns the number of passes; 0 without impacts.
 /// `trace`: gets every impulse; its entries of a contact add up to the contact's. Null: not asked for.
-/// `joint_impulses`: gets the impulses of the island's joints, which change no momenta either: apply_joint_impulse(). Null: not asked for.
-/// The joints have no strength: resolve_breaking().
+/// `joint_impulses`: gets the impulses of the island's joints, which change no momenta either: apply_joint_impulse().
+/// Null: not asked for. The joints have no strength: resolve_breaking().
 int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::vector<Body>& bodies,
                     const ImpactSettings& settings, ImpactTrace* trace = nullptr,
                     std::vector<JointImpulse>* joint_impulses = nullptr);

@@ -19,8 +19,8 @@ constexpr std::size_t net_bodies = 256;
 constexpr double net_work = 100.0;
 constexpr std::size_t net_bodies_of_ropes = 64;
 
-/// Largest number of bodies of a figure. Not fitted: sweeps carry a impulse along a few joints in a substep, not along a
-/// chain of a hundred.
+/// Largest number of bodies of a figure. Not fitted: sweeps carry an impulse along a few joints in a substep, not along
+/// a chain of a hundred.
 constexpr std::size_t figure_most = 64;
 
 /// Largest compliance at an anchor by a body's turns over that by its mass, for joints that lock or limit turns and for
