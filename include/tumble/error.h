@@ -18,8 +18,7 @@ struct ErrorLocation {
     std::string file;  // empty where the error is not in a file
     int line = 0;
     int column = 0;
-    std::string
-        element;  // of a SceneSpec ("bodies[2].shape.radius"), LoadOptions or ClipTiming ("fps"); otherwise empty
+    std::string element;  // of a SceneSpec ("bodies[2].shape.radius"), LoadOptions or ClipTiming ("fps"), or empty
 };
 
 /// what() reads "FILE:LINE:COLUMN: error: MESSAGE", "ELEMENT: error: MESSAGE" or "error: MESSAGE".

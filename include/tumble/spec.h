@@ -105,11 +105,12 @@ struct Sphere {
 struct Mesh {
     std::string file;  // relative to SceneSpec::folder
     double scale = 1.0;
-    std::string unit = {};           // of a file that states none: "m", "cm", "mm", "um", "km", "in", "ft", "yd"
-    std::string up = {};             // axis of such a file that points upward: "y", "z", "x"
     bool objects_are_parts = false;  // each object of the file is a part with a convex hull of its own
-    std::optional<MassFrom> mass_from = {};  // else solid if it encloses a volume, a shell if it is flat, and its hull
-    std::optional<double> thickness = {};    // m, of a shell
+    std::optional<MassFrom> mass_from =
+        {};  // by default solid if it encloses a volume, a shell if it is flat, and its hull
+    std::optional<double> thickness = {};  // m, of a shell
+    std::string unit = {};                 // of a file that states none: "m", "cm", "mm", "um", "km", "in", "ft", "yd"
+    std::string up = {};                   // axis of such a file that points upward: "y", "z", "x"
 };
 
 /// Indices of three vertices from 0, counterclockwise seen from outside.

@@ -2,7 +2,7 @@
 #include "output/confined_path.h"
 #include "core/error.h"
 
-#include "../support/folder.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

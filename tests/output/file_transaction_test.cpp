@@ -2,8 +2,8 @@
 #include "output/file_transaction.h"
 #include "core/error.h"
 
-#include "../support/folder.h"
 #include "killed_rename.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

@@ -4,8 +4,8 @@
 #include "core/error.h"
 #include "output/temporary_file.h"
 
-#include "../support/folder.h"
 #include "killed_rename.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

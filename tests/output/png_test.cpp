@@ -3,7 +3,7 @@
 #include "output/png_reader.h"
 #include "output/png_writer.h"
 
-#include "../support/folder.h"
+#include "support/folder.h"
 #include "support/pictures.h"
 
 #include <gtest/gtest.h>

@@ -2,7 +2,7 @@
 #include "output/table_writer.h"
 #include "core/error.h"
 
-#include "../support/folder.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

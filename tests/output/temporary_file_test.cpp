@@ -3,7 +3,7 @@
 #include "core/error.h"
 #include "output/png_writer.h"
 
-#include "../support/folder.h"
+#include "support/folder.h"
 #include "support/pictures.h"
 
 #include <gtest/gtest.h>

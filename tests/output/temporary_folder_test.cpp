@@ -1,7 +1,7 @@
 // Temporary folders: those of killed processes are removed by the next, and no others.
 #include "output/temporary_folder.h"
 
-#include "../support/folder.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

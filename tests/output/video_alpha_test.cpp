@@ -2,7 +2,7 @@
 #include "output/process.h"
 #include "output/video_writer.h"
 
-#include "../support/folder.h"
+#include "support/folder.h"
 #include "support/pictures.h"
 
 #include <gtest/gtest.h>

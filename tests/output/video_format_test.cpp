@@ -1,5 +1,5 @@
 // Endings and frame rates, before any program runs.
-#include "../support/folder.h"
+#include "support/folder.h"
 
 #include "core/error.h"
 #include "output/video_format.h"

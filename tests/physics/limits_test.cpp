@@ -109,7 +109,7 @@ TEST(Limits, ALongPlateWithAFastSpinSlidesTooFar) {
 
 // A ring over a pole would fall around it; its hull has no hole.
 TEST(Limits, AMovingMeshCollidesAsItsHull) {
-    const MeshShape ring{load_mesh(TUMBLE_SOURCE_DIR "/assets/meshes/torus.obj").asset};
+    const MeshShape ring{load_mesh(std::filesystem::path(TUMBLE_SOURCE_DIR "/assets/meshes/torus.obj")).asset};
     const Bounds bounds = ring.asset->mesh.bounds();
     SceneDescription scene = ground_scene(0.0, 0.5);
     add_box(scene, {0.2, 2.0, 0.2}, {0.0, 1.0, 0.0}).type = BodyType::fixed;

@@ -1,7 +1,7 @@
 // Helpers for tests that look at pixels.
 #pragma once
 
-#include "../support/folder.h"
+#include "support/folder.h"
 
 #include "core/image.h"
 #include "render/camera/camera.h"

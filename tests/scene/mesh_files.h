@@ -1,7 +1,7 @@
 // Mesh files written by the tests, each in a temporary folder.
 #pragma once
 
-#include "../support/folder.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 

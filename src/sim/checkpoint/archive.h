@@ -11,8 +11,8 @@
 //       archive.scratch(spare);   // written before it is read in each step
 //   }
 //
-// A new field does not compile until the function names it. tests/sim/checkpoint_test.cpp compares the motion of
-// restored worlds with that of unbroken ones: a field in the wrong group shows there.
+// A new field does not compile until the function names it. tests/sim/checkpoint/checkpoint_test.cpp compares the
+// motion of restored worlds with that of unbroken ones: a field in the wrong group shows there.
 //
 // Files come from anywhere: the function also declares the bound of each field, and reading refuses a value beyond it.
 // keep() takes flags, finite numbers, and classes whose fields declare theirs; whole numbers and enumerations do not

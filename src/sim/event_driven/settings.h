@@ -7,7 +7,7 @@
 namespace tumble::tuning {
 
 /// A touching contact that does not approach is no event while its overlap is below this share of the smaller body.
-/// Not fitted: a tenth of the tolerance of resting contact. Tests: tests/sim/time_of_impact_test.cpp.
+/// Not fitted: a tenth of the tolerance of resting contact. Tests: tests/sim/ccd/time_of_impact_test.cpp.
 inline constexpr double impact_harmless = 1e-7;
 
 /// Impacts of a resting body with others within a step at their own times, once it was hit. A body that turns about

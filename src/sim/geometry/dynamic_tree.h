@@ -29,7 +29,7 @@ public:
     /// Calls visit(item) for each item whose box overlaps, in an order that depends on the tree's history.
     template <class Visit>
     void query(const Bounds& box, Stack& stack, Visit&& visit) const {
-        const auto visit = [&](std::uint32_t child) {
+        const auto search = [&](std::uint32_t child) {
             if (!leaf(child))
                 stack.push_back(child);
             else if (items_[item_of(child)].box.overlaps(box))
@@ -38,12 +38,12 @@ public:
         if (root_ == none) return;
         const Box wide(box);
         stack.clear();
-        visit(root_);
+        search(root_);
         while (!stack.empty()) {
             const Node& node = nodes_[stack.back()];
             stack.pop_back();
             for (int side = 1; side >= 0; --side)
-                if (node.box[side].overlaps(wide)) visit(node.child[side]);
+                if (node.box[side].overlaps(wide)) search(node.child[side]);
         }
     }
 

@@ -4,7 +4,7 @@
 namespace tumble::tuning {
 
 /// Two surfaces touch at gaps below this share of the smaller body's radius: far above rounding, far below visible
-/// size. Not fitted. Tests: tests/sim/narrow_phase_test.cpp and landing_test.cpp.
+/// size. Not fitted. Tests: tests/sim/detection/narrow_phase_test.cpp and landing_test.cpp.
 inline constexpr double touch = 1e-6;
 
 /// Two edges nearer to parallel than this (squared sine of their angle) give no separating axis; a face normal

@@ -174,9 +174,8 @@ std::vector<JointImpulse> ImpactSystem::store_velocities(std::vector<Body>& bodi
     for (std::size_t k = 0; k < limit_.size(); ++k) {
         const JoinedGroups::Limit& limit = groups_->limits()[limit_[k]];
         const std::size_t row = contacts() + k;
-        const Vec3 impulse = impulse_[row] * limit.size * limit.direction;
         JointImpulse& impulse = joint_impulses[limit.joint];
-        (limit.turns ? impulse.torque : impulse.force) += impulse;
+        (limit.turns ? impulse.torque : impulse.force) += impulse_[row] * limit.size * limit.direction;
         impulse.lost -= 0.5 * impulse_[row] * (speed_at_start(row) + speed(row));
     }
     for (JointImpulse& impulse : joint_impulses) find_work(impulse, bodies);

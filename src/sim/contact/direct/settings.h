@@ -31,7 +31,7 @@ inline constexpr int direct_most_rounds = 30;
 inline constexpr int direct_line_search = 25;
 
 /// Overlaps below this share of the smaller radius are not corrected: below a micrometer for bodies of a meter. Not
-/// fitted: below any visible size. Tests: tests/sim/landing_test.cpp.
+/// fitted: below any visible size. Tests: tests/sim/contact/landing_test.cpp.
 inline constexpr double direct_slop = 1e-6;
 
 /// Compliance of position correction, over the island's mass, and the share of that stiffness across the normals.
