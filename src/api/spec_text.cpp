@@ -75,7 +75,7 @@ private:
         write_fields<WindDescription>(*this, w);
     }
 
-    // A table of its own, because a body may have the mass in place of its material's density.
+    // A table of its own, because a body may have the mass instead of its material's density.
     bool write(const Material& m, std::size_t body) {
         if (!m.color && !m.density && !m.restitution && !m.friction && !m.roughness && !m.metallic && !m.pattern)
             return false;

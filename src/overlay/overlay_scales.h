@@ -60,7 +60,7 @@ public:
     void add(const Snapshot& snapshot, const ContactRecords* records);
     /// Counts the arrows of another panel as well, so that both have the same scales.
     void add(const ScaleSurvey& other);
-    /// Takes the counts of another panel in place of its own.
+    /// Takes the counts of another panel instead of its own.
     void take(const ScaleSurvey& other) { sizes_ = other.sizes_, marks_ = other.marks_; }
     const OverlayMarks& marks() const { return marks_; }
     /// The scene's scales where given.

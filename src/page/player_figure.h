@@ -19,9 +19,9 @@ struct PlayerOptions {
     int run = 0;                                      // shown at first
     std::string follow;                               // body that the camera follows
     std::string body;                                 // chosen at first
-    std::optional<std::vector<std::string>> overlay;  // shown at first, in place of the scene's
+    std::optional<std::vector<std::string>> overlay;  // shown at first, instead of the scene's
     std::string plot;                                 // "energy,body.ball.y"
-    std::optional<PlayerView> view;                   // in place of the scene's camera
+    std::optional<PlayerView> view;                   // instead of the scene's camera
     std::optional<std::vector<std::string>> panels;   // plots, state, impacts, source
     std::string layout;                               // "page" or "lesson"
     std::string compare;                              // of runs: single, ghost, side-by-side

@@ -15,7 +15,7 @@ std::string superscript(int exponent) {
     return text;
 }
 
-/// With a minus sign in place of a hyphen, and a thin space between groups of three digits from 10 000 on.
+/// With a minus sign instead of a hyphen, and a thin space between groups of three digits from 10 000 on.
 std::string typeset(std::string text) {
     const std::size_t first = text.find_first_of("0123456789"), digits = std::min(text.find('.'), text.size()) - first;
     if (digits > 4)

@@ -19,7 +19,7 @@ struct RenderSwitches;
 struct RenderOptions {
     GlBackend backend = GlBackend::software;
     std::filesystem::path shader_folder;  // empty: found beside the program, installed, or in the source tree
-    bool transparent = false;  // straight alpha in place of the sky and the planes, which light bodies all the same
+    bool transparent = false;  // straight alpha instead of the sky and the planes, which light bodies all the same
 };
 
 /// One OpenGL context and its resources. Use it in the thread that made it.

@@ -65,7 +65,7 @@ struct World::State {
     std::unique_ptr<ContactLog> log;      // if asked for
     std::vector<ManifoldImpulse> totals;  // by manifold, of the last solve; for the log
     ContactRecords records;               // of the last frame
-    std::unique_ptr<NotesMethod> notes;   // with method = "notes", in place of all stages
+    std::unique_ptr<NotesMethod> notes;   // with method = "notes", instead of all stages
     struct Sleeper {
         std::uint32_t body;
         Vec3 place;  // m
@@ -217,7 +217,7 @@ void World::State::advance(std::int64_t to) {
     }
 }
 
-// Gravity acts on sleeping bodies in skipped steps too, at the places where they slept.
+// Gravity acts on sleeping bodies in skipped steps too, at the positions where they slept.
 void World::State::list_asleep() {
     asleep.clear();
     for (std::uint32_t i = 0; i < set.bodies.size(); ++i)
@@ -231,7 +231,7 @@ void World::State::log_skipped(std::int64_t skipped) {
 
 void World::State::apply_forces(const StepContext& step) {
     using OutOfDate = ForceStage::OutOfDate;
-    // Ballistic bodies that are stepped from now on were moved to this place.
+    // Ballistic bodies that are stepped from now on were moved to this position.
     forces.apply(step, motion->has_ballistic_bodies() ? OutOfDate::all
                        : impacts.any()                ? OutOfDate::velocities
                                                       : OutOfDate::none);

@@ -1,4 +1,4 @@
-// The frames of a panel from the motion in a folder of checkpoints, in place of a simulation.
+// The frames of a panel from the motion in a folder of checkpoints, instead of a simulation.
 #pragma once
 
 #include "app/checkpoints/checkpoint_folder.h"

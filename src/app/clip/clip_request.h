@@ -14,7 +14,7 @@ namespace tumble {
 
 struct ClipRequest {
     std::vector<std::filesystem::path> scenes;  // a panel for each
-    std::optional<std::string> text;            // of the only scene, in place of its file's
+    std::optional<std::string> text;            // of the only scene, instead of its file's
     std::vector<std::string> vary;              // "PATH=VALUE,VALUE": a panel for each
     std::vector<std::string> labels;            // of the panels; empty: made from the names and values
     AovSet aovs;

@@ -33,7 +33,7 @@ struct GoldenCase {
     double shutter = 0.0;                  // degrees
     int blur_samples = 8;                  // images per frame while the shutter is open
     std::optional<std::string> of;         // quantities: the case is a plot of them
-    std::optional<Tolerances> tolerances;  // in place of the suite's
+    std::optional<Tolerances> tolerances;  // instead of the suite's
 
     /// The place of a key, otherwise of the case.
     const SourceLocation& place_of(std::string_view key) const;

@@ -65,7 +65,7 @@ public:
     Pipeline(std::span<const PanelSource> panels, const PipelineFrames& frames, RenderPool& render_pool,
              const PipelineOutputs& outputs, Shutter shutter = {});
 
-    /// Simulates from this state on, in place of from the start. Preconditions: its frame is not after the first one of
+    /// Simulates from this state on, instead of from the start. Preconditions: its frame is not after the first one of
     /// the range; run() has not been called. Throws InputError where it is not a state of these panels.
     void go_on_from(const ClipState& state);
 

@@ -47,7 +47,7 @@ public:
 
     const std::vector<SampleFile>& files() const { return files_; }
 
-    /// Gives it its final name, in place of an older sample. Throws RunError, also where another folder has that name.
+    /// Gives it its final name, instead of an older sample. Throws RunError, also where another folder has that name.
     void publish(const std::filesystem::path& final_path);
 
 private:

@@ -54,7 +54,7 @@ struct SweepAxis {
     std::string name;                // in names of samples, in the manifest, and of its random numbers
     std::vector<std::string> paths;  // of the keys that get the value, as for --set
     AxisSource source;
-    std::optional<std::uint64_t> seed;  // in place of the plan's
+    std::optional<std::uint64_t> seed;  // instead of the plan's
 
     bool is_list() const { return std::holds_alternative<ValueList>(source); }
     std::size_t list_size() const { return std::get<ValueList>(source).values.size(); }

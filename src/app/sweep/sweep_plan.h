@@ -44,7 +44,7 @@ struct SampleOutputs {
     std::string clip;  // file name; empty: none
     AovSet aovs;
     bool trajectory = false, energy = false, impacts = false, contacts = false, loads = false, joints = false;
-    bool arrays = false;  // impacts, contacts, loads and joints as .npz in place of CSV
+    bool arrays = false;  // impacts, contacts, loads and joints as .npz instead of CSV
     SceneForm scene = SceneForm::toml;
 
     bool tables() const { return trajectory || energy || impacts || contacts || loads || joints; }

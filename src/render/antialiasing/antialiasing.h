@@ -14,7 +14,7 @@ class Antialiasing {
 public:
     struct Options {
         bool analytic = true;      // false leaves the image as drawn, with the samples of each pixel averaged
-        bool transparent = false;  // alpha is coverage: without `analytic`, it is drawn in place of surface ids
+        bool transparent = false;  // alpha is coverage: without `analytic`, it is drawn instead of surface ids
     };
     /// `lods` must outlive it.
     Antialiasing(MeshLods& lods, int width, int height, const Options& options)

@@ -24,7 +24,7 @@ struct PassOptions {
     int width = 1, height = 1;                                  // pixels
     int samples = 1;                                            // per pixel; the driver may limit them
     bool widen_rods = false;                                    // see make_frame_uniforms()
-    std::optional<std::array<float, 4>> plain_background = {};  // color and alpha in place of the sky and the planes
+    std::optional<std::array<float, 4>> plain_background = {};  // color and alpha instead of the sky and the planes
     ShaderCompileSchedule* schedule = nullptr;                  // or null
 };
 

@@ -32,7 +32,7 @@ struct PairRules {
     bool operator==(const PairRules&) const = default;
 };
 
-/// In place of a value: the body takes the value of the other one.
+/// Instead of a value: the body takes the value of the other one.
 inline constexpr double value_of_other = -1.0;
 
 inline double pair_value(PairRule rule, double a, double b) {

@@ -23,7 +23,7 @@ enum class JointType { fixed, hinge, ball, slider, universal, cylindrical, plana
 struct JointSpring {
     double stiffness = 0.0;  // N/m, or N m/rad
     double damping = 0.0;    // N s/m, or N m s/rad
-    double frequency = 0.0;  // Hz; above 0 in place of the two above, for the effective mass of the joint at the start
+    double frequency = 0.0;  // Hz; above 0 instead of the two above, for the effective mass of the joint at the start
     double damping_ratio = 0;  // of critical damping, with a frequency
     double rest = 0.0;         // m, or rad
 };

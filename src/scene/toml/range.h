@@ -17,7 +17,7 @@ namespace tumble {
 struct Range {
     double min, max;
     const char* unit = "";      // for messages
-    bool min_excluded = false;  // "above min" in place of "at least min"
+    bool min_excluded = false;  // "above min" instead of "at least min"
 
     bool contains(double value) const {
         return (min_excluded ? value > min : value >= min) && value <= max;  // false for NaN

@@ -13,7 +13,7 @@ namespace tumble {
 
 class ForwardDynamics {
 public:
-    /// A node in motion; places are relative to the tree's origin.
+    /// A node in motion; positions are relative to the tree's origin.
     struct Link {
         Quat orientation = Quat::Identity();
         Mat3 rotation = Mat3::Identity();
@@ -45,7 +45,7 @@ public:
 
     explicit ForwardDynamics(const JointTree& tree) : tree_(tree) {}
 
-    /// The ground moves: its pose (place from the tree's origin), velocity and acceleration, from the next call on.
+    /// The ground moves: its pose (position from the tree's origin), velocity and acceleration, from the next call on.
     void carry(const Quat& orientation, const Vec3& point, const SpatialMotion& velocity,
                const SpatialMotion& acceleration);
     /// The ground stands still, at the tree's origin.
@@ -53,9 +53,9 @@ public:
     /// Places, velocities and inertias of all nodes. Quaternions may have any length. Speeds of a ball are components
     /// in the parent's frame.
     void move(const double* coordinates, const double* speeds);
-    /// The same without inertias: for places and velocities alone.
+    /// The same without inertias: for positions and velocities alone.
     void place(const double* coordinates, const double* speeds);
-    /// Other speeds at the places of the last move().
+    /// Other speeds at the positions of the last move().
     void set_speeds(const double* speeds);
     /// A force on a node's body, and a torque (N m) or force (N) along the coordinate of a revolute or prismatic node;
     /// between move() or set_speeds() and accelerate() or respond().
@@ -87,7 +87,7 @@ public:
     }
     /// Rates of the speeds. `base`: acceleration of the ground, which acts as gravity of -base; not of free trees.
     void accelerate(const Vec3& base, double* rates);
-    /// The same with the inertias of the last accelerate(): for other efforts and speeds at the same places.
+    /// The same with the inertias of the last accelerate(): for other efforts and speeds at the same positions.
     void respond(const Vec3& base, double* rates);
     /// Before accelerate(): keeps the efforts, for a second solve with further ones.
     void keep_efforts();
@@ -102,7 +102,7 @@ public:
     /// Rates of the coordinates, after move().
     void coordinate_rates(const double* coordinates, const double* speeds, double* rates) const;
 
-    /// The places of all nodes by the present poses of the bodies, for find_speeds().
+    /// The positions of all nodes by the present poses of the bodies, for find_speeds().
     void set_state(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const double* coordinates);
     /// Speeds of the tree at given velocities of its bodies (of the center of mass), after set_state() or move(); and
     /// its velocities at those speeds. They are the given ones if these fit the joints.

@@ -113,9 +113,10 @@ public:
 
     int coordinates() const { return coordinates_; }
     int speeds() const { return speeds_; }
-    /// Coordinates at the start of the step: 0, quaternions, and the place of a free root relative to the origin.
+    /// Coordinates at the start of the step: 0, quaternions, and the position of a free root relative to the origin.
     void start(double* coordinates) const;
-    /// Largest distance of the bodies' present places from those of the coordinates, in sizes of their joint, as found.
+    /// Largest distance of the bodies' present positions from those of the coordinates, in sizes of their joint, as
+    /// found.
     double gap() const { return gap_; }
 
 private:

@@ -37,7 +37,7 @@ inline constexpr int tree_most_trials = 60;
 inline constexpr double closure_closed = 8e-15;
 inline constexpr int closure_passes = 40;
 
-/// Rest of a step after a break, as a share of the step, that is left out. Not fitted: rounding of the places.
+/// Rest of a step after a break, as a share of the step, that is left out. Not fitted: rounding of the positions.
 inline constexpr double tree_least_rest = 1e-12;
 
 /// Rotation, rad, of the fastest body in a part of a flight past other bodies; the most parts of a step; and searches

@@ -28,12 +28,12 @@ public:
     /// Impulses at time t (s, in the step), as the forces of sample(): before its first call, and between two at this
     /// time.
     void strike(const ForwardDynamics& dynamics, double t, std::span<const Wrench> impulses);
-    /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and places
-    /// of the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again at the
-    /// same time where the forces change.
+    /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and
+    /// positions of the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again
+    /// at the same time where the forces change.
     void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
                 std::span<const PushedImpulse> pushed);
-    /// In place of sample() for a stage of Verlet's method of `h` s (negative in some stages of compositions) about
+    /// Instead of sample() for a stage of Verlet's method of `h` s (negative in some stages of compositions) about
     /// time t, after ForwardDynamics::accelerate() or respond() in its middle.
     void add_stage(const ForwardDynamics& dynamics, double t, double h);
     /// Load of a joint (index among the island's) over its strength, after ForwardDynamics::accelerate().
@@ -96,7 +96,7 @@ private:
     std::vector<Sample> samples_;         // by joint
     std::vector<Vec3> momenta_, pushes_;  // N s, by body: of the last sample
     std::vector<Vec3> moments_,
-        carried_;                // N m s, by joint: integrals of point x force, and of the frame's place x force
+        carried_;                // N m s, by joint: integrals of point x force, and of the frame's position x force
     std::vector<Vec3> torques_;  // N m s, by joint: of stages
     std::vector<Vec3> torques_before_, carried_before_;
     std::vector<Vec3> struck_;          // N s, by joint: at both ends of a stage

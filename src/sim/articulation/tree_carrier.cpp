@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-// The ground at a time of the step (s), in the part that law_time_ is in. With `impulse` impulses act in place of
+// The ground at a time of the step (s), in the part that law_time_ is in. With `impulse` impulses act instead of
 // forces.
 void TreeFlight::carry(double time, bool impulse) {
     if (!track()) return;

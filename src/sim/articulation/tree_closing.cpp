@@ -34,7 +34,7 @@ double TreeFlight::fastest_turn(const Vector& y) const {
     return fastest;
 }
 
-// At rest at the places of y, for impulses.
+// At rest at the coordinates y, for impulses.
 void TreeFlight::move_still(const Vector& y) {
     const std::vector<double> still(std::size_t(tree_.speeds()), 0.0);
     dynamics_.move(y.data(), still.data());
@@ -57,7 +57,7 @@ double TreeFlight::most_energy(double h) const {
     return 0.5 * closure_energy * sum + mass * speed * speed;
 }
 
-// Impulses of the rows at the places of `at`, and their mean speeds: adds them to the account and to the sums of y.
+// Impulses of the rows at the coordinates `at`, and their mean speeds: adds them to the account and to the sums of y.
 void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
                                double time) {
     move_still(at);
@@ -73,7 +73,7 @@ void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<do
     closures_.add_sums(dynamics_, frame_, time, 1.0, y.data() + closed_ + 1);
 }
 
-// The matrices at the places of y.
+// The matrices at the coordinates y.
 void TreeFlight::load_closures(const Vector& y) {
     move_still(y);
     std::vector<double> change(std::size_t(tree_.speeds()));

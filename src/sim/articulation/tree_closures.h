@@ -25,7 +25,7 @@ public:
     /// about that of the falling frame, works on both bodies, heat of a damper.
     static constexpr int sums = 15;
 
-    /// Rows, and forces of springs, at the places and speeds of the dynamics and coordinates q.
+    /// Rows, and forces of springs, at the positions and speeds of the dynamics and coordinates q.
     void linearize(const ForwardDynamics& dynamics, const double* q);
     /// The same with the forms G.
     void linearize_forms(const ForwardDynamics& dynamics, const double* q) {
@@ -34,10 +34,10 @@ public:
     }
     /// Adds the forces of the springs.
     void drive(ForwardDynamics& dynamics);
-    /// In place of ForwardDynamics::accelerate(), and with `same_places` of respond(): with forces that keep the rows.
+    /// Instead of ForwardDynamics::accelerate(), and with `same_places` of respond(): with forces that keep the rows.
     void accelerate(ForwardDynamics& dynamics, const Vec3& base, const double* q, double* rates,
                     bool same_places = false);
-    /// The matrices at the places of the dynamics, after ForwardDynamics::accelerate().
+    /// The matrices at the positions of the dynamics, after ForwardDynamics::accelerate().
     void load(ForwardDynamics& dynamics, const double* q);
     /// Compliance of the rows, as a share of the largest, where that is more than rounding demands.
     void set_compliance(double share) { compliance_ = share; }
@@ -74,7 +74,7 @@ public:
 
     /// Load of a cut joint over its strength.
     double load_of(int joint) const;
-    /// Gives the cut joints their forces, impulses and accounts, at the places of the bodies. Returns false where a
+    /// Gives the cut joints their forces, impulses and accounts, at the positions of the bodies. Returns false where a
     /// limit is violated or a joint is loaded well beyond its strength.
     bool finish(const TreeStep& step, const double* sums) const;
 

@@ -358,7 +358,7 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
     return true;
 }
 
-// Places the bodies, with a rigid motion of a free tree that gives the whole its place and its momenta.
+// Places the bodies, with a rigid motion of a free tree that gives the whole its position and its momenta.
 void TreeFlight::place() {
     const std::size_t n = step_->island.size();
     const double h = step_->h;
@@ -405,7 +405,7 @@ void TreeFlight::place() {
     Vec3 left = start_.momentum + start_.mass * h * frame_.gravity + wanted, moment_left = moment;
     const Vec3 base = free ? frame_.place(h) : frame_.origin, speed = free ? frame_.speed(h) : Vec3(Vec3::Zero());
     const Vec3 drift = free ? Vec3(wanted / start_.mass + speed) : speed;
-    // The rounding of the frame's place is the same in each step, and would add up.
+    // The rounding of the frame's position is the same in each step, and would add up.
     if (free) shift += h * (frame_.velocity + 0.5 * h * frame_.gravity) - (base - frame_.origin);
     for (std::size_t i = 0; i < n; ++i) {
         Body& body = step_->bodies[step_->island[i]];

@@ -169,7 +169,7 @@ private:
     // the displacement of the whole.
     Vector y_;
     Vector fitted_;  // coordinates of the closures' matrices; empty: others
-    int coordinates_ = 0, heats_ = 0, works_ = 0, closed_ = 0, extras_ = 0;  // number of coordinates; places in y
+    int coordinates_ = 0, heats_ = 0, works_ = 0, closed_ = 0, extras_ = 0;  // number of coordinates; indices in y
     bool pushed_ = false;
     double lost_ = 0.0;                   // J, where the velocities did not fit the joints at the start
     double time_ = 0.0, law_time_ = 0.0;  // s, in the step; absolute, at which forces are looked up

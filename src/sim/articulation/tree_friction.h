@@ -59,12 +59,12 @@ public:
 private:
     struct Friction {
         int node = 0, joint = 0;
-        int at = 0, speed_at = 0;  // places of its coordinate and speed
+        int at = 0, speed_at = 0;  // indices of its coordinate and speed
         std::uint8_t coordinate = 0;
         double sign = 1.0;   // of the joint's coordinate along the node's own
         double bound = 0.0;  // N m, N
         double speed = 0.0;  // rad/s, m/s, along the node's coordinate: of a motor
-        int work = -1;       // place of a motor's work; friction: -1
+        int work = -1;       // index of a motor's work; friction: -1
         double way = 0.0;    // direction of the relative motion along the node's coordinate; 0: held
         double since = 0.0;  // coordinate at the last change
         double heat = 0.0;   // J, up to the last change

@@ -50,7 +50,7 @@ public:
         double impulse = 0.0;   // N m s, N s
         bool rebounds = false;
     };
-    /// Changes the speeds; the dynamics are then those of the impact, with impulses in place of forces. A rebound that
+    /// Changes the speeds; the dynamics are then those of the impact, with impulses instead of forces. A rebound that
     /// would end within a share of `span` s does not happen; `rates` gives the rates of the speeds after the impact.
     /// Without an approach nothing happens.
     Impact strike(std::size_t k, ForwardDynamics& dynamics, double* q, double* speeds, std::size_t numbers, double span,
@@ -71,7 +71,7 @@ public:
 private:
     struct Limit {
         int node = 0, joint = 0;
-        int at = 0, speed_at = 0;  // places of its coordinate and speed
+        int at = 0, speed_at = 0;  // indices of its coordinate and speed
         std::uint8_t coordinate = 0;
         Joint::Law law = Joint::lower;
         double sign = 1.0;  // of the joint's coordinate along the node's own; of a ball, of the second body's turn

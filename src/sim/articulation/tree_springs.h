@@ -40,7 +40,7 @@ public:
 private:
     struct Spring {
         int node = 0, joint = 0;
-        int at = 0, speed_at = 0, heat = -1;  // places of its coordinate, speed and heat; without a damper: -1
+        int at = 0, speed_at = 0, heat = -1;  // indices of its coordinate, speed and heat; without a damper: -1
         double stiffness = 0.0, damping = 0.0;
         double pull = 0.0;       // rest less value at the start, along the node's coordinate
         double most = infinity;  // N m, N

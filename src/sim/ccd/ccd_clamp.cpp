@@ -180,7 +180,7 @@ const std::vector<CcdFraction>& CcdClamp::limits(const CcdStep& step, const Find
             }
         }
         if (!shorter) return limits_;
-        // A body that stops earlier is an obstacle for others, at the place where it stops.
+        // A body that stops earlier is an obstacle for others, where it stops.
         for (const FastPair& pair : fast_) {
             for (const std::uint32_t k : {pair.a, pair.b}) {
                 Body there = bodies[k];

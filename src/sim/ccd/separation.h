@@ -2,7 +2,7 @@
 // bodies stay apart.
 //
 // The bound is that of second-order conservative advancement (after Mirtich 1996,
-// "Impulse-based dynamic simulation of rigid body systems", section 2.3, with a bound on accelerations in place of
+// "Impulse-based dynamic simulation of rigid body systems", section 2.3, with a bound on accelerations instead of
 // speeds).
 //
 // Along an axis n(s) that rotates uniformly, the gap is f(s) = min over points b of B and a of A of n(s).(b(s) - a(s)),

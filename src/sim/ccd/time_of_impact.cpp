@@ -29,7 +29,7 @@ using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using MeshRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
 
-// Shape that is searched: that of the whole body, or one part of a compound, at its place in the body.
+// Shape that is searched: that of the whole body, or one part of a compound, at its pose in the body.
 const CollisionShape& collider_of(const MovingBody& t) { return t.part ? t.part->collider : t.body->collider; }
 double size_of(const MovingBody& t) { return t.part ? t.part->reach : t.body->radius; }
 Pose pose_of(const MovingBody& t, const Motion& motion) {

@@ -17,7 +17,7 @@ namespace tumble {
 namespace {
 
 /// A contact point without a partner of the same features takes the impulse of an old point up to this distance
-/// away (share of the smaller radius): corners that change places on a rocking box carry the same load. Related
+/// away (share of the smaller radius): corners that alternate on a rocking box carry the same load. Related
 /// test: NarrowPhaseManifold.TakesTheNearestPointWhenFeaturesChange.
 constexpr double matching_distance = 0.1;
 
@@ -74,7 +74,7 @@ bool NarrowPhase::sound() const {
     std::size_t first = 0;
     for (const Entry& entry : entries_) {
         const std::size_t end = first + entry.count;
-        // A new entry without manifolds has no place yet.
+        // A new entry without manifolds has no slot yet.
         if (entry.first != first && (entry.count > 0 || entry.first > count)) return false;
         if (end > count || entry.search >= searches_.size()) return false;
         if (entry.mover != entry.pair.a && entry.mover != entry.pair.b) return false;
@@ -371,7 +371,7 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
         m->a = entry.pair.a;
         m->b = entry.pair.b;
         const bool alone = m + 1 == found.manifolds.end() || !(m + 1)->more;  // without a second manifold
-        const auto bring = [&] {  // moves the old points to their present places on the larger body
+        const auto bring = [&] {  // moves the old points to their present positions on the larger body
             for (std::size_t i = 0; i < std::size_t(manifolds_[old].count); ++i)
                 manifolds_[old].points[i].position = a.radius >= b.radius ? a.pose.to_world(persistent_[old].on_a()[i])
                                                                           : b.pose.to_world(persistent_[old].on_b()[i]);

@@ -9,7 +9,7 @@
 namespace tumble {
 namespace {
 
-/// Number of moving bodies from which on bodies are sorted by place in memory (spatial_sort.h), and number of
+/// Number of moving bodies from which on bodies are sorted by position in memory (spatial_sort.h), and number of
 /// bodies in a vertical column. Limits the cost.
 constexpr std::size_t ordered_bodies = 512;
 constexpr std::size_t ordered_column = 32;

@@ -10,7 +10,7 @@
 
 namespace tumble {
 
-/// Reorders the bodies and returns for each place the former index: fixed and kinematic bodies first, then columns
+/// Reorders the bodies and returns for each index the former index: fixed and kinematic bodies first, then columns
 /// along gravity (m/s^2), because falling bodies stay above those that they fall on, each ordered by height. Columns
 /// are cut at the median across gravity, of the longer side first (k-d tree, Bentley 1975); without gravity along any
 /// side.

@@ -186,7 +186,7 @@ void EventDrivenMotion::predict_changed(const std::vector<Body>& bodies, const E
     changed_.clear();
 }
 
-// A box that contains the body for about the time that it takes to leave its own place; at least for the step.
+// A box that contains the body for about the time that it takes to leave its own position; at least for the step.
 void EventDrivenMotion::box(std::uint32_t i, const std::vector<Body>& bodies, const EventTime& now) {
     BodyEvent& f = events_[i];
     f.boxed_until = never;

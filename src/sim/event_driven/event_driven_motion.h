@@ -73,7 +73,7 @@ public:
     /// bodies; `limits`, the fraction of the step for which they may move.
     void begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
                     const std::vector<CcdFraction>& limits, const ForceField& forces, std::int64_t step);
-    /// Keeps bodies that have fallen asleep at their places from `step` on, until something wakes them: ballistic
+    /// Keeps bodies that have fallen asleep at their positions from `step` on, until something wakes them: ballistic
     /// bodies meet them there, even if no body is stepped.
     void lay_down(const std::vector<Body>& bodies, std::int64_t step);
     /// Processes all events up to the start of step `until`, or of the step after the first switch to contact if that

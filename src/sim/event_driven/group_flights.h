@@ -48,7 +48,7 @@ public:
     void end(std::uint32_t group, double time);
     /// The same at the end of its span, for all groups that fly: moves their bodies there.
     void end_all();
-    /// Around a solve in place of a flight: keeps the loads of the joints, and adds the solve's impulses to their
+    /// Around a solve instead of a flight: keeps the loads of the joints, and adds the solve's impulses to their
     /// accounts.
     void keep_loads(std::uint32_t group, std::vector<JointLoad>& loads) const;
     void take_solve(std::uint32_t group, const std::vector<JointLoad>& loads, std::size_t& next);
@@ -96,7 +96,7 @@ private:
     std::uint64_t changes_ = 0;  // of the joint set, at the last update
     std::vector<JointGroup> groups_;
     std::vector<std::vector<std::uint32_t>> active_;  // by group: its joints in the set's list of active ones
-    std::vector<std::uint32_t> group_of_, place_;     // by body; place in the group
+    std::vector<std::uint32_t> group_of_, place_;     // by body; index in the group
     std::vector<Flight> flights_;                     // by group
     TreeFlight tree_flight_;
     std::vector<Manifold> no_manifolds_;

@@ -11,14 +11,14 @@
 namespace tumble {
 namespace {
 
-// Differences below this share of the scene's size are rounding of its place and direction. Not fitted.
+// Differences below this share of the scene's size are rounding of its position and direction. Not fitted.
 constexpr double same_place = 1e-9;
 
-// Coordinate along a direction in which no two places of a grid coincide.
+// Coordinate along a direction in which no two positions of a grid coincide.
 double along(const Vec3& v) { return v.x() + std::sqrt(2.0) * v.y() + std::sqrt(3.0) * v.z(); }
 
-// Sort key of bodies that are alike otherwise: the place first; then, for bodies at the same place, as planes often
-// are, all other distinguishing values.
+// Sort key of bodies that are alike otherwise: the position first; then, for bodies at the same position, as planes
+// often are, all other distinguishing values.
 using Key = std::array<double, 12>;
 Key key_of(const Body& body) {
     const auto* space = std::get_if<HalfSpace>(&body.collider);
@@ -37,7 +37,7 @@ Key key_of(const Body& body) {
             double(body.integrator)};
 }
 
-// A value on a fine grid, off common places such as 0 and 1.
+// A value on a fine grid, off common values such as 0 and 1.
 double on_grid(double value, double grid) {
     return grid > 0.0 && std::isfinite(value) ? std::floor(value / grid + 0.387) : value;
 }

@@ -10,14 +10,14 @@
 
 namespace tumble {
 
-/// The middle (m, world) of the dynamic bodies' places; the world's origin without dynamic bodies.
+/// The middle (m, world) of the dynamic bodies' positions; the world's origin without dynamic bodies.
 Vec3 local_origin(const SceneDescription& scene);
 
 /// The scene with its bodies and keyframes relative to `origin`. Objects that are only drawn stay in the world's frame.
 SceneDescription seen_from(const SceneDescription& scene, const Vec3& origin);
 
-/// Moves the bodies into the order of spatial_sort.h, starting from one that follows from the bodies' places and
-/// properties alone. Returns for each place the body's index in the scene. `gravity`: m/s^2.
+/// Moves the bodies into the order of spatial_sort.h, starting from one that follows from the bodies' positions and
+/// properties alone. Returns for each index the body's index in the scene. `gravity`: m/s^2.
 std::vector<std::uint32_t> put_in_exact_order(std::vector<Body>& bodies, const Vec3& gravity);
 
 }  // namespace tumble

@@ -14,7 +14,7 @@ inline constexpr int most_blur_samples = 64;
 /// InputError for too many frames.
 FrameTiming timing_at_speed(const SceneDescription& scene, double speed);
 
-/// The timing with `parts` frames in place of each (for the samples of a shutter). The step follows the same rule.
+/// The timing with `parts` frames instead of each (for the samples of a shutter). The step follows the same rule.
 FrameTiming divided(const FrameTiming& timing, int parts);
 
 /// Each frame is simulated in equal intervals; while the shutter is open, a sample is at the middle of each.

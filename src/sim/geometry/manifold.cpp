@@ -6,7 +6,7 @@
 namespace tumble {
 namespace {
 
-// Hysteresis: two candidates that are nearly as good must not swap places from step to step. A later one must be better
+// Hysteresis: two candidates that are nearly as good must not alternate from step to step. A later one must be better
 // by this factor.
 constexpr double clearly = 1.02;
 // Points within this fraction of the manifold's size from touching carry the load or soon will: they are preferred to
@@ -57,7 +57,7 @@ PointGeometry Manifold::geometry() const {
             return CurvedGap{points[1].separation, points[1].position, points[2].position, points[3].position};
         case GeometryKind::crossing_edges:
             if (count == 1) return CrossingEdges{points[1].position, points[2].position};
-            break;  // further points have taken their places
+            break;  // further points have taken their slots
         case GeometryKind::none:
             break;
     }

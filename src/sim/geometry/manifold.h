@@ -87,8 +87,8 @@ struct Manifold {
     double friction[2] = {0.0, 0.0};  // N s on B, along the two tangents
     double torsion = 0.0;             // N m s on B, about the normal
 
-    /// Geometry of the single point. It is kept in the places of the points that such a manifold does not have: with a
-    /// member of its own a manifold has 376 bytes in place of 288, and heaps take 4 % more time.
+    /// Geometry of the single point. It is kept in the slots of the points that such a manifold does not have: with a
+    /// member of its own a manifold has 376 bytes instead of 288, and heaps take 4 % more time.
     PointGeometry geometry() const;
     void set_geometry(const PointGeometry& geometry);
     bool has_curved_gap() const { return kind == GeometryKind::curved_gap; }

@@ -56,7 +56,7 @@ std::optional<Vec3> normal_at(const CollisionMesh& s, std::uint32_t t, int featu
     return sum;
 }
 
-// Walks from a triangle over its neighbors to the place of its component that is nearest to the point; another fold of
+// Walks from a triangle over its neighbors to the point of its component that is nearest to the point; another fold of
 // the component may be nearer, but is not reached. Returns whether the point is behind it there; none where that is the
 // border.
 std::optional<bool> sheet_behind(const CollisionMesh& s, std::uint32_t t, const Vec3& point) {
@@ -107,7 +107,7 @@ void find_sides(const CollisionMesh& mesh, std::span<const std::uint32_t> triang
     auto& behind = scratch.behind;
     behind.clear();
     for (const std::uint32_t t : triangles) behind.push_back(plane_behind(mesh, t, point));
-    // The triangle of the nearest place is among them and right: if all agree, all are right. Most searches end here.
+    // The triangle of the nearest point is among them and right: if all agree, all are right. Most searches end here.
     const bool mixed = std::adjacent_find(behind.begin(), behind.end(), std::not_equal_to{}) != behind.end();
     if (!mixed || mesh.closed) return;
     find_pieces(mesh, triangles, scratch);

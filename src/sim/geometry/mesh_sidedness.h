@@ -1,5 +1,5 @@
 // Sidedness of a point relative to an open mesh. A triangle's own plane does not decide: beside a crease a point may be
-// in front of the mesh and yet behind the plane of a triangle beyond the crease. The nearest place of the mesh decides
+// in front of the mesh and yet behind the plane of a triangle beyond the crease. The nearest point of the mesh decides
 // (Baerentzen and Aanaes 2005, "Signed distance computation using the angle weighted pseudonormal").
 #pragma once
 
@@ -28,7 +28,7 @@ struct SideScratch {
 };
 
 /// Fills `behind` for each of `triangles`, which are those near the point. Triangles connected by edges have it on the
-/// same side, unless the nearest place is on the border; there each triangle's plane decides, as for a rod that leans
+/// same side, unless the nearest point is on the border; there each triangle's plane decides, as for a rod that leans
 /// out of a bowl.
 void find_sides(const CollisionMesh& mesh, std::span<const std::uint32_t> triangles, const Vec3& point,
                 SideScratch& scratch);

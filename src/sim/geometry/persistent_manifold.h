@@ -3,8 +3,8 @@
 //
 // The normal moves with the body whose face it belongs to, and each point's two ends with their own bodies: the foot
 // with the face, the corner above it with the other body. The separation, the corner's height over the face, is then
-// exact for faces, and right to second order in the motion for edges: only the places of the points on the surfaces go
-// out of date.
+// exact for faces, and right to second order in the motion for edges: only the positions of the points on the surfaces
+// go out of date.
 #pragma once
 
 #include "sim/geometry/manifold.h"

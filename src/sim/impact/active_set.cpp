@@ -290,7 +290,7 @@ void ActiveSet::hold(std::size_t i) {
     out_[i] = 1;
 }
 
-// Removes column k of R; each later column moves up one place and its entry below the diagonal is rotated away
+// Removes column k of R; each later column moves up by one and its entry below the diagonal is rotated away
 // (Givens).
 void ActiveSet::release_row(std::size_t k) {
     out_[held_[k]] = 0;

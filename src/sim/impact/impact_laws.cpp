@@ -103,7 +103,7 @@ public:
           projection_(cluster.rows(), cluster.bodies(), tuning::pass_contacts),
           change_(Eigen::VectorXd::Zero(cluster.velocity().size())),
           changed_(cluster.bodies() + 1, 1) {
-        // A body that is not dynamic has the last place, and never changes.
+        // A body that is not dynamic has the last index, and never changes.
         const auto place = [&](std::uint32_t body) {
             return body == VelocityRow::none ? std::uint32_t(cluster.bodies()) : body;
         };

@@ -17,7 +17,7 @@ int resolve_impacts(const Island& island, std::vector<Contact>& contacts, std::v
                     const ImpactSettings& settings, ImpactTrace* trace = nullptr,
                     std::vector<JointImpulse>* joint_impulses = nullptr);
 
-/// In place of the number of passes: an island with joints whose impact takes too much work, and is left as it is.
+/// Instead of the number of passes: an island with joints whose impact takes too much work, and is left as it is.
 inline constexpr int too_large = -1;
 
 /// Restores after the step's forces the v_rel of points that bounced in the step, by the least change of motion: a ball

@@ -31,7 +31,7 @@ std::uint32_t position_in(std::span<const std::uint32_t> list, std::uint32_t val
     return found != list.end() && *found == value ? std::uint32_t(found - list.begin()) : no_place;
 }
 
-/// The places of a lock's bodies in a group, each once, with the lock's numbers there.
+/// The indices of a lock's bodies in a group, each once, with the lock's numbers there.
 struct LockSides {
     struct Side {
         std::uint32_t body;  // from the group's first on

@@ -43,7 +43,7 @@ public:
     /// Places of the bodies in y: each group's are consecutive. In the order of the list of bodies.
     const std::vector<std::uint32_t>& places() const { return places_; }
 
-    /// Reads the joints at the bodies' present poses. `roots`: by place.
+    /// Reads the joints at the bodies' present poses. `roots`: by index in the group.
     void load(const std::vector<Body>& all, const std::vector<MassRoot>& roots);
 
     /// Makes y fit: G y = 0.
@@ -97,7 +97,7 @@ private:
     void factor(Group& group);
     void fit(Group& group, Eigen::VectorXd& y, bool carriers);
 
-    std::vector<std::uint32_t> bodies_, places_, group_of_;  // ascending; by body; by place
+    std::vector<std::uint32_t> bodies_, places_, group_of_;  // ascending; by body; by index
     std::vector<Joint*> joints_;
     std::span<const Joint> all_joints_;
     std::vector<Group> groups_;

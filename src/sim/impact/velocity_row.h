@@ -17,7 +17,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// A form over groups of joined bodies: an impulse on one of them moves all bodies of its group.
 struct JoinedRow {
-    std::uint32_t bodies_a = 0, bodies_b = 0;  // number of bodies from places a and b of the row on
+    std::uint32_t bodies_a = 0, bodies_b = 0;  // number of bodies from indices a and b of the row on
     std::uint32_t own = 0;                     // index in ImpactSystem: the form of the struck bodies alone
     double sign = 1.0;
     std::vector<double> numbers;  // six for each body, of the first body
@@ -29,8 +29,8 @@ struct JoinedRow {
 /// w . y over at most two bodies, or two groups of joined bodies; a body that is not dynamic has no entry in y.
 struct VelocityRow {
     static constexpr std::uint32_t none = UINT32_MAX;
-    std::uint32_t a = none, b = none;   // places of the bodies in y, six numbers each; of a group: of its first body
-    const JoinedRow* joined = nullptr;  // in place of on_a and on_b
+    std::uint32_t a = none, b = none;   // indices of the bodies in y, six numbers each; of a group: of its first body
+    const JoinedRow* joined = nullptr;  // instead of on_a and on_b
     Vec6 on_a = Vec6::Zero(), on_b = Vec6::Zero();
 
     std::uint32_t bodies_a() const { return joined ? joined->bodies_a : 1; }

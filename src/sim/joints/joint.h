@@ -24,7 +24,7 @@ struct JointLocks {
 };
 
 struct Joint {
-    static constexpr std::uint32_t world = UINT32_MAX;  // in place of a body
+    static constexpr std::uint32_t world = UINT32_MAX;  // instead of a body
     static constexpr std::size_t coordinates = 6;
     static constexpr std::size_t gear_constant = 0;  // index of a gear's constant in `value`
     /// Laws of a coordinate, each a row of the solver; `cone`: swing of a ball.

@@ -35,7 +35,7 @@ struct JointLoad {
     Vec3 force = Vec3::Zero();   // N s
     Vec3 torque = Vec3::Zero();  // N m s, about the anchor
     Vec3 moment =
-        Vec3::Zero();  // N m s, of both about the origin of the bodies' coordinates, at the places of each step
+        Vec3::Zero();  // N m s, of both about the origin of the bodies' coordinates, at the positions of each step
 
     void add(const JointLoad& other, double factor = 1.0) {
         force += factor * other.force;

@@ -12,7 +12,7 @@ namespace tumble {
 struct SpanningJoints {
     static constexpr int ground = -1;
 
-    std::vector<int> ends;   // two by joint: places among the bodies; ground
+    std::vector<int> ends;   // two by joint: indices among the bodies; ground
     std::vector<char> kept;  // by joint: is in the tree
     std::vector<int> cut;    // the others, with gears and distance joints
     int rows = 0;            // locked coordinates of these

@@ -323,7 +323,7 @@ bool ContactLog::at_rest(const Key& key, const std::vector<Body>& bodies) const 
     return rests(key.a) && rests(key.b);
 }
 
-// Gives known points their present places, and adds those without load.
+// Gives known points their present positions, and adds those without load.
 void ContactLog::add_touching(const std::vector<Manifold>& touching, const std::vector<Body>& bodies) {
     for (const Manifold& m : touching)
         for (int i = 0; i < m.count; ++i) {

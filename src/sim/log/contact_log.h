@@ -60,7 +60,7 @@ public:
     /// `end_flight` may be called repeatedly. `driven`: by forces other than gravity, whose work is then added.
     void start_flight(std::uint32_t index, const Body& body);
     void end_flight(std::uint32_t index, const Body& body, bool driven);
-    /// The same for the momentum (kg m/s) at a place (m), of a body under gravity alone.
+    /// The same for the momentum (kg m/s) at a position (m), of a body under gravity alone.
     void start_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
     void end_flight(std::uint32_t index, const Body& body, const Vec3& place, const Vec3& momentum);
 
@@ -92,7 +92,7 @@ private:
         }
     };
     struct Sum {
-        ContactRecord last;        // place and features at the last step
+        ContactRecord last;        // position and features at the last step
         Impulse impulse;           // on B, about the world origin
         double torsion = 0.0;      // N m s
         double span = 0.0;         // s, with contact
@@ -123,7 +123,7 @@ private:
     void add_contact(std::uint32_t a, std::uint32_t b, const Impulse& on_b);
     static Key key_of(const Manifold& m, int i) { return {m.a, m.b, m.part, m.points[std::size_t(i)].feature}; }
     double energy(const Body& body) const;
-    /// Bodies, place, normal, gap, features and slip of a manifold's point.
+    /// Bodies, position, normal, gap, features and slip of a manifold's point.
     void set_place(ContactRecord& record, const Manifold& m, int i, const std::vector<Body>& bodies) const;
     bool at_rest(const Key& key, const std::vector<Body>& bodies) const;
     void add_touching(const std::vector<Manifold>& touching, const std::vector<Body>& bodies);

@@ -53,8 +53,8 @@ private:
     std::vector<Node> nodes_;
 };
 
-// Halves a set of bodies by place: cut at the median along a side of their bounding box, and recursively (k-d tree,
-// Bentley 1975). The halves depend on the bodies alone: at equal places the lower index comes first.
+// Halves a set of bodies by position: cut at the median along a side of their bounding box, and recursively (k-d tree,
+// Bentley 1975). The halves depend on the bodies alone: at equal positions the lower index comes first.
 
 struct PlacedBody {
     Vec3 position;  // m

@@ -32,7 +32,7 @@ constexpr double joint_compliance = 1e-2;
 
 using namespace contact_rows;
 
-// The rows of the joints at the present poses, and the matrix in which they have their places.
+// The rows of the joints at the present poses, and the matrix in which they have their blocks.
 void DirectSolver::load_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds) {
     joints_.load(island, joint_compliance / (total_mass_ * double(island.joints.size())));
     structure(island.problem, island.bodies, manifolds);

@@ -12,7 +12,7 @@ namespace tumble {
 
 class GearRow {
 public:
-    /// Zeros in place of all numbers; bodies and pairs stay.
+    /// Zeros instead of all numbers; bodies and pairs stay.
     void clear_numbers() {
         for (Side& side : sides_) side.six = {};
     }

@@ -79,7 +79,7 @@ struct ContactProblem {
 /// Point (world) where the impulses of a contact act. Between two bodies that impulses move: halfway between the
 /// surfaces, so that they keep their angular momentum. Otherwise: on the surface of the body that impulses move. So a
 /// ball found somewhat inside or above the floor still has its radius as lever, and keeps its angular momentum about
-/// the place where it lands.
+/// the position where it lands.
 inline Vec3 acting_point(const Vec3& position, double separation, const Vec3& normal, bool a_movable, bool b_movable) {
     if (a_movable == b_movable) return position;
     return position + (a_movable ? -0.5 : 0.5) * separation * normal;

@@ -100,7 +100,7 @@ Vec3 RotatingPointGap::turned(double t) const {
     return center_ + along_ + cosine * across_ + sine * beside_;
 }
 
-// With d the distance vector of the places across the line, initially d0 n, and u the relative velocity of the places
+// With d the distance vector of the points across the line, initially d0 n, and u the relative velocity of the points
 // across the line, |d0 n + u t| is least at t = -d0 n.u / u^2, or at the end of the step.
 // If that is an overlap, the bodies do meet.
 double gap_of_curve(const Manifold& m, const CurvedGap& curve, const BodiesInStep& bodies, double h) {

@@ -1,7 +1,7 @@
 // Sleep: islands at rest are excluded from the simulation until something touches them.
-// A body is at rest when, in one of several time spans, its surface has stayed near its place and its velocity does not
-// change steadily. A slow slide gains speed from sample to sample and a body that turns back on a slope is slowed as
-// evenly, at any scale; trembling and settling bodies show neither. Dampers in joints bring bodies to rest over
+// A body is at rest when, in one of several time spans, its surface has stayed near its position and its velocity does
+// not change steadily. A slow slide gains speed from sample to sample and a body that turns back on a slope is slowed
+// as evenly, at any scale; trembling and settling bodies show neither. Dampers in joints bring bodies to rest over
 // seconds, with a change that decreases in proportion to the velocity: they are at rest once the way that is left is as
 // short. An island sleeps when all its bodies are at rest and it touches a support that stands, fixed or kinematic.
 // Bodies in free flight never sleep, however slow.

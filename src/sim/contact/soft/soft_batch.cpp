@@ -181,7 +181,7 @@ void SoftBatch::pack_movers(const ContactProblem& problem) {
     }
 }
 
-// `made`: storage for a place that is not kept.
+// `made`: storage for an entry that is not kept.
 const SoftBatch::PackedBody& SoftBatch::find_packed(std::uint32_t body, std::uint32_t manifold,
                                                     const ContactProblem& problem,
                                                     const std::vector<std::uint32_t>& slot, PackedBody& made) const {

@@ -122,7 +122,7 @@ void warm_start_joints(const JointGroups& groups, std::size_t first, std::size_t
     }
 }
 
-// Adds to the sums what an impulse does at the present places.
+// Adds to the sums what an impulse does at the present positions.
 inline void add_up(Hold& m, const Vector& f) {
     m.impulse_sum = m.impulse_sum + f;
     m.moment_sum = m.moment_sum + cross(m.now_a, f);

@@ -30,7 +30,7 @@ struct JointRows {
     Vector3<Real> impulse;    // on B; of a distance joint x alone, along the direction
     Symmetric3<Real> inertia_a, inertia_b;  // 1/(kg m^2), inverse tensors
     // Sums over the substeps, on B: impulses, their moments about A's center, and parted x impulse, by which the moment
-    // about B's center exceeds that of bodies that stay at their places.
+    // about B's center exceeds that of bodies that stay where they are.
     Vector3<Real> impulse_sum, moment_sum, carried_sum;
 };
 

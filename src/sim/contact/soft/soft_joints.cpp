@@ -185,7 +185,7 @@ using Turned = soft::TurnRows<float>;
 
 Vec3 wide(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
 
-// A side of a joint: the place that moments are about, and the anchor. Bodies that impulses do not move have no arm,
+// A side of a joint: the point that moments are about, and the anchor. Bodies that impulses do not move have no arm,
 // except kinematic ones, which turn.
 struct End {
     Vec3 center, anchor;

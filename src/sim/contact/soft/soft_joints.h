@@ -1,7 +1,7 @@
 // The joints of a batch in the soft kernel (soft_joint_rows.h): from the joints to lanes and back.
 //
-// Momentum: the impulses of a joint act at one point, in each substep at its present place. Bodies get the sum of the
-// impulses F and of their moments M about A's center; B's exceed A's by C = sum (x_A - x_B) x f over the bodies'
+// Momentum: the impulses of a joint act at one point, in each substep at its present position. Bodies get the sum of
+// the impulses F and of their moments M about A's center; B's exceed A's by C = sum (x_A - x_B) x f over the bodies'
 // displacements since the start of the step. In the steps' own order, displacements and impulses, the sum of
 // L + x x P is kept; the bodies are moved at the end of the step, and their displacements x P make up for C.
 #pragma once

@@ -88,7 +88,7 @@ public:
     using Field = float Rows::*;
     using VectorField = Vector3<float> Rows::*;
 
-    /// `first`: the lane's place in the first row; `stride`: number of lanes.
+    /// `first`: the lane's index in the first row; `stride`: number of lanes.
     LaneOf(float* first, std::size_t stride) : first_(first), stride_(stride) {}
 
     float& operator[](Field field) const { return first_[row(field) * stride_]; }
@@ -168,7 +168,7 @@ struct Kernel {
     /// Applies the impulses kept from the last step to the bodies.
     void (*warm_start)(const Groups&, std::size_t first, std::size_t last, const Bodies&);
     /// Adds a substep's change by the forces to the velocities of the slots first to last. `again`: and the change by
-    /// contact in the last substep. This equals a start from its impulses, at a cost per body in place of per contact.
+    /// contact in the last substep. This equals a start from its impulses, at a cost per body instead of per contact.
     void (*accelerate)(std::size_t first, std::size_t last, const Bodies&, bool again);
     void (*move)(std::size_t first, std::size_t last, const Bodies&, float substep);
     /// push: one sweep that removes overlaps softly. relax: after the bodies have moved, a sweep that removes the push

@@ -43,7 +43,7 @@ public:
     /// By group: its index among groups that turn; meaningless for other groups.
     const std::uint32_t* turn_places() const { return turn_places_.data(); }
     std::size_t turning_groups() const { return turning_; }
-    /// By lane of all groups: index among the places; none in unused lanes.
+    /// By lane of all groups: index among the entries; none in unused lanes.
     std::uint32_t joint(std::size_t lane) const { return lane_joints_[lane]; }
 
 private:
@@ -68,7 +68,7 @@ namespace tumble::tuning {
 /// fitted: follows from the size of the cache.
 inline constexpr std::size_t soft_block_bodies = 512;
 
-/// Steps for which manifolds keep their places in the batches. No result depends on it.
+/// Steps for which manifolds keep their slots in the batches. No result depends on it.
 inline constexpr int soft_layout_steps = 32;
 
 }  // namespace tumble::tuning

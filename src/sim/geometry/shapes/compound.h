@@ -24,7 +24,7 @@ struct Compound {
     // m, the least of the parts' inner radii: depth to which a shape may penetrate and still be pushed back out
     double inner_radius = 0.0;
 
-    /// Derives the other fields from the parts' colliders and places.
+    /// Derives the other fields from the parts' colliders and poses.
     void complete();
 
     static constexpr ContactSurface contact_surface = ContactSurface::parts;
