@@ -3,6 +3,7 @@
 #include "core/deterministic_math.h"
 #include "core/vector.h"
 #include "gltf/glb_buffer.h"
+#include "gltf/painted_meshes.h"
 #include "gltf/primitives.h"
 
 #include <algorithm>
@@ -52,6 +53,7 @@ private:
     std::size_t material(const Appearance& look);
     Geometry add_triangles(const Triangles& triangles);
     Geometry asset(const MeshAsset& asset);
+    std::size_t painted(const MeshAsset& asset, const MeshPaint& paint, const Appearance& look);
     Geometry patch(const BodyDescription& body, const PlaneShape& plane);
     void add_camera();
     void add_light();
@@ -71,6 +73,8 @@ private:
     std::map<const MeshAsset*, Geometry> assets_;                         // only looked up: their order has no effect
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of_;  // by positions and material
     std::map<MaterialKey, std::size_t> material_of_;
+    PaintedMeshes painted_meshes_{buffer_};
+    std::map<std::tuple<const MeshAsset*, double, double>, std::size_t> painted_of_;  // only looked up
 };
 
 std::size_t SceneWriter::add_node(Json node) {
@@ -137,6 +141,8 @@ SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape
             return {writer.mesh(writer.patch(body, plane), look), Vec3::Ones()};
         }
         Placed operator()(const MeshShape& shape) {
+            if (const MeshPaint* paint = shape.paint())
+                return {writer.painted(*shape.asset, *paint, look), Vec3::Ones()};
             return {writer.mesh(writer.asset(*shape.asset), look), Vec3::Ones()};
         }
         Placed operator()(const CompoundShape&) { return {}; }  // written part by part
@@ -190,6 +196,12 @@ SceneWriter::Geometry SceneWriter::asset(const MeshAsset& asset) {
     }
     triangles.indices = asset.indices;
     return assets_.emplace(&asset, add_triangles(triangles)).first->second;
+}
+
+std::size_t SceneWriter::painted(const MeshAsset& asset, const MeshPaint& paint, const Appearance& look) {
+    const auto [entry, is_new] = painted_of_.try_emplace({&asset, look.roughness, look.metallic}, meshes_.size());
+    if (is_new) meshes_.push_back({{"primitives", painted_meshes_.primitives(asset, paint, look, materials_)}});
+    return entry->second;
 }
 
 /// A square of the plane below the motion of all bodies.
@@ -272,6 +284,7 @@ Json SceneWriter::root() const {
     if (!meshes_.empty()) {
         root["meshes"] = meshes_;
         root["materials"] = materials_;
+        painted_meshes_.finish(root);
     }
     if (!channels_.empty())
         root["animations"] = Json::array({{{"name", "motion"}, {"samplers", samplers_}, {"channels", channels_}}});

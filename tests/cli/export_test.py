@@ -9,7 +9,7 @@ import struct
 
 import program
 
-SIZES = {"SCALAR": 1, "VEC3": 3, "VEC4": 4}
+SIZES = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 FORMATS = {5123: "H", 5125: "I", 5126: "f"}
 
 FLIGHT = """\
@@ -342,6 +342,41 @@ rotation = { axis = [1.0, 2.0, 3.0], angle = 50.0 }
         self.write("scene.toml", 'format = 1\n[[body]]\nshape = { type = "mesh", file = "box.glb" }\n')
         self.check(0, "info", "scene.toml", "--bodies", "b.csv")
         self.assertAlmostEqual(float(self.rows("b.csv")[0]["mass"]), 6000.0, delta=1e-2)
+
+    def test_a_texture_of_a_mesh_file(self):
+        """The image differs by a level at most; the mesh that is read back has the same texture."""
+        colors = [(255, 0, 0), (0, 255, 0), (20, 90, 200), (130, 131, 132)]
+        (self.folder / "tile.png").write_bytes(program.png(2, 2, colors[0], [(1, 0, 1, 1, colors[1]), (0, 1, 1, 1, colors[2]),
+                                                                            (1, 1, 1, 1, colors[3])]))
+        self.write("tile.mtl", "newmtl tile\nKd 0.5 1 1\nmap_Kd tile.png\n")
+        self.write("tile.obj", "mtllib tile.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 2 2\nvt 0 2\n"
+                               "usemtl tile\nf 1/1 2/2 3/3 4/4\n")
+        text = 'format = 1\n[[body]]\ntype = "fixed"\nshape = { type = "mesh", file = "%s" }\n'
+        glb = self.export(text % "tile.obj")
+        primitive, = glb.json["meshes"][0]["primitives"]
+        self.assertEqual(sorted(glb.accessors[primitive["attributes"]["TEXCOORD_0"]]),
+                         [(0.0, -1.0), (0.0, 1.0), (2.0, -1.0), (2.0, 1.0)])
+        surface = glb.json["materials"][primitive["material"]]["pbrMetallicRoughness"]
+        self.assertEqual(surface["baseColorTexture"], {"index": 0})
+        self.assertEqual(glb.json["samplers"][0]["wrapS"], 10497)
+        view = glb.json["bufferViews"][glb.json["images"][0]["bufferView"]]
+        (self.folder / "back.png").write_bytes(glb.binary[view["byteOffset"]:view["byteOffset"] + view["byteLength"]])
+        *size, back = program.png_pixels(self.folder / "back.png")
+        self.assertEqual(size, [2, 2, 3])
+        for old, new in zip([channel for color in colors for channel in color], back):
+            self.assertLessEqual(abs(old - new), 1)
+        (self.folder / "clip.glb").rename(self.folder / "first.glb")
+        again = self.export(text % "first.glb")
+        kept = again.json["materials"][0]["pbrMetallicRoughness"]
+        for name in ("baseColorFactor", "baseColorTexture"):
+            self.assertEqual(kept[name], surface[name])
+
+    def test_colors_of_vertices(self):
+        self.write("fan.obj", "v 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nf 1 2 3\n")
+        glb = self.export('format = 1\n[[body]]\ntype = "fixed"\nshape = { type = "mesh", file = "fan.obj" }\n')
+        primitive, = glb.json["meshes"][0]["primitives"]
+        self.assertEqual(sorted(glb.accessors[primitive["attributes"]["COLOR_0"]]), [(0, 0, 1), (0, 1, 0), (1, 0, 0)])
+        self.assertNotIn("textures", glb.json)
 
     def test_the_same_bytes_for_any_number_of_threads(self):
         self.write("tetrahedron.obj", TETRAHEDRON)

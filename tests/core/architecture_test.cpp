@@ -42,7 +42,7 @@ const std::map<std::string, Layer> layers = {
      {{"core/", "scene/description/", "sim/geometry/shapes/", "sim/snapshot/", "render/", "plot/", "overlay/"},
       {"toml++", "assimp", "png.h", "CLI/", "libqhull"}}},
     {"gltf",
-     {{"core/", "scene/description/", "sim/snapshot/", "gltf/"},
+     {{"core/", "scene/description/", "sim/snapshot/", "output/png_writer.h", "gltf/"},
       {"toml++", "assimp", "GL/", "glm/", "png.h", "CLI/", "libqhull"}}},
     {"page",
      {{"core/", "scene/description/", "scene/fields/", "sim/snapshot/", "overlay/", "page/"},

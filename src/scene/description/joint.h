@@ -21,9 +21,9 @@ enum class JointType { fixed, hinge, ball, slider, universal, cylindrical, plana
 
 /// A spring with a damper along one coordinate, implicit in time: stable for any stiffness.
 struct JointSpring {
-    double stiffness = 0.0;  // N/m, or N m/rad
-    double damping = 0.0;    // N s/m, or N m s/rad
-    double frequency = 0.0;  // Hz; above 0 instead of the two above, for the effective mass of the joint at the start
+    double stiffness = 0.0;    // N/m, or N m/rad
+    double damping = 0.0;      // N s/m, or N m s/rad
+    double frequency = 0.0;    // Hz; above 0 instead of the two above, for the effective mass of the joint at the start
     double damping_ratio = 0;  // of critical damping, with a frequency
     double rest = 0.0;         // m, or rad
 };

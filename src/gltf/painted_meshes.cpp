@@ -1,0 +1,124 @@
+#include "gltf/painted_meshes.h"
+
+#include "core/image.h"
+#include "output/png_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace tumble {
+namespace {
+
+// Numbers of the format.
+constexpr int nearest = 9728, linear = 9729, nearest_mip_linear = 9986, linear_mip_linear = 9987;
+int wrap_number(TextureWrap wrap) {
+    return wrap == TextureWrap::repeat ? 10497 : wrap == TextureWrap::mirror ? 33648 : 33071;
+}
+
+double stated(float value, double of_body) { return value == MeshMaterial::of_body ? of_body : double(value); }
+
+Json color_json(const std::array<float, 3>& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
+
+Image picture_of(const Texture& texture) {
+    Image image(texture.levels[0].width, texture.levels[0].height);
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            const std::array<float, 4> texel = texture.texel(0, x, y);
+            for (std::size_t c = 0; c < 3; ++c)
+                image.at(x, y)[c] = std::uint8_t(std::lround(255.0 * linear_to_srgb(double(texel[c]))));
+            image.at(x, y)[3] = std::uint8_t(std::lround(255.0 * double(texel[3])));
+        }
+    return image;
+}
+
+}  // namespace
+
+Json PaintedMeshes::primitives(const MeshAsset& asset, const MeshPaint& paint, const Appearance& look,
+                               Json& materials) {
+    Json list = Json::array();
+    for (std::uint32_t i = 0; i < paint.materials.size(); ++i) {
+        if (std::ranges::find(paint.material_of_triangle, i) == paint.material_of_triangle.end()) continue;
+        Json one = primitive(asset, paint, i);
+        one["material"] = materials.size();
+        materials.push_back(material(paint.materials[i], look));
+        list.push_back(std::move(one));
+    }
+    return list;
+}
+
+Json PaintedMeshes::primitive(const MeshAsset& asset, const MeshPaint& paint, std::uint32_t material) {
+    std::vector<float> positions, normals, places, colors;
+    std::vector<std::uint32_t> indices;
+    std::map<std::tuple<std::uint32_t, std::array<float, 2>, std::array<float, 3>>, std::uint32_t> made;
+    for (std::size_t i = 0; i < asset.indices.size(); ++i) {
+        if (paint.material_of_triangle[i / 3] != material) continue;
+        const MeshPaint::Corner& corner = paint.corners[i];
+        const auto [entry, is_new] =
+            made.try_emplace({asset.indices[i], corner.uv, corner.color}, std::uint32_t(made.size()));
+        indices.push_back(entry->second);
+        if (!is_new) continue;
+        const MeshAsset::Vertex& vertex = asset.vertices[asset.indices[i]];
+        positions.insert(positions.end(), vertex.position, vertex.position + 3);
+        normals.insert(normals.end(), vertex.normal, vertex.normal + 3);
+        places.insert(places.end(), corner.uv.begin(), corner.uv.end());
+        colors.insert(colors.end(), corner.color.begin(), corner.color.end());
+    }
+    constexpr auto vertices = GlbBuffer::Use::vertices;
+    Json attributes{{"POSITION", buffer_.add(positions, 3, vertices, true)},
+                    {"NORMAL", buffer_.add(normals, 3, vertices, false)}};
+    if (paint.materials[material].texture) attributes["TEXCOORD_0"] = buffer_.add(places, 2, vertices, false);
+    const bool colored = std::ranges::any_of(colors, [](float channel) { return channel != 1.0f; });
+    if (colored) attributes["COLOR_0"] = buffer_.add(colors, 3, vertices, false);
+    return {{"attributes", std::move(attributes)}, {"indices", buffer_.add(indices)}};
+}
+
+Json PaintedMeshes::material(const MeshMaterial& material, const Appearance& look) {
+    Json surface{{"baseColorFactor", color_json(material.color)},
+                 {"metallicFactor", stated(material.metallic, look.metallic)},
+                 {"roughnessFactor", stated(material.roughness, look.roughness)}};
+    surface["baseColorFactor"].push_back(1.0);
+    if (material.texture) surface["baseColorTexture"] = {{"index", texture(material)}};
+    Json json{{"pbrMetallicRoughness", std::move(surface)}};
+    if (material.emission != std::array<float, 3>{}) json["emissiveFactor"] = color_json(material.emission);
+    if (material.has_holes()) {
+        json["alphaMode"] = "MASK";
+        json["alphaCutoff"] = double(material.cutoff);
+    }
+    return json;
+}
+
+std::size_t PaintedMeshes::texture(const MeshMaterial& material) {
+    const auto [sampler, new_sampler] =
+        sampler_of_.try_emplace({material.wrap_u, material.wrap_v, material.nearest}, samplers_.size());
+    if (new_sampler)
+        samplers_.push_back({{"magFilter", material.nearest ? nearest : linear},
+                             {"minFilter", material.nearest ? nearest_mip_linear : linear_mip_linear},
+                             {"wrapS", wrap_number(material.wrap_u)},
+                             {"wrapT", wrap_number(material.wrap_v)}});
+    const auto [entry, is_new] = texture_of_.try_emplace({image(*material.texture), sampler->second}, textures_.size());
+    if (is_new) textures_.push_back({{"source", entry->first.first}, {"sampler", entry->first.second}});
+    return entry->second;
+}
+
+std::size_t PaintedMeshes::image(const Texture& texture) {
+    const auto [entry, is_new] = image_of_.try_emplace(&texture, images_.size());
+    if (is_new) {
+        PngEncoder encoder(texture.least_alpha < 255 ? PngAlpha::kept : PngAlpha::dropped);
+        images_.push_back(
+            {{"bufferView", buffer_.add_bytes(encoder.encode(picture_of(texture)))}, {"mimeType", "image/png"}});
+    }
+    return entry->second;
+}
+
+void PaintedMeshes::finish(Json& root) const {
+    if (images_.empty()) return;
+    root["textures"] = textures_;
+    root["samplers"] = samplers_;
+    root["images"] = images_;
+}
+
+}  // namespace tumble
