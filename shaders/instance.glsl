@@ -12,7 +12,7 @@ layout(location = 7) in vec4 instance_tile;
 // index of the vertex sample whose sky visibility applies; meshes of the scene only
 layout(location = 8) in uint mesh_sample;
 layout(location = 9) in vec2 mesh_texel;             // or place of its texel, relative to the mesh's place in the AO atlas
-// Colors of the mesh's file (struct VertexPaint of render/mesh/painted_mesh.h).
+// Colors of the mesh's file (struct VertexPaint of scene/description/painted_mesh.h).
 layout(location = 10) in vec2 mesh_uv;
 layout(location = 11) in vec3 mesh_color;            // linear
 layout(location = 12) in vec3 mesh_surface;          // roughness, metallic (below 0: the body's); least alpha

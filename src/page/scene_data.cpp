@@ -2,6 +2,7 @@
 
 #include "overlay/overlay_builder.h"
 #include "page/prediction.h"
+#include "scene/description/painted_mesh.h"
 #include "scene/fields/body_fields.h"
 
 #include <algorithm>
@@ -16,6 +17,8 @@ namespace {
 using Json = ArrayStore::Json;
 
 constexpr double place_steps = 65535.0, normal_steps = 511.0;  // of a mesh's extent, and of a unit vector
+constexpr double uv_steps = 16384.0, color_steps = 1023.0;     // of a texture's side, and of square roots of colors
+constexpr int most_texels = 512;                               // of a side of a texture on a page
 constexpr double camera_quantum = 1e-6;                        // m, and degrees
 
 Json quaternion_json(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
@@ -38,7 +41,9 @@ struct ShapeForm {
     }
     Json operator()(const BoxShape& box) { return {{"type", "box"}, {"size", vector_json(box.size)}}; }
     Json operator()(const SphereShape& ball) { return {{"type", "sphere"}, {"radius", ball.radius}}; }
-    Json operator()(const MeshShape& mesh) { return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh.asset)}}; }
+    Json operator()(const MeshShape& mesh) {
+        return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh.asset, mesh.paint())}};
+    }
     Json operator()(const CompoundShape& compound) {
         Json parts = Json::array();
         for (const CompoundPart& part : *compound.parts) parts.push_back(part_json(part, look, meshes));
@@ -72,14 +77,73 @@ struct JsonFields : FieldVisitor {
     Json& json;
 };
 
-Json mesh_json(const MeshAsset& asset, ArrayStore& arrays) {
+/// One value of each item, predicted.
+template <class Item, class Value>
+Json column(const std::vector<Item>& items, ArrayStore& arrays, const Value& value) {
+    std::vector<std::int64_t> whole;
+    whole.reserve(items.size());
+    for (const Item& item : items) whole.push_back(std::llround(value(item)));
+    const int order = predict(whole);
+    return {order, arrays.add(whole)};
+}
+
+/// The texture and its wrapping; the map of the largest side that pages have. Null without one.
+Json texture_json(const MeshMaterial& material, ArrayStore& arrays) {
+    if (!material.texture) return nullptr;
+    const auto& levels = material.texture->levels;
+    const auto level = std::ranges::find_if(
+        levels, [](const Texture::Level& map) { return std::max(map.width, map.height) <= most_texels; });
+    Json channels = Json::array();
+    for (std::size_t c = 0; c < (material.has_holes() ? 4u : 3u); ++c)
+        channels.push_back(column(level->texels, arrays, [c](const auto& texel) { return double(texel[c]); }));
+    const auto name = [](TextureWrap wrap) {
+        return wrap == TextureWrap::repeat ? "repeat" : wrap == TextureWrap::mirror ? "mirror" : "clamp";
+    };
+    return {{"width", level->width},           {"height", level->height},
+            {"channels", std::move(channels)}, {"wrap", {name(material.wrap_u), name(material.wrap_v)}},
+            {"nearest", material.nearest},     {"cutoff", material.has_holes() ? material.cutoff : 0.0f}};
+}
+
+Json paint_json(const PaintedMesh& mesh, ArrayStore& arrays) {
+    Json uv = Json::array(), color = Json::array(), surface = Json::array(), emission = Json::array();
+    for (std::size_t c = 0; c < 3; ++c) {
+        color.push_back(column(mesh.paint, arrays, [c](const VertexPaint& vertex) {
+            return color_steps * std::sqrt(double(vertex.color[c]));
+        }));
+        emission.push_back(column(mesh.paint, arrays, [c](const VertexPaint& vertex) {
+            return color_steps * std::sqrt(double(vertex.emission[c]));
+        }));
+    }
+    for (std::size_t c = 0; c < 2; ++c) {
+        uv.push_back(
+            column(mesh.paint, arrays, [c](const VertexPaint& vertex) { return uv_steps * double(vertex.uv[c]); }));
+        surface.push_back(column(mesh.paint, arrays,
+                                 [c](const VertexPaint& vertex) { return color_steps * double(vertex.surface[c]); }));
+    }
+    Json groups = Json::array();
+    for (const PaintedMesh::Range& range : mesh.ranges)
+        groups.push_back(
+            {{"first", range.first}, {"count", range.count}, {"texture", texture_json(*range.material, arrays)}});
+    return {{"uv_steps", uv_steps},       {"color_steps", color_steps},    {"uv", std::move(uv)},
+            {"color", std::move(color)},  {"surface", std::move(surface)}, {"emission", std::move(emission)},
+            {"groups", std::move(groups)}};
+}
+
+Json mesh_json(const MeshAsset& asset, const MeshPaint* paint, ArrayStore& arrays) {
+    PaintedMesh painted;
+    std::vector<MeshAsset::Vertex> vertices = asset.vertices;
+    if (paint != nullptr) {
+        painted = paint_mesh(asset.indices, *paint);
+        vertices.clear();
+        for (const std::uint32_t source : painted.source) vertices.push_back(asset.vertices[source]);
+    }
     Bounds bounds;
-    for (const MeshAsset::Vertex& v : asset.vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
+    for (const MeshAsset::Vertex& v : vertices) bounds.add(Vec3(v.position[0], v.position[1], v.position[2]));
     const double quantum = std::max(bounds.extent().maxCoeff() / place_steps, 1e-12);
     Json positions = Json::array(), normals = Json::array();
     for (int c = 0; c < 3; ++c) {
         std::vector<std::int64_t> places, directions;
-        for (const MeshAsset::Vertex& v : asset.vertices) {
+        for (const MeshAsset::Vertex& v : vertices) {
             places.push_back(std::llround((double(v.position[c]) - bounds.min[c]) / quantum));
             directions.push_back(std::llround(double(v.normal[c]) * normal_steps));
         }
@@ -87,28 +151,31 @@ Json mesh_json(const MeshAsset& asset, ArrayStore& arrays) {
         positions.push_back({place_order, arrays.add(places)});
         normals.push_back({direction_order, arrays.add(directions)});
     }
-    std::vector<std::int64_t> indices(asset.indices.begin(), asset.indices.end());
+    const std::vector<std::uint32_t>& drawn = paint != nullptr ? painted.indices : asset.indices;
+    std::vector<std::int64_t> indices(drawn.begin(), drawn.end());
     const int order = predict(indices);
-    return {{"min", vector_json(asset.vertices.empty() ? Vec3(Vec3::Zero()) : bounds.min)},
-            {"quantum", quantum},
-            {"positions", std::move(positions)},
-            {"normals", std::move(normals)},
-            {"indices", {order, arrays.add(indices)}}};
+    Json json{{"min", vector_json(vertices.empty() ? Vec3(Vec3::Zero()) : bounds.min)},
+              {"quantum", quantum},
+              {"positions", std::move(positions)},
+              {"normals", std::move(normals)},
+              {"indices", {order, arrays.add(indices)}}};
+    if (paint != nullptr) json["paint"] = paint_json(painted, arrays);
+    return json;
 }
 
 }  // namespace
 
 Json vector_json(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
-std::size_t MeshTable::index_of(const MeshAsset& asset) {
-    const auto [place, is_new] = index_.try_emplace(&asset, assets_.size());
-    if (is_new) assets_.push_back(&asset);
-    return place->second;
+std::size_t MeshTable::index_of(const MeshAsset& asset, const MeshPaint* paint) {
+    const auto [entry, is_new] = index_.try_emplace({&asset, paint}, meshes_.size());
+    if (is_new) meshes_.push_back({&asset, paint});
+    return entry->second;
 }
 
 Json MeshTable::write(ArrayStore& arrays) const {
     Json all = Json::array();
-    for (const MeshAsset* asset : assets_) all.push_back(mesh_json(*asset, arrays));
+    for (const auto& [asset, paint] : meshes_) all.push_back(mesh_json(*asset, paint, arrays));
     return all;
 }
 

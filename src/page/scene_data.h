@@ -5,6 +5,7 @@
 #include "page/page_run.h"
 
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -12,12 +13,14 @@ namespace tumble {
 /// The meshes of all runs, each once.
 class MeshTable {
 public:
-    std::size_t index_of(const MeshAsset& asset);
+    /// `paint`: the colors that it is drawn with; null: the body's.
+    std::size_t index_of(const MeshAsset& asset, const MeshPaint* paint);
     ArrayStore::Json write(ArrayStore& arrays) const;
 
 private:
-    std::vector<const MeshAsset*> assets_;
-    std::map<const MeshAsset*, std::size_t> index_;  // only looked up: their order has no effect
+    using Entry = std::pair<const MeshAsset*, const MeshPaint*>;
+    std::vector<Entry> meshes_;
+    std::map<Entry, std::size_t> index_;  // only looked up: their order has no effect
 };
 
 ArrayStore::Json make_bodies(const PageRun& run, MeshTable& meshes);

@@ -62,7 +62,9 @@ function angle_between(p: Quaternion, q: Quaternion): number {
 for (const scene of scenes) {
   test(`the validator accepts ${scene}`, async () => {
     const report = await validateBytes(export_scene(scene, ...(scene === "thousand_boxes" ? ["--duration", 1] : [])));
-    assert.deepEqual(report.issues.messages, []);
+    // A hint for WebGL 1; images keep the size of the mesh file's own.
+    const messages = report.issues.messages.filter(({ code }) => code !== "IMAGE_NPOT_DIMENSIONS");
+    assert.deepEqual(messages, []);
     assert.equal(report.info.animationCount, 1);
     assert.ok(report.info.totalVertexCount > 0);
   });

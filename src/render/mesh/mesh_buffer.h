@@ -2,8 +2,8 @@
 #pragma once
 
 #include "render/gl/gl_object.h"
-#include "render/mesh/painted_mesh.h"
 #include "scene/description/description.h"
+#include "scene/description/painted_mesh.h"
 
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>

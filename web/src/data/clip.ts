@@ -1,5 +1,6 @@
 // A clip as the player sees it: one or several runs of a scene, ready to be asked for any moment. SI units, world frame,
 // y up, unless said otherwise. `decode_clip()` makes it from the data of a page; the player knows nothing of its layout.
+import type { TextureHeader } from "./header.ts";
 import overlay_style from "../../../src/overlay/overlay_style.json";
 
 export type Vec3 = [number, number, number];
@@ -83,6 +84,30 @@ export interface Mesh {
   positions: Float32Array;
   normals: Float32Array;
   indices: Uint32Array;
+  paint?: MeshPaint;
+}
+
+/** The colors of a mesh's file. */
+export interface MeshPaint {
+  /** Two numbers a vertex, from the top left corner of the texture. */
+  uv: Float32Array;
+  /** Three numbers a vertex, linear. */
+  color: Float32Array;
+  emission: Float32Array;
+  /** Roughness and metallic of each vertex; below 0: the body's. */
+  surface: Float32Array;
+  groups: { first: number; count: number; texture: MeshTexture | null }[];
+}
+
+export interface MeshTexture {
+  width: number;
+  height: number;
+  /** Four bytes a texel, rows from the top: square roots of linear light, and alpha. */
+  texels: Uint8Array;
+  wrap: TextureHeader["wrap"];
+  nearest: boolean;
+  /** Texels with less alpha are holes. */
+  cutoff: number;
 }
 
 /** In the body's frame, from the body's origin. */

@@ -44,6 +44,29 @@ export interface MeshHeader {
   positions: PredictedReference[];
   normals: PredictedReference[];
   indices: PredictedReference;
+  paint?: PaintHeader;
+}
+
+/** Colors of the mesh's file by vertex, and its textures: groups of consecutive indices. */
+export interface PaintHeader {
+  uv_steps: number;
+  color_steps: number;
+  uv: PredictedReference[];
+  /** Square roots of linear light, as are the texels. */
+  color: PredictedReference[];
+  emission: PredictedReference[];
+  /** Roughness and metallic; below 0: the body's. */
+  surface: PredictedReference[];
+  groups: { first: number; count: number; texture: TextureHeader | null }[];
+}
+
+export interface TextureHeader {
+  width: number;
+  height: number;
+  channels: PredictedReference[];
+  wrap: ["repeat" | "mirror" | "clamp", "repeat" | "mirror" | "clamp"];
+  nearest: boolean;
+  cutoff: number;
 }
 
 /** Values have columns: rotation w, x, y, z, position, velocity, angular velocity. */

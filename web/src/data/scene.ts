@@ -1,7 +1,7 @@
 // Bodies, cords, meshes, light and camera of a run (src/page/scene_data.h).
-import type { Camera, Mesh, Scene, Vec3 } from "./clip.ts";
-import type { Container } from "./container.ts";
-import type { MeshHeader, RunHeader } from "./header.ts";
+import type { Camera, Mesh, MeshPaint, MeshTexture, Scene, Vec3 } from "./clip.ts";
+import type { Container, PredictedReference } from "./container.ts";
+import type { MeshHeader, PaintHeader, RunHeader, TextureHeader } from "./header.ts";
 
 type Reader = Container<unknown>;
 
@@ -21,7 +21,33 @@ export function read_mesh(header: MeshHeader, reader: Reader): Mesh {
       mesh.normals[3 * i + c] = directions[c][i] / length;
     }
   }
+  if (header.paint) mesh.paint = read_paint(header.paint, reader);
   return mesh;
+}
+
+/** Columns as an array of items with one number of each. */
+function interleaved(columns: PredictedReference[], reader: Reader, value: (whole: number) => number): Float32Array {
+  const whole = columns.map((part) => reader.predicted(part));
+  return Float32Array.from({ length: whole.length * whole[0].length }, (_, i) =>
+    value(whole[i % whole.length][Math.floor(i / whole.length)]));
+}
+
+function read_texture(header: TextureHeader, reader: Reader): MeshTexture {
+  const { width, height, wrap, nearest, cutoff } = header;
+  const texels = new Uint8Array(4 * width * height).fill(255);
+  header.channels.forEach((part, c) => reader.predicted(part).forEach((value, i) => (texels[4 * i + c] = value)));
+  return { width, height, texels, wrap, nearest, cutoff };
+}
+
+function read_paint(header: PaintHeader, reader: Reader): MeshPaint {
+  const squared = (columns: PredictedReference[]) => interleaved(columns, reader, (value) => (value / header.color_steps) ** 2);
+  return {
+    uv: interleaved(header.uv, reader, (value) => value / header.uv_steps),
+    color: squared(header.color),
+    emission: squared(header.emission),
+    surface: interleaved(header.surface, reader, (value) => value / header.color_steps),
+    groups: header.groups.map(({ first, count, texture }) => ({ first, count, texture: texture && read_texture(texture, reader) })),
+  };
 }
 
 /** The camera at any time: cubic between frames, with the slopes of their neighbors. */

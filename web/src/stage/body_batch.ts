@@ -33,10 +33,11 @@ export class BodyBatch {
   private buffer = new THREE.InstancedInterleavedBuffer(new Float32Array(0), stride);
   private count = 0;
 
-  constructor(base: THREE.BufferGeometry, material: THREE.Material) {
-    this.geometry.setAttribute("position", base.getAttribute("position"));
-    this.geometry.setAttribute("normal", base.getAttribute("normal"));
+  /** Several materials: one for each group of the geometry. */
+  constructor(base: THREE.BufferGeometry, material: THREE.Material | THREE.Material[]) {
+    for (const name of Object.keys(base.attributes)) this.geometry.setAttribute(name, base.getAttribute(name));
     this.geometry.setIndex(base.getIndex());
+    if (Array.isArray(material)) for (const { start, count, materialIndex } of base.groups) this.geometry.addGroup(start, count, materialIndex);
     this.grow(16);
     this.mesh = new THREE.Mesh(this.geometry, material);
     // The bounds of a changing set of instances are not known.

@@ -16,6 +16,12 @@ ${frame_glsl}
 ${instance_glsl}
 out vec3 v_local, v_world;
 out vec3 v_normal;              // body frame
+#ifdef PAINTED
+in vec2 p_uv, p_surface;        // of the mesh's file: roughness and metallic, below 0 the body's
+in vec3 p_color, p_emission;    // linear
+out vec2 v_uv;
+out vec3 v_paint, v_emission;
+#endif
 flat out vec4 v_rotation, v_size, v_color, v_material, v_tint;
 flat out float v_cell;
 void main() {
@@ -33,6 +39,13 @@ void main() {
   v_material = i_material;
   v_tint = i_tint;
   v_cell = i_place.w;
+#ifdef PAINTED
+  v_uv = p_uv;
+  v_paint = p_color;
+  v_emission = p_emission;
+  v_color.w = p_surface.x < 0.0 ? v_color.w : p_surface.x;
+  v_material.x = p_surface.y < 0.0 ? v_material.x : p_surface.y;
+#endif
   gl_Position = projectionMatrix * viewMatrix * vec4(v_world, 1.0);
 }
 `;
@@ -45,6 +58,12 @@ in vec3 v_local, v_world;
 in vec3 v_normal;
 flat in vec4 v_rotation, v_size, v_color, v_material, v_tint;
 flat in float v_cell;
+#ifdef PAINTED
+uniform sampler2D u_image;      // square roots of linear light, and alpha
+uniform float u_cutoff;
+in vec2 v_uv;
+in vec3 v_paint, v_emission;
+#endif
 layout(location = 0) out highp vec4 pixel;
 
 void main() {
@@ -76,6 +95,13 @@ void main() {
     paint = 1.0 - octant * ball_contrast * metallic;
   }
 #else
+#ifdef PAINTED
+  vec4 texel = texture(u_image, v_uv);
+#ifdef HOLES
+  if (texel.a < u_cutoff) discard;
+#endif
+  color = v_paint * texel.rgb * texel.rgb;
+#endif
   vec3 normal = normalize(v_normal);
   normal = gl_FrontFacing ? normal : -normal;
   if (v_material.y > 0.5) paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
@@ -93,6 +119,9 @@ void main() {
 #else
   float sun = sun_visible(v_world, normal);
   vec3 light = paint * shade(normal, to_eye, color, v_color.w, v_material.x, 1.0, sun);
+#ifdef PAINTED
+  light += v_emission;
+#endif
   light = in_fog(light, to_eye, squared);
   pixel = vec4(mix(displayed(light), v_tint.rgb, v_tint.w), 1.0);
 #endif

@@ -1,6 +1,6 @@
 // Bodies of one scene, drawn by as few calls as there are geometries: the solid ones, their outlines, or translucent ghosts.
 import * as THREE from "three";
-import type { Quat, Scene, Vec3 } from "../data/clip.ts";
+import type { MeshPaint, Quat, Scene, Vec3 } from "../data/clip.ts";
 import { BodyBatch, type Instance } from "./body_batch.ts";
 import { parts_of, type Part } from "./body_parts.ts";
 import type { Geometries, GeometryKey } from "./geometries.ts";
@@ -25,6 +25,8 @@ export class BodySet {
     private readonly geometries: Geometries,
     private readonly materials: Record<BodyKind, THREE.Material>,
     private readonly set_up: (mesh: THREE.Mesh) => void = () => {},
+    /** The materials of a mesh in the colors of its file, one for each of its groups; without it, those of the body. */
+    private readonly painted?: (paint: MeshPaint) => THREE.Material[],
   ) {
     this.parts = scene.bodies.map((body) => parts_of(scene, body));
   }
@@ -61,7 +63,8 @@ export class BodySet {
     let batch = this.batches.get(key);
     if (!batch) {
       const kind = key === "box" || key === "ball" ? key : "mesh";
-      batch = new BodyBatch(this.geometries.get(key), this.materials[kind]);
+      const paint = this.geometries.paint_of(key);
+      batch = new BodyBatch(this.geometries.get(key), paint && this.painted ? this.painted(paint) : this.materials[kind]);
       this.batches.set(key, batch);
       this.group.add(batch.mesh);
       this.set_up(batch.mesh);

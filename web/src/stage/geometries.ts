@@ -1,6 +1,6 @@
 // The meshes that instances of bodies share: a box and a ball of size 1, and the clip's own meshes.
 import * as THREE from "three";
-import type { Mesh } from "../data/clip.ts";
+import type { Mesh, MeshPaint } from "../data/clip.ts";
 
 /** Segments around and from pole to pole: many balls are small, and each triangle costs in software. */
 const ball_segments = [
@@ -20,6 +20,13 @@ function own_mesh(mesh: Mesh): THREE.BufferGeometry {
   geometry.setAttribute("position", new THREE.BufferAttribute(mesh.positions, 3));
   geometry.setAttribute("normal", new THREE.BufferAttribute(mesh.normals, 3));
   geometry.setIndex(new THREE.BufferAttribute(mesh.indices, 1));
+  if (mesh.paint) {
+    geometry.setAttribute("p_uv", new THREE.BufferAttribute(mesh.paint.uv, 2));
+    geometry.setAttribute("p_color", new THREE.BufferAttribute(mesh.paint.color, 3));
+    geometry.setAttribute("p_emission", new THREE.BufferAttribute(mesh.paint.emission, 3));
+    geometry.setAttribute("p_surface", new THREE.BufferAttribute(mesh.paint.surface, 2));
+    mesh.paint.groups.forEach(({ first, count }, i) => geometry.addGroup(first, count, i));
+  }
   return geometry;
 }
 
@@ -43,6 +50,11 @@ export class Geometries {
       this.made.set(key, geometry);
     }
     return geometry;
+  }
+
+  /** The colors of the file of a mesh, if it has some. */
+  paint_of(key: GeometryKey): MeshPaint | undefined {
+    return key.startsWith("mesh") ? this.meshes[Number(key.slice(4))].paint : undefined;
   }
 
   dispose(): void {

@@ -1,5 +1,6 @@
 // The materials of a stage, and the values that all of them share. The values are set before each view is drawn.
 import * as THREE from "three";
+import type { MeshPaint, MeshTexture } from "../data/clip.ts";
 import { bytes } from "./color.ts";
 import {
   body_fragment_glsl, body_vertex_glsl, depth_fragment_glsl, depth_vertex_glsl, outline_fragment_glsl, outline_vertex_glsl,
@@ -9,6 +10,24 @@ import { occlusion_fragment_glsl, occlusion_vertex_glsl } from "./occlusion_glsl
 import { theme_of, type Theme } from "./theme.ts";
 
 export type BodyKind = "box" | "ball" | "mesh";
+const wrapping = { repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWrapping, clamp: THREE.ClampToEdgeWrapping };
+
+/** A white texel without a texture. */
+function image_of(texture: MeshTexture | null): THREE.DataTexture {
+  if (!texture) {
+    const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
+    white.needsUpdate = true;
+    return white;
+  }
+  const image = new THREE.DataTexture(texture.texels, texture.width, texture.height);
+  [image.wrapS, image.wrapT] = texture.wrap.map((name) => wrapping[name]);
+  image.magFilter = texture.nearest ? THREE.NearestFilter : THREE.LinearFilter;
+  image.minFilter = texture.nearest ? THREE.NearestMipmapLinearFilter : THREE.LinearMipmapLinearFilter;
+  image.generateMipmaps = true;
+  image.needsUpdate = true;
+  return image;
+}
+
 type Uniforms = Record<string, THREE.IUniform>;
 
 export class Materials {
@@ -36,10 +55,28 @@ export class Materials {
   readonly depth = this.make(depth_vertex_glsl, depth_fragment_glsl, { side: THREE.DoubleSide });
   readonly sky = this.make(sky_vertex_glsl, sky_fragment_glsl, { depthWrite: false });
 
+  private readonly painted_of = new Map<MeshPaint, THREE.ShaderMaterial[]>();
+
   plane(uniforms: Uniforms): THREE.ShaderMaterial {
     const material = this.make(plane_vertex_glsl, plane_fragment_glsl, {});
     Object.assign(material.uniforms, uniforms);
     return material;
+  }
+
+  /** One material for each group of the mesh, which has its texture. */
+  painted(paint: MeshPaint): THREE.ShaderMaterial[] {
+    let materials = this.painted_of.get(paint);
+    if (!materials) {
+      materials = paint.groups.map(({ texture }) => {
+        const defines = { PAINTED: "", ...(texture && texture.cutoff > 0 ? { HOLES: "" } : {}) };
+        const material = this.make(body_vertex_glsl, body_fragment_glsl, { defines, side: THREE.DoubleSide });
+        material.uniforms.u_image = { value: image_of(texture) };
+        material.uniforms.u_cutoff = { value: texture?.cutoff ?? 0 };
+        return material;
+      });
+      this.painted_of.set(paint, materials);
+    }
+    return materials;
   }
 
   /** Multiplies the ground that it lies on. */
@@ -60,6 +97,11 @@ export class Materials {
 
   dispose(): void {
     for (const list of [this.solid, this.ghost, this.outline]) for (const material of Object.values(list)) material.dispose();
+    for (const materials of this.painted_of.values())
+      for (const material of materials) {
+        material.uniforms.u_image.value.dispose();
+        material.dispose();
+      }
     this.depth.dispose();
     this.sky.dispose();
   }

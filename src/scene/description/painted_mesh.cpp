@@ -1,4 +1,4 @@
-#include "render/mesh/painted_mesh.h"
+#include "scene/description/painted_mesh.h"
 
 #include <algorithm>
 #include <map>
