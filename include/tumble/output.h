@@ -19,7 +19,7 @@ TUMBLE_BEGIN
 
 enum class PngAlpha { dropped, kept };
 
-/// 8-bit RGB, or RGBA with `kept`. The bytes are those of `tumble render --frames`, with `kept` those of
+/// 8-bit RGB, or RGBA with `kept`: the same bytes as `tumble render --frames` writes, and with `kept` as with
 /// `--transparent`. Throws Error (input) where the pixels do not fit the size.
 void write_png(const std::string& file, const Image& image, PngAlpha alpha = PngAlpha::dropped);
 /// Any PNG file as RGBA. Throws Error (input) where the file is missing or broken.

@@ -50,7 +50,7 @@ Json json_of(const ImageResult& image) {
 }
 
 /// Text for an attribute or an element. XML 1.0 allows no control characters but tab and line breaks, and a reader
-/// takes those of an attribute for spaces.
+/// turns tabs and line breaks in an attribute into spaces.
 std::string escaped(std::string_view text) {
     std::string xml;
     for (const char c : html_text(safe_lines(text, text.size() + message_text_bytes))) {

@@ -1,8 +1,8 @@
 // The motion of a body as quantized values at each frame.
 //
 // Positions are multiples of a quantum. A rotation is the decoded one of the frame before, followed by a rotation
-// vector of whole quanta: errors do not add up. Velocities are differences to those that the decoded positions and
-// rotations show, which is nearly nothing; their sum is snapped to the quantum.
+// vector of whole quanta: errors do not add up. Velocities are stored less the velocities that follow from the decoded
+// positions and rotations: nearly nothing; their sum is snapped to the quantum.
 #pragma once
 
 #include "page/page_run.h"

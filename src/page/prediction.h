@@ -7,7 +7,7 @@
 namespace tumble {
 
 /// Replaces a channel by its differences and returns their order. Differences of order n + 1 are the differences of
-/// those of order n; the value before the first is 0.
+/// the differences of order n; the value before the first is 0.
 int predict(std::span<std::int64_t> channel);
 
 }  // namespace tumble

@@ -44,7 +44,7 @@ std::vector<PairPictures> report_pictures(const std::vector<const ImageResult*>&
 // Small versions of pictures.
 
 /// At most so many pixels on either side, with the proportions of the image; the image itself if it is as small. Each
-/// pixel is the mean of those that it covers.
+/// pixel is the mean of the pixels of the image that it covers.
 Image thumbnail(const Image& image, int width, int height);
 
 }  // namespace tumble

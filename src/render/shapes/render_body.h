@@ -55,7 +55,7 @@ struct VertexSample {
 
 struct RenderMesh {
     std::shared_ptr<const MeshAsset> asset;
-    const MeshPaint* paint = nullptr;  // of the asset: drawn with the colors of the file; null: with those of its body
+    const MeshPaint* paint = nullptr;  // of the asset: the colors of its file; null: the color of the body
     bool closed = true;                // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;

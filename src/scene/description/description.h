@@ -164,7 +164,7 @@ struct MeshShape {
     MassFrom mass_from = MassFrom::solid;
     double thickness = 0.0;  // m, of a shell
     bool chosen = true;      // false: mass_from follows from the mesh, which has no volume of its own
-    bool painted = false;    // drawn with the colors of its file, which has some; otherwise with those of its body
+    bool painted = false;    // drawn with the colors of its file, which has some; otherwise in the color of the body
 
     const MeshPaint* paint() const { return painted ? asset->paint.get() : nullptr; }
 };
