@@ -120,7 +120,8 @@ double first_hit(const Kind&, const Vec3& from, const Vec3& direction) = delete;
 /// All lengths by a factor; of meshes and compounds by MeshCache.
 template <class Kind>
 Kind enlarged(const Kind&, double factor) = delete;
+/// Declared without its CollisionShape, which is complete only after the kinds.
 template <class Kind>
-CollisionShape make_collider(const Kind&, const ColliderRequest&, ColliderCache&) = delete;
+void make_collider(const Kind&, const ColliderRequest&, ColliderCache&) = delete;
 
 }  // namespace tumble
