@@ -48,10 +48,9 @@ struct Words {
 };
 template <class Rule>
 struct Required {
+    explicit constexpr Required(const Rule& given) : rule(given) {}  // clang 14 has no aggregates by parentheses
     Rule rule;
 };
-template <class Rule>
-Required(Rule) -> Required<Rule>;
 
 /// Texts of the reference. Without a default, a range or a type they follow from the member and its rule.
 struct About {

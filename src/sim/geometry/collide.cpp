@@ -83,7 +83,8 @@ void collide(const CollisionShape& a, const CollisionShape& b, const CollisionQu
     if (const auto* whole = std::get_if<CompoundRef>(&b)) return collide_parts(**whole, a, false, query);
     std::visit(
         [&](const auto& held_a, const auto& held_b) {
-            const auto &shape_a = collider_in(held_a), &shape_b = collider_in(held_b);
+            const auto& shape_a = collider_in(held_a);
+            const auto& shape_b = collider_in(held_b);
             using A = std::decay_t<decltype(shape_a)>;
             using B = std::decay_t<decltype(shape_b)>;
             const std::size_t first = query.out.size();
