@@ -35,8 +35,8 @@ public:
     }
 
     SpecText finish() {
-        made.text = std::move(text);
-        return std::move(made);
+        made_.text = std::move(text);
+        return std::move(made_);
     }
 
 private:
@@ -154,7 +154,7 @@ private:
         value("memory", "arrays", std::to_string(index_of(mesh.arrays)));
         set("scale", mesh.scale);
         write_mass(mesh);
-        if (made.first_mesh.empty()) made.first_mesh = prefix;
+        if (made_.first_mesh.empty()) made_.first_mesh = prefix;
     }
     void write_shape(const Compound& compound, const std::string& table, const std::string& prefix) {
         shape_type("compound");
@@ -181,12 +181,12 @@ private:
     }
 
     std::size_t index_of(const std::shared_ptr<const TriangleMesh::Arrays>& arrays) {
-        const auto [entry, is_new] = index_of_mesh_.try_emplace(arrays.get(), made.meshes.size());
-        if (is_new) made.meshes.push_back(arrays);
+        const auto [entry, is_new] = index_of_mesh_.try_emplace(arrays.get(), made_.meshes.size());
+        if (is_new) made_.meshes.push_back(arrays);
         return entry->second;
     }
 
-    SpecText made;
+    SpecText made_;
     std::unordered_map<const TriangleMesh::Arrays*, std::size_t> index_of_mesh_;  // only looked up
 };
 

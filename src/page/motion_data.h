@@ -8,6 +8,7 @@
 
 namespace tumble {
 
+// NOLINTNEXTLINE(bugprone-exception-escape): the move of a JSON value, which does not throw
 struct MotionData {
     ArrayStore::Json json;
     MotionErrors errors;

@@ -183,7 +183,7 @@ public:
         table.read("color", model.appearance.color);
         const bool colored = table.has("color") || table.has("colors");
         const std::vector<BodyDescription> places = make_places(table, model, content);
-        const SourcePosition origin = name.origin();
+        const SourcePosition& origin = name.origin();
         check_number_of_bodies(std::int64_t(bodies_.size()) + std::int64_t(places.size() * content.bodies.size()),
                                origin);
         check_number_of_joints(joints_.size() + places.size() * content.joints.size(), origin);

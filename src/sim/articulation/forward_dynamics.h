@@ -28,6 +28,7 @@ public:
 
     private:
         friend class ForwardDynamics;
+        // NOLINTBEGIN(readability-identifier-naming): members of a struct for its friend
         SpatialMotion bias;         // c: of the acceleration, by the velocities
         Sym3 turning;               // kg m^2, of the body about its joint
         SpatialInertia inertia;     // I^A; then I^a, which its joint passes on; of a held ball I^A
@@ -41,6 +42,7 @@ public:
         Vec3 about = Vec3::Zero();  // of a ball: the axis n about which it is held
         double wanted = 0.0;        // of a ball: n . its acceleration
         Vec3 given = Vec3::Zero();  // of a ball: acceleration that this takes
+        // NOLINTEND(readability-identifier-naming)
     };
 
     explicit ForwardDynamics(const JointTree& tree) : tree_(tree) {}

@@ -122,7 +122,7 @@ public:
 private:
     void order_bodies(const std::vector<Body>& bodies, std::span<const std::uint32_t> island);
     void grow(std::size_t at);
-    struct Hang {                  // the joint that a body hangs on
+    struct Hang {  // the joint that a body hangs on; NOLINT: clang-tidy 14 names the copy of an array __i0
         int first = 0, count = 0;  // its nodes
         int anchor = TreeNode::ground;
         bool forward = true;  // the parent is the joint's first body

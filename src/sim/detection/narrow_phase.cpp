@@ -54,6 +54,7 @@ template <class T>
 void copy_plain(const std::vector<T>& from, std::size_t first, std::size_t count, std::vector<T>& to,
                 std::size_t place) {
     static_assert(std::is_trivially_destructible_v<T>);
+    // NOLINTNEXTLINE(bugprone-undefined-memory-manipulation)
     if (count > 0) std::memcpy(static_cast<void*>(to.data() + place), from.data() + first, count * sizeof(T));
 }
 
