@@ -89,7 +89,9 @@ std::string impact_sentence(const PageRun& run, const ImpactStatistics& impacts)
 std::string number_html(double value, int digits) {
     std::string text = fmt::format("{:.{}g}", value == 0.0 ? 0.0 : value, digits);
     const std::size_t exponent = text.find('e');
-    const auto signed_text = [](const std::string& part) { return part.starts_with('-') ? "\u2212" + part.substr(1) : part; };
+    const auto signed_text = [](const std::string& part) {
+        return part.starts_with('-') ? "\u2212" + part.substr(1) : part;
+    };
     if (exponent == std::string::npos) return signed_text(text);
     const std::string mantissa = text.substr(0, exponent);
     const std::string power = signed_text(std::to_string(std::stoi(text.substr(exponent + 1))));
