@@ -26,6 +26,8 @@ enum class ContactSolver { by_island, soft, direct };
 enum class RotationForm { quaternion, matrix };
 enum class BodyType { dynamic, fixed, kinematic };
 enum class Pattern { plain, grid, checker };
+/// The material that a body sounds of; none: silent.
+enum class SoundMaterial { wood, metal, glass, stone, plastic, rubber, none };
 /// The matter that gives a mesh its mass and inertia: the volume that it encloses, its convex hull, or its surface.
 enum class MassFrom { solid, hull, shell };
 
@@ -162,6 +164,7 @@ struct Material {
     std::optional<double> roughness;    // 0: mirror, 1: matte
     std::optional<double> metallic;     // 0 to 1
     std::optional<Pattern> pattern;
+    std::optional<SoundMaterial> sound;  // of the body with --sound; wood unless given
 };
 
 /// A pose of a kinematic body's origin.

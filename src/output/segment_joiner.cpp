@@ -65,7 +65,7 @@ void SegmentJoiner::join(const ClipSegments& segments) {
     {
         const std::lock_guard lock(mutex_);
         if (abandoned_) throw RunError(fmt::format("'{}' was abandoned", safe_path(clip_)));
-        process_.emplace(program, join_arguments(format_, list, file.path(), comment_of(mark_)));
+        process_.emplace(program, join_arguments(format_, list, file.path(), comment_of(mark_), sound_));
     }
     const ProcessEnd end = process_->finish();
     encoder_seconds_ += end.cpu_seconds;

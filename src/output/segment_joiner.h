@@ -27,6 +27,9 @@ public:
     /// `mark`: goes into the clip, for mark_of_clip().
     SegmentJoiner(const std::filesystem::path& clip, const VideoFormat& format, const std::string& mark);
 
+    /// A WAV file for the clip. Before join().
+    void set_sound(const std::filesystem::path& file) { sound_ = file; }
+
     /// Writes the clip under its name. Throws RunError with ffmpeg's message, or if the clip is not whole.
     void join(const ClipSegments& segments);
 
@@ -39,6 +42,7 @@ private:
     std::filesystem::path clip_;
     VideoFormat format_;
     std::string mark_;
+    std::filesystem::path sound_;
     double encoder_seconds_ = 0.0;
     std::mutex mutex_;  // guards abandon() against the start of the process
     bool abandoned_ = false;

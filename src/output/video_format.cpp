@@ -219,10 +219,23 @@ VideoFormat video_format(const fs::path& clip, double fps, bool transparent) {
     return format;
 }
 
+/// The second input of ffmpeg and its codec, or none: AAC, which all players of H.264 have; Opus in WebM.
+Arguments sound_arguments(const VideoFormat& format, const fs::path& sound) {
+    if (sound.empty()) return {"-map", "0:v", "-an"};
+    Arguments arguments = {"-i", file_argument(sound), "-map", "0:v", "-map", "1:a", "-flags:a", "+bitexact", "-c:a"};
+    if (format.container == "webm")
+        append(arguments, {"libopus", "-b:a", "128k"});
+    else
+        append(arguments, {"aac", "-b:a", "192k"});
+    return arguments;
+}
+
 Arguments encoding_arguments(const VideoFormat& format, const ClipOptions& options, const ImageSize& images,
                              const fs::path& output) {
     Arguments arguments = common();
-    append(arguments, {"-f", "matroska", "-i", "pipe:0", "-an", "-r", format.rate.text(), "-fps_mode", "vfr"});
+    append(arguments, {"-f", "matroska", "-i", "pipe:0"});
+    append(arguments, sound_arguments(format, options.sound));
+    append(arguments, {"-r", format.rate.text(), "-fps_mode", "vfr"});
     const bool odd = images.width % 2 != 0 || images.height % 2 != 0;
     if (odd && is_subsampled(format.pixels) && stored_size(format.kind, images) == images)
         append(arguments, {"-vf", fmt::format("crop={}:{}:0:0:exact=1", images.width, images.height)});
@@ -261,12 +274,13 @@ std::string segment_ending(const VideoFormat& format) {
 }
 
 Arguments join_arguments(const VideoFormat& format, const fs::path& list, const fs::path& output,
-                         const std::string& comment) {
+                         const std::string& comment, const fs::path& sound) {
     const Arguments input = {"-f", "concat", "-safe", "0", "-i", file_argument(list)};
     if (format.kind == VideoKind::gif) return gif_from(input, output);
     Arguments arguments = common();
     append(arguments, input);
-    append(arguments, {"-map", "0:v", "-c", "copy", "-map_metadata", "-1", "-metadata", "comment=" + comment});
+    append(arguments, sound_arguments(format, sound));
+    append(arguments, {"-c:v", "copy", "-map_metadata", "-1", "-metadata", "comment=" + comment});
     // The alpha is beside the pictures; players look for it where this says so.
     if (format.kind == VideoKind::vp9_alpha) append(arguments, {"-metadata:s:v", "alpha_mode=1"});
     append(arguments, {"-fflags", "+bitexact"});

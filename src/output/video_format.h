@@ -55,7 +55,8 @@ enum class VideoQuality {
 struct ClipOptions {
     FrameTimes times = FrameTimes::longer_frames;
     VideoQuality quality = VideoQuality::normal;
-    bool transparent = false;  // the clip keeps the alpha of the images
+    bool transparent = false;          // the clip keeps the alpha of the images
+    std::filesystem::path sound = {};  // a WAV file; empty: a clip without sound
 };
 
 struct VideoFormat {
@@ -89,6 +90,7 @@ std::string segment_ending(const VideoFormat& format);
 /// Arguments that make ffmpeg join the segments of a list (of its concat demuxer) into `output`, without encoding them
 /// again, or into a GIF. `comment`: in the clip's metadata, except in a GIF.
 std::vector<std::string> join_arguments(const VideoFormat& format, const std::filesystem::path& list,
-                                        const std::filesystem::path& output, const std::string& comment);
+                                        const std::filesystem::path& output, const std::string& comment,
+                                        const std::filesystem::path& sound);
 
 }  // namespace tumble

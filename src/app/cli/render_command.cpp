@@ -266,6 +266,9 @@ void add_render_options(CLI::App& command, RenderCommand& c) {
                           "OpenGL backend: software (the default) draws on the CPU, by OSMesa or, where that is "
                           "missing,\nby EGL; egl uses a GPU if there is one. On the CPU all give the same bytes");
     add_clip_times(command, c);
+    command.add_flag("--sound", c.sound,
+                     "Give the clip the sound of its impacts, of sliding and of rolling, by the bodies' sizes and\n"
+                     "their materials (key sound). Slow motion is heard slowly, and lower");
     command.add_flag("--transparent", c.drawing.transparent,
                      "Draw the bodies alone, lit and shadowed as in the scene, on a transparent background:\n"
                      "for slides (.webm, PNG frames) and video editors (.mov, ProRes 4444)");
@@ -288,6 +291,7 @@ void add_render(Command& command) {
         "  tumble render scene.toml -o clip.webm --size 640x360\n"
         "  tumble render scene.toml --frames out             writes out/frame_000000.png ...\n"
         "  tumble render scene.toml --speed 0.25             slow motion\n"
+        "  tumble render scene.toml --sound                  with the sound of the impacts\n"
         "  tumble render scene.toml --transparent -o clip.webm   bodies alone, for a slide\n"
         "  tumble render scene.toml --frames one --duration 0  writes the first frame only\n"
         "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"

@@ -21,6 +21,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/encoder_report.h"
+#include "output/temporary_folder.h"
 
 #include <fmt/format.h>
 
@@ -71,6 +72,14 @@ void check_outputs(const RenderCommand& command, const RenderPlan& plan, const R
     };
     if (plan.folder) add_series("--frames", *plan.folder, FrameFiles::pictures);
     if (plan.aov_folder) add_series("--aov", *plan.aov_folder, FrameFiles::aovs);
+}
+
+void check_sound(const RenderCommand& command, const RenderPlan& plan) {
+    if (!command.sound) return;
+    if (!plan.clip)
+        throw InputError("--sound: needs a clip (-o CLIP); tumble simulate --sound S.wav writes the sound alone");
+    if (plan.format->kind == VideoKind::gif) throw InputError("--sound: a GIF has no sound; .mp4 and .webm have");
+    if (command.from_checkpoints) throw InputError("--sound: is of a whole run, without --from-checkpoints");
 }
 
 DrawingChoices choices_of(const RenderCommand& command) {
@@ -231,6 +240,11 @@ FrameOutputs RenderPlan::outputs(const RenderCommand& command) const {
     return outputs;
 }
 
+void RenderPlan::set_sound(const fs::path& file) {
+    clip_options.sound = file;
+    if (segments) segments->set_sound(file);
+}
+
 RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes) {
     const double fps = scenes.first().output.fps;
     RenderPlan plan;
@@ -250,6 +264,7 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
                             safe_text(*command.frames_range)));
         find_ffmpeg();
     }
+    check_sound(command, plan);
     check_outputs(command, plan, scenes);
 
     plan.pictures = identity_of(scenes.scenes, drawing_settings(command, choices_of(command), scenes.composition));
@@ -308,6 +323,13 @@ RenderFigures render_to_files(const RenderCommand& command) {
             requested_workers);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
     if (outputs.image() && !command.from_checkpoints) scenes.survey_clip(threads, interrupt);
+    std::optional<TemporaryFolder> sound_folder;
+    if (command.sound) {
+        sound_folder.emplace("sound");
+        const fs::path file = sound_folder->path() / "sound.wav";
+        write_file(file, scenes.sound());
+        plan.set_sound(file);
+    }
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);

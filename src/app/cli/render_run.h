@@ -29,6 +29,8 @@ struct RenderPlan {
     std::int64_t needed() const { return frames.folder.united_with(frames.aovs).united_with(frames.video).count(); }
     std::int64_t to_draw() const { return frames.drawn.count(); }
     FrameOutputs outputs(const RenderCommand& command) const;
+    /// The WAV file that goes into the clip.
+    void set_sound(const std::filesystem::path& file);
 };
 
 /// Looks at the outputs of earlier runs, and writes nothing. Throws InputError for outputs that do not fit together,

@@ -15,10 +15,12 @@
 #include "app/threads/stage_timer.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "output/temporary_file.h"
 #include "render/scene/pose_filter.h"
 #include "scene/toml/limits.h"
 #include "sim/checkpoint/archive.h"
 #include "sim/frames/clip_timing.h"
+#include "sound/sound_track.h"
 
 #include <algorithm>
 #include <cmath>
@@ -33,6 +35,7 @@ namespace {
 struct SimulateCommand {
     std::vector<std::filesystem::path> scenes;  // one, or a panel for each with checkpoints
     TableFiles tables;
+    std::optional<std::filesystem::path> sound;  // .wav
     SceneOverrides overrides;
     std::optional<std::filesystem::path> checkpoints;       // folder
     double every = 1.0;                                     // s of the clip between two checkpoints
@@ -167,6 +170,7 @@ void say_run(const SimulateCommand& command, const SceneDescription& scene, std:
              const std::vector<BrokenJoint>& broken) {
     say_broken(broken);
     for (const std::filesystem::path& file : command.tables.all()) say("wrote {}\n", safe_path(file));
+    if (command.sound) say("wrote {}\n", safe_path(*command.sound));
     const FrameTiming timing = scene.timing();
     say("{} frames, {} steps of {:.6g} s, in {:.2f} s ({:.4g} times real time)\n", frames,
         (frames - 1) * timing.steps_per_frame, 1.0 / (timing.fps * timing.steps_per_frame), seconds,
@@ -182,6 +186,7 @@ void check_tables(const SimulateCommand& command, const FileList& inputs) {
         plan.add_input_folder(*folder, is_checkpoint_name);
     }
     command.tables.add_to(plan);
+    if (command.sound) plan.add("--sound", *command.sound);
     if (command.checkpoints) add_checkpoints(plan, *command.checkpoints);
 }
 
@@ -200,13 +205,23 @@ void simulate_tables(const SimulateCommand& command) {
         World world(description, command.threads);
         if (!command.quiet) say_text(start_notes(description, world));
         RunTables tables(command.tables, scene);
+        std::optional<SoundTrack> sound;
+        if (command.sound) {
+            sound.emplace(description);
+            world.record_contacts();
+        }
         tables.start_records(world);
         for (std::int64_t n = 0; n < frames; ++n) {
             if (n > 0) world.advance_frame();
             tables.add(n, world);
+            if (sound) sound->see(world.snapshot(), world.contact_records());
             monitor.update(n + 1);
         }
         tables.finish();
+        if (sound) {
+            const std::vector<double> track = sound->pressure({0.0, double(frames) / description.output.fps, 1.0});
+            write_file(*command.sound, wav_bytes(mix({&track, 1})));
+        }
         broken = broken_joints(description, world);
     }
     if (!command.quiet) say_run(command, description, frames, wall_seconds() - start, broken);
@@ -355,6 +370,8 @@ void add_checkpoints(CLI::App& command, SimulateCommand& c) {
 }
 
 void run_simulate(const SimulateCommand& command) {
+    if (command.sound && (command.checkpoints || command.from_checkpoints))
+        throw InputError("--sound: is of a whole run, without --checkpoints and --from-checkpoints");
     if (command.checkpoints) return simulate_clip(command);
     if (command.from_checkpoints) return simulate_rest(command);
     if (command.scenes.size() > 1) throw InputError("several scenes are simulated together only with --checkpoints");
@@ -435,6 +452,12 @@ void add_simulate(Command& command) {
         ->check(file_name("csv npz"))
         ->transform(or_standard_output())
         ->type_name("J.csv");
+    command
+        .add_option("--sound", c.sound,
+                    "The sound of impacts, sliding and rolling: a WAV file, 48000 samples a second. The times of the\n"
+                    "impacts are exact")
+        ->check(file_name("wav"))
+        ->type_name("S.wav");
     offer(command.add_option("--impact-law", c.overrides.impact_law, "Rule for several contacts at once"),
           "propagating|simultaneous");
     add_frames_of_time(command, c.overrides);

@@ -49,7 +49,10 @@ void require_same_rate(const std::vector<ClipScene>& scenes) {
 RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
     : request(command), shutter_(shutter), speed_(command.speed) {
     load(command);
-    for (const ClipScene& one : scenes) scales_.emplace_back(*one.scene);
+    for (const ClipScene& one : scenes) {
+        scales_.emplace_back(*one.scene);
+        if (command.sound) sounds_.emplace_back(*one.scene);
+    }
     if (scenes.size() > 1 && !command.aovs.empty())
         throw InputError(fmt::format("--aov: needs a single scene ({} are shown side by side)", scenes.size()));
     require_same_rate(scenes);
@@ -128,6 +131,7 @@ std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
     if (!runs_.empty()) observers.push_back(&runs_[index]);
     if (composition.panels[index].overlay && needs_survey(scenes[index].scene->overlay))
         observers.push_back(&scales_[index]);
+    if (!sounds_.empty()) observers.push_back(&sounds_[index]);
     return observers;
 }
 
@@ -202,6 +206,17 @@ std::unique_ptr<OverlayBuilder> RenderScenes::overlay(std::size_t index) const {
     return overlay ? std::make_unique<OverlayBuilder>(*scenes[index].scene, overlay->scales) : nullptr;
 }
 
+std::vector<std::byte> RenderScenes::sound() const {
+    std::vector<std::vector<double>> tracks;
+    for (std::size_t i = 0; i < sounds_.size(); ++i) {
+        const double fps = scenes[i].scene->output.fps;
+        const auto last = std::min(frames.end(), ends[i]);
+        const double duration = double(std::max<std::int64_t>(0, last - frames.first())) / fps;
+        tracks.push_back(sounds_[i].track.pressure({double(frames.first()) / fps * speed_, duration, speed_}));
+    }
+    return wav_bytes(mix(tracks));
+}
+
 std::size_t RenderScenes::bodies() const {
     std::size_t count = 0;
     for (const ClipScene& one : scenes) count = std::max(count, one.scene->bodies.size());
@@ -210,7 +225,8 @@ std::size_t RenderScenes::bodies() const {
 
 World RenderScenes::world(std::size_t index, int threads) const {
     World world(*scenes[index].scene, scenes[index].timing, threads);
-    if (composition.panels[index].overlay && needs_records(scenes[index].scene->overlay)) world.record_contacts();
+    const bool shown = composition.panels[index].overlay && needs_records(scenes[index].scene->overlay);
+    if (shown || !sounds_.empty()) world.record_contacts();
     return world;
 }
 

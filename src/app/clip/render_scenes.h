@@ -13,6 +13,7 @@
 #include "scene/load.h"
 #include "sim/frames/clip_timing.h"
 #include "sim/world.h"
+#include "sound/sound_track.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -31,12 +32,21 @@ struct ScaleObserver : SurveyObserver {
     ScaleSurvey sizes;
 };
 
+/// The impacts and contacts of a clip, for its sound.
+struct SoundObserver : SurveyObserver {
+    explicit SoundObserver(const SceneDescription& scene) : track(scene) {}
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords* records) override {
+        track.see(snapshot, *records);
+    }
+    SoundTrack track;
+};
+
 class RenderScenes {
 public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
     RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
-    /// Simulates all scenes once, if a plot or the scale of arrows needs it, and fills them in. Leaves no thread
+    /// Simulates all scenes once, if a plot, the scale of arrows or the sound needs it, and fills them in. Leaves no thread
     /// behind.
     void survey_clip(int threads, Interrupt& interrupt);
 
@@ -59,6 +69,8 @@ public:
     bool shows_damage() const;
     /// The maker of a panel's overlay; null without one. Valid after survey_clip().
     std::unique_ptr<OverlayBuilder> overlay(std::size_t index) const;
+    /// The sound of the frames as a WAV file: of all panels together. Valid after survey_clip().
+    std::vector<std::byte> sound() const;
 
     ClipRequest request;
     std::vector<ClipScene> scenes;   // the timing is that of the simulation, with the intervals of the shutter
@@ -81,6 +93,7 @@ private:
     double speed_;
     std::vector<PlottedRun> runs_;  // one for each scene if there is a plot
     std::vector<ScaleObserver> scales_;
+    std::vector<SoundObserver> sounds_;  // one for each scene if the clip has sound
 };
 
 }  // namespace tumble

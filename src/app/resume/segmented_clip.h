@@ -35,6 +35,9 @@ public:
     const FrameSet& missing() const { return missing_; }
     bool finished() const { return finished_; }
 
+    /// A WAV file for the clip; segments have no sound. Before finish().
+    void set_sound(const std::filesystem::path& file) { joiner_.set_sound(file); }
+
     /// Makes the folder of segments and holds it. Throws RunError. Not if the clip is finished.
     void open();
 

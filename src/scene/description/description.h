@@ -192,6 +192,9 @@ inline Color plain_color(const Shape& shape, Color of_body) {
     return mesh != nullptr && mesh->painted ? mesh->asset->paint->mean : of_body;
 }
 
+/// The material that a body sounds of (sound/sound_track.h).
+enum class SoundMaterial { wood, metal, glass, stone, plastic, rubber, none };
+
 enum class Pattern { plain, grid, checker };
 
 /// Appearance of a body.
@@ -226,6 +229,7 @@ struct BodyDescription {
     std::optional<IntegratorKind> integrator;  // overrides the simulation's, to compare two in one scene
     std::vector<Keyframe> keyframes;           // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
+    SoundMaterial sound = SoundMaterial::wood;
 
     /// Restitution and friction of the body in a pair (PairRule): a dynamic body without values has these.
     static constexpr double default_restitution = 0.5, default_friction = 0.0;

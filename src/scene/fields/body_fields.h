@@ -19,6 +19,7 @@ struct Material {
     std::optional<double> roughness;
     std::optional<double> metallic;
     std::optional<Pattern> pattern;
+    std::optional<SoundMaterial> sound;
 };
 
 template <class Visitor, class Self>
@@ -37,6 +38,8 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
     field(self.roughness, "roughness", limits::fraction, {"0: mirror, 1: matte", "0.6"});
     field(self.metallic, "metallic", limits::fraction, {"1: metal", "0"});
     field(self.pattern, "pattern", ByType(), {{}, "`\"plain\"`, planes `\"grid\"`"});
+    field(self.sound, "sound", ByType(),
+          {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`", .picture = true});
 }
 
 template <class Visitor, class Self>
@@ -89,7 +92,10 @@ void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
     field(self.interpolation, "interpolation", ByType(), {"see [keyframes](#keyframes)"});
     for (const char* one : {"grid", "scatter", "scale", "colors", "poses"})
         field.key(one, {"see [many bodies from one table](#many-bodies-from-one-table)", "none"});
-    if constexpr (requires { self.appearance; }) field.shown(self.appearance);
+    if constexpr (requires { self.appearance; }) {
+        field.shown(self.appearance);
+        field.since(self.sound != SoundMaterial::wood, self.sound);
+    }
 }
 
 template <class Visitor, class Self>

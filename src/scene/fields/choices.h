@@ -76,6 +76,15 @@ template <>
 inline constexpr auto choices<Pattern> =
     std::to_array<Choice<Pattern>>({{"plain", Pattern::plain}, {"grid", Pattern::grid}, {"checker", Pattern::checker}});
 template <>
+inline constexpr auto choices<SoundMaterial> = std::to_array<Choice<SoundMaterial>>({{"wood", SoundMaterial::wood},
+                                                                                     {"metal", SoundMaterial::metal},
+                                                                                     {"glass", SoundMaterial::glass},
+                                                                                     {"stone", SoundMaterial::stone},
+                                                                                     {"plastic",
+                                                                                      SoundMaterial::plastic},
+                                                                                     {"rubber", SoundMaterial::rubber},
+                                                                                     {"none", SoundMaterial::none}});
+template <>
 inline constexpr auto choices<MassFrom> =
     std::to_array<Choice<MassFrom>>({{"solid", MassFrom::solid}, {"hull", MassFrom::hull}, {"shell", MassFrom::shell}});
 template <>

@@ -21,7 +21,8 @@ Material overridden(const Material& material, const Material& over) {
             either(material.friction, over.friction),
             either(material.roughness, over.roughness),
             either(material.metallic, over.metallic),
-            either(material.pattern, over.pattern)};
+            either(material.pattern, over.pattern),
+            either(material.sound, over.sound)};
 }
 
 Materials read_materials(const TomlTable& root) {
@@ -52,6 +53,7 @@ void apply_material(const Material& material, BodyDescription& body) {
     body.appearance.metallic = material.metallic.value_or(body.appearance.metallic);
     body.density = material.density.value_or(body.density);
     body.restitution = material.restitution;
+    body.sound = material.sound.value_or(body.sound);
     body.friction = material.friction;
 }
 
