@@ -61,7 +61,7 @@ class Scripts(unittest.TestCase):
     def test_unknown_words(self):
         for arguments in (("bench", "no-such-benchmark"), ("bench", "accuracy", "--rounds", "2"), ("bench", "contact", "--case"),
                           ("demo", "more"), ("install-dependencies", "more"), ("accept-golden", "no-such-scene"),
-                          ("test", "more"), ("test", "-R"), ("make-crowd-scenes",), ("make-scenes-picture",),
+                          ("test", "more"), ("test", "-R"), ("make-crowd-scenes",), ("make-scenes-picture",), ("make-readme-clip",),
                           ("make-meshes", "a", "b"), ("plot-contact", "a"), ("plot-joints", "a"), ("make-cli-reference",), ("check-prose", "no-such-file"),
                           ("lecture", "a", "b"), ("lecture", "--size"), ("lecture", "--only")):
             with self.subTest(arguments=arguments):

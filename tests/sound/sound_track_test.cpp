@@ -120,7 +120,7 @@ TEST(SoundTrack, SlowMotionIsLaterAndLower) {
 
 TEST(SoundTrack, TheLowestModeOfABallIsLambs) {
     const Run r = run(ball(0.3, "material = \"steel\"\n[materials.steel]\nsound = \"metal\"\ndensity = 7800\n"), 0.5);
-    // 2.64 c_s / (2 pi R) with c_s = 3200 m/s: 26.9 kHz, above what is heard. At a tenth of the speed 2.69 kHz.
+    // 2.64 c_s / (2 pi R) with c_s = 3200 m/s: 26.9 kHz, inaudible. At a tenth of the speed 2.69 kHz.
     const std::vector<double> slow = r.track.pressure({0.2, 3.0, 0.1});
     EXPECT_NEAR(loudest(slow, 2200, 3200, 10.0), 2690.0, 0.05 * 2690.0);
 }
