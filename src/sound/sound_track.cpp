@@ -170,7 +170,7 @@ public:
     }
 
     // Sound of the acceleration of the rigid body during the contact (Koss and Alfredson 1973; here a compact dipole):
-    // p = air density * volume * jerk / (4 pi c) at 1 m; for a half-sine force jerk = J / m (pi / t)^2 / 2 cos(pi s / t).
+    // p = air density * volume * jerk / (4 pi c) at 1 m; of a half-sine force, jerk = J (pi / t)^2 cos(pi s / t) / 2m.
     void thud(std::span<const SoundTrack::Strike> strikes) {
         const double volume = body_.size.prod();
         for (const SoundTrack::Strike& strike : strikes) {
@@ -190,7 +190,7 @@ private:
         return std::int64_t(std::floor((time - span_.start) / span_.speed * sound_rate + 0.5));
     }
 
-    // Bumps of length b under a force F, at a speed v: v / b of them in a second, each an impulse of F b / v over b / v.
+    // Bumps of length b under a force F, at a speed v: v / b of them in a second, each of an impulse F b / v.
     // Their sum is white noise below v / b, of a deviation F sqrt(b / (v rate)) a sample; above, a mode feels it less.
     bool rub_block(const Mode& mode, double loudness, std::span<const SoundTrack::Rub> rubs, std::size_t& rub,
                    std::size_t first, std::size_t end) {

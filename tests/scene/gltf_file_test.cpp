@@ -2,7 +2,10 @@
 #include "mesh_files.h"
 #include "scene/mesh/mesh_loader.h"
 
+#include <draco/compression/encode.h>
+#include <draco/mesh/triangle_soup_mesh_builder.h>
 #include <fmt/format.h>
+#include <meshoptimizer.h>
 #include <sys/stat.h>
 
 #include <unistd.h>
@@ -299,15 +302,105 @@ TEST_F(Gltf, OtherFilesAndVersionsAreRefused) {
     EXPECT_EQ(error_of("{\"asset\":{\"version\":\"2.0\"}}"), "holds no triangles");
     Document document;
     document.primitives =
-        R"([{"attributes":{"POSITION":0},"extensions":{"KHR_draco_mesh_compression":{"bufferView":0}}}])";
-    EXPECT_TRUE(error_of(document).starts_with(
-        "needs KHR_draco_mesh_compression, which cannot be read: export it without (assimp: "));
+        R"([{"attributes":{"POSITION":0},"indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}])";
+    EXPECT_TRUE(error_of(document).starts_with("has a mesh that Draco cannot read: "));
     document = {};
-    document.more = R"(,"extensionsRequired":["EXT_meshopt_compression"])";
-    EXPECT_EQ(error_of(document), "needs EXT_meshopt_compression, which cannot be read: export it without");
+    document.more = R"(,"extensionsRequired":["EXT_mesh_gpu_instancing"])";
+    EXPECT_EQ(error_of(document), "needs EXT_mesh_gpu_instancing, which cannot be read: export it without");
     document = {};
     document.buffers = R"([{"byteLength":3,"uri":"data:application/octet-stream;base64,AA$A"}])";
     EXPECT_EQ(error_of(document), "has a buffer with broken base64");
+}
+
+TEST_F(Gltf, BufferViewsThatMeshoptimizerCompressedAreTheSameMesh) {
+    std::vector<unsigned char> vertices(meshopt_encodeVertexBufferBound(4, 12)),
+        triangles(meshopt_encodeIndexBufferBound(12, 4));
+    vertices.resize(meshopt_encodeVertexBuffer(vertices.data(), vertices.size(), corners.data(), 4, 12));
+    const std::vector<std::uint32_t> wide(faces.begin(), faces.end());
+    triangles.resize(meshopt_encodeIndexBuffer(triangles.data(), triangles.size(), wide.data(), 12));
+    write("packed.bin", bytes_of(vertices) + bytes_of(triangles));
+    Document document;
+    document.buffers = fmt::format(R"([{{"byteLength":{},"uri":"packed.bin"}},{{"byteLength":72}}])",
+                                   vertices.size() + triangles.size());
+    const auto views = [&](const char* mode, int count, const char* filter) {
+        return fmt::format(
+            R"([{{"buffer":1,"byteLength":48,"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteLength":{},"byteStride":12,"count":{},"mode":"{}"{}}}}}}},
+{{"buffer":1,"byteOffset":48,"byteLength":24,"extensions":{{"EXT_meshopt_compression":{{"buffer":0,"byteOffset":{},"byteLength":{},"byteStride":2,"count":12,"mode":"TRIANGLES"}}}}}}])",
+            vertices.size(), count, mode, filter, vertices.size(), triangles.size());
+    };
+    document.more = R"(,"extensionsRequired":["EXT_meshopt_compression"])";
+    document.views = views("ATTRIBUTES", 4, "");
+    EXPECT_NEAR(loaded(document).closedness.signed_volume, 1.0 / 6.0, 1e-12);
+    document.views = views("ATTRIBUTES", 400, "");
+    EXPECT_TRUE(error_of(document).starts_with("has a compressed buffer view that meshoptimizer cannot read"));
+    document.views = views("WORDS", 4, "");
+    EXPECT_EQ(error_of(document), "has a compressed buffer view of mode \"WORDS\" with 4 times 12 bytes");
+    document.views = views("ATTRIBUTES", 4, R"(,"filter":"OCTAHEDRAL")");
+    EXPECT_EQ(error_of(document), "has a compressed buffer view with the filter \"OCTAHEDRAL\" on 12 bytes");
+    document.views = views("ATTRIBUTES", 2'000'000'000, "");
+    EXPECT_TRUE(error_of(document).starts_with("has a compressed buffer view of 2000000000 times 12 bytes"));
+}
+
+TEST_F(Gltf, AMeshThatDracoCompressedIsTheSameMesh) {
+    draco::TriangleSoupMeshBuilder builder;
+    builder.Start(4);
+    const int position = builder.AddAttribute(draco::GeometryAttribute::POSITION, 3, draco::DT_FLOAT32);
+    for (int t = 0; t < 4; ++t)
+        builder.SetAttributeValuesForFace(
+            position, draco::FaceIndex(std::uint32_t(t)), &corners[3u * faces[std::size_t(3 * t)]],
+            &corners[3u * faces[std::size_t(3 * t + 1)]], &corners[3u * faces[std::size_t(3 * t + 2)]]);
+    const auto mesh = builder.Finalize();
+    draco::EncoderBuffer packed;
+    ASSERT_TRUE(draco::Encoder().EncodeMeshToBuffer(*mesh, &packed).ok());
+    write("draco.bin", std::string(packed.data(), packed.size()));
+    Document document;
+    document.buffers = fmt::format(R"([{{"byteLength":{},"uri":"draco.bin"}}])", packed.size());
+    document.views = fmt::format(R"([{{"buffer":0,"byteLength":{}}}])", packed.size());
+    document.accessors =
+        R"([{"componentType":5126,"count":4,"type":"VEC3"},{"componentType":5123,"count":12,"type":"SCALAR"}])";
+    document.primitives =
+        R"([{"attributes":{"POSITION":0},"indices":1,"extensions":{"KHR_draco_mesh_compression":{"bufferView":0,"attributes":{"POSITION":0}}}}])";
+    document.more = R"(,"extensionsRequired":["KHR_draco_mesh_compression"])";
+    const LoadedMesh made = loaded(document);
+    EXPECT_EQ(made.asset->indices.size(), 12u);
+    EXPECT_NEAR(made.closedness.signed_volume, 1.0 / 6.0, 1e-12);
+    document.views = R"([{"buffer":0,"byteLength":20}])";
+    EXPECT_TRUE(error_of(document).starts_with("has a mesh that Draco cannot read: "));
+}
+
+TEST_F(Gltf, SkinsAndMorphTargetsAreInTheirRestPose) {
+    const std::vector<float> moves{0, 0, 0, 2, 0, 0, 0, 0, 0, 0, 0, 0};
+    const std::vector<std::uint8_t> joints(16, 0);
+    std::vector<float> weights(16, 0.0f);
+    for (std::size_t v = 0; v < 4; ++v) weights[4 * v] = 1.0f;
+    write("data.bin", tetrahedron() + bytes_of(moves) + bytes_of(joints) + bytes_of(weights));
+    Document document;
+    document.buffers = R"([{"byteLength":200,"uri":"data.bin"}])";
+    document.views =
+        R"([{"buffer":0,"byteLength":48},{"buffer":0,"byteOffset":48,"byteLength":24},{"buffer":0,"byteOffset":72,"byteLength":48},
+{"buffer":0,"byteOffset":120,"byteLength":16},{"buffer":0,"byteOffset":136,"byteLength":64}])";
+    document.accessors =
+        R"([{"bufferView":0,"componentType":5126,"count":4,"type":"VEC3"},{"bufferView":1,"componentType":5123,"count":12,"type":"SCALAR"},
+{"bufferView":2,"componentType":5126,"count":4,"type":"VEC3"},{"bufferView":3,"componentType":5121,"count":4,"type":"VEC4"},
+{"bufferView":4,"componentType":5126,"count":4,"type":"VEC4"}])";
+    // Half of a target that moves the corner at x = 1 to x = 3: volume 2/6.
+    document.primitives = R"([{"attributes":{"POSITION":0},"indices":1,"targets":[{"POSITION":2}]}])";
+    document.nodes = R"([{"mesh":0,"weights":[0.5]}])";
+    EXPECT_NEAR(loaded(document).closedness.signed_volume, 2.0 / 6.0, 1e-12);
+    // A joint of twice the size below a node at x = 5; the place of the mesh's own node does not count.
+    document.primitives = R"([{"attributes":{"POSITION":0,"JOINTS_0":3,"WEIGHTS_0":4},"indices":1}])";
+    document.nodes =
+        R"([{"mesh":0,"skin":0,"translation":[0,100,0]},{"children":[2],"translation":[5,0,0]},{"scale":[2,2,2]}])";
+    document.roots = "[0,1]";
+    document.more = R"(,"skins":[{"joints":[2]}])";
+    const LoadedMesh skinned = loaded(document);
+    EXPECT_NEAR(skinned.closedness.signed_volume, 8.0 / 6.0, 1e-12);
+    for (const MeshAsset::Vertex& vertex : skinned.asset->vertices) {
+        EXPECT_GE(vertex.position[0], 5.0f);
+        EXPECT_LE(vertex.position[1], 2.0f);
+    }
+    document.more = R"(,"skins":[{"joints":[7]}])";
+    EXPECT_NE(error_of(document), "no error");
 }
 
 TEST_F(Gltf, ChunksOfAGlbLieWithinTheFile) {

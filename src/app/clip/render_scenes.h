@@ -46,8 +46,8 @@ public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
     RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
-    /// Simulates all scenes once, if a plot, the scale of arrows or the sound needs it, and fills them in. Leaves no thread
-    /// behind.
+    /// Simulates all scenes once, if a plot, the scale of arrows or the sound needs it, and fills them in. Leaves no
+    /// thread behind.
     void survey_clip(int threads, Interrupt& interrupt);
 
     // The same by another run of the simulation, and its result in a checkpoint.

@@ -1,6 +1,7 @@
 #include "scene/mesh/gltf_buffers.h"
 
 #include "scene/mesh/base64.h"
+#include "scene/mesh/gltf_compression.h"
 #include "scene/mesh/input_file.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/toml/limits.h"
@@ -88,7 +89,9 @@ std::uint32_t index_value(const char* at, Component type) {
     throw MeshError("has indices that are not unsigned whole numbers");
 }
 
-constexpr const char* kinds[] = {"", "SCALAR", "VEC2", "VEC3", "VEC4"};  // of accessors, by the number of components
+// Of accessors, by the number of components.
+constexpr const char* kinds[17] = {"", "SCALAR", "VEC2", "VEC3", "VEC4", "", "", "",    "",
+                                   "", "",       "",     "",     "",     "", "", "MAT4"};
 
 constexpr std::size_t uri_shown = 60;  // characters of a name in a message
 
@@ -170,18 +173,55 @@ std::string_view GltfBuffers::buffer(std::uint64_t index) {
     return bytes.substr(0, length);
 }
 
-std::string_view GltfBuffers::view(const Json& holder, std::size_t& stride) {
-    const Json& view = require_item(document_, "bufferViews", require_whole(holder, "bufferView"));
+std::string_view GltfBuffers::slice(const Json& view) {
     const std::string_view bytes = buffer(require_whole(view, "buffer"));
     const std::uint64_t first = find_whole(view, "byteOffset").value_or(0), length = require_whole(view, "byteLength");
+    if (first > bytes.size() || length > bytes.size() - first)
+        throw MeshError(fmt::format("has a buffer view beyond its buffer of {} bytes", bytes.size()));
+    return bytes.substr(first, length);
+}
+
+std::string_view GltfBuffers::decompressed(std::uint64_t view, const Json& extension) {
+    auto found = decompressed_.find(view);
+    if (found == decompressed_.end()) {
+        found = decompressed_.emplace(view, decode_meshopt(extension, slice(extension))).first;
+        bytes_read_ += found->second.size();
+        if (bytes_read_ > std::uint64_t(limits::mesh_bytes))
+            throw MeshError(fmt::format("holds more than {} MiB, decompressed", limits::mesh_bytes >> 20));
+    }
+    return found->second;
+}
+
+std::string_view GltfBuffers::view(const Json& holder, std::size_t& stride) {
+    const std::uint64_t index = require_whole(holder, "bufferView");
+    const Json& view = require_item(document_, "bufferViews", index);
+    const Json* compressed = nullptr;
+    for (const char* name : meshopt_extensions)
+        if (!compressed) compressed = find_extension(view, name);
+    const std::string_view bytes = compressed ? decompressed(index, *compressed) : slice(view);
     const std::uint64_t skipped = find_whole(holder, "byteOffset").value_or(0);
     stride = find_whole(view, "byteStride").value_or(0);
     constexpr std::uint64_t longest_stride = 252;  // bytes, glTF 2.0's own
     if (stride > longest_stride)
         throw MeshError(fmt::format("has a \"byteStride\" of {} (at most {})", stride, longest_stride));
-    if (first > bytes.size() || length > bytes.size() - first || skipped > length)
-        throw MeshError(fmt::format("has a buffer view beyond its buffer of {} bytes", bytes.size()));
-    return bytes.substr(first, length).substr(skipped);
+    if (skipped > bytes.size())
+        throw MeshError(fmt::format("has an accessor beyond its buffer view of {} bytes", bytes.size()));
+    return bytes.substr(skipped);
+}
+
+template <class Value>
+void GltfBuffers::keep_given(std::uint64_t accessor, const std::vector<Value>& values) {
+    std::string& bytes = given_[accessor];
+    bytes.assign(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value));
+    bytes_read_ += bytes.size();
+}
+
+void GltfBuffers::give(std::uint64_t accessor, const std::vector<std::array<float, 4>>& values) {
+    keep_given(accessor, values);
+}
+
+void GltfBuffers::give(std::uint64_t accessor, const std::vector<std::uint32_t>& indices) {
+    keep_given(accessor, indices);
 }
 
 namespace {
@@ -205,6 +245,15 @@ GltfBuffers::Elements GltfBuffers::elements(std::uint64_t accessor, std::size_t 
     result.normalized = normalized && *normalized == true;
     result.count = require_whole(item, "count");
     result.stride = result.size = components * size_of(result.type);
+    if (const auto given = given_.find(accessor); given != given_.end()) {  // indices, or vectors of four numbers
+        result.type = components == 1 ? Component::uint32 : Component::float32;
+        result.normalized = false;
+        result.stride = components == 1 ? sizeof(std::uint32_t) : 4 * sizeof(float);
+        result.size = components * sizeof(float);
+        result.bytes = given->second;
+        result.count = result.bytes.size() / result.stride;
+        return result;
+    }
     const bool has_view = find_member(item, "bufferView") != nullptr;
     if (has_view) {
         std::size_t stride = 0;
@@ -272,10 +321,19 @@ std::vector<std::array<float, 4>> GltfBuffers::values(std::uint64_t accessor, st
     });
 }
 
+std::vector<std::array<float, 16>> GltfBuffers::matrices(std::uint64_t accessor) {
+    return read<std::array<float, 16>>(accessor, 16, [](const char* at, const Elements& all) {
+        std::array<float, 16> matrix{};
+        for (std::size_t i = 0; i < 16; ++i)
+            matrix[i] = component(at + i * size_of(all.type), all.type, all.normalized);
+        return matrix;
+    });
+}
+
 std::size_t GltfBuffers::components(std::uint64_t accessor) const {
     const Json* kind = find_member(require_item(document_, "accessors", accessor), "type");
     for (std::size_t i = 1; i < std::size(kinds); ++i)
-        if (kind && *kind == kinds[i]) return i;
+        if (kind && *kinds[i] != 0 && *kind == kinds[i]) return i;
     return 0;
 }
 

@@ -1,8 +1,10 @@
 #include "scene/mesh/gltf_file.h"
 
 #include "scene/mesh/gltf_buffers.h"
+#include "scene/mesh/gltf_compression.h"
 #include "scene/mesh/gltf_json.h"
 #include "scene/mesh/gltf_materials.h"
+#include "scene/mesh/gltf_rest_pose.h"
 #include "scene/mesh/mesh_images.h"
 #include "scene/mesh/mesh_transform.h"
 
@@ -14,34 +16,11 @@
 namespace tumble {
 namespace {
 
-/// A node's own transform, in single precision like glTF's numbers.
-Eigen::Matrix4f local_transform(const Json& node) {
-    Eigen::Matrix4f result = Eigen::Matrix4f::Identity();
-    if (const auto matrix = find_floats(node, "matrix", 16)) {
-        for (int i = 0; i < 16; ++i) result(i % 4, i / 4) = (*matrix)[std::size_t(i)];  // column by column
-        return result;
-    }
-    if (const auto t = find_floats(node, "translation", 3)) result.topRightCorner<3, 1>() << (*t)[0], (*t)[1], (*t)[2];
-    if (const auto q = find_floats(node, "rotation", 4)) {
-        const float x = (*q)[0], y = (*q)[1], z = (*q)[2], w = (*q)[3];
-        Eigen::Matrix4f turn = Eigen::Matrix4f::Identity();
-        turn.topLeftCorner<3, 3>() << 1.0f - 2.0f * (y * y + z * z), 2.0f * (x * y - z * w), 2.0f * (x * z + y * w),
-            2.0f * (x * y + z * w), 1.0f - 2.0f * (x * x + z * z), 2.0f * (y * z - x * w), 2.0f * (x * z - y * w),
-            2.0f * (y * z + x * w), 1.0f - 2.0f * (x * x + y * y);
-        result = result * turn;
-    }
-    if (const auto s = find_floats(node, "scale", 3)) {
-        Eigen::Matrix4f sized = Eigen::Matrix4f::Identity();
-        sized.diagonal() << (*s)[0], (*s)[1], (*s)[2], 1.0f;
-        result = result * sized;
-    }
-    return result;
-}
-
 enum class Mode { triangles = 4, strip = 5, fan = 6 };
 
 /// A primitive of a mesh that has triangles.
 struct Primitive {
+    const Json* item;
     Mode mode;
     std::uint64_t positions, triangles;
     std::optional<std::uint64_t> normals, indices, colors;
@@ -52,7 +31,11 @@ struct Primitive {
 class SceneReader {
 public:
     SceneReader(const Json& document, GltfBuffers& buffers, const std::filesystem::path& folder)
-        : document_(document), buffers_(buffers), images_(folder), material_reader_(document, buffers, images_) {}
+        : document_(document),
+          buffers_(buffers),
+          images_(folder),
+          material_reader_(document, buffers, images_),
+          rest_pose_(document, buffers) {}
 
     MeshFile read() {
         std::vector<Visit> open;
@@ -62,7 +45,7 @@ public:
             open.pop_back();
             const Json& node = require_item(document_, "nodes", visit.node);
             const MeshTransform transform = visit.parent.then(local_transform(node));
-            if (const auto mesh = find_whole(node, "mesh")) add_mesh(*mesh, transform);
+            if (const auto mesh = find_whole(node, "mesh")) add_mesh(*mesh, node, transform);
             push(whole_numbers(node, "children"), transform, open);
         }
         for (const GltfMaterial& material : materials_) mesh_.materials.push_back(material.look);
@@ -114,11 +97,11 @@ private:
             const std::uint64_t mode = find_whole(item, "mode").value_or(4);
             if (mode > 6) throw MeshError(fmt::format("has an unknown \"mode\" of {}", mode));
             if (mode < 4) continue;  // points and lines
-            const Json* extensions = find_member(item, "extensions");
-            if (extensions && find_member(*extensions, draco)) throw UnsupportedGltf(cannot_be_read(draco));
+            if (const Json* draco = find_extension(item, draco_extension)) decompress(item, *draco);
             const Json* attributes = find_member(item, "attributes");
             if (!attributes || !find_member(*attributes, "POSITION")) continue;  // nothing to draw
             Primitive primitive{};
+            primitive.item = &item;
             primitive.mode = Mode(mode);
             primitive.positions = require_whole(*attributes, "POSITION");
             primitive.normals = find_whole(*attributes, "NORMAL");
@@ -136,6 +119,19 @@ private:
         return entry->second;
     }
 
+    void decompress(const Json& primitive, const Json& draco) {
+        const Json *attributes = find_member(primitive, "attributes"), *numbers = find_member(draco, "attributes");
+        if (!attributes || !numbers || !numbers->is_object())
+            throw MeshError(fmt::format("has a mesh of {} without \"attributes\"", draco_extension));
+        std::vector<std::uint64_t> wanted;
+        for (const auto& [name, number] : numbers->items()) wanted.push_back(require_whole(*numbers, name.c_str()));
+        const DracoMesh made = decode_draco(buffers_.whole_view(draco), wanted);
+        for (const auto& [name, number] : numbers->items())
+            if (const auto accessor = find_whole(*attributes, name.c_str()))
+                buffers_.give(*accessor, made.attributes.at(require_whole(*numbers, name.c_str())));
+        buffers_.give(require_whole(primitive, "indices"), made.indices);
+    }
+
     std::uint32_t material_number(std::uint64_t material) {
         const auto [entry, is_new] = number_of_material_.try_emplace(material, std::uint32_t(materials_.size()));
         if (is_new) materials_.push_back(material_reader_.read(material));
@@ -145,7 +141,7 @@ private:
     /// Vectors of an attribute, one for each position; none if their number differs.
     std::vector<std::array<float, 4>> attribute(std::uint64_t accessor, std::size_t positions) {
         const std::size_t components = buffers_.components(accessor);
-        if (components < 2) return {};
+        if (components < 2 || components > 4) return {};
         std::vector<std::array<float, 4>> values = buffers_.values(accessor, components);
         if (values.size() != positions) values.clear();
         return values;
@@ -162,21 +158,24 @@ private:
         return uvs;
     }
 
-    void add_mesh(std::uint64_t mesh, const MeshTransform& transform) {
+    void add_mesh(std::uint64_t mesh, const Json& node, const MeshTransform& transform) {
         const std::vector<Primitive>& primitives = primitives_of(mesh);
         if (!primitives.empty()) mesh_.begin_object();
-        for (const Primitive& primitive : primitives) add_primitive(primitive, transform);
+        for (const Primitive& primitive : primitives) add_primitive(primitive, node, transform);
     }
 
-    void add_primitive(const Primitive& primitive, const MeshTransform& transform) {
+    void add_primitive(const Primitive& primitive, const Json& node, const MeshTransform& of_node) {
         mesh_.check_more_triangles(primitive.triangles);
         mesh_.check_more_positions(buffers_.count_vectors(primitive.positions));
-        const auto positions = buffers_.vectors(primitive.positions);
-        const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
-        for (const auto& position : positions) mesh_.add_position(transform.point(position));
+        auto positions = buffers_.vectors(primitive.positions);
         std::vector<std::array<float, 3>> normals;
         if (primitive.normals && buffers_.count_vectors(*primitive.normals) == positions.size())
             normals = buffers_.vectors(*primitive.normals);
+        rest_pose_.add_targets(node, *primitive.item, positions, normals);
+        const MeshTransform transform =
+            rest_pose_.skin(node, *primitive.item, positions, normals) ? MeshTransform() : of_node;
+        const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
+        for (const auto& position : positions) mesh_.add_position(transform.point(position));
         const std::vector<std::array<float, 2>> uvs = uvs_of(primitive, positions.size());
         std::vector<std::array<float, 4>> colors;
         if (primitive.colors) colors = attribute(*primitive.colors, positions.size());
@@ -205,18 +204,12 @@ private:
         }
     }
 
-public:
-    static constexpr const char* draco = "KHR_draco_mesh_compression";
-    static std::string cannot_be_read(const std::string& extension) {
-        return fmt::format("needs {}, which cannot be read: export it without", extension);
-    }
-
-private:
     const Json& document_;
     GltfBuffers& buffers_;
     MeshFile mesh_;
     MeshImages images_;
     GltfMaterials material_reader_;
+    GltfRestPose rest_pose_;
     std::vector<GltfMaterial> materials_;  // of the primitives so far
     std::map<std::uint64_t, std::uint32_t> number_of_material_;
     std::vector<bool> visited_;
@@ -227,12 +220,9 @@ private:
 void check_extensions(const Json& document) {
     const Json* required = find_member(document, "extensionsRequired");
     if (!required || !required->is_array()) return;
-    const auto needs = [&](const char* name) {
-        return std::find(required->begin(), required->end(), name) != required->end();
-    };
-    if (needs(SceneReader::draco)) throw UnsupportedGltf(SceneReader::cannot_be_read(SceneReader::draco));
-    for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression", "EXT_mesh_gpu_instancing"})
-        if (needs(name)) throw MeshError(SceneReader::cannot_be_read(name));
+    for (const char* name : {"EXT_mesh_gpu_instancing"})
+        if (std::find(required->begin(), required->end(), name) != required->end())
+            throw MeshError(fmt::format("needs {}, which cannot be read: export it without", name));
 }
 
 void check_version(const Json& document) {

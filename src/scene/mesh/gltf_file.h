@@ -8,7 +8,7 @@
 
 namespace tumble {
 
-/// A kind of glTF without a reader in Tumble: version 1, or meshes compressed by Draco.
+/// A kind of glTF without a reader in Tumble: version 1.
 struct UnsupportedGltf : MeshError {
     using MeshError::MeshError;
 };
