@@ -153,6 +153,8 @@ struct CompoundPart {
     Rotation rotation;              // body frame
     std::optional<double> density;  // kg/m^3; the body's where not given
     std::optional<Color> color;     // the body's where not given
+    bool collide = true;            // false: nothing touches the part, which has its mass all the same
+    bool visible = true;
 };
 
 /// Physical and visual properties. A field that is not given has the default of the scene format.
@@ -165,6 +167,8 @@ struct Material {
     std::optional<double> metallic;     // 0 to 1
     std::optional<Pattern> pattern;
     std::optional<SoundMaterial> sound;  // of the body with --sound; wood unless given
+    std::optional<double> rolling_friction{};   // torque against rolling, over the load times the radius; see PairRules
+    std::optional<double> spinning_friction{};  // m: torque about the normal, over the load; see PairRules
 };
 
 /// A pose of a kinematic body's origin.
@@ -213,8 +217,13 @@ struct Body {
     Interpolation interpolation = Interpolation::smooth;  // between keyframes
     std::optional<Grid> grid;                             // not together with a scatter
     std::optional<Scatter> scatter;
-    std::optional<ScaleRange> scale;  // of the copies
-    std::vector<Color> colors;        // each copy takes one at random; empty: the material's
+    std::optional<ScaleRange> scale;                       // of the copies
+    std::vector<Color> colors;                             // each copy takes one at random; empty: the material's
+    double gravity_scale = 1.0;                            // the weight is that times m g
+    std::optional<Vec3> center_of_mass;                    // m, body frame, in place of the shape's; dynamic bodies
+    std::optional<std::array<double, 6>> inertia;          // kg m^2, about the center of mass: xx, yy, zz, xy, xz, yz
+    std::vector<std::string> layers;                       // that the body belongs to
+    std::optional<std::vector<std::string>> collide_with;  // layers; not given: all bodies
 };
 
 /// A force at a point of a dynamic body over a time span.

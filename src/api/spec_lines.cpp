@@ -34,6 +34,12 @@ std::string text_of(const Rotation& rotation) {
     return fmt::format("[{}, {}, {}, {}]", text_of(q.w), text_of(q.x), text_of(q.y), text_of(q.z));
 }
 
+std::string text_of(const std::vector<std::string>& all) {
+    std::string text;
+    for (const std::string& one : all) text += (text.empty() ? "" : ", ") + text_of(one);
+    return "[" + text + "]";
+}
+
 void SpecLines::line(std::string_view content, std::string_view prefix, std::string_view field) {
     (text += content) += '\n';
     if (++lines_ != wanted_) return;

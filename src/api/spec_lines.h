@@ -14,6 +14,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace tumble::v0 {
 
@@ -35,6 +36,8 @@ std::string text_of(const std::array<T, n>& all) {
     for (const T& one : all) text += (text.empty() ? "[" : ", ") + text_of(one);
     return text + "]";
 }
+
+std::string text_of(const std::vector<std::string>& all);
 
 class SpecLines {
 public:

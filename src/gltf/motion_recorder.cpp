@@ -108,7 +108,7 @@ void MotionRecorder::add(const Snapshot& snapshot, const CameraDescription& came
 /// time, an error of its third power.
 MotionRecorder::Pose MotionRecorder::flown(std::size_t body, const Pose& from, double time) const {
     const double t = time - from.time;
-    const Vec3& gravity = scene_.simulation.gravity;
+    const Vec3 gravity = scene_.bodies[body].gravity_scale * scene_.simulation.gravity;
     const Mat3 inverse = reports_[body].inertia.inverse();
     const auto spin = [&](const Quat& q) -> Vec3 { return q * (inverse * (q.conjugate() * from.angular_momentum)); };
     Pose pose = from;

@@ -97,6 +97,7 @@ void SceneWriter::add_body(std::size_t index) {
     std::vector<Json> parts;
     if (const auto* compound = std::get_if<CompoundShape>(&body.shape)) {
         for (const CompoundPart& part : *compound->parts) {
+            if (!part.visible) continue;
             Appearance look = body.appearance;
             look.color = plain_color(part.shape, part.color.value_or(look.color));
             parts.push_back(shape_node(body, part.shape, look, origin + part.position, part.rotation));

@@ -249,7 +249,8 @@ void OverlayBuilder::add_loads(const Snapshot& snapshot) {
                                  false});
     };
     for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
-        add(i, snapshot.bodies[i].center_of_mass, snapshot.bodies[i].mass * scene_->simulation.gravity);
+        add(i, snapshot.bodies[i].center_of_mass,
+            snapshot.bodies[i].mass * scene_->bodies[i].gravity_scale * scene_->simulation.gravity);
     for (const ForceDescription& force : scene_->forces) {
         if (snapshot.time < force.start || snapshot.time >= force.end) continue;
         const BodyState& body = snapshot.bodies[force.body];

@@ -155,8 +155,9 @@ void OverlayPainter::add_shape(const Shape& shape, const Vec3& origin, const Qua
                                Triangles& to) {
     if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
         for (const CompoundPart& part : *compound->parts)
-            add_shape(part.shape, origin + rotation * part.position, rotation * part.rotation,
-                      part.color.value_or(color), to);
+            if (part.visible)
+                add_shape(part.shape, origin + rotation * part.position, rotation * part.rotation,
+                          part.color.value_or(color), to);
         return;
     }
     for (const SurfaceCorner& corner : std::visit([](const auto& one) { return surface_triangles(one); }, shape))

@@ -135,7 +135,9 @@ void ScaleSurvey::add(const Snapshot& snapshot, const ContactRecords* records) {
     }
     if (overlay.show.has(Overlay::loads)) {
         for (std::size_t i = 0; i < snapshot.bodies.size(); ++i)
-            if (shown_[i] != 0) add(ArrowQuantity::force, snapshot.bodies[i].mass * scene_->simulation.gravity.norm());
+            if (shown_[i] != 0)
+                add(ArrowQuantity::force, snapshot.bodies[i].mass * std::abs(scene_->bodies[i].gravity_scale) *
+                                              scene_->simulation.gravity.norm());
         for (const ForceDescription& force : scene_->forces)
             if (shown_[force.body] != 0) add(ArrowQuantity::force, force.force.norm());
     }

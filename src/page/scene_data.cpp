@@ -46,7 +46,8 @@ struct ShapeForm {
     }
     Json operator()(const CompoundShape& compound) {
         Json parts = Json::array();
-        for (const CompoundPart& part : *compound.parts) parts.push_back(part_json(part, look, meshes));
+        for (const CompoundPart& part : *compound.parts)
+            if (part.visible) parts.push_back(part_json(part, look, meshes));
         return {{"type", "compound"}, {"parts", std::move(parts)}};
     }
 };

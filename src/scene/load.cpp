@@ -7,6 +7,7 @@
 #include "scene/keys/instances.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/materials.h"
+#include "scene/keys/matter.h"
 #include "scene/keys/overlay.h"
 #include "scene/keys/settings.h"
 #include "scene/keys/templates.h"
@@ -39,6 +40,15 @@ void check_method_of_joints(const TomlTable& root, const SceneDescription& scene
             list->fail("joins bodies, which the method of the notes cannot: give method = \"tumble\", or no joints");
 }
 
+void check_method_of_rolling(const TomlTable& root, const SceneDescription& scene) {
+    if (scene.simulation.method != SimulationMethod::notes) return;
+    for (const BodyDescription& body : scene.bodies)
+        if (body.rolling_friction.value_or(0.0) > 0.0 || body.spinning_friction.value_or(0.0) > 0.0)
+            root.require("body").origin().fail(
+                "has rolling or spinning friction, which the method of the notes has not: give method = \"tumble\", or "
+                "no such friction");
+}
+
 }  // namespace
 
 SceneDescription parse_scene(const std::string& text, const std::filesystem::path& file,
@@ -69,6 +79,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_chains(root, sources, scene.bodies, scene.joints);
     read_joints(root, scene.bodies, scene.joints);
     check_method_of_joints(root, scene);
+    check_method_of_rolling(root, scene);
+    check_layers(root, scene);
     if (read != nullptr) {
         read->push_back(file);
         read->insert(read->end(), files.begin(), files.end());

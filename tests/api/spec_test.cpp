@@ -39,6 +39,13 @@ SceneSpec everything() {
     spec.bodies[2].velocity = {-1.0 / 3.0, 0.0, 0.0};
     spec.bodies[2].integrator = Integrator::rk4;
     spec.bodies[2].visible = false;
+    spec.bodies[1].material.rolling_friction = 0.02;
+    spec.bodies[1].material.spinning_friction = 0.003;
+    spec.bodies[1].layers = {"crates", "all \"wood\""};
+    spec.bodies[2].gravity_scale = 0.7;
+    spec.bodies[2].center_of_mass = Vec3{0.01, 0.0, -0.02};
+    spec.bodies[2].inertia = {0.5, 0.6, 0.7, 0.01, 0.0, 0.02};
+    spec.bodies[2].collide_with = {"crates"};
     spec.add(Mesh{"torus.obj", 0.5, false}).position = {-3.0, 4.0, 0.0};
     spec.add(Mesh{"hoop.obj", 1.0, true}).position = {-3.0, 7.0, 0.0};
     CompoundPart leg{Box{{0.2, 1.0, 0.2}}, {0.0, -0.5, 0.0}, {}, 700.0, Color{9, 9, 9}};

@@ -269,6 +269,21 @@ TEST(SceneErrors, OfBodies) {
         {body("type = \"fixed\"\nvelocity = @[1, 0, 0]"), "velocity must be zero for a fixed body (given [1, 0, 0])"},
         {body("type = \"kinematic\"\nangular_velocity = @[1, 0, 0]"), "give it keyframes"},
         {body("visible = @\"yes\""), "visible must be true or false"},
+        {body("gravity_scale = @1e7"), "gravity_scale must be from -1000000 to 1000000 (given 10000000)"},
+        {body("rolling_friction = @-1"), "rolling_friction must be from 0 to 1000 (given -1)"},
+        {body("type = \"fixed\"\ncenter_of_mass = @[0, 0, 0]"), "center_of_mass is for dynamic bodies"},
+        {body("inertia = @[1, 1, 1]"), "inertia must be an array of 6 numbers xx, yy, zz, xy, xz, yz"},
+        {body("inertia = [1, @-1, 1, 0, 0, 0]"), "inertia must be above 0, to 1e+30 kg m^2 (given -1)"},
+        {body("inertia = @[1, 1, 1, 2, 0, 0]"),
+         "inertia must be positive about every axis (given the moments -1, 1 and 3"},
+        {body("inertia = @{ principal = [1, 2, 4] }"),
+         "inertia breaks the triangle inequality, and no body has it: the largest moment is at most the sum of the "
+         "other "
+         "two, here 3 (given the moments 1, 2 and 4 kg m^2"},
+        {body("layers = [@3]"), "layers must be a string (given 3)"},
+        {body("layers = [\"floor\"]\ncollide_with = [@\"flor\"]"),
+         "collide_with \"flor\" is the layer of no body (did you mean \"floor\"?)"},
+        {body("collide_with = [@\"floor\"]"), "is the layer of no body: give a body layers = [...]"},
     });
 }
 

@@ -67,10 +67,13 @@ struct ShapeText {
     }
     std::string operator()(const CompoundShape& s) const {
         std::string all;
-        for (const CompoundPart& part : *s.parts)
+        for (const CompoundPart& part : *s.parts) {
             all +=
                 fmt::format("{} {} {} {} {};", shape_text(part.shape), text_of(part.position), text_of(part.rotation),
                             part.density.value_or(-1.0), part.color ? to_string(*part.color) : "");
+            if (!part.collide) all += "does not collide;";
+            if (!part.visible) all += "hidden;";
+        }
         return fmt::format("compound of {} {}", s.parts->size(), digest_text(all));
     }
 };
@@ -142,7 +145,16 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     kind.matter["type"] = name_of(body.type);
     kind.matter["restitution"] = surface_text(body.restitution_in_pair());
     kind.matter["friction"] = surface_text(body.friction_in_pair());
+    if (body.rolling_friction || body.spinning_friction) {
+        kind.matter["rolling_friction"] = surface_text(body.rolling_friction_in_pair());
+        kind.matter["spinning_friction"] = surface_text(body.spinning_friction_in_pair());
+    }
+    if (!body.layers.empty()) kind.matter["layers"] = fmt::format("{}", fmt::join(body.layers, ", "));
+    if (body.collide_with) kind.matter["collide_with"] = fmt::format("[{}]", fmt::join(*body.collide_with, ", "));
     if (body.type == BodyType::dynamic) {
+        if (body.gravity_scale != 1.0) kind.matter["gravity_scale"] = fmt::format("{}", body.gravity_scale);
+        if (body.center_of_mass) kind.matter["center_of_mass"] = text_of(*body.center_of_mass);
+        if (body.inertia) kind.matter["inertia"] = fmt::format("[{}]", fmt::join(*body.inertia, ", "));
         kind.matter[body.mass ? "mass" : "density"] = fmt::format("{}", body.mass.value_or(body.density));
         kind.matter["velocity"] = text_of(body.velocity);
         kind.matter["angular_velocity"] = text_of(body.angular_velocity);

@@ -26,7 +26,8 @@ std::vector<ShapeInstance> surface_parts(const SceneDescription& scene) {
             continue;
         }
         for (const CompoundPart& part : *compound->parts)
-            add({i, part.shape, part.position, part.rotation, part.color.value_or(body.appearance.color), true});
+            if (part.visible)
+                add({i, part.shape, part.position, part.rotation, part.color.value_or(body.appearance.color), true});
     }
     return parts;
 }

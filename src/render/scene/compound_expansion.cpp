@@ -19,6 +19,7 @@ BodyDescription part_as_body(const BodyDescription& body, const CompoundPart& pa
     drawn.position = body.position + body.rotation * part.position;
     drawn.rotation = body.rotation * part.rotation;
     drawn.keyframes.clear();
+    drawn.appearance.visible = body.appearance.visible && part.visible;
     if (part.color) drawn.appearance.color = *part.color;
     return drawn;
 }

@@ -33,7 +33,7 @@ void CameraVisibility::add(const Shape& shape, const Vec3& position, const Quat&
     if (endless(shape)) return;
     if (const auto* compound = std::get_if<CompoundShape>(&shape)) {
         for (const CompoundPart& part : *compound->parts)
-            add(part.shape, position + rotation * part.position, rotation * part.rotation);
+            if (part.visible) add(part.shape, position + rotation * part.position, rotation * part.rotation);
         return;
     }
     const Bounds bounds = local_bounds(shape);

@@ -12,6 +12,7 @@
 #include "scene/description/overlay.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -184,6 +185,8 @@ struct CompoundPart {
     Quat rotation = Quat::Identity();  // of the part, body frame
     std::optional<double> density;     // kg/m^3, overrides the body's
     std::optional<Color> color;        // overrides the body's
+    bool collide = true;               // false: it has mass, and nothing touches it
+    bool visible = true;
 };
 
 /// The one color that stands for a shape where only one can be shown.
@@ -219,10 +222,19 @@ struct BodyDescription {
     Shape shape;
     Appearance appearance;
     double density = 1000.0;  // kg/m^3, of the volume; with a given mass, only its ratio to densities of parts counts
-    std::optional<double> mass;         // kg
-    std::optional<double> restitution;  // 0..1
-    std::optional<double> friction;     // >= 0
-    Vec3 position = Vec3::Zero();       // of the body's origin
+    std::optional<double> mass;               // kg
+    std::optional<double> restitution;        // 0..1
+    std::optional<double> friction;           // >= 0
+    std::optional<double> rolling_friction;   // resisting torque over (load times radius of the rounded surface)
+    std::optional<double> spinning_friction;  // m, torque about the normal over the load
+    double gravity_scale = 1.0;               // the body's weight over m g
+    std::optional<Vec3> center_of_mass;       // m, body frame, from the body's origin; empty: that of the shape
+    /// kg m^2, about the center of mass, body frame: xx, yy, zz, xy, xz, yz. Empty: that of the shape.
+    std::optional<std::array<double, 6>> inertia;
+    std::vector<std::string> layers;  // that the body belongs to
+    /// Layers of the bodies that it collides with; empty optional: all bodies. Both bodies of a pair must accept.
+    std::optional<std::vector<std::string>> collide_with;
+    Vec3 position = Vec3::Zero();  // of the body's origin
     Quat rotation = Quat::Identity();
     Vec3 velocity = Vec3::Zero();              // m/s, of the center of mass
     Vec3 angular_velocity = Vec3::Zero();      // rad/s
@@ -237,6 +249,9 @@ struct BodyDescription {
         return restitution.value_or(dynamic() ? default_restitution : value_of_other);
     }
     double friction_in_pair() const { return friction.value_or(dynamic() ? default_friction : value_of_other); }
+    /// Without effect by default.
+    double rolling_friction_in_pair() const { return rolling_friction.value_or(dynamic() ? 0.0 : value_of_other); }
+    double spinning_friction_in_pair() const { return spinning_friction.value_or(dynamic() ? 0.0 : value_of_other); }
     bool dynamic() const { return type == BodyType::dynamic; }
 };
 

@@ -16,6 +16,8 @@ struct Material {
     std::optional<double> density;  // kg/m^3
     std::optional<double> restitution;
     std::optional<double> friction;
+    std::optional<double> rolling_friction;
+    std::optional<double> spinning_friction;  // m
     std::optional<double> roughness;
     std::optional<double> metallic;
     std::optional<Pattern> pattern;
@@ -34,6 +36,15 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
     field(self.friction, "friction", limits::friction,
           {"Coulomb's coefficient. Default as for the restitution. A pair uses √(a·b) of two values, or another "
            "[rule](#contact)",
+           "0"});
+    field(self.rolling_friction, "rolling_friction", limits::rolling_friction,
+          {"c: a ball of radius r that carries the load N is braked by the torque c·N·r, see "
+           "[rolling and spinning friction](../explanation/contact-solver.md#rolling-and-spinning-friction). Default "
+           "and value of a pair as for the friction",
+           "0"});
+    field(self.spinning_friction, "spinning_friction", limits::size_or_zero,
+          {"s: a spin about the contact's normal is braked by the torque s·N, in addition to that of the contact's "
+           "area. Default and value of a pair as for the friction",
            "0"});
     field(self.roughness, "roughness", limits::fraction, {"0: mirror, 1: matte", "0.6"});
     field(self.metallic, "metallic", limits::fraction, {"1: metal", "0"});
@@ -76,7 +87,35 @@ void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
     if constexpr (requires { self.restitution; }) {
         field.instead(self.restitution, self.restitution_in_pair());
         field.instead(self.friction, self.friction_in_pair());
+        field.since(self.rolling_friction || self.spinning_friction, self.rolling_friction, self.spinning_friction);
     }
+    field(self.gravity_scale, "gravity_scale", limits::gravity_scale,
+          {.text = "the body's weight is that times m·g: 0 floats, below 0 rises", .later = true});
+    field(self.center_of_mass, "center_of_mass", limits::coordinate,
+          {.text = "in place of the shape's, in the body's frame, from its origin; only for dynamic bodies",
+           .standard = "of the shape",
+           .later = true});
+    field(
+        self.inertia, "inertia", ByCode(),
+        {.text = "in place of the shape's, about the center of mass, in the body's frame: `[xx, yy, zz, xy, xz, yz]`, "
+                 "or the three moments with the [rotation](#rotations) of their axes. No moment may be larger than "
+                 "the sum of the other two; only for dynamic bodies",
+         .standard = "of the shape",
+         .range = "above 0, to 1e30",
+         .type = "six numbers, or `{ principal, rotation }`, kg m²",
+         .later = true});
+    field(self.layers, "layers", ByCode(),
+          {.text = "names of layers that the body belongs to, see [layers](#layers)",
+           .standard = "`[]`",
+           .range = "63 in a scene",
+           .type = "array of strings",
+           .later = true});
+    field(self.collide_with, "collide_with", ByCode(),
+          {.text = "layers of the bodies that it collides with, see [layers](#layers)",
+           .standard = "all bodies",
+           .range = "layers of bodies",
+           .type = "array of strings",
+           .later = true});
     field(self.position, "position", limits::coordinate,
           {"of the body's origin: the center of a box or sphere, the origin of a mesh file or of a compound's parts"});
     field(self.rotation, "rotation", ByType(), {"see [rotations](#rotations)"});
@@ -116,6 +155,10 @@ void visit_fields(Of<CompoundPart>, Visitor& field, Self& self) {
     field(self.rotation, "rotation", ByType(), {"of the part, in the body's frame"});
     field(self.density, "density", limits::density, {{}, "the body's"});
     field(self.color, "color", ByType(), {.standard = "the body's", .picture = true});
+    field(self.collide, "collide", ByType(),
+          {.text = "false: nothing touches the part, which has its mass all the same", .later = true});
+    field(self.visible, "visible", ByType(),
+          {.text = "an invisible part is simulated and not drawn", .picture = true, .later = true});
 }
 
 struct GridRequest {

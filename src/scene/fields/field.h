@@ -57,6 +57,8 @@ struct About {
     std::string_view text = {}, standard = {}, range = {}, type = {};
     std::uint32_t joints = ~0u;  // bits of the types of joint that have it
     bool picture = false;        // the motion does not depend on it
+    // Newer than hashes that are in use: hashed, with its key, where it is given. Scenes without it keep their hash.
+    bool later = false;
 };
 
 /// Base of visitors. Derived ones have `operator()(member, key, rule, about)`.

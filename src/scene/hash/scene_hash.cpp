@@ -105,8 +105,14 @@ public:
     }
 
     // As a visitor of fields.
-    void operator()(const auto& value, std::string_view, const auto&, const About& about = {}) {
-        if (all_ || !about.picture) add_value(value);
+    void operator()(const auto& value, std::string_view key, const auto&, const About& about = {}) {
+        if (!all_ && about.picture) return;
+        if constexpr (requires { is_default(value); })
+            if (about.later) {
+                if (is_default(value)) return;
+                add(key);
+            }
+        add_value(value);
     }
     void inner(const auto&... values) { add_all(values...); }
     void shown(const auto&... values) {
@@ -124,6 +130,18 @@ public:
     }
 
 private:
+    // Defaults of fields that are newer than hashes in use.
+    static bool is_default(bool value) { return value; }
+    static bool is_default(double value) { return value == 1.0; }
+    template <class T>
+    static bool is_default(const std::optional<T>& value) {
+        return !value;
+    }
+    template <class T>
+    static bool is_default(const std::vector<T>& values) {
+        return values.empty();
+    }
+
     template <class... Values>
     void add_all(const Values&... values) {
         (add_value(values), ...);

@@ -273,7 +273,13 @@ std::vector<BodyDescription> make_copies(const CopiesRequest& request, const Bod
     std::vector<BodyDescription> copies(static_cast<std::size_t>(number_of(request)), model);
     const bool shares = shared_data(shape.shape) != nullptr;
     for (BodyDescription& copy : copies) {
-        copy.shape = scaled(shape, draw_scale(request, shares, size_random), meshes);
+        const double factor = draw_scale(request, shares, size_random);
+        copy.shape = scaled(shape, factor, meshes);
+        // A given mass stays, and so do the other moments per mass and squared length.
+        if (copy.center_of_mass) *copy.center_of_mass *= factor;
+        if (copy.inertia)
+            for (double& moment : *copy.inertia)
+                moment *= factor * factor * (copy.mass ? 1.0 : factor * factor * factor);
         if (!request.colors.empty()) copy.appearance.color = request.colors[color_random.index(request.colors.size())];
     }
     if (const auto* grid = std::get_if<GridRequest>(&request.arrangement))

@@ -2,6 +2,7 @@
 
 #include "core/safe_text.h"
 #include "scene/keys/arrays.h"
+#include "scene/keys/matter.h"
 #include "scene/keys/motion.h"
 #include "scene/keys/posed_bodies.h"
 #include "scene/keys/read_fields.h"
@@ -119,6 +120,7 @@ BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequ
     if (body.mass && table.has("density"))
         table.find("density")->origin().fail("and mass exclude each other: give one of them");
     check_motion(table, body);
+    read_matter(table, body);
     if (const auto name = table.find("integrator"))
         body.integrator = name->choice(integrator_choices(sources.settings.method));
     return body;

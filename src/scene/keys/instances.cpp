@@ -73,6 +73,9 @@ void enlarge(SceneTemplate& content, double scale, double mass_factor, MeshCache
     for (BodyDescription& body : content.bodies) {
         if (body.type == BodyType::dynamic && (body.mass || !keeps_density))
             body.mass = mass_properties(body).mass * mass_factor;
+        if (body.center_of_mass) *body.center_of_mass *= scale;
+        if (body.inertia)
+            for (double& moment : *body.inertia) moment *= mass_factor * scale * scale;
         if (scale == 1.0) continue;
         body.shape = meshes.enlarged(body.shape, scale);
         body.position *= scale;

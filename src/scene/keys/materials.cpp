@@ -19,6 +19,8 @@ Material overridden(const Material& material, const Material& over) {
             either(material.density, over.density),
             either(material.restitution, over.restitution),
             either(material.friction, over.friction),
+            either(material.rolling_friction, over.rolling_friction),
+            either(material.spinning_friction, over.spinning_friction),
             either(material.roughness, over.roughness),
             either(material.metallic, over.metallic),
             either(material.pattern, over.pattern),
@@ -55,6 +57,8 @@ void apply_material(const Material& material, BodyDescription& body) {
     body.restitution = material.restitution;
     body.sound = material.sound.value_or(body.sound);
     body.friction = material.friction;
+    body.rolling_friction = material.rolling_friction;
+    body.spinning_friction = material.spinning_friction;
 }
 
 }  // namespace tumble

@@ -203,6 +203,8 @@ CompoundPart within(const CompoundPart& outer, const CompoundPart& inner) {
     part.rotation = (outer.rotation * inner.rotation).normalized();
     if (!inner.density) part.density = outer.density;
     if (!inner.color) part.color = outer.color;
+    part.collide = inner.collide && outer.collide;
+    part.visible = inner.visible && outer.visible;
     return part;
 }
 
@@ -212,7 +214,7 @@ CompoundShape read_compound(const TomlTable& table, BodyType type, const std::fi
     table.expect_keys({"type", "parts"});
     const TomlValue list = table.require("parts");
     auto parts = std::make_shared<std::vector<CompoundPart>>();
-    for (TomlTable& item : list.tables(" { shape, position, rotation, density, color }")) {
+    for (TomlTable& item : list.tables(" { shape, position, rotation, density, color, collide, visible }")) {
         CompoundPart part = read_part(item, type, folder, meshes);
         if (const auto* inner = std::get_if<CompoundShape>(&part.shape))
             for (const CompoundPart& p : *inner->parts) parts->push_back(within(part, p));
@@ -222,6 +224,10 @@ CompoundShape read_compound(const TomlTable& table, BodyType type, const std::fi
             list.origin().fail(fmt::format("holds too many parts: the limit of a body is {}", limits::parts));
     }
     if (parts->empty()) list.fail("must hold at least one part");
+    if (std::none_of(parts->begin(), parts->end(), [](const CompoundPart& part) { return part.collide; }))
+        list.origin().fail(
+            "must hold a part that collides; a body that touches nothing has collide_with = [] in place of "
+            "collide = false in each part");
     return {std::move(parts)};
 }
 

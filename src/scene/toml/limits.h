@@ -84,8 +84,14 @@ inline constexpr Range density{0.0, 1e20, "kg/m^3", true};  // beyond a neutron 
 inline constexpr Range air_density{0.0, 1e6, "kg/m^3"};
 inline constexpr Range drag{0.0, 1e3, ""};
 inline constexpr Range restitution{0.0, 1.0, ""};
-inline constexpr Range friction{0.0, 1e6, ""};  // a coefficient of 1e6 never slips
-inline constexpr Range fraction{0.0, 1.0, ""};  // roughness, metallic
+inline constexpr Range friction{0.0, 1e6, ""};          // a coefficient of 1e6 never slips
+inline constexpr Range rolling_friction{0.0, 1e3, ""};  // 1: a cube that tips over its edges
+inline constexpr Range gravity_scale{-1e6, 1e6, ""};
+inline constexpr Range inertia{0.0, 1e30, "kg m^2", true};
+inline constexpr Range inertia_product{-1e30, 1e30, "kg m^2"};
+inline constexpr double inertia_tolerance = 1e-9;  // of the largest moment: rounding of the triangle inequality
+inline constexpr std::int64_t layers = 63;         // of a scene: bits of a word, one of them for bodies without a layer
+inline constexpr Range fraction{0.0, 1.0, ""};     // roughness, metallic
 
 // -- Overlays
 inline constexpr Range arrow_scale{0.0, 1e15, "m per SI unit",

@@ -72,7 +72,8 @@ bool TreeFlight::start(double stage) {
     pushed_ = track() != nullptr;  // the time is a coordinate
     fitted_.resize(0);
     for (const std::uint32_t i : step.island)
-        pushed_ = pushed_ || !step.forces.constant(i, step.from, step.from + step.h);
+        pushed_ =
+            pushed_ || step.bodies[i].gravity_scale != 1.0 || !step.forces.constant(i, step.from, step.from + step.h);
     const int n = int(step.island.size());
     coordinates_ = tree_.coordinates();
     heats_ = coordinates_ + tree_.speeds();

@@ -59,7 +59,7 @@ const std::vector<BroadPhase::Pair>& BroadPhase::update(const std::vector<Body>&
     if (moved_.empty() && !fell_asleep_) return pairs_;
 
     find_added(bodies, pool);
-    if (!apart_.empty()) std::erase_if(added_, [&](const Pair& pair) { return kept_apart(pair); });
+    if (!apart_.empty() || !filters_.empty()) std::erase_if(added_, [&](const Pair& pair) { return kept_apart(pair); });
     spare_.clear();
     std::erase_if(pairs_, [&](const Pair& pair) {
         const State &a = states_[pair.a], &b = states_[pair.b];
@@ -106,6 +106,7 @@ void BroadPhase::build(const std::vector<Body>& bodies) {
     }
     fixed_tree_ = BoundsTree(std::move(fixed_bounds));
     states_.resize(bodies.size());
+    filters_ = LayerFilters(bodies);
     built_ = true;
 }
 

@@ -8,6 +8,7 @@
 // because it does not visit sleeping bodies: see bodies_woke().
 #pragma once
 
+#include "sim/detection/layer_filters.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/body_pair.h"
 #include "sim/geometry/dynamic_tree.h"
@@ -45,8 +46,8 @@ public:
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [kind, built, search_awake, fixed, half_spaces, awake, fixed_tree, active_tree, resting_tree, states,
-               moved, searches, fell_asleep, pairs, added, spare, apart] = self;
-        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree, search_awake, awake, moved, fell_asleep);
+               moved, searches, fell_asleep, pairs, added, spare, apart, filters] = self;
+        archive.rebuilt(kind, built, fixed, half_spaces, fixed_tree, search_awake, awake, moved, fell_asleep, filters);
         archive.keep(active_tree, resting_tree, pairs, apart);
         archive.by_body_or_none(states);
         archive.scratch(searches, added, spare);
@@ -56,7 +57,9 @@ public:
 private:
     /// True if each body is in the tree that its state names, and the pairs are in order.
     bool sound() const;
-    bool kept_apart(const Pair& pair) const { return std::binary_search(apart_.begin(), apart_.end(), pair); }
+    bool kept_apart(const Pair& pair) const {
+        return filters_.keep_apart(pair) || std::binary_search(apart_.begin(), apart_.end(), pair);
+    }
     void build(const std::vector<Body>& bodies);
     void find_awake(const std::vector<Body>& bodies);
     bool stays(std::uint32_t i, const Body& body, double h);
@@ -98,6 +101,7 @@ private:
     bool fell_asleep_ = false;
     std::vector<Pair> pairs_, added_, spare_;
     std::vector<Pair> apart_;  // ascending: not found
+    LayerFilters filters_;     // since build()
 };
 
 /// Bounds of the body in a step of h seconds at its present velocities, grown by a fraction of its size.

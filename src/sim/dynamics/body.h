@@ -8,6 +8,7 @@
 #include "sim/geometry/shapes/shape.h"
 #include "sim/math/keyframe_track.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -45,6 +46,9 @@ struct Body {
     Vec3 principal_inertia = Vec3::Zero();                                  // kg m^2
     Quat principal_axes = Quat::Identity();  // rotates principal coordinates into body coordinates
     Vec3 center_of_mass = Vec3::Zero();      // m, relative to the scene's body origin, body frame
+    double gravity_scale = 1.0;
+    double rolling_friction = 0.0, spinning_friction = 0.0;  // 1, m; or value_of_other
+    std::uint64_t layers = 1, collides_with = 1;             // bits of layers (LayerFilters)
     std::string name;
 
     // State (notes eq. 1). Both forms of the rotation are kept; the world's settings select the one that is integrated,
@@ -68,6 +72,8 @@ struct Body {
     bool moves() const { return dynamic() || track != nullptr; }
     Pose pose() const { return {position, rotation}; }
     Vec3 origin() const { return position - rotation * center_of_mass; }
+    /// m/s^2, of the body in free fall.
+    Vec3 fall(const Vec3& gravity) const { return gravity_scale * gravity; }
 
     /// Velocity of the body's point at r = p - x (notes section 4).
     Vec3 point_velocity(const Vec3& r) const { return velocity + angular_velocity.cross(r); }
@@ -82,12 +88,13 @@ struct Body {
     static void visit(Archive& archive, Self& self) {
         auto& [type, integrator, spherical_top, asleep, flying, jointed, pair_rules, placed, flew, mass, inverse_mass,
                radius, restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
-               principal_inertia, principal_axes, center_of_mass, name, position, orientation, rotation, momentum,
-               angular_momentum, velocity, angular_velocity, inverse_inertia, gyration, push_velocity,
-               push_angular_velocity] = self;
+               principal_inertia, principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction,
+               layers, collides_with, name, position, orientation, rotation, momentum, angular_momentum, velocity,
+               angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity] = self;
         archive.rebuilt(type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius, restitution, friction,
                         drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
-                        principal_axes, center_of_mass, name);
+                        principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction, layers,
+                        collides_with, name);
         archive.scratch(placed);
         archive.keep(asleep, flying, jointed, flew, position, orientation, rotation, momentum, angular_momentum,
                      velocity, angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity);

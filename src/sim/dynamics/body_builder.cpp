@@ -1,5 +1,8 @@
 #include "sim/dynamics/body_builder.h"
 
+#include <map>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -18,7 +21,49 @@ void set_motion(Body& body, const BodyDescription& d) {
     }
 }
 
+// Bits of the layers of a scene in the order of their names. The lowest one is for bodies without a layer.
+class Layers {
+public:
+    explicit Layers(const SceneDescription& scene) {
+        std::uint64_t next = 2;
+        for (const BodyDescription& body : scene.bodies)
+            for (const std::string& name : body.layers) bits_.try_emplace(name, 0);
+        for (auto& [name, bit] : bits_) bit = std::exchange(next, next << 1);
+        all_ = next - 1;
+    }
+
+    void set(const BodyDescription& d, Body& body) const {
+        body.layers = d.layers.empty() ? 1 : bits_of(d.layers);
+        body.collides_with = d.collide_with ? bits_of(*d.collide_with) : all_;
+    }
+
+private:
+    std::uint64_t bits_of(const std::vector<std::string>& names) const {
+        std::uint64_t bits = 0;
+        for (const std::string& name : names)
+            if (const auto found = bits_.find(name); found != bits_.end()) bits |= found->second;
+        return bits;
+    }
+
+    std::map<std::string, std::uint64_t> bits_;
+    std::uint64_t all_ = 0;
+};
+
 }  // namespace
+
+// A given center of mass may lie elsewhere than that of the shape, where its collision shape has its origin.
+CollisionShape BodyBuilder::collider(const BodyDescription& d, const Vec3& center_of_mass) {
+    const ColliderRequest request{d.type == BodyType::fixed, center_of_mass, d.density};
+    if (!d.center_of_mass || std::holds_alternative<CompoundShape>(d.shape))
+        return make_collider(d.shape, request, made_);
+    const Vec3 middle = mass_properties(d.shape, d.density).center_of_mass;
+    if (middle == center_of_mass) return make_collider(d.shape, request, made_);
+    auto shifted = std::make_shared<Compound>();
+    shifted->parts.push_back(
+        {make_collider(d.shape, {false, middle, d.density}, made_), {middle - center_of_mass, Mat3::Identity()}});
+    shifted->complete();
+    return shifted;
+}
 
 Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     Body body;
@@ -27,10 +72,13 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
     body.restitution = d.restitution_in_pair();
     body.friction = d.friction_in_pair();
     body.pair_rules = rules_;
+    body.rolling_friction = d.rolling_friction_in_pair();
+    body.spinning_friction = d.spinning_friction_in_pair();
+    body.gravity_scale = d.gravity_scale;
     body.integrator = d.integrator.value_or(integrator);
     const MassProperties mass = mass_properties(d);
     body.center_of_mass = mass.center_of_mass;
-    body.collider = make_collider(d.shape, {d.type == BodyType::fixed, mass.center_of_mass, d.density}, made_);
+    body.collider = collider(d, mass.center_of_mass);
     body.radius = bounding_radius(body.collider);
     if (d.type == BodyType::dynamic) {
         body.mass = mass.mass;
@@ -49,9 +97,13 @@ Body BodyBuilder::build(const BodyDescription& d, IntegratorKind integrator) {
 
 std::vector<Body> build_bodies(const SceneDescription& scene) {
     BodyBuilder builder(scene.contact);
+    const Layers layers(scene);
     std::vector<Body> bodies;
     bodies.reserve(scene.bodies.size());
-    for (const BodyDescription& d : scene.bodies) bodies.push_back(builder.build(d, scene.simulation.integrator));
+    for (const BodyDescription& d : scene.bodies) {
+        bodies.push_back(builder.build(d, scene.simulation.integrator));
+        layers.set(d, bodies.back());
+    }
     return bodies;
 }
 

@@ -18,6 +18,8 @@ public:
     Body build(const BodyDescription& description, IntegratorKind integrator);
 
 private:
+    CollisionShape collider(const BodyDescription& description, const Vec3& center_of_mass);
+
     PairRules rules_;
     ColliderCache made_;
 };

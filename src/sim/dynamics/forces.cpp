@@ -31,7 +31,7 @@ ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint3
 
 Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
     Wrench sum;
-    sum.force = body.mass * gravity_;
+    sum.force = body.mass * body.fall(gravity_);
     if (wind_) {
         // F = 1/2 rho C_d A |u| u with u the air's velocity relative to the body.
         const Vec3 u = wind_->velocity - velocity;

@@ -248,7 +248,8 @@ void EventDrivenMotion::give_rest_of_step(std::uint32_t k, std::vector<Body>& bo
     advance_momenta(body, brief_impulse);
     body.derive();
     if (log_) {
-        const Impulse rest_of_step{rest * (wrench.force - body.mass * settings_.gravity), rest * wrench.torque};
+        const Impulse rest_of_step{rest * (wrench.force - body.mass * body.fall(settings_.gravity)),
+                                   rest * wrench.torque};
         log_->add_gravity(k, body, rest, body.position);
         log_->add_external(k, rest_of_step + brief_impulse, body.position, {body.velocity, body.angular_velocity});
     }

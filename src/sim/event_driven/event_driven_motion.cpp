@@ -111,7 +111,7 @@ void EventDrivenMotion::fly(std::uint32_t i, std::vector<Body>& bodies, const Fo
     body.flying = true;
     if (log_) log_->start_flight(i, body);
     if (forces.only_gravity(i)) {
-        start(i, Trajectory::flight(body, settings_.gravity), now, never);
+        start(i, Trajectory::flight(body, body.fall(settings_.gravity)), now, never);
         return;
     }
     // Under other forces, step by step; the end of the step is as accurate as double precision allows.
@@ -357,7 +357,7 @@ bool EventDrivenMotion::bounce_balls(std::uint32_t i, std::uint32_t j, const std
     const Vec3 n = other_ball ? Vec3((events_[j].path.position(tb) - at).normalized()) : Vec3(-plane->normal);
     const double v = n.dot(vb - va), e = pair_restitution(a, b);
     if (!(v < 0.0)) return false;
-    const double press = plane ? -n.dot(settings_.gravity) : 0.0;
+    const double press = plane ? -n.dot(a.fall(settings_.gravity)) : 0.0;
     if (press < 0.0 && -2.0 * e * v < -press * zeno_limit(i)) return false;  // this one switches to contact
     if (!alone(i, j, at, bodies, now) || (other_ball && !alone(j, i, events_[j].path.position(tb), bodies, now)))
         return false;

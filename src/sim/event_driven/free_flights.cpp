@@ -20,7 +20,7 @@ void FreeFlights::advance(std::size_t index, Body& body, const ForceField& force
                          flight.momentum == body.momentum && flight.angular_momentum == body.angular_momentum;
     if (!goes_on) {
         body.derive();
-        flight.path = Trajectory::flight(body, gravity_);
+        flight.path = Trajectory::flight(body, body.fall(gravity_));
         flight.start = step;
     }
     const double t = clock_.seconds(step + 1 - flight.start);

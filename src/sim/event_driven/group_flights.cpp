@@ -50,7 +50,7 @@ void GroupFlights::find() {
 
 bool GroupFlights::can_fly(std::uint32_t group, const ForceField& forces) {
     for (const std::uint32_t k : groups_[group].bodies)
-        if (!forces.only_gravity(k) || (*bodies_)[k].asleep) return false;
+        if (!forces.only_gravity(k) || (*bodies_)[k].gravity_scale != 1.0 || (*bodies_)[k].asleep) return false;
     const std::vector<Joint*> joints = joints_of(group);
     return std::none_of(joints.begin(), joints.end(),
                         [&](const Joint* joint) { return on_moving_carrier(*joint, *bodies_); }) &&

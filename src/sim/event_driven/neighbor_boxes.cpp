@@ -4,7 +4,8 @@
 
 namespace tumble {
 
-NeighborBoxes::NeighborBoxes(const std::vector<Body>& bodies) : moving_(bodies.size()), standing_(bodies.size()) {
+NeighborBoxes::NeighborBoxes(const std::vector<Body>& bodies)
+    : moving_(bodies.size()), standing_(bodies.size()), filters_(bodies) {
     std::vector<Bounds> bounds;
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Body& body = bodies[i];
@@ -42,10 +43,10 @@ void NeighborBoxes::enclose(std::uint32_t body, const Bounds& box) {
         if (other != body) found_.push_back(other);
     });
     const auto drop_apart = [&](std::vector<std::uint32_t>& list) {
-        if (apart_.empty()) return;
+        if (apart_.empty() && filters_.empty()) return;
         std::erase_if(list, [&](std::uint32_t other) {
-            return std::binary_search(apart_.begin(), apart_.end(),
-                                      BodyPair{std::min(body, other), std::max(body, other)});
+            const BodyPair pair{std::min(body, other), std::max(body, other)};
+            return filters_.keep_apart(pair) || std::binary_search(apart_.begin(), apart_.end(), pair);
         });
     };
     drop_apart(found_);

@@ -2,6 +2,7 @@
 // its neighbors. A body that leaves its box gets another; no other body is visited.
 #pragma once
 
+#include "sim/detection/layer_filters.h"
 #include "sim/dynamics/body.h"
 #include "sim/geometry/body_pair.h"
 #include "sim/geometry/dynamic_tree.h"
@@ -32,8 +33,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [half_spaces, fixed, fixed_tree, tree, stack, movers, moving, standing, found, apart] = self;
-        archive.rebuilt(half_spaces, fixed, fixed_tree, movers);
+        auto& [half_spaces, fixed, fixed_tree, tree, stack, movers, moving, standing, found, apart, filters] = self;
+        archive.rebuilt(half_spaces, fixed, fixed_tree, movers, filters);
         archive.keep(tree, apart);
         archive.bodies_by_body(moving);
         archive.bodies_by_body(standing);
@@ -49,6 +50,7 @@ private:
     std::vector<std::vector<std::uint32_t>> moving_, standing_;  // by body
     std::vector<std::uint32_t> found_;
     std::vector<BodyPair> apart_;
+    LayerFilters filters_;
 };
 
 }  // namespace tumble

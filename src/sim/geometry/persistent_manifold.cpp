@@ -127,6 +127,7 @@ void match_impulses(const Manifold& old, double reach, Manifold& m) {
     m.tangent = old.tangent;
     std::copy_n(old.friction, 2, m.friction);
     m.torsion = old.torsion;
+    std::copy_n(old.rolling, 2, m.rolling);
     m.solved_by = old.solved_by;
     bool taken[Manifold::capacity] = {}, found[Manifold::capacity] = {};
     for (int i = 0; i < m.count; ++i) {

@@ -1,5 +1,7 @@
 #include "sim/log/contact_log.h"
 
+#include "sim/contact/model/turning_resistance.h"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -80,7 +82,7 @@ void ContactLog::add_contact(std::uint32_t a, std::uint32_t b, const Impulse& on
 }
 
 double ContactLog::energy(const Body& body) const {
-    return body.kinetic_energy() - body.mass * gravity_.dot(body.position);
+    return body.kinetic_energy() - body.mass * body.fall(gravity_).dot(body.position);
 }
 
 void ContactLog::begin_frame(const std::vector<Body>& bodies) {
@@ -247,6 +249,8 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
             left -= (place(i) - (about_b ? b.position : a.position)).cross(share(i) * total.on_b);
         const double torsion = m.normal.dot(left);
         const double turn = m.normal.dot(b.angular_velocity - a.angular_velocity);
+        if (resists_turning(a) || resists_turning(b))
+            friction_ -= across(left, m.normal).dot(b.angular_velocity - a.angular_velocity);
         for (int i = 0; i < m.count; ++i) {
             if (!(share(i) > 0.0)) continue;
             const Vec3 slip = slip_at(place(i), m.normal, a, b);
@@ -284,7 +288,7 @@ void ContactLog::add_load(Account& account, const Impulse& impulse) {
 }
 
 void ContactLog::add_gravity(std::uint32_t index, const Body& body, double span, const Vec3& place) {
-    const Vec3 impulse = span * body.mass * gravity_;
+    const Vec3 impulse = span * body.mass * body.fall(gravity_);
     add_load(accounts_[index], {impulse, (origin_ + place).cross(impulse)});
 }
 

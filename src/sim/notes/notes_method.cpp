@@ -94,7 +94,7 @@ void NotesMethod::log_forces(const StepContext& step, std::uint32_t i, const Wre
     step.log->add_gravity(i, body, step.h, place);
     if (step.forces.field().only_gravity(i)) return;
     step.log->add_external(
-        i, {step.h * (wrench.force - body.mass * step.settings.gravity), step.h * wrench.torque}, place,
+        i, {step.h * (wrench.force - body.mass * body.fall(step.settings.gravity)), step.h * wrench.torque}, place,
         {0.5 * (old.velocity + body.velocity), 0.5 * (old.angular_velocity + body.angular_velocity)});
 }
 

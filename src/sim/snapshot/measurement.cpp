@@ -20,7 +20,7 @@ Measurement measure_motion(const std::vector<Body>& bodies, const Vec3& gravity,
         m.kinetic_linear += 0.5 * body.momentum.dot(body.velocity);
         m.kinetic_angular += 0.5 * body.angular_momentum.dot(body.angular_velocity);
         const Vec3 place = origin + body.position;
-        m.potential -= body.mass * gravity.dot(place);
+        m.potential -= body.mass * body.fall(gravity).dot(place);
         m.momentum += body.momentum;
         m.angular_momentum += place.cross(body.momentum) + body.angular_momentum;
     }

@@ -65,8 +65,8 @@ void ForceStage::log_asleep(const StepContext& step, std::uint32_t i, double spa
     step.log->add_gravity(i, body, span, place);
     if (field_.only_gravity(i)) return;
     const Wrench wrench = field_.throughout(i, body, step.start(), step.end());
-    step.log->add_external(i, {span * (wrench.force - body.mass * step.settings.gravity), span * wrench.torque}, place,
-                           {});
+    step.log->add_external(
+        i, {span * (wrench.force - body.mass * body.fall(step.settings.gravity)), span * wrench.torque}, place, {});
 }
 
 void ForceStage::log_forces(const StepContext& step, std::uint32_t i, const Wrench& wrench) const {
@@ -74,8 +74,9 @@ void ForceStage::log_forces(const StepContext& step, std::uint32_t i, const Wren
     const Vec3 place = place_of_forces(i, step);
     step.log->add_gravity(i, body, step.h, place);
     if (field_.only_gravity(i)) return;
-    step.log->add_external(i, {step.h * (wrench.force - body.mass * step.settings.gravity), step.h * wrench.torque},
-                           place, mean_velocity(step.set.old_velocities[i], body));
+    step.log->add_external(
+        i, {step.h * (wrench.force - body.mass * body.fall(step.settings.gravity)), step.h * wrench.torque}, place,
+        mean_velocity(step.set.old_velocities[i], body));
 }
 
 void ForceStage::apply_brief(const StepContext& step) {

@@ -4,6 +4,7 @@
 
 #include "sim/contact/model/contact_areas.h"
 #include "sim/contact/model/contact_constraint.h"
+#include "sim/contact/model/turning_resistance.h"
 #include "sim/dynamics/body.h"
 
 #include <algorithm>
@@ -41,6 +42,18 @@ struct ConstraintRows {
     int first = none, next = none;  // indices of constraints: the first, and a chain from it through all others
     bool rubs = true;
     double area_load = 0.0;  // N s, of the first: sum of all loads times their coefficients
+    int resistance = none;   // index of its ResistanceRows
+};
+/// Rolling and spinning friction of a constraint (turning_resistance.h).
+struct ResistanceRows {
+    int constraint = none;
+    TurningResistance levers;
+    Row rolling[2], spinning;                          // N m s, across the normal along both tangents, and about it
+    double rolling_limit = 0.0, spinning_limit = 0.0;  // N m s
+    double weights[3][3] = {};                         // second derivatives
+
+    Row& row(int i) { return i < 2 ? rolling[i] : spinning; }
+    const Row& row(int i) const { return i < 2 ? rolling[i] : spinning; }
 };
 
 /// Index of a body among the island's, ascending; none if it is not one of them.
@@ -84,17 +97,17 @@ inline void set_row(Row& row, const Vec3& direction, const Vec3& arm_a, const Ve
     else if (b.moves())
         row.offset += direction.dot(b.point_velocity(arm_b));
 }
-/// The torsional row: normal . (angular velocity of B - that of A).
-inline void set_torsion(Row& row, const Vec3& normal, const RowBodies& bodies) {
+/// A row of a turn: direction . (angular velocity of B - that of A).
+inline void set_turn(Row& row, const Vec3& direction, const RowBodies& bodies) {
     const auto& [constraint, a, b, length] = bodies;
     if (constraint.a != none)
-        put(row.on_a, Vec3::Zero(), -normal / length);
+        put(row.on_a, Vec3::Zero(), -direction / length);
     else if (a.moves())
-        row.offset -= normal.dot(a.angular_velocity);
+        row.offset -= direction.dot(a.angular_velocity);
     if (constraint.b != none)
-        put(row.on_b, Vec3::Zero(), normal / length);
+        put(row.on_b, Vec3::Zero(), direction / length);
     else if (b.moves())
-        row.offset += normal.dot(b.angular_velocity);
+        row.offset += direction.dot(b.angular_velocity);
 }
 
 /// J u of one row.

@@ -203,8 +203,8 @@ double DirectSolver::close_contacts(const JointIsland& island) {
 // gains no energy, and leaves gaps of second order.
 void DirectSolver::fit_start(const JointIsland& island) {
     joints_.aim_at_start(island);
+    each_contact_row([](const ConstraintRows&, Row& row) { row.estimate = 0.0; });
     for (ConstraintRows& constraint : constraints_) {
-        each_row(constraint, [](Row& row) { row.estimate = 0.0; });
         for (int i = 0; i < constraint.count; ++i) {
             constraint.rebound[i] = 0.0;
             constraint.normal[i].target = std::min(0.0, constraint.overlap[i] / island.problem.settings.h);
@@ -247,8 +247,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
             if (found) {
                 velocity_ = kept_;
                 joints_.return_to(velocity_);
-                for (ConstraintRows& constraint : constraints_)
-                    each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
+                each_contact_row([](const ConstraintRows&, Row& row) { row.impulse = row.estimate; });
             }
             if (!found && trial) {
                 joint_friction_softens_ = true;

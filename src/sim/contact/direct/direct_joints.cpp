@@ -57,15 +57,14 @@ void DirectSolver::load_part(const JointIsland& island, std::span<const std::uin
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
     load_joints(island, manifolds);
-    if (!joints_.estimated())
-        for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.estimate = 0.0; });
+    if (!joints_.estimated()) each_contact_row([](const ConstraintRows&, Row& row) { row.estimate = 0.0; });
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (!in_parts_) return;
     const double longer = std::min(d / estimated_for_, direct_longer);
     estimated_for_ = d;
+    each_contact_row([&](const ConstraintRows&, Row& row) { row.estimate *= longer; });
     for (ConstraintRows& constraint : constraints_) {
         if (!first) move_contact(constraint, problem);
-        each_row(constraint, [&](Row& row) { row.estimate *= longer; });
         for (int i = 0; i < constraint.count; ++i) {
             Row& row = constraint.normal[i];
             row.target = std::min(0.0, constraint.overlap[i] / d);
@@ -135,7 +134,7 @@ void DirectSolver::apply_solution(const JointIsland& island) {
         body.derive_velocities();
     }
     if (consistent_) return;
-    for (ConstraintRows& constraint : constraints_) each_row(constraint, [](Row& row) { row.impulse = 0.0; });
+    each_contact_row([](const ConstraintRows&, Row& row) { row.impulse = 0.0; });
 }
 
 // Moves the bodies to the end of a substep.
@@ -234,12 +233,11 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
             if (!in_parts_) return true;
             move(part);
             std::size_t next = 0;
-            for (ConstraintRows& constraint : constraints_)
-                each_row(constraint, [&](Row& row) {
-                    if (first) sums.push_back(0.0);
-                    sums[next++] += row.impulse;
-                    row.estimate = row.impulse;
-                });
+            each_contact_row([&](const ConstraintRows&, Row& row) {
+                if (first) sums.push_back(0.0);
+                sums[next++] += row.impulse;
+                row.estimate = row.impulse;
+            });
             first = false;
             done = length < d - done ? done + length : d;
             if (kicks()) kick(part);
@@ -247,7 +245,7 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
                 strike(part, part.to - island.from, consistent_ ? Fitting::solved : Fitting::unsolved);
         }
     std::size_t next = 0;
-    for (ConstraintRows& constraint : constraints_) each_row(constraint, [&](Row& row) { row.impulse = sums[next++]; });
+    each_contact_row([&](const ConstraintRows&, Row& row) { row.impulse = sums[next++]; });
     return true;
 }
 
@@ -300,11 +298,14 @@ void DirectSolver::kick(const JointIsland& part) {
 // where they are pressed, the next part stops them.
 void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting) {
     std::vector<ConstraintRows> contacts;
+    std::vector<ResistanceRows> resistances;
     contacts.swap(constraints_);
+    resistances.swap(resistances_);
     const double scale = speed_scale_;
     fit_velocities(part, JointRows::Booking::fit, ahead, fitting);
     speed_scale_ = scale;
     constraints_.swap(contacts);
+    resistances_.swap(resistances);
 }
 
 // Substeps of the next step, by those of this one.

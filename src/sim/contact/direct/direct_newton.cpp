@@ -70,8 +70,8 @@ void DirectSolver::set_limits(ConstraintRows& constraint) {
 }
 
 void DirectSolver::evaluate_speeds() {
-    for (ConstraintRows& constraint : constraints_)
-        each_row(constraint, [&](Row& row) { row.speed = row.offset + dot(constraint, row, velocity_); });
+    each_contact_row(
+        [&](const ConstraintRows& constraint, Row& row) { row.speed = row.offset + dot(constraint, row, velocity_); });
     joints_.evaluate_speeds(velocity_);
 }
 
@@ -120,12 +120,11 @@ void DirectSolver::evaluate(ConstraintRows& constraint, double along, Weights* w
 double DirectSolver::gradient(std::vector<double>& g) {
     for (std::size_t k = 0; k < velocity_.size(); ++k) scratch_[k] = velocity_[k] - free_[k];
     mass_times(scratch_, g);
-    for (ConstraintRows& constraint : constraints_) {
-        evaluate(constraint, 0.0, nullptr);
-        each_row(constraint, [&](Row& row) {
-            if (row.impulse != 0.0) add(constraint, row, -row.impulse, g);
-        });
-    }
+    for (ConstraintRows& constraint : constraints_) evaluate(constraint, 0.0, nullptr);
+    evaluate_resistance(0.0, false);
+    each_contact_row([&](const ConstraintRows& constraint, Row& row) {
+        if (row.impulse != 0.0) add(constraint, row, -row.impulse, g);
+    });
     joints_.evaluate(0.0);
     joints_.add_impulses(-1.0, g);
     double sum = 0.0;
@@ -182,6 +181,7 @@ bool DirectSolver::factor(bool pushing) {
         weights_.push_back(pushing ? push_weights(constraint) : Weights{});
         if (!pushing) evaluate(constraint, 0.0, &weights_.back());
     }
+    if (!pushing) evaluate_resistance(0.0, true);
     return factor_weights(pushing);
 }
 
@@ -233,6 +233,10 @@ bool DirectSolver::factor_weights(bool pushing) {
         const Row* const friction[3] = {&constraint.friction[0], &constraint.friction[1], &constraint.torsion};
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) add_row(*friction[i], *friction[j], w.friction[i][j]);
+        if (constraint.resistance == none || pushing) continue;  // pushes may roll
+        const ResistanceRows& resistance = resistances_[std::size_t(constraint.resistance)];
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) add_row(resistance.row(i), resistance.row(j), resistance.weights[i][j]);
     }
     joints_.add_weights(matrix_, kept ? JointRows::Which::bounded : JointRows::Which::all);
     return matrix_.factor();
@@ -241,10 +245,9 @@ bool DirectSolver::factor_weights(bool pushing) {
 // Slope of the minimized function along the step.
 double DirectSolver::slope(double along, double mass_slope, double mass_curvature) {
     double sum = mass_slope + along * mass_curvature;
-    for (ConstraintRows& constraint : constraints_) {
-        evaluate(constraint, along, nullptr);
-        each_row(constraint, [&](Row& row) { sum -= row.impulse * row.change; });
-    }
+    for (ConstraintRows& constraint : constraints_) evaluate(constraint, along, nullptr);
+    evaluate_resistance(along, false);
+    each_contact_row([&](const ConstraintRows&, Row& row) { sum -= row.impulse * row.change; });
     if (joints_.empty()) return sum;
     joints_.evaluate(along);
     return sum - joints_.slope();
@@ -304,16 +307,14 @@ bool DirectSolver::minimize(int most_steps, int steps_without_ties) {
             mass_slope += push_[i] * (velocity_[i] - free_[i]);
             mass_curvature += push_[i] * step_[i];
         }
-        for (ConstraintRows& constraint : constraints_)
-            each_row(constraint, [&](Row& row) { row.change = dot(constraint, row, step_); });
+        each_contact_row([&](const ConstraintRows& constraint, Row& row) { row.change = dot(constraint, row, step_); });
         joints_.evaluate_changes(step_);
         const double along = line_search(slope_0, mass_slope, mass_curvature);
         for (std::size_t i = 0; i < step_.size(); ++i) velocity_[i] += along * step_[i];
-        for (ConstraintRows& constraint : constraints_)
-            each_row(constraint, [&](Row& row) {
-                row.speed += along * row.change;
-                row.change = 0.0;
-            });
+        each_contact_row([&](const ConstraintRows&, Row& row) {
+            row.speed += along * row.change;
+            row.change = 0.0;
+        });
         joints_.advance_speeds(along);
         if (-slope_0 < 1e-30 * energy) return true;  // the remainder is rounding
     }
@@ -338,12 +339,11 @@ double DirectSolver::objective(const std::vector<double>& u) {
 // Starts from the last step's impulses where they are better than none.
 void DirectSolver::start() {
     std::fill(gradient_.begin(), gradient_.end(), 0.0);
-    for (ConstraintRows& constraint : constraints_) {
-        set_limits(constraint);
-        each_row(constraint, [&](Row& row) {
-            if (row.estimate != 0.0) add(constraint, row, row.estimate, gradient_);
-        });
-    }
+    for (ConstraintRows& constraint : constraints_) set_limits(constraint);
+    set_resistance_limits();
+    each_contact_row([&](const ConstraintRows& constraint, Row& row) {
+        if (row.estimate != 0.0) add(constraint, row, row.estimate, gradient_);
+    });
     joints_.add_estimates(gradient_);
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         const Vec3 linear = three(gradient_, 6 * i), angular = three(gradient_, 6 * i + 3);
@@ -371,6 +371,13 @@ std::pair<double, double> DirectSolver::next_round() {
         });
         if (!limits_held_) set_limits(constraint);
     }
+    for (ResistanceRows& resistance : resistances_)
+        for (int i = 0; i < 3; ++i) {
+            Row& row = resistance.row(i);
+            change = std::max(change, std::abs(row.impulse - row.estimate) / length_);
+            row.estimate = row.impulse;
+        }
+    if (!limits_held_) set_resistance_limits();
     return most;
 }
 
@@ -400,8 +407,7 @@ bool DirectSolver::solve_rounds() {
         if (!minimize(steps, refused ? steps : 0)) {
             if (!found) return false;
             velocity_ = kept_;
-            for (ConstraintRows& constraint : constraints_)
-                each_row(constraint, [](Row& row) { row.impulse = row.estimate; });
+            each_contact_row([](const ConstraintRows&, Row& row) { row.impulse = row.estimate; });
             break;
         }
         found = true;

@@ -73,6 +73,7 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
 void DirectSolver::load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                     std::span<const std::uint32_t> manifolds) {
     constraints_.clear();
+    resistances_.clear();
     area_firsts_.clear();
     driven_ = false;
     const double h = problem.settings.h;
@@ -112,6 +113,7 @@ void DirectSolver::load_constraints(const ContactProblem& problem, std::span<con
         if (problem.areas && problem.areas->holds(k)) join_area(constraint, problem);
         if (!constraint.rubs) {
             constraints_.push_back(constraint);
+            add_resistance(int(constraints_.size()) - 1, problem);
             continue;
         }
         const Vec3 &arm_a = geometry.friction_arm_a, &arm_b = geometry.friction_arm_b;
@@ -123,7 +125,7 @@ void DirectSolver::load_constraints(const ContactProblem& problem, std::span<con
         if (constraint.b == none && b.moves()) turn = -turn_of_carrier(b, -motion, geometry.normal);
         constraint.friction[0].offset += (round - 0.5 * h * turn).dot(geometry.tangent_1);
         constraint.friction[1].offset += (round - 0.5 * h * turn).dot(geometry.tangent_2);
-        set_torsion(constraint.torsion, geometry.normal, row_bodies);
+        set_turn(constraint.torsion, geometry.normal, row_bodies);
         constraint.friction[0].estimate = m.friction[0];
         constraint.friction[1].estimate = m.friction[1];
         constraint.torsion.estimate = m.torsion;
@@ -136,6 +138,7 @@ void DirectSolver::load_constraints(const ContactProblem& problem, std::span<con
         constraint.free_spin = std::abs(constraint.torsion.offset + dot(constraint, constraint.torsion, free_));
         constraint.torsion_mass = 1.0 / gives;
         constraints_.push_back(constraint);
+        add_resistance(int(constraints_.size()) - 1, problem);
     }
 }
 
@@ -219,6 +222,7 @@ void DirectSolver::apply_contacts(const ContactProblem& problem, std::vector<boo
             force += j;
             moment += geometry.points[std::size_t(i)].arm_a.cross(j);
         }
+        if (constraint.resistance != none) moment += resistance_of(constraint);
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         if (problem.totals) (*problem.totals)[constraint.manifold].add(force, moment, a, b);
         if (constraint.a != none) {
@@ -244,6 +248,9 @@ void DirectSolver::store_contacts(const ContactProblem& problem) {
         m.friction[0] = along_1;
         m.friction[1] = along_2;
         m.torsion = torsion;
+        if (constraint.resistance != none)
+            for (const int i : {0, 1})
+                m.rolling[i] = float(resistances_[std::size_t(constraint.resistance)].rolling[i].impulse);
         m.tangent = constraint.geometry.tangent_1;
         for (int i = 0; i < constraint.count; ++i) {
             const ContactConstraint::Point& p = constraint.geometry.points[std::size_t(i)];
@@ -298,7 +305,7 @@ bool DirectSolver::solve_in_substeps(const ContactProblem& problem, std::uint32_
     put(velocity.data(), before.velocity, length_ * (before.angular_velocity + body.gyration));
     for (std::size_t k = 0; k < 6; ++k) faster[k] = (free_[k] - velocity[k]) / substeps;
     displacement_.assign(6, 0.0);
-    for (ConstraintRows& constraint : constraints_) each_row(constraint, [&](Row& row) { row.estimate /= substeps; });
+    each_contact_row([&](const ConstraintRows&, Row& row) { row.estimate /= substeps; });
     for (int substep = 0; substep < substeps; ++substep) {
         for (std::size_t k = 0; k < 6; ++k) free_[k] = velocity[k] + faster[k];
         for (ConstraintRows& constraint : constraints_)
@@ -313,14 +320,13 @@ bool DirectSolver::solve_in_substeps(const ContactProblem& problem, std::uint32_
         velocity = velocity_;
         for (std::size_t k = 0; k < 6; ++k) displacement_[k] += d * velocity[k];
         std::size_t next = 0;
-        for (ConstraintRows& constraint : constraints_)
-            each_row(constraint, [&](Row& row) {
-                if (substep == 0) sums.push_back(0.0);
-                sums[next++] += row.impulse;
-            });
+        each_contact_row([&](const ConstraintRows&, Row& row) {
+            if (substep == 0) sums.push_back(0.0);
+            sums[next++] += row.impulse;
+        });
     }
     std::size_t next = 0;
-    for (ConstraintRows& constraint : constraints_) each_row(constraint, [&](Row& row) { row.impulse = sums[next++]; });
+    each_contact_row([&](const ConstraintRows&, Row& row) { row.impulse = sums[next++]; });
     std::fill(push_.begin(), push_.end(), 0.0);
     return true;
 }

@@ -11,6 +11,8 @@
 // search (semismooth; its matrix M + J^T J/R over the active rows is factored by block_cholesky.h). The estimates of
 // the last step make most solves of a resting island one evaluation.
 //
+// Rolling and spinning friction have rows of their own, with limits that follow f_n too (direct_resistance.cpp).
+//
 // Joints add rows of their own (joint_rows.h). Their errors at the end of the step are closed to rounding: in each
 // round the poses there are predicted, and the targets of the rows moved by the errors (constrained symplectic Euler:
 // Hairer, Lubich and Wanner, Geometric Numerical Integration, section VII.1).
@@ -61,6 +63,18 @@ private:
     void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
     void load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                           std::span<const std::uint32_t> manifolds);
+    void add_resistance(int constraint, const ContactProblem& problem);
+    void set_resistance_limits();
+    void evaluate_resistance(double along, bool weigh);
+    Vec3 resistance_of(const ConstraintRows& constraint) const;
+    /// Visits the rows of all contacts with their constraints.
+    template <class Visit>
+    void each_contact_row(Visit&& visit) {
+        for (ConstraintRows& constraint : constraints_)
+            contact_rows::each_row(constraint, [&](Row& row) { visit(constraint, row); });
+        for (contact_rows::ResistanceRows& resistance : resistances_)
+            for (int i = 0; i < 3; ++i) visit(constraints_[std::size_t(resistance.constraint)], resistance.row(i));
+    }
     void join_area(ConstraintRows& constraint, const ContactProblem& problem);
     std::pair<double, double> shared_load(const ConstraintRows& first, double Row::*impulse) const;
     void sum_area_loads();
@@ -146,8 +160,9 @@ private:
         kept_;                          // u*, u, du, ...; six numbers per body
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
-    std::vector<int> area_firsts_;  // indices of the first constraints of shared areas
-    std::vector<Weights> weights_;  // by constraint, of the last factorization
+    std::vector<contact_rows::ResistanceRows> resistances_;  // ascending by constraint
+    std::vector<int> area_firsts_;                           // indices of the first constraints of shared areas
+    std::vector<Weights> weights_;                           // by constraint, of the last factorization
     JointRows joints_;
     std::vector<JointSide> ends_;                   // poses at the end of the step
     struct Start {                                  // of a body in a jointed step

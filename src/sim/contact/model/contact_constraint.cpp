@@ -30,6 +30,7 @@ Vec3 tangent_of(const Manifold& m) {
 void release(Manifold& manifold) {
     for (ContactPoint& p : manifold.points) p.impulse = 0.0;
     manifold.friction[0] = manifold.friction[1] = manifold.torsion = 0.0;
+    manifold.rolling[0] = manifold.rolling[1] = 0.0f;
 }
 
 double normal_impulse(const Manifold& manifold) {
@@ -43,6 +44,7 @@ void scale_impulses(Manifold& manifold, double share) {
     manifold.friction[0] *= share;
     manifold.friction[1] *= share;
     manifold.torsion *= share;
+    for (float& impulse : manifold.rolling) impulse *= float(share);
 }
 
 double pair_restitution(const Body& a, const Body& b) {

@@ -66,7 +66,7 @@ double load_change(const Manifold& m, const Body& body, const Vec3& place) {
 }  // namespace
 
 Vec3 FreeMotion::by_forces(std::uint32_t body, const Body& state) const {
-    if (forces.only_gravity(body)) return forces.gravity();
+    if (forces.only_gravity(body)) return state.fall(forces.gravity());
     return state.inverse_mass * forces.throughout(body, state, from, to).force;
 }
 

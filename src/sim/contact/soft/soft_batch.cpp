@@ -96,7 +96,7 @@ soft::Softness SoftBatch::softness(double frequency, double d) {
 }
 
 void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
-                        const std::vector<std::uint32_t>& slot, double mass_unit, bool again) {
+                        const std::vector<std::uint32_t>& slot, double mass_unit, bool again, bool resists) {
     layout_ = &layout;
     mass_unit_ = mass_unit;
     substeps_ = substeps_of(problem.settings.h) * batch.substep_multiplier;
@@ -120,6 +120,7 @@ void SoftBatch::prepare(const ContactProblem& problem, const IslandBatch& batch,
     lane_moved_.resize(2 * groups);
     lane_points_.resize(groups);
     sources_.resize(groups * lanes);
+    resistance_.open(resists ? groups * lanes : 0);
     joints_.open(layout, batch.joints, {lanes, substeps_, mass_unit, d_}, again);
     areas_.open(problem, batch, layout, slot,
                 {lanes, rows_.data(), lane_bodies_.data(), lane_moved_.data(), substeps_ * mass_unit, mass_unit});
@@ -251,6 +252,10 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane[&Rows::friction_coefficient] = float(pair_value(a.pair_rules.friction, a.friction, b.friction));
     lane[&Rows::size] = float(size);
     lane[&Rows::spread] = m.spread;
+    if (!resistance_.empty())
+        if (const TurningResistance levers = turning_resistance(m, body_a, body_b); !levers.none())
+            resistance_.put(lanes * g + l, levers, count,
+                            share * Vec3(swapped ? -m.rolling[0] : m.rolling[0], m.rolling[1], 0.0));
     // A manifold with points that bounce keeps friction of its own.
     if (problem.areas && problem.areas->holds(manifold) && int(count) == m.count) {
         areas_.put(problem, manifold, lanes * g + l, count, swapped);
@@ -311,6 +316,10 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
         if (!shared) meet();
     };
     const auto each_color = [&](auto&& pass) { each_color_of(layout, pass); };
+    const auto width = std::size_t(kernel_.lanes);
+    const auto each_resistance = [&](std::size_t first, std::size_t last, auto&& visit) {
+        for (std::size_t g = first; g < last && !resistance_.empty(); ++g) visit(g);
+    };
     const bool joined = joints_.size() > 0;
     const soft::JointGroups holds = joined ? joints_.groups() : soft::JointGroups{};
     const auto each_joint_color = [&](auto&& pass) {
@@ -363,12 +372,18 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
             meet();
         }
         if (step == 0 || joined) {
-            each_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(groups, f, l, bodies); });
+            each_color([&](std::size_t f, std::size_t l) {
+                kernel_.warm_start(groups, f, l, bodies);
+                each_resistance(f, l, [&](std::size_t g) { resistance_.warm_start(groups, g, width, bodies); });
+            });
             each_area_color([&](std::size_t f, std::size_t l) { kernel_.warm_start(areas_.friction(), f, l, bodies); });
         }
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.warm_start_joints(holds, f, l, bodies); });
         rub(false);
-        each_color([&](std::size_t f, std::size_t l) { kernel_.push(groups, f, l, bodies, substep_); });
+        each_color([&](std::size_t f, std::size_t l) {
+            kernel_.push(groups, f, l, bodies, substep_);
+            each_resistance(f, l, [&](std::size_t g) { resistance_.resist(groups, g, width, bodies, false); });
+        });
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.push_joints(holds, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
         if (!layout_->movers().empty()) {
@@ -376,7 +391,10 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
             if (thread == 0) kernel_.move(1 + layout_->blocks().order().size(), slots_, bodies, float(d_));
             meet();
         }
-        each_color([&](std::size_t f, std::size_t l) { kernel_.relax(groups, f, l, bodies, substep_); });
+        each_color([&](std::size_t f, std::size_t l) {
+            kernel_.relax(groups, f, l, bodies, substep_);
+            each_resistance(f, l, [&](std::size_t g) { resistance_.resist(groups, g, width, bodies, true); });
+        });
         rub(true);
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.relax_joints(holds, f, l, bodies, substep_); });
     }
@@ -418,10 +436,14 @@ void SoftBatch::unpack(const ContactProblem& problem, std::size_t g) {
         m.friction[0] = (source.swapped ? -all : all) * friction.x();
         m.friction[1] = all * friction.y();
         m.torsion = all * friction.z();
+        const Vec3 rolling = all * resistance_.impulse(lanes * g + l);
+        m.rolling[0] = float(source.swapped ? -rolling.x() : rolling.x());
+        m.rolling[1] = float(rolling.y());
         m.tangent = to_double(lane.vector(&Rows::tangent));
         const auto total = lane.total_impulse();
-        const Vec3 force = mass_unit_ * to_double(total.linear),
-                   moment = mass_unit_ * to_double(total.angular);  // on B; about A's center
+        const Vec3 force = mass_unit_ * to_double(total.linear);
+        Vec3 moment = mass_unit_ * to_double(total.angular);  // about A's center
+        if (!resistance_.empty()) moment += mass_unit_ * resistance_.sum(lanes * g + l);
         if (force.isZero(0.0) && moment.isZero(0.0)) continue;
         const std::uint32_t slot_a = lane_bodies_[2 * lanes * g + l] / soft::body_floats;
         const std::uint32_t slot_b = lane_bodies_[2 * lanes * g + lanes + l] / soft::body_floats;

@@ -11,6 +11,7 @@
 #include "sim/contact/soft/soft_joints.h"
 #include "sim/contact/soft/soft_kernel.h"
 #include "sim/contact/soft/soft_layout.h"
+#include "sim/contact/soft/soft_resistance.h"
 #include "sim/contact/soft/soft_solver.h"
 #include "sim/threads/spin_barrier.h"
 
@@ -29,8 +30,9 @@ public:
     /// - `batch`: gives the factor of the number of substeps, and the joints.
     /// - `mass_unit` (kg): unit of masses and impulses, a power of two.
     /// - `again`: the batch is that of the last step.
+    /// - `resists`: some bodies resist turning.
     void prepare(const ContactProblem& problem, const IslandBatch& batch, const SoftLayout& layout,
-                 const std::vector<std::uint32_t>& slot, double mass_unit, bool again);
+                 const std::vector<std::uint32_t>& slot, double mass_unit, bool again, bool resists);
     /// `batch`: gets the lost energy of a net. `carried`: by joint, gets the moments of soft_joints.h.
     void run(const ContactProblem& problem, IslandBatch& batch, const std::vector<std::uint32_t>& slot,
              std::vector<Vec3>& carried, std::size_t thread, std::size_t team, SpinBarrier& barrier);
@@ -81,6 +83,7 @@ private:
     IslandEnergies energies_;
     SoftJoints joints_;
     SoftAreas areas_;
+    SoftResistance resistance_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
     std::vector<std::uint8_t> lane_points_;

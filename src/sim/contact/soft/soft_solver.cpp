@@ -63,7 +63,10 @@ SoftSolver::SoftSolver(std::size_t bodies, const soft::Kernel& kernel) : kernel_
 SoftSolver::~SoftSolver() = default;
 
 void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, bool same, ThreadPool& pool) {
-    if (mass_unit_ == 0.0) mass_unit_ = mass_unit(problem.bodies);
+    if (mass_unit_ == 0.0) {
+        mass_unit_ = mass_unit(problem.bodies);
+        resists_ = std::any_of(problem.bodies.begin(), problem.bodies.end(), resists_turning);
+    }
     const auto threads = std::size_t(pool.size());
     const auto lanes = std::size_t(kernel_.lanes);
     while (workers_.size() < threads) workers_.push_back(std::make_unique<SoftBatch>(kernel_));
@@ -97,7 +100,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
             barrier.wait();
             if (thread == 0) {
                 close(layout, batch);
-                workers_[0]->prepare(problem, batch, layout, slot_, mass_unit_, same);
+                workers_[0]->prepare(problem, batch, layout, slot_, mass_unit_, same, resists_);
             }
             barrier.wait();
             workers_[0]->run(problem, batch, slot_, carried_, thread, threads, barrier);
@@ -117,7 +120,7 @@ void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, 
                 close(layout, batches[k]);
             }
             SpinBarrier alone(1);
-            workers_[thread]->prepare(problem, batches[k], layout, slot_, mass_unit_, same);
+            workers_[thread]->prepare(problem, batches[k], layout, slot_, mass_unit_, same, resists_);
             workers_[thread]->run(problem, batches[k], slot_, carried_, 0, 1, alone);
         });
     };

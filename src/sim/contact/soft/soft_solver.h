@@ -55,6 +55,7 @@ private:
     std::vector<std::size_t> small_;                   // batches that one thread solves
     std::vector<soft::JointKind> kinds_;               // by joint; of the scene's joints, which do not change
     std::vector<Vec3> carried_;                        // by joint
+    bool resists_ = false;                             // some bodies have rolling or spinning friction
     double mass_unit_ = 0.0;                           // kg; of the scene's bodies, which do not change
 };
 

@@ -62,6 +62,7 @@ CollisionShape make_collider(const CompoundShape& compound, const ColliderReques
     if (known.made && known.origin == request.origin) return known.made;
     auto made = std::make_shared<Compound>();
     for (const CompoundPart& part : *compound.parts) {
+        if (!part.collide) continue;
         const Vec3 middle = mass_properties(part.shape, request.density).center_of_mass;
         made->parts.push_back(
             {make_collider(part.shape, {false, middle, request.density}, cache),

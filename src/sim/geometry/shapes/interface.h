@@ -13,6 +13,7 @@
 //   bool can_move                           false: two of them never collide
 //   std::uint32_t part_count() const        number of values of Manifold::part in a pair
 //   bool contains(const Vec3& point, double tolerance) const  (m) of a part of a compound
+//   double rolling_radius() const           m, of a surface that rolls; shapes with corners have none
 #pragma once
 
 #include "core/vector.h"

@@ -33,8 +33,14 @@ MassProperties mass_properties(const Shape& shape, double density) {
 }
 
 MassProperties mass_properties(const BodyDescription& body) {
-    const MassProperties p = mass_properties(body.shape, body.density);
-    return body.mass && p.mass > 0.0 ? with_mass(p, *body.mass) : p;
+    MassProperties p = mass_properties(body.shape, body.density);
+    if (body.mass && p.mass > 0.0) p = with_mass(p, *body.mass);
+    if (body.center_of_mass) p.center_of_mass = *body.center_of_mass;
+    if (body.inertia) {
+        const auto& [xx, yy, zz, xy, xz, yz] = *body.inertia;
+        p.inertia << xx, xy, xz, xy, yy, yz, xz, yz, zz;
+    }
+    return p;
 }
 
 double first_hit(const Shape& shape, const Vec3& from, const Vec3& direction) {
@@ -73,6 +79,17 @@ RoundedHull rounded_hull(const CollisionShape& collider) {
 
 std::uint32_t part_count(const CollisionShape& collider) {
     return std::visit([](const auto& held) { return collider_in(held).part_count(); }, collider);
+}
+
+double rolling_radius(const CollisionShape& collider) {
+    return std::visit(
+        [](const auto& held) {
+            if constexpr (requires { collider_in(held).rolling_radius(); })
+                return collider_in(held).rolling_radius();
+            else
+                return 0.0;
+        },
+        collider);
 }
 
 bool contains(const CollisionShape& collider, const Vec3& point, double tolerance) {

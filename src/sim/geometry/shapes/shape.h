@@ -16,7 +16,7 @@ void visit_extent(const Shape& shape, const ExtentVisitor& visit);
 /// About the center of the bounds. Not for planes.
 BoundingSphere bounding_sphere(const Shape& shape);
 MassProperties mass_properties(const Shape& shape, double density);
-/// With the body's densities, or its mass.
+/// With the body's densities, or its mass, and the center of mass and the inertia that it is given.
 MassProperties mass_properties(const BodyDescription& body);
 double first_hit(const Shape& shape, const Vec3& from, const Vec3& direction);
 CollisionShape make_collider(const Shape& shape, const ColliderRequest& request, ColliderCache& cache);
@@ -43,6 +43,8 @@ inline ContactSurface contact_surface(const CollisionShape& collider) {
     return std::visit([](const auto& held) { return collider_in(held).contact_surface; }, collider);
 }
 std::uint32_t part_count(const CollisionShape& collider);
+/// m; 0 for shapes that do not roll.
+double rolling_radius(const CollisionShape& collider);
 /// Precondition: a part of a compound.
 bool contains(const CollisionShape& collider, const Vec3& point, double tolerance);
 

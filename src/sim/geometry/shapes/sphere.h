@@ -13,6 +13,7 @@ struct Ball {
     static constexpr bool can_move = true;
     Bounds world_bounds(const Pose& pose) const { return Bounds{pose.position, pose.position}.grown(radius); }
     double bounding_radius() const { return radius; }
+    double rolling_radius() const { return radius; }
     double depth() const { return radius; }
     double mean_projected_area() const { return pi * radius * radius; }
     RoundedHull rounded_hull() const { return {{&origin_point, 1}, 0.0, radius}; }
