@@ -138,6 +138,20 @@ struct TriangleMesh {
     std::optional<double> thickness = {};    // m, of a shell
 };
 
+/// The convex hull of points, which do not lie in one plane.
+struct Hull {
+    std::vector<Vec3> points;  // m, body frame
+};
+
+/// Ground over a rectangle, solid below, from a gray PNG file or a CSV file of heights. Only for fixed bodies.
+struct HeightField {
+    std::string file;              // relative to SceneSpec::folder
+    double size_x = 1.0;           // m
+    double size_z = 1.0;           // m
+    double height = 1.0;           // m, of white in a PNG file; of the number 1 in a CSV file
+    std::optional<double> base{};  // m, thickness below the lowest height
+};
+
 struct CompoundPart;
 
 /// Several shapes that form one body.
@@ -145,7 +159,7 @@ struct Compound {
     std::vector<CompoundPart> parts;
 };
 
-using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound, TriangleMesh>;
+using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound, TriangleMesh, Hull, HeightField>;
 
 struct CompoundPart {
     Shape shape;                    // not a plane

@@ -157,6 +157,19 @@ private:
         write_mass(mesh);
         if (made_.first_mesh.empty()) made_.first_mesh = prefix;
     }
+    void write_shape(const Hull& hull, const std::string&, const std::string&) {
+        shape_type("hull");
+        std::string points;
+        for (const Vec3& point : hull.points) points += (points.empty() ? "" : ", ") + text_of(point);
+        value("points", "points", "[" + points + "]");
+    }
+    void write_shape(const HeightField& field, const std::string&, const std::string&) {
+        shape_type("heightfield");
+        set("file", field.file);
+        value("size", "size_x", text_of(std::array{field.size_x, field.size_z}));
+        set("height", field.height);
+        set("base", field.base);
+    }
     void write_shape(const Compound& compound, const std::string& table, const std::string& prefix) {
         shape_type("compound");
         if (compound.parts.empty()) value("parts", "parts", "[]");

@@ -97,6 +97,15 @@ struct PngRows::File {
         return true;
     }
 
+    /// Gray samples of 8 or 16 bits, as they are.
+    bool choose_gray_format() {
+        if (setjmp(png_jmpbuf(png)) != 0) return false;
+        png_set_expand_gray_1_2_4_to_8(png);
+        passes = png_set_interlace_handling(png);
+        png_read_update_info(png, info);
+        return true;
+    }
+
     bool read_row(std::uint8_t* to) {
         if (setjmp(png_jmpbuf(png)) != 0) return false;
         png_read_row(png, to, nullptr);
@@ -153,6 +162,29 @@ Image PngRows::all() {
     Image image(file_->width, file_->height);
     for (int y = 0; y < image.height; ++y)
         if (!file_->read_row(image.at(0, y))) file_->fail();
+    return image;
+}
+
+GrayImage read_gray_png(const fs::path& path, std::int64_t most) {
+    PngRows::File file(open_input_file(path), path.string());
+    if (!file.read_head()) file.fail();
+    if (png_get_color_type(file.png, file.info) != PNG_COLOR_TYPE_GRAY)
+        throw InputError(file.at(), "the picture must be gray, without colors and without alpha");
+    if (std::int64_t(file.width) * file.height > most)
+        throw InputError(file.at(), fmt::format("the picture is too large ({} x {}; at most {} pixels)", file.width,
+                                                file.height, most));
+    if (!file.choose_gray_format()) file.fail();
+    const std::size_t bytes = png_get_rowbytes(file.png, file.info), width = std::size_t(file.width);
+    std::vector<std::uint8_t> rows(bytes * std::size_t(file.height));
+    for (int pass = 0; pass < file.passes; ++pass)
+        for (int y = 0; y < file.height; ++y)
+            if (!file.read_row(rows.data() + bytes * std::size_t(y))) file.fail();
+    GrayImage image{file.width, file.height, {}};
+    image.samples.reserve(width * std::size_t(file.height));
+    const bool deep = bytes == 2 * width;
+    for (std::size_t i = 0; i < width * std::size_t(file.height); ++i)
+        image.samples.push_back(deep ? std::uint16_t(rows[2 * i] << 8 | rows[2 * i + 1])
+                                     : std::uint16_t(257 * rows[i]));
     return image;
 }
 

@@ -16,6 +16,16 @@ namespace tumble {
 /// Largest number of pixels of a image: 16384 x 16384, 1 GiB in memory. A small hostile file may claim far more.
 inline constexpr std::int64_t max_image_pixels = std::int64_t(1) << 28;
 
+/// The numbers of a gray image, row by row from the top.
+struct GrayImage {
+    int width = 0, height = 0;
+    std::vector<std::uint16_t> samples;
+};
+
+/// The samples of a gray PNG file as they are, without a gamma: those of fewer than 16 bits are stretched to 0 to 65535.
+/// Throws InputError if it is missing, not a PNG file, broken, not gray, or has more than `most` pixels.
+GrayImage read_gray_png(const std::filesystem::path& path, std::int64_t most);
+
 /// A image from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 if the file
 /// has none). Memory: two rows, or the whole image for an interlaced file.
 class PngRows {
@@ -39,6 +49,7 @@ public:
     Image all();
 
 private:
+    friend GrayImage read_gray_png(const std::filesystem::path& path, std::int64_t most);
     struct File;  // state of libpng
     void read_interlaced();
 

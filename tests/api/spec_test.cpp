@@ -46,6 +46,7 @@ SceneSpec everything() {
     spec.bodies[2].center_of_mass = Vec3{0.01, 0.0, -0.02};
     spec.bodies[2].inertia = {0.5, 0.6, 0.7, 0.01, 0.0, 0.02};
     spec.bodies[2].collide_with = {"crates"};
+    spec.add(Hull{{{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.7}}}).position = {0.0, 9.0, 5.0};
     spec.add(Mesh{"torus.obj", 0.5, false}).position = {-3.0, 4.0, 0.0};
     spec.add(Mesh{"hoop.obj", 1.0, true}).position = {-3.0, 7.0, 0.0};
     CompoundPart leg{Box{{0.2, 1.0, 0.2}}, {0.0, -0.5, 0.0}, {}, 700.0, Color{9, 9, 9}};

@@ -48,6 +48,7 @@ const std::map<std::string, std::string> known = {
     {"render/aov/shape_instance.cpp", "parts of compounds; copies share their mesh"},
     {"render/scene/compound_expansion.cpp", "parts of compounds"},
     {"scene/keys/instances.cpp", "makes a compound of one sphere"},
+    {"scene/keys/made_shapes.cpp", "makes meshes from numbers"},
     {"scene/mesh/mesh_loader.cpp", "larger copies of meshes and compounds share their data"},
     {"scene/mesh/mesh_loader.h", "larger copies of meshes and compounds share their data"},
     {"sim/contact/model/turning_resistance.cpp", "parts of compounds"},

@@ -108,6 +108,13 @@ shape = { type = "mesh", file = "../meshes/gem.obj", scale = 0.7 }
 name = "table"
 shape = { type = "compound", parts = [{ shape = { type = "box", size = [1, 1, 2] }, position = [0, 0, 1], rotation = [0, 0, 1, 0], density = 70, color = "#7c4a24" }, { shape = { type = "sphere", radius = 0.4 } }] }
 [[body]]
+name = "hills"
+type = "fixed"
+shape = { type = "heightfield", file = "../../tests/scene/heights.csv", size = [4, 3], height = 0.5, base = 0.25 }
+[[body]]
+name = "wedge"
+shape = { type = "hull", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }
+[[body]]
 name = "crate"
 shape = { type = "box", size = [0.5, 0.5, 0.5] }
 grid = { count = [2, 1, 2], spacing = 0.75, jitter = 0.05, tilt = 10 }
@@ -285,6 +292,13 @@ const std::vector<std::vector<Change>> own_tables = {
      {"collide", "name = \"table\"", "density = 70", "density = 70, collide = false", true},
      {"visible", "name = \"table\"", "density = 70", "density = 70, visible = false", false},
      {"color", "name = \"table\"", "#7c4a24", "#7c4a25", false}},
+    {{"type", "name = \"hills\"", "", "", true},  // by the shapes above
+     {"file", "name = \"hills\"", "heights.csv", "more_heights.csv", true},
+     {"size", "name = \"hills\"", "size = [4, 3]", "size = [4, 3.5]", true},
+     {"height", "name = \"hills\"", "height = 0.5", "height = 0.6", true},
+     {"base", "name = \"hills\"", "base = 0.25", "base = 0.3", true}},
+    {{"type", "name = \"wedge\"", "", "", true},  // by the shapes above
+     {"points", "name = \"wedge\"", "[0, 0, 1]]", "[0, 0, 2]]", true}},
     {{"principal", "", "mass = 3", "mass = 3\ninertia = { principal = [1, 1, 1] }", true},
      {"rotation", "", "mass = 3", "mass = 3\ninertia = { principal = [1, 2, 2], rotation = [0, 1, 0, 0] }", true}},
     {{"count", "name = \"crate\"", "count = [2, 1, 2]", "count = [2, 1, 3]", true},

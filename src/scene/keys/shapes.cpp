@@ -3,6 +3,7 @@
 #include "core/safe_text.h"
 #include "scene/fields/body_fields.h"
 #include "scene/fields/choices.h"
+#include "scene/keys/made_shapes.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/hull.h"
@@ -16,11 +17,16 @@
 namespace tumble {
 namespace {
 
-enum class ShapeKind { plane, box, sphere, mesh, compound };
+enum class ShapeKind { plane, box, sphere, mesh, compound, hull, heightfield };
 
 constexpr Choice<ShapeKind> shape_kinds[] = {
-    {"plane", ShapeKind::plane}, {"box", ShapeKind::box},           {"sphere", ShapeKind::sphere},
-    {"mesh", ShapeKind::mesh},   {"compound", ShapeKind::compound},
+    {"plane", ShapeKind::plane},
+    {"box", ShapeKind::box},
+    {"sphere", ShapeKind::sphere},
+    {"mesh", ShapeKind::mesh},
+    {"compound", ShapeKind::compound},
+    {"hull", ShapeKind::hull},
+    {"heightfield", ShapeKind::heightfield},
 };
 
 // One convex hull of the mesh, or one of each object of the file.
@@ -189,8 +195,11 @@ CompoundPart read_part(TomlTable& table, BodyType type, const std::filesystem::p
     table.set_title("a part");
     CompoundPart part = read_all_fields<CompoundPart>(table);
     const TomlValue shape = table.require("shape");
-    if (const auto kind = shape.table().find("type"); kind && kind->text() == "plane")
-        kind->fail("\"plane\" is endless and cannot be part of a body");
+    if (const auto kind = shape.table().find("type")) {
+        if (kind->text() == "plane") kind->fail("\"plane\" is endless and cannot be part of a body");
+        if (kind->text() == "heightfield")
+            kind->fail("\"heightfield\" cannot be part of a body, whose parts collide as convex shapes");
+    }
     part.shape = read_shape(shape, type, folder, meshes).shape;
     if (part.color) part.shape = without_paint(part.shape);
     return part;
@@ -258,6 +267,14 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
         case ShapeKind::compound:
             table.set_title("a compound");
             return {read_compound(table, type, folder, meshes), {}, 1.0};
+        case ShapeKind::hull:
+            table.set_title("a hull");
+            return read_hull(table);
+        case ShapeKind::heightfield:
+            table.set_title("a heightfield");
+            if (type != BodyType::fixed)
+                type_value.fail("\"heightfield\" is ground and cannot move: give the body type = \"fixed\"");
+            return read_height_field(table, folder, meshes);
         case ShapeKind::mesh:
             break;
     }
@@ -291,7 +308,7 @@ std::optional<Color> mean_paint(const Shape& shape) {
 
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
     if (factor == 1.0) return request.shape;
-    if (const auto* mesh = std::get_if<MeshShape>(&request.shape)) {
+    if (const auto* mesh = std::get_if<MeshShape>(&request.shape); mesh && !request.made) {
         MeshShape larger = *mesh;
         larger.asset = meshes.load(request.mesh, request.mesh_scale * factor).asset;
         larger.thickness *= factor;

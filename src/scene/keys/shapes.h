@@ -15,6 +15,7 @@ struct ShapeRequest {
     Shape shape;      // at scale 1
     MeshSource mesh;  // of a mesh
     double mesh_scale = 1.0;
+    bool made = false;  // the mesh comes from no file: a hull or a height field
 };
 
 /// Reads and checks the shape of a body of that type. Relative mesh paths are relative to `folder`.

@@ -289,6 +289,8 @@ LoadedMesh load_mesh(const MeshSource& source, std::vector<std::filesystem::path
     return loaded(read_and_note(source, read, imports), source.file);
 }
 
+LoadedMesh load_made_mesh(const MeshFile& mesh, const std::string& name) { return loaded(mesh, name); }
+
 std::vector<LoadedMesh> load_mesh_objects(const MeshSource& source, std::vector<std::filesystem::path>* read,
                                           MeshImports imports) {
     const MeshFile whole = read_and_note(source, read, imports);

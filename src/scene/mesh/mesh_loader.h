@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -57,6 +58,7 @@ public:
     const std::vector<LoadedMesh>& load_objects(const MeshSource& source, double scale);
     /// The files that were read, in the order of first use.
     const std::vector<std::filesystem::path>& files() const { return read_; }
+    void add_file(std::filesystem::path file) { read_.push_back(std::move(file)); }
     /// All lengths enlarged by a factor, and the parts of a compound with their places.
     Shape enlarged(const Shape& shape, double factor);
 
@@ -85,6 +87,9 @@ private:
 /// drawing. Throws MeshError. Appends the files that were read to `read`, if given.
 LoadedMesh load_mesh(const MeshSource& source, std::vector<std::filesystem::path>* read = nullptr,
                      MeshImports imports = MeshImports::in_child_process);
+
+/// The same for a mesh that is made, at scale 1. `name`: of the asset, for messages.
+LoadedMesh load_made_mesh(const MeshFile& mesh, const std::string& name);
 
 /// The same for each object of the file: a group of an OBJ, a node of a glTF, a solid of a text STL; the whole file for
 /// other formats. Throws MeshError also if there are more objects than a body may have parts.

@@ -21,6 +21,9 @@ inline constexpr std::int64_t texture_texels = 128 << 20;  // of one mesh file: 
 inline constexpr std::int64_t json_values = 10'000'000;    // of a glTF file: 16 to 100 bytes of memory each
 inline constexpr std::int64_t mesh_triangles = 5'000'000;  // 32-bit indices and about a gigabyte when welded
 
+inline constexpr std::int64_t heights = 2'000'000;      // of a height field: two triangles each
+inline constexpr std::int64_t hull_points = 1'000'000;  // of a hull shape: seconds of Qhull
+
 inline constexpr std::int64_t polygon_corners =
     2000;  // cutting one takes time proportional to their square in the worst case
 
