@@ -3,7 +3,7 @@
 
 in vec3 v_local;                    // m, from the ball's center
 flat in vec4 v_tile;                // center of its tile in the AO atlas, and half of the tile's width and height
-#ifndef PATTERNED
+#if !defined(PATTERNED) && !defined(PLAIN)
 flat in vec4 v_octants;             // on every second octant: added diffuse color; w: reduction of all light
 #endif
 
@@ -26,10 +26,20 @@ void main() {
     vec3 diffuse = v_diffuse;
 #ifdef PATTERNED
     float paint = triplanar_paint(v_pattern, v_local, direction);
+#elif defined(PLAIN)
+    float paint = 1.0;
 #else
     float octants = octant(direction);
     diffuse += octants * v_octants.rgb;
     float paint = 1.0 - octants * v_octants.w;
+#endif
+#ifdef TWO_COLORS
+    diffuse = colored(mix(v_color, v_second.rgb, ball_share(TWO_COLORS, v_local / v_cells.w, fwidth(v_local) / v_cells.w, direction)));
+#endif
+#ifdef IMAGE
+    vec2 footprint = footprint_on_ball(direction, max(abs(dFdx(direction)), abs(dFdy(direction))), v_second.xy) * v_image;
+    vec3 texel = texel_at(mesh_texture, place_on_ball(direction, v_second.xy), log2(max(max(footprint.x, footprint.y), 1e-6)));
+    diffuse = colored(v_color * texel);
 #endif
     pixel = body_pixel(v_local, direction, diffuse, paint, open, vec2(0.0));
 }

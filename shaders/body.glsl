@@ -23,15 +23,43 @@ flat in vec2 v_pattern;         // kind of pattern; size of a cell, m
 
 layout(location = 0) out vec4 pixel;
 
+#if defined(TWO_COLORS) || defined(IMAGE)
+#define COLORED
+flat in vec3 v_color;
+flat in vec4 v_second;          // see body.vert
+#endif
+#ifdef TWO_COLORS
+flat in vec4 v_cells;
+#endif
+#ifdef IMAGE
+uniform sampler2D mesh_texture;
+flat in vec2 v_image;               // size of the texture, texels
+#include "texture_place.glsl"
+#endif
+
 #include "lighting.glsl"
 #include "pattern.glsl"
+#if defined(COLORED) || defined(PAINTED)
+#include "material.glsl"
+#endif
+#ifdef TWO_COLORS
+#include "solid_pattern.glsl"
+#endif
 
 // Sky visibility at texture coordinates of the AO atlas.
 uniform sampler2D occlusion_atlas;
 
-#ifdef PAINTED
+#if defined(PAINTED) || defined(COLORED)
 // Reflectance and own light of the pixel, set by main().
-vec3 paint_f0, paint_emission;
+vec3 paint_f0, paint_emission = vec3(0.0);
+#endif
+
+#ifdef COLORED
+// The diffuse color of a pixel, with its reflectance beside.
+vec3 colored(vec3 color) {
+    paint_f0 = surface_f0(color, v_second.w);
+    return surface_diffuse(color, v_second.w);
+}
 #endif
 
 // `paint`: factor of the pattern on all light; `spread`: see bevel_lobe(), unused elsewhere.
@@ -59,7 +87,7 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
 #endif
 #endif
     surface.diffuse = diffuse;
-#ifdef PAINTED
+#if defined(PAINTED) || defined(COLORED)
     surface.f0 = paint_f0;
 #else
     surface.f0 = v_f0;

@@ -1,6 +1,6 @@
 #version 410 core
 // Compiled for each kind of body. Defines: BOX, BALL or MESH; CHARTED for meshes with a lightmap; SUNLIT for surfaces
-// that may face the sun; SHADOWED for surfaces that may receive shadows; SPANS_CASCADES for bodies that span cascades.
+// that may face the sun; PLAIN for surfaces of one color, with TWO_COLORS of a pattern, with IMAGE of a texture; SHADOWED for surfaces that may receive shadows; SPANS_CASCADES for bodies that span cascades.
 #include "frame.glsl"
 #include "instance.glsl"
 #include "light_constants.glsl"
@@ -33,16 +33,35 @@ flat out vec4 v_rough;
 flat out vec2 v_pattern;
 #endif
 #ifdef BOX
+#ifdef IMAGE
+flat out vec4 v_image_axes;         // images per meter along the axes of the face
+#endif
 out vec2 v_on_face;                 // m, from the center of the face along its axes
 flat out vec4 v_face;               // m: half the size of the face; the same without the bevel's width
 flat out vec4 v_tile;               // place of the face's center in the AO atlas, and the scale per meter along its axes
 flat out vec3 v_edges;              // m: bevel, distance of the groove from the edge, half width of the groove
+#ifdef TWO_COLORS
+out vec3 v_local;                   // m, body axes
+flat out vec3 v_outward;            // of the face, body axes
+#endif
 #else
 out vec3 v_local;                   // m, body axes
 #endif
+#if defined(TWO_COLORS) || defined(IMAGE)
+flat out vec3 v_color;              // linear
+flat out vec4 v_second;             // second color, and metallic; of a texture: Instance::paint and metallic
+#endif
+#ifdef TWO_COLORS
+flat out vec4 v_cells;              // half size of the body and size of a cell, m
+#endif
+#ifdef IMAGE
+uniform sampler2D mesh_texture;
+flat out vec2 v_image;              // size of the texture, texels
+#include "texture_place.glsl"
+#endif
 #ifdef BALL
 flat out vec4 v_tile;               // center of its tile in the AO atlas, and half of the tile's width and height
-#ifndef PATTERNED
+#if !defined(PATTERNED) && !defined(PLAIN)
 flat out vec4 v_octants;            // on every second octant: added diffuse color; w: reduction of all light
 #endif
 #endif
@@ -109,6 +128,17 @@ void main() {
     v_pattern = vec2(instance_material.y, instance_scale.w);
 #endif
 
+#if defined(TWO_COLORS) || defined(IMAGE)
+    v_color = instance_color.rgb;
+    v_second = vec4(instance_paint.rgb, metallic);
+#endif
+#ifdef TWO_COLORS
+    v_cells = vec4(size, instance_scale.w);
+#endif
+#ifdef IMAGE
+    v_image = vec2(textureSize(mesh_texture, 0));
+#endif
+
     vec3 eye = rotate_back(instance_orientation, -instance_position.xyz);
     v_up = rotate_back(instance_orientation, vec3(0.0, 1.0, 0.0));
     vec3 light = rotate_back(instance_orientation, to_light.xyz);
@@ -133,6 +163,14 @@ void main() {
     bevel *= max(smoothstep(flat_box * pixel, round_box * pixel, thinnest), 1e-3);
     v_face = vec4(half_size, half_size - bevel);
     v_edges = vec3(bevel, vec2(crate_frame, 0.5 * crate_groove) * (2.0 * thinnest));
+#ifdef IMAGE
+    vec2 images = images_on_face(size, outward, instance_paint.w) / (2.0 * abs(seen_from_outside(size, outward)));
+    v_image_axes = vec4(seen_from_outside(unit_a, outward), seen_from_outside(unit_b, outward)) * images.xyxy;
+#endif
+#ifdef TWO_COLORS
+    v_local = local;
+    v_outward = outward;
+#endif
     vec3 lift = rotate(instance_orientation, outward);
 #else
     v_local = local;
@@ -140,7 +178,7 @@ void main() {
 #ifdef BALL
     float half_span = max(0.5 * instance_tile.x - 0.501, 0.0);   // a thousandth less, as for boxes
     v_tile = vec4(instance_tile.x > 0.0 ? instance_material.zw + 0.5 * instance_tile.x : vec2(0.5), vec2(half_span)) * atlas.xyxy;
-#ifndef PATTERNED
+#if !defined(PATTERNED) && !defined(PLAIN)
     // Paler paint; metal has none.
     v_octants = ball_contrast * vec4((1.0 - metallic) * (1.0 - metallic - v_diffuse), metallic);
 #endif

@@ -6,7 +6,15 @@ flat in vec4 v_face;                // m: half the size of the face; the same wi
 flat in vec4 v_tile;                // place of the face's center in the AO atlas, and the scale per meter along its axes
 flat in vec3 v_edges;               // m: bevel, distance of the groove from the edge, half width of the groove
 
-#ifndef PATTERNED
+#ifdef IMAGE
+flat in vec4 v_image_axes;          // images per meter along the axes of the face
+#endif
+#ifdef TWO_COLORS
+in vec3 v_local;                    // m
+flat in vec3 v_outward;
+#endif
+
+#if !defined(PATTERNED) && !defined(PLAIN)
 // Share of the pixel in the groove between the frame and the panel of a box.
 float groove(vec2 on_face) {
     vec2 to_edges = v_face.xy - abs(on_face);
@@ -42,9 +50,23 @@ void main() {
     normal *= inversesqrt(dot(normal, normal));
 #ifdef PATTERNED
     float paint = pattern_paint(v_pattern.x, on_face / v_pattern.y, fwidth(v_on_face) / v_pattern.y);
+#elif defined(PLAIN)
+    float paint = 1.0;
 #else
     float paint = 1.0 - crate_groove_depth * groove(v_on_face);
 #endif
+    vec3 diffuse = v_diffuse;
+#ifdef TWO_COLORS
+    float share = body_share(TWO_COLORS, v_local / v_cells.w, fwidth(v_local) / v_cells.w, v_outward, v_cells.xyz);
+    diffuse = colored(mix(v_color, v_second.rgb, share));
+#endif
+#ifdef IMAGE
+    vec2 place = 0.5 + on_face.x * v_image_axes.xy + on_face.y * v_image_axes.zw;
+    vec2 along_x = dFdx(v_on_face), along_y = dFdy(v_on_face);
+    float level = texture_level((along_x.x * v_image_axes.xy + along_x.y * v_image_axes.zw) * v_image,
+                                (along_y.x * v_image_axes.xy + along_y.y * v_image_axes.zw) * v_image);
+    diffuse = colored(v_color * texel_at(mesh_texture, place, level));
+#endif
     float open = textureLod(occlusion_atlas, v_tile.xy + on_face * v_tile.zw, 0.0).r;
-    pixel = body_pixel(vec3(on_face, 0.0), normal, v_diffuse, paint, open, spread);
+    pixel = body_pixel(vec3(on_face, 0.0), normal, diffuse, paint, open, spread);
 }

@@ -9,14 +9,16 @@ layout(location = 6) in vec4 instance_material;   // metallic, pattern; z, w: pl
 // edge of its AO tiles, texels (0: none, unoccluded); face of a box, 1 for a mesh
 layout(location = 7) in vec4 instance_tile;
                                                      // with two sides; surface id; 1: uses the near shadow map
+// second color of a pattern, linear; of a texture: images around and along a ball; w: m that an image covers, or 0
+layout(location = 8) in vec4 instance_paint;
 // index of the vertex sample whose sky visibility applies; meshes of the scene only
-layout(location = 8) in uint mesh_sample;
-layout(location = 9) in vec2 mesh_texel;             // or place of its texel, relative to the mesh's place in the AO atlas
+layout(location = 9) in uint mesh_sample;
+layout(location = 10) in vec2 mesh_texel;             // or place of its texel, relative to the mesh's place in the AO atlas
 // Colors of the mesh's file (struct VertexPaint of scene/description/painted_mesh.h).
-layout(location = 10) in vec2 mesh_uv;
-layout(location = 11) in vec3 mesh_color;            // linear
-layout(location = 12) in vec3 mesh_surface;          // roughness, metallic (below 0: the body's); least alpha
-layout(location = 13) in vec3 mesh_emission;
+layout(location = 11) in vec2 mesh_uv;
+layout(location = 12) in vec3 mesh_color;            // linear
+layout(location = 13) in vec3 mesh_surface;          // roughness, metallic (below 0: the body's); least alpha
+layout(location = 14) in vec3 mesh_emission;
 
 #include "rotate.glsl"
 

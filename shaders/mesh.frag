@@ -1,7 +1,6 @@
 #version 410 core
 #include "body.glsl"
 #ifdef PAINTED
-#include "material.glsl"
 
 uniform sampler2D mesh_texture;
 in vec3 v_paint;                    // color of the file, without its texture
@@ -39,6 +38,14 @@ void main() {
     diffuse = surface_diffuse(color, v_surface.x);
     paint_f0 = surface_f0(color, v_surface.x);
     paint_emission = v_emission;
+#endif
+#ifdef TWO_COLORS
+    float share = body_share(TWO_COLORS, v_local / v_cells.w, fwidth(v_local) / v_cells.w, normal, vec3(1.0));
+#ifdef PAINTED
+    diffuse = colored(mix(color, v_second.rgb, share));
+#else
+    diffuse = colored(mix(v_color, v_second.rgb, share));
+#endif
 #endif
 #ifdef PATTERNED
     paint = triplanar_paint(v_pattern, v_local, normal);

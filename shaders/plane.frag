@@ -1,6 +1,6 @@
 #version 410 core
-// An infinite plane. Defines: GRID, CHECKER or neither; OCCLUDED within the AO radius of bodies; SHADOWED where shadows
-// may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect.
+// An infinite plane. Defines: GRID, CHECKER or neither; PLAIN with TWO_COLORS of a pattern or with IMAGE; OCCLUDED within
+// the AO radius of bodies; SHADOWED where shadows may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect.
 #define SUNLIT
 #include "lighting.glsl"
 #include "pattern.glsl"
@@ -16,6 +16,19 @@ flat in vec4 v_facing;
 flat in vec3 v_diffuse;
 flat in vec4 v_f0;
 flat in vec3 v_rough;
+#ifdef PLAIN
+flat in vec3 v_color;
+flat in vec4 v_second;
+#include "material.glsl"
+#endif
+#ifdef TWO_COLORS
+#include "solid_pattern.glsl"
+#endif
+#ifdef IMAGE
+uniform sampler2D mesh_texture;
+flat in vec2 v_image;
+#include "texture_place.glsl"
+#endif
 #ifdef OCCLUDED
 uniform sampler2D occlusion_atlas;
 flat in vec3 v_tile;
@@ -103,6 +116,16 @@ void main() {
     surface.eye_up = -here(v_rise) * per_length;
     surface.diffuse = v_diffuse * paint;
     surface.f0 = v_f0.rgb * (1.0 - v_f0.w + v_f0.w * paint);
+#ifdef PLAIN
+#ifdef TWO_COLORS
+    float second = second_share(TWO_COLORS, vec3(cells, 0.0), vec3(width, 0.0), cells, width, cells.y, width.y);
+    vec3 color = mix(v_color, v_second.rgb, second);
+#else
+    vec3 color = v_color * texel_at(mesh_texture, vec2(cells.x, -cells.y), texture_level(dFdx(cells) * v_image, dFdy(cells) * v_image));
+#endif
+    surface.diffuse = surface_diffuse(color, v_second.w);
+    surface.f0 = surface_f0(color, v_second.w);
+#endif
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
     surface.open = sky_visibility(cells, far);

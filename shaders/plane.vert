@@ -14,6 +14,7 @@ uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: th
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
 uniform vec4 plane_material;        // metallic, surface id as alpha
+uniform vec4 plane_paint;       // second color
 #ifdef OCCLUDED
 uniform vec4 tile_u;          // the same as plane_u, in texels of the plane's tile in the AO atlas
 uniform vec4 tile_v;
@@ -35,6 +36,14 @@ flat out vec4 v_facing;         // cosines of the plane to the sun and upward; f
 flat out vec3 v_diffuse;
 flat out vec4 v_f0;             // w: metallic
 flat out vec3 v_rough;          // surface_roughness(), surface_veil()
+#ifdef PLAIN
+flat out vec3 v_color;          // linear
+flat out vec4 v_second;         // second color of a pattern; metallic
+#endif
+#ifdef IMAGE
+uniform sampler2D mesh_texture;
+flat out vec2 v_image;          // size of the texture, texels
+#endif
 #ifdef OCCLUDED
 flat out vec3 v_tile;         // texels of the atlas per cell of the pattern, and at the eye's foot; see plane.frag
 flat out vec4 v_rim;         // its first and last texels, which are unoccluded
@@ -72,6 +81,13 @@ void main() {
     v_facing = vec4(dot(plane_normal.xyz, to_light.xyz), plane_normal.y, fog_density, plane_material.y);
     v_diffuse = surface_diffuse(plane_color.rgb, plane_material.x);
     v_f0 = vec4(surface_f0(plane_color.rgb, plane_material.x), plane_material.x);
+#ifdef PLAIN
+    v_color = plane_color.rgb;
+    v_second = vec4(plane_paint.rgb, plane_material.x);
+#endif
+#ifdef IMAGE
+    v_image = vec2(textureSize(mesh_texture, 0));
+#endif
     v_rough = vec3(surface_roughness(plane_color.w), surface_veil(plane_color.w, plane_material.x));
 #ifdef OCCLUDED
     float texels = length(tile_u.xyz) / length(plane_u.xyz);

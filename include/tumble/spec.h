@@ -25,7 +25,9 @@ enum class ImpactLaw { propagating, simultaneous };
 enum class ContactSolver { by_island, soft, direct };
 enum class RotationForm { quaternion, matrix };
 enum class BodyType { dynamic, fixed, kinematic };
-enum class Pattern { plain, grid, checker };
+/// panel: the grooves of a box and the octants of a sphere.
+enum class Pattern { panel, grid, checker, plain, stripes, dots, noise, wood, marble };
+enum class TextureFilter { linear, nearest };  // magnified texels: blended, or squares
 /// The material that a body sounds of; none: silent.
 enum class SoundMaterial { wood, metal, glass, stone, plastic, rubber, none };
 /// The matter that gives a mesh its mass and inertia: the volume that it encloses, its convex hull, or its surface.
@@ -180,9 +182,14 @@ struct Material {
     std::optional<double> roughness;    // 0: mirror, 1: matte
     std::optional<double> metallic;     // 0 to 1
     std::optional<Pattern> pattern;
-    std::optional<SoundMaterial> sound;  // of the body with --sound; wood unless given
     std::optional<double> rolling_friction{};   // torque against rolling, over the load times the radius; see PairRules
     std::optional<double> spinning_friction{};  // m: torque about the normal, over the load; see PairRules
+    std::optional<Color> pattern_color = {};   // the color, darker, where not given
+    std::optional<double> pattern_scale = {};  // m, of a cell of the pattern
+    std::optional<std::string> texture = {};   // PNG or JPEG file, relative to SceneSpec::folder
+    std::optional<double> texture_scale = {};  // m that the image covers once
+    std::optional<TextureFilter> texture_filter = {};
+    std::optional<SoundMaterial> sound = {};   // of the body with --sound; wood where not given
 };
 
 /// A pose of a kinematic body's origin.

@@ -42,6 +42,7 @@ TUMBLE_DESCRIBED(RotationForm, RotationForm);
 TUMBLE_DESCRIBED(BodyType, BodyType);
 TUMBLE_DESCRIBED(Pattern, Pattern);
 TUMBLE_DESCRIBED(SoundMaterial, SoundMaterial);
+TUMBLE_DESCRIBED(TextureFilter, TextureFilter);
 TUMBLE_DESCRIBED(MassFrom, MassFrom);
 TUMBLE_DESCRIBED(PairRule, PairRule);
 TUMBLE_DESCRIBED(Interpolation, Interpolation);

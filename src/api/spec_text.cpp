@@ -78,7 +78,8 @@ private:
     // A table of its own, because a body may have the mass instead of its material's density.
     bool write(const Material& m, std::size_t body) {
         if (!m.color && !m.density && !m.restitution && !m.friction && !m.rolling_friction && !m.spinning_friction &&
-            !m.roughness && !m.metallic && !m.pattern && !m.sound)
+            !m.roughness && !m.metallic && !m.pattern && !m.pattern_color && !m.pattern_scale && !m.texture &&
+            !m.texture_scale && !m.texture_filter && !m.sound)
             return false;
         header(fmt::format("[materials.body{}]", body), fmt::format("bodies[{}].material", body));
         write_fields<tumble::Material>(*this, m);

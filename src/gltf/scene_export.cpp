@@ -5,6 +5,7 @@
 #include "gltf/glb_buffer.h"
 #include "gltf/painted_meshes.h"
 #include "gltf/primitives.h"
+#include "scene/description/looks.h"
 
 #include <algorithm>
 #include <map>
@@ -43,6 +44,8 @@ private:
         Vec3 scale;
     };
     using MaterialKey = std::tuple<int, int, int, double, double>;
+    using TexturedKey = std::tuple<std::tuple<const Texture*, std::size_t, double, double, double, double>, MaterialKey,
+                                   TextureFilter>;
 
     void add_body(std::size_t index);
     Json shape_node(const BodyDescription& body, const Shape& shape, const Appearance& look, const Vec3& place,
@@ -53,8 +56,9 @@ private:
     std::size_t material(const Appearance& look);
     Geometry add_triangles(const Triangles& triangles);
     Geometry asset(const MeshAsset& asset);
+    Placed textured(const Shape& shape, const Triangles& unit, const Vec3& scale, const Appearance& look);
     std::size_t painted(const MeshAsset& asset, const MeshPaint& paint, const Appearance& look);
-    Geometry patch(const BodyDescription& body, const PlaneShape& plane);
+    Triangles patch(const BodyDescription& body, const PlaneShape& plane);
     void add_camera();
     void add_light();
     std::size_t add_node(Json node);
@@ -75,6 +79,7 @@ private:
     std::map<MaterialKey, std::size_t> material_of_;
     PaintedMeshes painted_meshes_{buffer_};
     std::map<std::tuple<const MeshAsset*, double, double>, std::size_t> painted_of_;  // only looked up
+    std::map<TexturedKey, std::size_t> textured_of_;                                  // only looked up
 };
 
 std::size_t SceneWriter::add_node(Json node) {
@@ -134,12 +139,17 @@ SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape
         SceneWriter& writer;
         const BodyDescription& body;
         const Appearance& look;
-        Placed operator()(const BoxShape& box) { return writer.unit(writer.box_, unit_box, look, box.size); }
+        Placed operator()(const BoxShape& box) {
+            if (look.texture) return writer.textured(box, unit_box(), box.size, look);
+            return writer.unit(writer.box_, unit_box, look, box.size);
+        }
         Placed operator()(const SphereShape& ball) {
+            if (look.texture) return writer.textured(ball, unit_sphere(), Vec3::Constant(ball.radius), look);
             return writer.unit(writer.sphere_, unit_sphere, look, Vec3::Constant(ball.radius));
         }
         Placed operator()(const PlaneShape& plane) {
-            return {writer.mesh(writer.patch(body, plane), look), Vec3::Ones()};
+            if (look.texture) return writer.textured(plane, writer.patch(body, plane), Vec3::Ones(), look);
+            return {writer.mesh(writer.add_triangles(writer.patch(body, plane)), look), Vec3::Ones()};
         }
         Placed operator()(const MeshShape& shape) {
             if (const MeshPaint* paint = shape.paint())
@@ -170,10 +180,11 @@ std::size_t SceneWriter::mesh(const Geometry& geometry, const Appearance& look) 
 }
 
 std::size_t SceneWriter::material(const Appearance& look) {
-    const MaterialKey key{look.color.r, look.color.g, look.color.b, look.roughness, look.metallic};
+    const Color mean = mean_color(look);
+    const MaterialKey key{mean.r, mean.g, mean.b, look.roughness, look.metallic};
     const auto [place, is_new] = material_of_.try_emplace(key, materials_.size());
     if (is_new) {
-        const std::array<double, 3> color = to_linear(look.color);
+        const std::array<double, 3> color = to_linear(mean);
         materials_.push_back({{"pbrMetallicRoughness",
                                {{"baseColorFactor", {color[0], color[1], color[2], 1.0}},
                                 {"metallicFactor", look.metallic},
@@ -205,14 +216,37 @@ std::size_t SceneWriter::painted(const MeshAsset& asset, const MeshPaint& paint,
     return entry->second;
 }
 
+/// A mesh of its own size, because the places of the texture depend on it.
+SceneWriter::Placed SceneWriter::textured(const Shape& shape, const Triangles& unit, const Vec3& scale,
+                                          const Appearance& look) {
+    const TexturedKey key{{look.texture.get(), shape.index(), scale.x(), scale.y(), scale.z(), look.texture_scale},
+                          {look.color.r, look.color.g, look.color.b, look.roughness, look.metallic},
+                          look.texture_filter};
+    const bool shared = !endless(shape);  // planes differ by their direction too
+    if (const auto known = textured_of_.find(key); shared && known != textured_of_.end())
+        return {known->second, Vec3::Ones()};
+    MeshAsset asset;
+    asset.indices = unit.indices;
+    for (std::size_t i = 0; i < unit.positions.size(); i += 3) {
+        MeshAsset::Vertex& vertex = asset.vertices.emplace_back();
+        for (std::size_t c = 0; c < 3; ++c) {
+            vertex.position[c] = float(scale[Eigen::Index(c)] * double(unit.positions[i + c]));
+            vertex.normal[c] = unit.normals[i + c];
+        }
+    }
+    const auto paint = texture_paint(shape, look, asset.vertices, asset.indices);
+    meshes_.push_back({{"primitives", painted_meshes_.primitives(asset, *paint, look, materials_)}});
+    if (shared) textured_of_.emplace(key, meshes_.size() - 1);
+    return {meshes_.size() - 1, Vec3::Ones()};
+}
+
 /// A square of the plane below the motion of all bodies.
-SceneWriter::Geometry SceneWriter::patch(const BodyDescription& body, const PlaneShape& plane) {
+Triangles SceneWriter::patch(const BodyDescription& body, const PlaneShape& plane) {
     Bounds bounds = source_.motion.bounds();
     bounds.add(source_.camera.target);
     const Vec3 center = body.rotation.conjugate() * (bounds.center() - body.position);
     const double half_side = std::clamp(1.5 * bounds.extent().norm(), least_patch, most_patch);
-    return add_triangles(
-        square(center - (plane.normal.dot(center) - plane.offset) * plane.normal, plane.normal, half_side));
+    return square(center - (plane.normal.dot(center) - plane.offset) * plane.normal, plane.normal, half_side);
 }
 
 void SceneWriter::add_camera() {

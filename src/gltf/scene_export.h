@@ -1,5 +1,5 @@
 // A scene and its recorded motion as a glTF 2.0 file: meshes, materials, camera, light and animation. Infinite planes
-// become finite squares; patterns and cords are left out.
+// become finite squares; patterns of two colors become their mean, and cords are left out.
 #pragma once
 
 #include "gltf/motion_recorder.h"

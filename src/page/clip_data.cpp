@@ -94,6 +94,7 @@ ClipData make_clip_data(const PageClip& clip) {
     header["runs"] = Json::array();
     for (const PageRun& run : clip.runs) header["runs"].push_back(run_json(run, clip, meshes, arrays, data.errors));
     header["meshes"] = meshes.write(arrays);
+    if (Json textures = meshes.write_textures(arrays); !textures.empty()) header["textures"] = std::move(textures);
     const std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
     std::vector<std::byte> bytes;
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(std::byte(text.size() >> shift & 0xffu));

@@ -2,6 +2,7 @@
 
 #include "overlay/overlay_builder.h"
 #include "page/prediction.h"
+#include "scene/description/looks.h"
 #include "scene/description/painted_mesh.h"
 #include "scene/fields/body_fields.h"
 
@@ -26,10 +27,14 @@ Json quaternion_json(const Quat& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 Json shape_json(const Shape& shape, const Appearance& look, MeshTable& meshes);
 
 Json part_json(const CompoundPart& part, const Appearance& look, MeshTable& meshes) {
-    return {{"shape", shape_json(part.shape, look, meshes)},
-            {"position", vector_json(part.position)},
-            {"rotation", quaternion_json(part.rotation)},
-            {"color", to_string(plain_color(part.shape, part.color.value_or(look.color)))}};
+    Json json{{"shape", shape_json(part.shape, look, meshes)},
+              {"position", vector_json(part.position)},
+              {"rotation", quaternion_json(part.rotation)},
+              {"color", to_string(plain_color(part.shape, part.color.value_or(look.color)))}};
+    Appearance of_part = look;
+    of_part.color = part.color.value_or(look.color);
+    if (two_colored(look)) json["pattern_color"] = to_string(second_color(of_part));
+    return json;
 }
 
 struct ShapeForm {
@@ -88,21 +93,27 @@ Json column(const std::vector<Item>& items, ArrayStore& arrays, const Value& val
     return {order, arrays.add(whole)};
 }
 
-/// The texture and its wrapping; the map of the largest side that pages have. Null without one.
+/// The map of the largest side that pages have.
+Json image_json(const Texture& texture, bool with_alpha, ArrayStore& arrays) {
+    const auto level = std::ranges::find_if(
+        texture.levels, [](const Texture::Level& map) { return std::max(map.width, map.height) <= most_texels; });
+    Json channels = Json::array();
+    for (std::size_t c = 0; c < (with_alpha ? 4u : 3u); ++c)
+        channels.push_back(column(level->texels, arrays, [c](const auto& texel) { return double(texel[c]); }));
+    return {{"width", level->width}, {"height", level->height}, {"channels", std::move(channels)}};
+}
+
+/// The texture and its wrapping. Null without one.
 Json texture_json(const MeshMaterial& material, ArrayStore& arrays) {
     if (!material.texture) return nullptr;
-    const auto& levels = material.texture->levels;
-    const auto level = std::ranges::find_if(
-        levels, [](const Texture::Level& map) { return std::max(map.width, map.height) <= most_texels; });
-    Json channels = Json::array();
-    for (std::size_t c = 0; c < (material.has_holes() ? 4u : 3u); ++c)
-        channels.push_back(column(level->texels, arrays, [c](const auto& texel) { return double(texel[c]); }));
+    Json json = image_json(*material.texture, material.has_holes(), arrays);
     const auto name = [](TextureWrap wrap) {
         return wrap == TextureWrap::repeat ? "repeat" : wrap == TextureWrap::mirror ? "mirror" : "clamp";
     };
-    return {{"width", level->width},           {"height", level->height},
-            {"channels", std::move(channels)}, {"wrap", {name(material.wrap_u), name(material.wrap_v)}},
-            {"nearest", material.nearest},     {"cutoff", material.has_holes() ? material.cutoff : 0.0f}};
+    json["wrap"] = {name(material.wrap_u), name(material.wrap_v)};
+    json["nearest"] = material.nearest;
+    json["cutoff"] = material.has_holes() ? material.cutoff : 0.0f;
+    return json;
 }
 
 Json paint_json(const PaintedMesh& mesh, ArrayStore& arrays) {
@@ -174,6 +185,18 @@ std::size_t MeshTable::index_of(const MeshAsset& asset, const MeshPaint* paint) 
     return entry->second;
 }
 
+std::size_t MeshTable::index_of(const Texture& texture) {
+    const auto known = std::ranges::find(textures_, &texture);
+    if (known == textures_.end()) return textures_.push_back(&texture), textures_.size() - 1;
+    return std::size_t(known - textures_.begin());
+}
+
+Json MeshTable::write_textures(ArrayStore& arrays) const {
+    Json all = Json::array();
+    for (const Texture* texture : textures_) all.push_back(image_json(*texture, false, arrays));
+    return all;
+}
+
 Json MeshTable::write(ArrayStore& arrays) const {
     Json all = Json::array();
     for (const auto& [asset, paint] : meshes_) all.push_back(mesh_json(*asset, paint, arrays));
@@ -194,6 +217,12 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
             Json{{"name", body.name}, {"type", name_of(body.type)}, {"shape", shape_json(body.shape, look, meshes)}});
         JsonFields fields{{}, one};
         visit_fields(Of<Appearance>(), fields, look);
+        if (two_colored(look)) one["pattern_color"] = to_string(second_color(look));
+        if (look.pattern_scale > 0.0) one["pattern_scale"] = look.pattern_scale;
+        if (look.texture)
+            one["texture"] = {{"image", meshes.index_of(*look.texture)},
+                              {"scale", look.texture_scale},
+                              {"nearest", look.texture_filter == TextureFilter::nearest}};
         one["mass"] = dynamic ? report.mass : 0.0;
         one["inertia"] = inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()));
         one["center_of_mass"] = vector_json(report.center_of_mass);

@@ -10,16 +10,19 @@
 
 namespace tumble {
 
-/// The meshes of all runs, each once.
+/// The meshes and the textures of shapes of all runs, each once.
 class MeshTable {
 public:
     /// `paint`: the colors that it is drawn with; null: the body's.
     std::size_t index_of(const MeshAsset& asset, const MeshPaint* paint);
+    std::size_t index_of(const Texture& texture);
     ArrayStore::Json write(ArrayStore& arrays) const;
+    ArrayStore::Json write_textures(ArrayStore& arrays) const;
 
 private:
     using Entry = std::pair<const MeshAsset*, const MeshPaint*>;
     std::vector<Entry> meshes_;
+    std::vector<const Texture*> textures_;
     std::map<Entry, std::size_t> index_;  // only looked up: their order has no effect
 };
 

@@ -69,10 +69,11 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.wind = read_wind(root);
     scene.contact = read_contact(root);
     MeshCache meshes(imports, std::move(supplied));
-    const Materials materials = read_materials(root);
+    TextureFiles textures;
     const std::filesystem::path folder = file.parent_path();
+    const Materials materials = read_materials(root, {folder, textures});
     FileList files;
-    const BodySources sources{materials, folder, scene.simulation, meshes, files};
+    const BodySources sources{materials, folder, scene.simulation, meshes, textures, files};
     scene.bodies = read_bodies(root, sources);
     const SceneTemplates templates = read_templates(root, sources);
     read_instances(root, templates, sources, scene.bodies, scene.joints);
@@ -85,6 +86,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
         read->push_back(file);
         read->insert(read->end(), files.begin(), files.end());
         read->insert(read->end(), meshes.files().begin(), meshes.files().end());
+        read->insert(read->end(), textures.files().begin(), textures.files().end());
     }
     if (overrides.integrator)  // the option applies to every body
         for (BodyDescription& body : scene.bodies) body.integrator.reset();

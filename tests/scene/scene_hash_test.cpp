@@ -4,6 +4,7 @@
 #include "scene/all_fields.h"
 #include "scene/load.h"
 #include "scene/scene_changes.h"
+#include "support/folder.h"
 
 #include <gtest/gtest.h>
 
@@ -228,7 +229,13 @@ const std::vector<std::vector<Change>> own_tables = {
      {"spinning_friction", "[materials", "friction = 0.11", "friction = 0.11\nspinning_friction = 0.1", true},
      {"roughness", "[materials", "roughness = 0.2", "roughness = 0.25", false},
      {"metallic", "[materials", "metallic = 1", "metallic = 0", false},
-     {"pattern", "[materials", "checker", "plain", false}},
+     {"pattern", "[materials", "checker", "plain", false},
+     {"pattern_color", "[materials", "pattern = ", "pattern_color = \"#102030\"\npattern = ", false},
+     {"pattern_scale", "[materials", "pattern = ", "pattern_scale = 0.3\npattern = ", false},
+     {"texture", "[materials", "pattern = \"checker\"", texture_line(), false},
+     {"texture_scale", "[materials", "pattern = \"checker\"", texture_line() + "texture_scale = 2\n", false},
+     {"texture_filter", "[materials", "pattern = \"checker\"", texture_line() + "texture_filter = \"nearest\"\n", false},
+     {"sound", "[materials", "pattern = ", "sound = \"metal\"\npattern = ", true}},
     {{"name", "", "name = \"stone\"", "name = \"rock\"", true},
      {"type", "", "name = \"crate\"", "name = \"crate\"\ntype = \"fixed\"", true},
      {"shape", "name = \"crate\"", "size = [0.5, 0.5, 0.5]", "size = [0.5, 0.5, 0.6]", true},
@@ -247,6 +254,11 @@ const std::vector<std::vector<Change>> own_tables = {
      {"roughness", "", "roughness = 0.9", "roughness = 0.8", false},
      {"metallic", "", "metallic = 0.25", "metallic = 0.5", false},
      {"pattern", "", "pattern = \"grid\"", "pattern = \"checker\"", false},
+     {"pattern_color", "", "pattern = \"grid\"", "pattern = \"grid\"\npattern_color = \"#405060\"", false},
+     {"pattern_scale", "", "pattern = \"grid\"", "pattern = \"grid\"\npattern_scale = 2", false},
+     {"texture", "", "pattern = \"grid\"", texture_line(), false},
+     {"texture_scale", "", "pattern = \"grid\"", texture_line() + "texture_scale = 3\n", false},
+     {"texture_filter", "", "pattern = \"grid\"", texture_line() + "texture_filter = \"nearest\"\n", false},
      {"mass", "", "mass = 3", "mass = 4", true},
      {"visible", "", "visible = false", "visible = true", false},
      {"position", "name = \"ball\"", "position = [1, 2, 3]", "position = [1, 2, 4]", true},
@@ -443,6 +455,31 @@ TEST(SceneHash, NewerKeysThatAreNotGivenLeaveIt) {
         "format = 1\ntitle = \"s\"\n[[body]]\nshape = { type = \"sphere\", radius = 0.5 }\nposition = [0, 1, 0]\n";
     EXPECT_EQ(scene_hash(parse(text)), "d04aac6c7947f7e6f56eca826853a2e05938659a98d2986fafab44f40dbbfe6b");
     EXPECT_EQ(scene_hash(parse(text + "gravity_scale = 1\nlayers = []\n")), scene_hash(parse(text)));
+}
+
+TEST(SceneHash, HasTheTexelsOfATextureAndItsPlaceOnTheBody) {
+    const TestFolder folder;
+    const fs::path images = source / "tests/fuzz/corpus/texture";
+    fs::copy_file(images / "rgb.png", folder / "one.png");
+    fs::copy_file(images / "rgb.png", folder / "same.png");
+    fs::copy_file(images / "holes.png", folder / "other.png");
+    const auto hash_of = [&](const std::string& lines) {
+        return scene_hash(parse("format = 1\n[[body]]\nshape = { type = \"box\", size = [1, 1, 1] }\n" + lines,
+                                folder / "scene.toml"));
+    };
+    const std::string one = hash_of("texture = \"one.png\"");
+    EXPECT_EQ(hash_of("texture = \"same.png\""), one);
+    EXPECT_EQ(hash_of("texture = \"same.png\"\ntexture_filter = \"linear\""), one);
+    EXPECT_NE(hash_of("texture = \"other.png\""), one);
+    EXPECT_NE(hash_of("texture = \"one.png\"\ntexture_scale = 1"), one);
+    EXPECT_NE(hash_of("texture = \"one.png\"\ntexture_filter = \"nearest\""), one);
+}
+
+/// Scenes without the keys of patterns and textures keep the hash that they had.
+TEST(SceneHash, CallsTheGroovesOfABoxByTheNumberOfNoPattern) {
+    EXPECT_EQ(int(Pattern::panel), 0);
+    EXPECT_EQ(int(Pattern::grid), 1);
+    EXPECT_EQ(int(Pattern::checker), 2);
 }
 
 TEST(SceneHash, CommentsOrderAndSpellingDoNotMatter) {

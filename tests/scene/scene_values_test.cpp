@@ -1,5 +1,7 @@
 // Every key of the format, once, with a value that is not its default.
 #include "scene/load.h"
+#include "support/folder.h"
+#include "support/tiny_png.h"
 
 #include <gtest/gtest.h>
 
@@ -244,10 +246,67 @@ TEST(SceneValues, ABodyWithoutMaterialHasTheDefaultsOfTheFormat) {
     EXPECT_EQ(body.restitution_in_pair(), 0.5);
     EXPECT_EQ(body.friction_in_pair(), 0.0);
     EXPECT_EQ(body.name, "0");
-    EXPECT_EQ(body.appearance.pattern, Pattern::plain);
+    EXPECT_EQ(body.appearance.pattern, Pattern::panel);
     EXPECT_TRUE(body.appearance.visible);
     EXPECT_EQ(body.position, Vec3(0, 0, 0));
     EXPECT_EQ(body.rotation.coeffs(), Quat::Identity().coeffs());
+}
+
+TEST(SceneValues, APlainBoxIsNotTheBoxWithoutAPattern) {
+    const auto pattern_of = [](const std::string& lines) {
+        return parse("format = 1\n[[body]]\ntype = \"fixed\"\n" + lines).bodies[0].appearance.pattern;
+    };
+    const std::string box = "shape = { type = \"box\", size = [1, 1, 1] }\n", plane = "shape = { type = \"plane\" }\n";
+    EXPECT_EQ(pattern_of(box), Pattern::panel);
+    EXPECT_EQ(pattern_of(box + "pattern = \"panel\""), Pattern::panel);
+    EXPECT_EQ(pattern_of(box + "pattern = \"plain\""), Pattern::plain);
+    EXPECT_EQ(pattern_of(plane + "pattern = \"plain\""), Pattern::panel);  // one look, one hash
+    EXPECT_EQ(pattern_of(plane), Pattern::grid);
+}
+
+TEST(SceneValues, TheTextureOfABodyTakesThePlaceOfThePatternOfItsMaterial) {
+    const std::string text = R"(
+format = 1
+[materials.stone]
+pattern = "marble"
+color = "#808080"
+[materials.boxed]
+texture = "image.png"
+texture_scale = 0.5
+[[body]]
+material = "stone"
+texture = "image.png"
+texture_filter = "nearest"
+shape = { type = "box", size = [1, 1, 1] }
+[[body]]
+material = "boxed"
+pattern = "wood"
+pattern_color = "#402010"
+pattern_scale = 0.2
+shape = { type = "sphere", radius = 1 }
+[[body]]
+material = "boxed"
+shape = { type = "sphere", radius = 1 }
+)";
+    const TestFolder folder;
+    write_text(folder / "image.png", tiny_png());
+    const SceneDescription scene = parse_scene(text, folder / "scene.toml");
+    const Appearance& box = scene.bodies[0].appearance;
+    ASSERT_TRUE(box.texture);
+    EXPECT_EQ(box.texture->levels.front().width, 2);
+    EXPECT_EQ(box.pattern, Pattern::plain);
+    EXPECT_EQ(box.color, (Color{0x80, 0x80, 0x80}));
+    EXPECT_EQ(box.texture_scale, 0.0);
+    EXPECT_EQ(box.texture_filter, TextureFilter::nearest);
+    const Appearance& ball = scene.bodies[1].appearance;
+    EXPECT_FALSE(ball.texture);
+    EXPECT_EQ(ball.pattern, Pattern::wood);
+    EXPECT_EQ(ball.pattern_color, (Color{0x40, 0x20, 0x10}));
+    EXPECT_EQ(ball.pattern_scale, 0.2);
+    const Appearance& other = scene.bodies[2].appearance;
+    EXPECT_EQ(other.texture, box.texture);  // read once
+    EXPECT_EQ(other.color, (Color{255, 255, 255}));
+    EXPECT_EQ(other.texture_scale, 0.5);
 }
 
 TEST(SceneValues, AStepThatDividesTheFrameBecomesItsNumberOfSteps) {

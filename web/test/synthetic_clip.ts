@@ -76,7 +76,7 @@ const box_inertia_y = box_inertia(box_size[0], box_size[2]);
 
 function make_bodies(restitution: number): Body[] {
   const common = {
-    visible: true, center_of_mass: [0, 0, 0] as Vec3, metallic: 0, friction: 0, roughness: 0.6, pattern: "plain" as const,
+    visible: true, center_of_mass: [0, 0, 0] as Vec3, metallic: 0, friction: 0, roughness: 0.6, pattern: "panel" as const,
   };
   return [
     {
@@ -243,7 +243,7 @@ export function make_synthetic_run(restitution: number): Run {
     scene: {
       bodies: make_bodies(restitution),
       cords: [],
-      meshes: [],
+      meshes: [], textures: [],
       light: { direction: [-0.4, -0.8, -0.45], shadows: true },
       camera_moves: false,
       camera: () => ({ eye: [1.6, 1.7, 4.2], target: [0, 0.75, 0], up: [0, 1, 0], vertical_fov: 40 }),

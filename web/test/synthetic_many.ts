@@ -12,7 +12,7 @@ export function make_many(count: number): Clip {
   const bodies: Body[] = [ground];
   for (let i = 0; i < count; ++i)
     bodies.push({
-      ...run.scene.bodies[1 + (i % 2)], name: `body ${i}`, color: colors[i % 5], pattern: "plain",
+      ...run.scene.bodies[1 + (i % 2)], name: `body ${i}`, color: colors[i % 5], pattern: "panel",
       shape: i % 2 ? { type: "sphere", radius: 0.3 } : { type: "box", size: [0.5, 0.6, 0.4] },
     });
   const state = (body: number, time: number): BodyState => {

@@ -163,7 +163,16 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     }
     if (!body.keyframes.empty()) kind.matter["keyframes"] = keyframes_text(body);
     if (!endless(body.shape)) kind.bounds = local_bounds(body.shape);
-    kind.round = std::holds_alternative<SphereShape>(body.shape) && look.pattern == Pattern::plain;
+    // The look of the shape itself has the name that it has in all records.
+    const bool own_look = look.pattern == Pattern::panel, plain = look.pattern == Pattern::plain;
+    if (own_look || plain) kind.look["pattern"] = own_look ? "plain" : "none";
+    if (look.pattern_color) kind.look["pattern_color"] = to_string(*look.pattern_color);
+    if (look.pattern_scale > 0.0) kind.look["pattern_scale"] = fmt::format("{}", look.pattern_scale);
+    if (look.texture)
+        kind.look["texture"] = fmt::format(
+            "#{:016x} {} {}", fnv_hash(std::as_bytes(std::span(look.texture->levels.front().texels))),
+            look.texture_scale, name_of(look.texture_filter));
+    kind.round = std::holds_alternative<SphereShape>(body.shape) && (own_look || plain) && !look.texture;
     return kind;
 }
 

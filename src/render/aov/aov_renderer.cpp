@@ -2,6 +2,8 @@
 
 #include "core/check.h"
 #include "render/aov/surface_motion.h"
+#include "render/shapes/drawn_shape.h"
+#include "scene/description/looks.h"
 
 #include <algorithm>
 #include <array>
@@ -64,7 +66,13 @@ std::vector<std::int32_t> ids_of(const SceneDescription& scene, const std::vecto
 void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, const std::vector<ShapeInstance>& parts,
                  const ScenePlaces& places, const PinholeCamera& camera, std::vector<std::uint8_t>& values) {
     std::vector<Color> colors;
-    for (const ShapeInstance& part : parts) colors.push_back(part.color);
+    std::vector<MeshMaterial> images;  // without a texture: one color
+    for (const ShapeInstance& part : parts) {
+        colors.push_back(part.color);
+        Appearance look = scene.bodies[part.body].appearance;
+        look.color = part.color;
+        images.push_back(look.texture ? texture_material(part.shape, look) : MeshMaterial());
+    }
     for (const CordDescription& cord : scene.cords) colors.push_back(cord.color);
     values.resize(3 * map.surface.size());
     for_each_run(map, [&](const PixelRun& run) {
@@ -75,6 +83,26 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
                 const Vec3 ray(camera.ray_x(run.column + i), camera.ray_y(run.row), 1.0);
                 const Color color =
                     painted_color(*mesh, places.parts[run.surface], map.triangle[run.pixel + std::size_t(i)], ray);
+                to[0] = color.r, to[1] = color.g, to[2] = color.b;
+            }
+            return;
+        }
+        if (run.surface < parts.size() && images[run.surface].texture) {
+            const ShapeInstance& part = parts[run.surface];
+            const PartPlace& place = places.parts[run.surface];
+            const double scale = scene.bodies[part.body].appearance.texture_scale;
+            for (int i = 0; i < run.count; ++i, to += 3) {
+                const Vec3 ray(camera.ray_x(run.column + i), camera.ray_y(run.row), 1.0);
+                const std::size_t pixel = run.pixel + std::size_t(i);
+                const double depth = map.depth[pixel];
+                const Vec3 position = place.axes.transpose() * (depth * ray - place.origin);
+                const auto normal_of = [&](const auto& shape) {
+                    return surface_normal(shape, place, map.triangle[pixel], ray, depth);
+                };
+                const TexturePlace at =
+                    texture_place(part.shape, position, std::visit(normal_of, part.shape), scale);
+                const Color color =
+                    encoded(color_at(images[run.surface], {float(at[0]), float(at[1])}, {1.0f, 1.0f, 1.0f}));
                 to[0] = color.r, to[1] = color.g, to[2] = color.b;
             }
             return;

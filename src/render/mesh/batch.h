@@ -25,6 +25,7 @@ struct Batch {
     bool spans_cascades = false;       // each pixel selects its shadow cascade
     bool charted = false;              // a mesh with AO per pixel: see chart_unwrap.h
     bool painted = false;              // a mesh with the colors of its file
+    std::size_t look = 0;              // index into RenderScene::looks
     std::size_t first = 0, count = 0;  // of the instances
 };
 

@@ -12,6 +12,7 @@ constexpr int cylinder_sides = 16;  // a cord is a few pixels wide
 GpuMeshCache::GpuMeshCache(const GlFunctions& gl, const RenderScene& scene)
     : gl_(&gl), scene_(&scene), textures_(gl), instances_(gl, GlKind::buffer) {
     meshes_.resize(scene_mesh(scene.meshes.size(), 0));
+    look_textures_.resize(scene.looks.size());
 }
 
 void GpuMeshCache::make_primitive(std::size_t mesh) {
@@ -70,6 +71,9 @@ void GpuMeshCache::upload(const DrawList& list, MeshLods& details) {
     for (const std::vector<Batch>* batches : {&list.visible, &list.casters})
         for (const Batch& batch : *batches)
             if (!meshes_[batch.mesh]) make(batch.mesh, details);
+    for (const Batch& batch : list.visible)
+        if (const MeshMaterial& image = scene_->looks[batch.look].image; image.texture)
+            look_textures_[batch.look] = textures_.name_of(image);
     const std::span<const Instance> instances(list.instances);
     gl_->BindBuffer(GL_ARRAY_BUFFER, instances_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(instances.size_bytes()), instances.data(), GL_STREAM_DRAW);
@@ -87,6 +91,10 @@ void GpuMeshCache::draw(const Batch& batch) const {
 
 void GpuMeshCache::draw_in_view(const Batch& batch) const {
     const MeshBuffer& mesh = *meshes_[batch.mesh];
+    if (look_textures_[batch.look] != 0) {
+        gl_->ActiveTexture(GL_TEXTURE0 + paint_unit);
+        gl_->BindTexture(GL_TEXTURE_2D, look_textures_[batch.look]);
+    }
     gl_->Enable(GL_CULL_FACE);
     mesh.draw(instances_.name(), batch.first, batch.count);
     if (mesh.closed()) return;

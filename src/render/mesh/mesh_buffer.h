@@ -16,7 +16,7 @@
 
 namespace tumble {
 
-/// One drawn body (or one face of a box); six vec4 attributes, as in shaders/instance.glsl.
+/// One drawn body (or one face of a box); seven vec4 attributes, as in shaders/instance.glsl.
 struct Instance {
     glm::vec3 position;     // of the body's origin, m, relative to the eye
     float bevel;            // m
@@ -31,8 +31,10 @@ struct Instance {
     float face;               // of a box, as in BodyOcclusion; 1 for an open mesh
     float surface_id;         // as alpha
     float near_shadows;       // 1: uses the near shadow map, 0: the far one
+    // Second color of a pattern, linear; of a texture images around and along a ball; w: m that an image covers, or 0.
+    glm::vec4 paint;
 };
-static_assert(sizeof(Instance) == 6 * sizeof(glm::vec4));
+static_assert(sizeof(Instance) == 7 * sizeof(glm::vec4));
 
 /// Consecutive indices that are drawn with a texture.
 struct TextureRange {

@@ -17,6 +17,13 @@ std::vector<std::string> shadow_defines(const ShadowFilter& filter) {
     return all;
 }
 
+std::vector<std::string> look_defines(const SurfaceLook& look) {
+    if (look.pattern == Pattern::panel) return {};
+    if (look.image.texture) return {"PLAIN", "IMAGE"};
+    if (look.pattern == Pattern::plain) return {"PLAIN"};
+    return {"PLAIN", fmt::format("TWO_COLORS {}", int(look.pattern))};
+}
+
 void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
@@ -26,31 +33,35 @@ void connect(const ShaderProgram& program) {
 
 BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
                    const ShadowFilter& filter)
-    : device_(&device), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter) {
+    : device_(&device), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter), looks_(scene.looks) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.solid())
             for (const bool lit : {true, false})
-                program({proxy.kind, proxy.pattern != Pattern::plain, lit, false,
+                program({proxy.kind, proxy.pattern != Pattern::panel, lit, false,
                          proxy.kind == DrawKind::mesh && proxy.lightmap >= 0,
-                         proxy.kind == DrawKind::mesh && scene.meshes[proxy.mesh].paint != nullptr});
-    if (!scene.cords.empty()) program({DrawKind::mesh, false, true, false, false, false});
+                         proxy.kind == DrawKind::mesh && scene.meshes[proxy.mesh].paint != nullptr, proxy.look});
+    if (!scene.cords.empty()) program({DrawKind::mesh, false, true, false, false, false, 0});
 }
 
 BodyPass::Variant BodyPass::variant_of(const Batch& batch) {
     const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                           : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                        : DrawKind::mesh;
-    return {kind, batch.patterned, batch.lit, batch.spans_cascades, batch.charted, batch.painted};
+    return {kind, batch.patterned, batch.lit, batch.spans_cascades, batch.charted, batch.painted, batch.look};
 }
 
-std::size_t BodyPass::index_of(const Variant& variant) {
+std::size_t BodyPass::index_of(const Variant& variant) const {
     const std::size_t which = variant.kind == DrawKind::box ? (variant.lit ? 0 : 1)
                               : variant.kind == DrawKind::ball
                                   ? 2
                                   : 3 + (variant.charted ? 1 : 0) + (variant.painted ? 2 : 0);
-    return 4 * which + (variant.patterned ? 2 : 0) + (variant.spans_cascades ? 1 : 0);
+    const SurfaceLook& look = looks_[variant.look];
+    const std::size_t shader = variant.look == 0    ? (variant.patterned ? 1 : 0)
+                               : look.image.texture ? look_shaders - 1
+                                                    : 1 + std::size_t(look.pattern);
+    return 2 * (look_shaders * which + shader) + (variant.spans_cascades ? 1 : 0);
 }
 
 const ShaderProgram& BodyPass::program(const Variant& variant) {
@@ -69,6 +80,7 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     if (variant.spans_cascades) files.defines.emplace_back("SPANS_CASCADES");
     if (variant.charted) files.defines.emplace_back("CHARTED");
     if (variant.painted) files.defines.emplace_back("PAINTED");
+    for (const std::string& define : look_defines(looks_[variant.look])) files.defines.push_back(define);
     made = &device_->program(shaders_, files);
     connect(*made);
     return *made;

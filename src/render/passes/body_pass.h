@@ -23,6 +23,11 @@ std::vector<std::string> shadow_defines(const ShadowFilter& filter);
 /// Connects a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
 
+/// Shaders of looks: the shape's own, grids and checkers that darken, then those of RenderScene::looks by kind.
+inline constexpr std::size_t look_shaders = 11;
+/// Preprocessor definitions of a look.
+std::vector<std::string> look_defines(const SurfaceLook& look);
+
 class BodyPass {
 public:
     /// Compiles the shaders that the scene's bodies need; those for bodies that span cascades on first use.
@@ -39,9 +44,10 @@ private:
     struct Variant {
         DrawKind kind;
         bool patterned, lit, spans_cascades, charted, painted;
+        std::size_t look;  // index into RenderScene::looks
     };
     static Variant variant_of(const Batch& batch);
-    static std::size_t index_of(const Variant& variant);
+    std::size_t index_of(const Variant& variant) const;
     const ShaderProgram& program(const Variant& variant);
 
     GlDevice* device_;
@@ -49,7 +55,9 @@ private:
     bool shadows_;
     ShadowFilter filter_;
     bool metal_boxes_ = false;                         // highlights on their bevels flicker without filtering
-    std::array<const ShaderProgram*, 28> programs_{};  // by kind, pattern, light and cascade span; null: not yet used
+    // By kind, light, look and cascade span; null: not yet used.
+    std::array<const ShaderProgram*, 14 * look_shaders> programs_{};
+    std::vector<SurfaceLook> looks_;
 };
 
 }  // namespace tumble

@@ -36,6 +36,7 @@ struct Item {
     std::uint8_t face = 0;  // of a box
     bool patterned = false, lit = true, spans_cascades = false;
     bool charted = false, painted = false;  // given by the mesh
+    std::uint32_t look = 0;
 };
 
 Item item_of(std::size_t index, std::size_t mesh) {
@@ -49,8 +50,8 @@ Item item_of(std::size_t index, std::size_t mesh) {
 Item ordered(Item item, double distance, bool in_shells) {
     const double shell =
         in_shells ? std::floor(shells_per_doubling * std::log2(std::max(distance, 1e-30))) + shell_offset : 0.0;
-    item.order = std::uint64_t(shell) << 40 | std::uint64_t(item.mesh) << 3 | (item.spans_cascades ? 4u : 0u) |
-                 (item.patterned ? 2u : 0u) | (item.lit ? 1u : 0u);
+    item.order = std::uint64_t(shell) << 44 | std::uint64_t(item.mesh) << 16 | std::uint64_t(item.look) << 3 |
+                 (item.spans_cascades ? 4u : 0u) | (item.patterned ? 2u : 0u) | (item.lit ? 1u : 0u);
     item.distance = float(distance);
     return item;
 }
@@ -124,9 +125,10 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
     std::vector<Batch> batches;
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
-            batches.back().lit != item.lit || batches.back().spans_cascades != item.spans_cascades)
+            batches.back().lit != item.lit || batches.back().spans_cascades != item.spans_cascades ||
+            batches.back().look != item.look)
             batches.push_back({item.mesh, item.patterned, item.lit, item.spans_cascades, item.charted, item.painted,
-                               instances.size(), 0});
+                               item.look, instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
@@ -183,7 +185,8 @@ private:
         const RenderBody& proxy = frame_.scene.bodies[i];
         const DrawableBounds& bounds = frame_.drawables.bodies[i];
         Item item = item_of(i, mesh_of(proxy, frame_.scene, ball_of(bounds), frame_.camera));
-        item.patterned = proxy.pattern != Pattern::plain;
+        item.patterned = proxy.pattern != Pattern::panel;
+        item.look = std::uint32_t(proxy.look);
         item.spans_cascades = spans_cascades(bounds);
         if (proxy.kind == DrawKind::mesh) {
             item.charted = frame_.scene.meshes[proxy.mesh].charts.has_value();
@@ -197,7 +200,8 @@ private:
         const DrawableBounds& bounds = frame_.drawables.bodies[i];
         const Vec3 there = frame_.snapshot.bodies[i].orientation.conjugate() * light_;
         Item item = item_of(i, face_mesh);
-        item.patterned = frame_.scene.bodies[i].pattern != Pattern::plain;
+        item.patterned = frame_.scene.bodies[i].pattern != Pattern::panel;
+        item.look = std::uint32_t(frame_.scene.bodies[i].look);
         for (int face = 0; face < 6; ++face) {
             if ((visible_.faces[i] >> face & 1) == 0) continue;
             item.face = std::uint8_t(face);
@@ -223,6 +227,7 @@ private:
         made.roughness = proxy.roughness;
         made.metallic = proxy.metallic;
         made.pattern = pattern_number(proxy.pattern);
+        made.paint = proxy.paint;
         made.atlas_place = glm::vec2(float(place.x), float(place.y));
         made.tile_size = float(place.size);
         made.face = open_mesh ? 1.0f : float(item.face);

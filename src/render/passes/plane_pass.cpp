@@ -24,8 +24,8 @@ int other_planes(const RenderScene& scene) {
     return int(std::clamp<std::ptrdiff_t>(planes - 1, 0, most_other_planes));
 }
 
-std::vector<std::string> defines(Pattern pattern, int others) {
-    std::vector<std::string> all;
+std::vector<std::string> defines(Pattern pattern, const SurfaceLook& look, int others) {
+    std::vector<std::string> all = look_defines(look);
     if (pattern == Pattern::grid) all.emplace_back("GRID");
     if (pattern == Pattern::checker) all.emplace_back("CHECKER");
     if (others > 0) all.push_back(fmt::format("OTHER_PLANES {}", others));
@@ -48,13 +48,16 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
       filter_(filter),
       other_planes_(other_planes(scene)),
       sky_(device.program(shaders, {"sky.vert", "sky.frag", {}})),
+      planes_(3 + scene.looks.size()),
+      looks_(scene.looks),
+      textures_(*gl_),
       array_(*gl_, GlKind::vertex_array),
       corners_(*gl_, GlKind::buffer) {
     connect(sky_);
     for (const RenderBody& proxy : scene.bodies) {
-        auto& programs = planes_[std::size_t(proxy.pattern)];
+        auto& programs = planes_[index_of(proxy)];
         if (proxy.kind != DrawKind::plane || programs) continue;
-        programs.emplace(Programs{make(proxy.pattern, {}), make(proxy.pattern, occluded()), nullptr});
+        programs.emplace(Programs{make(proxy, {}), make(proxy, occluded()), nullptr});
     }
     gl_->BindVertexArray(array_.name());
     gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.name());
@@ -63,9 +66,15 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
     gl_->BindVertexArray(0);
 }
 
-const ShaderProgram* PlanePass::make(Pattern pattern, const std::vector<std::string>& more) const {
-    const ShaderProgram& made =
-        device_->program(shaders_, {"plane.vert", "plane.frag", with(defines(pattern, other_planes_), more)});
+/// Those without a look of the scene come first, by their pattern.
+std::size_t PlanePass::index_of(const RenderBody& proxy) {
+    return proxy.look == 0 ? std::size_t(proxy.pattern) : 2 + proxy.look;
+}
+
+const ShaderProgram* PlanePass::make(const RenderBody& proxy, const std::vector<std::string>& more) const {
+    const ShaderProgram& made = device_->program(
+        shaders_,
+        {"plane.vert", "plane.frag", with(defines(proxy.pattern, looks_[proxy.look], other_planes_), more)});
     connect(made);
     return &made;
 }
@@ -106,7 +115,7 @@ void PlanePass::draw_background(const FrameContext& frame) const {
     gl_->DepthFunc(GL_LESS);
     for (std::size_t i = frame.planes.size(); i-- > 0;) {
         const PlanePatch& plane = frame.planes[i];
-        set_uniforms(*planes_[std::size_t(frame.scene.bodies[plane.body].pattern)]->background, plane, frame);
+        set_uniforms(*planes_[index_of(frame.scene.bodies[plane.body])]->background, plane, frame);
         draw_polygon(plane.corners);
     }
     gl_->DepthFunc(GL_LEQUAL);
@@ -121,10 +130,10 @@ void PlanePass::draw_regions(const FrameContext& frame, const std::vector<std::v
     for (std::size_t i = 0; i < frame.planes.size(); ++i) {
         if (regions[i].empty()) continue;
         const PlanePatch& plane = frame.planes[i];
-        const Pattern pattern = frame.scene.bodies[plane.body].pattern;
-        Programs& programs = *planes_[std::size_t(pattern)];
+        const RenderBody& proxy = frame.scene.bodies[plane.body];
+        Programs& programs = *planes_[index_of(proxy)];
         if (far_shadows && programs.occluded_far == nullptr)
-            programs.occluded_far = make(pattern, with(occluded(), {"FAR_MAP"}));
+            programs.occluded_far = make(proxy, with(occluded(), {"FAR_MAP"}));
         const ShaderProgram& program = far_shadows ? *programs.occluded_far : *programs.occluded;
         upload_polygon(plane.corners);
         set_uniforms(program, plane, frame);
@@ -146,6 +155,13 @@ void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& pla
     program.set("plane_v", plane.v);
     program.set("plane_color", glm::vec4(proxy.color, proxy.roughness));
     program.set("plane_material", glm::vec4(proxy.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
+    if (proxy.look != 0) {
+        program.set("plane_paint", proxy.paint);
+        if (const MeshMaterial& image = looks_[proxy.look].image; image.texture) {
+            gl_->ActiveTexture(GL_TEXTURE0 + paint_unit);
+            textures_.name_of(image);  // binds it
+        }
+    }
     if (other_planes_ == 0) return;
     std::vector<glm::vec4> others;  // planes outside the view are placed far below, where they have no effect
     for (const PlanePatch& other : frame.planes)

@@ -6,6 +6,7 @@
 #include "render/frame/frame_context.h"
 #include "render/gl/gl_device.h"
 #include "render/gl/gl_object.h"
+#include "render/mesh/texture_cache.h"
 
 #include <array>
 #include <filesystem>
@@ -40,7 +41,8 @@ private:
         const ShaderProgram *background, *occluded;
         const ShaderProgram* occluded_far;  // null until the far shadow map is in use
     };
-    const ShaderProgram* make(Pattern pattern, const std::vector<std::string>& more) const;
+    static std::size_t index_of(const RenderBody& proxy);
+    const ShaderProgram* make(const RenderBody& proxy, const std::vector<std::string>& more) const;
     std::vector<std::string> occluded() const;
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const FrameContext& frame) const;
     void set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
@@ -53,9 +55,11 @@ private:
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
-    std::array<std::optional<Programs>, 3> planes_;  // by pattern, as far as the scene uses it
     int other_planes_;
     const ShaderProgram& sky_;
+    std::vector<std::optional<Programs>> planes_;  // by pattern and look, as far as the scene uses it
+    std::vector<SurfaceLook> looks_;
+    mutable TextureCache textures_;
     GlObject array_, corners_;
 };
 

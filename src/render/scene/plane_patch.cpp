@@ -9,8 +9,9 @@
 namespace tumble {
 namespace {
 
-// Coordinates along the axes are kept small by subtracting whole periods of the pattern (2 cells for a checker).
-constexpr double period = 2.0;  // cells
+// Coordinates along the axes are kept small by subtracting whole periods of the pattern, in cells. Noise has none: it
+// has a seam there.
+constexpr double checker_period = 2.0, noise_period = 65536.0;
 
 using Polygon = std::vector<Eigen::Vector2d>;  // clip space x and y
 
@@ -34,7 +35,7 @@ Polygon clipped(const Polygon& polygon, Function function) {
     return result;
 }
 
-glm::vec4 axis(const Vec3& direction, const Vec3& eye_from_origin, double cell) {
+glm::vec4 axis(const Vec3& direction, const Vec3& eye_from_origin, double cell, double period) {
     const double cells = direction.dot(eye_from_origin) / cell;
     return to_glm(direction / cell, cells - period * std::floor(cells / period));
 }
@@ -61,7 +62,7 @@ double pattern_cell(double viewing_distance) {
 namespace {
 
 std::optional<PlanePatch> make_plane_patch(const RenderBody& proxy, const BodyState& state, std::size_t body,
-                                           const Camera& view, double near_distance, double cell) {
+                                           const Camera& view, double near_distance, double cell, double period) {
     const PlaneShape plane = plane_in_world(proxy, state);
     PlanePatch patch;
     patch.normal = plane.normal;
@@ -79,8 +80,8 @@ std::optional<PlanePatch> make_plane_patch(const RenderBody& proxy, const BodySt
     // The pattern's axes are the body's, so that it moves with the body.
     const PlaneAxes axes = plane_axes(proxy.plane.normal);
     const Vec3 from_origin = view.eye() - state.origin;
-    patch.u = axis(state.orientation * axes.u, from_origin, cell);
-    patch.v = axis(state.orientation * axes.v, from_origin, cell);
+    patch.u = axis(state.orientation * axes.u, from_origin, cell, period);
+    patch.v = axis(state.orientation * axes.v, from_origin, cell, period);
     return patch;
 }
 
@@ -91,8 +92,13 @@ std::vector<PlanePatch> make_plane_patches(const RenderScene& scene, const Snaps
     const double cell = pattern_cell(view.viewing_distance());
     std::vector<PlanePatch> patches;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        if (scene.bodies[i].kind != DrawKind::plane) continue;
-        if (auto patch = make_plane_patch(scene.bodies[i], snapshot.bodies[i], i, view, near_distance, cell))
+        const RenderBody& proxy = scene.bodies[i];
+        if (proxy.kind != DrawKind::plane) continue;
+        const Pattern pattern = scene.looks[proxy.look].pattern;
+        const bool noise = pattern == Pattern::noise || pattern == Pattern::wood || pattern == Pattern::marble;
+        if (auto patch = make_plane_patch(proxy, snapshot.bodies[i], i, view, near_distance,
+                                          proxy.pattern_cell > 0.0 ? proxy.pattern_cell : cell,
+                                          noise ? noise_period : checker_period))
             patches.push_back(std::move(*patch));
     }
     return patches;

@@ -6,26 +6,15 @@
 #include "core/vector.h"
 #include "render/camera/camera.h"
 #include "render/scene/render_scene.h"
+#include "scene/description/looks.h"
 #include "sim/snapshot/snapshot.h"
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include <cmath>
 #include <vector>
 
 namespace tumble {
-
-/// The axes of a plane's pattern and of its tile in the AO atlas.
-struct PlaneAxes {
-    Vec3 u, v;  // unit, in the plane, u x v = normal
-};
-
-inline PlaneAxes plane_axes(const Vec3& normal) {
-    const Vec3 across = std::abs(normal.x()) < 0.9 ? Vec3::UnitX() : Vec3::UnitY();
-    const Vec3 u = (across - normal * normal.dot(across)).normalized();
-    return {u, normal.cross(u)};
-}
 
 struct PlanePatch {
     std::vector<glm::vec3> corners;  // clip space (w = 1), a convex polygon

@@ -1,12 +1,67 @@
 #include "render/scene/render_scene.h"
 
+#include "core/error.h"
 #include "render/scene/large_receivers.h"
 #include "render/shapes/drawn_shape.h"
+#include "scene/description/looks.h"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 
 namespace tumble {
+namespace {
+
+constexpr std::size_t most_looks = 1 << 13;  // that the order of drawing has bits for
+
+/// The index of the look, which is appended if it is new.
+std::size_t look_index(const SurfaceLook& look, std::vector<SurfaceLook>& looks) {
+    const auto same = [&](const SurfaceLook& other) {
+        const MeshMaterial &a = look.image, &b = other.image;
+        return look.pattern == other.pattern && a.texture == b.texture && a.wrap_u == b.wrap_u &&
+               a.wrap_v == b.wrap_v && a.nearest == b.nearest;
+    };
+    const auto known = std::find_if(looks.begin(), looks.end(), same);
+    if (known != looks.end()) return std::size_t(known - looks.begin());
+    if (looks.size() == most_looks) throw RunError(fmt::format("the scene has more than {} textures", most_looks));
+    looks.push_back(look);
+    return looks.size() - 1;
+}
+
+/// A shape that is drawn as a mesh gets one with its texture.
+void paint_mesh_of(const BodyDescription& body, RenderBody& proxy, RenderScene& scene) {
+    RenderMesh mesh = scene.meshes[proxy.mesh];
+    mesh.own_paint = texture_paint(body.shape, body.appearance, mesh.asset->vertices, mesh.asset->indices);
+    mesh.paint = mesh.own_paint.get();
+    proxy.mesh = scene.meshes.size();
+    scene.meshes.push_back(std::move(mesh));
+}
+
+void set_look(const BodyDescription& body, RenderBody& proxy, RenderScene& scene) {
+    const Appearance& look = body.appearance;
+    const bool drawn_plain = proxy.kind == DrawKind::box || proxy.kind == DrawKind::ball;
+    if (look.pattern_scale > 0.0) proxy.pattern_cell = look.pattern_scale;
+    if (look.texture && proxy.kind == DrawKind::mesh) {
+        if (!std::holds_alternative<MeshShape>(body.shape)) paint_mesh_of(body, proxy, scene);
+    } else if (look.texture) {
+        SurfaceLook image{Pattern::plain, texture_material(body.shape, look)};
+        proxy.look = look_index(image, scene.looks);
+        const auto [around, along] = images_on_ball(body.shape, look.texture_scale);
+        proxy.paint = glm::vec4(float(around), float(along), 0.0f, float(look.texture_scale));
+        if (proxy.kind == DrawKind::plane) proxy.pattern_cell = look.texture_scale > 0.0 ? look.texture_scale : 1.0;
+    } else if (two_colored(look)) {
+        proxy.look = look_index({look.pattern}, scene.looks);
+        const std::array<double, 3> second = to_linear(second_color(look));
+        proxy.paint = glm::vec4(float(second[0]), float(second[1]), float(second[2]), 0.0f);
+    } else if (look.pattern == Pattern::plain) {
+        if (drawn_plain) proxy.look = look_index({look.pattern}, scene.looks);
+    } else {
+        proxy.pattern = look.pattern;
+    }
+}
+
+}  // namespace
 
 RenderScene describe_bodies(const SceneDescription& description) {
     RenderScene scene;
@@ -22,7 +77,7 @@ RenderScene describe_bodies(const SceneDescription& description) {
             proxy.color = {float(linear[0]), float(linear[1]), float(linear[2])};
             proxy.roughness = float(body.appearance.roughness);
             proxy.metallic = float(body.appearance.metallic);
-            proxy.pattern = body.appearance.pattern;
+            set_look(body, proxy, scene);
         }
         if (proxy.kind == DrawKind::plane) scene.planes.push_back(scene.bodies.size());
         scene.bodies.push_back(proxy);

@@ -74,6 +74,9 @@ std::vector<SurfaceCorner> surface_triangles(const MeshShape& shape);
 void cast_rays(const MeshShape& shape, const PartPlace& place, RayTarget& target);
 Vec3 surface_normal(const MeshShape& shape, const PartPlace&, std::uint32_t triangle, const Vec3& ray, double depth);
 
+/// A color in linear light as bytes; light above 1 is 1.
+Color encoded(const std::array<float, 3>& linear);
+
 /// The color of the file at the intersection of a ray with a triangle, sRGB. Precondition: the shape has paint.
 Color painted_color(const MeshShape& mesh, const PartPlace& place, std::uint32_t triangle, const Vec3& ray);
 

@@ -88,6 +88,14 @@ void cast_rays(const MeshShape& mesh, const PartPlace& place, RayTarget& target)
     target.add_triangles(vertices, mesh.asset->indices);
 }
 
+Color encoded(const std::array<float, 3>& linear) {
+    const auto channel = [&](std::size_t c) {
+        const double light = linear[c] > 0.0f ? std::min(double(linear[c]), 1.0) : 0.0;
+        return std::uint8_t(std::lround(255.0 * linear_to_srgb(light)));
+    };
+    return {channel(0), channel(1), channel(2)};
+}
+
 Color painted_color(const MeshShape& mesh, const PartPlace& place, std::uint32_t triangle, const Vec3& ray) {
     const MeshPaint& paint = *mesh.paint();
     const std::size_t first = 3 * std::size_t(triangle);
@@ -104,12 +112,7 @@ Color painted_color(const MeshShape& mesh, const PartPlace& place, std::uint32_t
         for (std::size_t k = 0; k < 2; ++k) uv[k] += float(shares[i]) * corner.uv[k];
         for (std::size_t k = 0; k < 3; ++k) color[k] += float(shares[i]) * corner.color[k];
     }
-    const std::array<float, 3> linear = color_at(paint.materials[paint.material_of_triangle[triangle]], uv, color);
-    const auto channel = [&](std::size_t c) {
-        const double light = linear[c] > 0.0f ? std::min(double(linear[c]), 1.0) : 0.0;
-        return std::uint8_t(std::lround(255.0 * linear_to_srgb(light)));
-    };
-    return {channel(0), channel(1), channel(2)};
+    return encoded(color_at(paint.materials[paint.material_of_triangle[triangle]], uv, color));
 }
 
 Vec3 surface_normal(const MeshShape& mesh, const PartPlace& place, std::uint32_t triangle, const Vec3& ray, double) {

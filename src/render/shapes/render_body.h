@@ -6,6 +6,7 @@
 #include "scene/description/description.h"
 
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -27,11 +28,13 @@ struct RenderBody {
     double bound_radius = 0.0;         // m
     double ao_radius = 0.0;            // AO radius, for occluding and being occluded, m
     double bevel = 0.0;                // m
-    double pattern_cell = 1.0;         // m; a plane's follows the reference distance instead
+    double pattern_cell = 0.0;         // m; 0 of a plane: it follows the reference distance
     PlaneShape plane;                  // planes only
     glm::vec3 color{1.0f};             // linear light
     float roughness = 0.6f, metallic = 0.0f;
-    Pattern pattern = Pattern::plain;
+    Pattern pattern = Pattern::panel;  // or a grid or a checker that darkens; others are looks
+    std::size_t look = 0;              // index into RenderScene::looks
+    glm::vec4 paint{0.0f};             // Instance::paint
     bool large_receiver = false;     // a large receiver, see large_receivers.h
     bool fixed = false;              // never moves
     bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
@@ -53,9 +56,16 @@ struct VertexSample {
     Vec3 normal;    // unit
 };
 
+/// A pattern of two colors, a plain surface, or an image: surfaces with shaders of their own.
+struct SurfaceLook {
+    Pattern pattern = Pattern::panel;
+    MeshMaterial image = {};  // without a texture: a pattern
+};
+
 struct RenderMesh {
     std::shared_ptr<const MeshAsset> asset;
     const MeshPaint* paint = nullptr;  // of the asset: the colors of its file; null: the color of the body
+    std::shared_ptr<const MeshPaint> own_paint = nullptr;  // paint of a shape with a texture, whose asset has none
     bool closed = true;                // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;

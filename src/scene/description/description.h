@@ -198,15 +198,25 @@ inline Color plain_color(const Shape& shape, Color of_body) {
 /// The material that a body sounds of (sound/sound_track.h).
 enum class SoundMaterial { wood, metal, glass, stone, plastic, rubber, none };
 
-enum class Pattern { plain, grid, checker };
+/// panel: the look of the shape itself, which are grooves on a box and paler octants on a sphere. Other shapes have none,
+/// so that for them it stands for plain too.
+enum class Pattern { panel, grid, checker, plain, stripes, dots, noise, wood, marble };
+
+/// Magnified texels: blended with their neighbors, or squares.
+enum class TextureFilter { linear, nearest };
 
 /// Appearance of a body.
 struct Appearance {
-    Color color{200, 200, 200};
+    Color color{200, 200, 200};        // multiplies the texture
     double roughness = 0.6;            // 0 mirror .. 1 chalk
     double metallic = 0.0;             // 0 or 1, or between
-    Pattern pattern = Pattern::plain;  // planes default to grid
+    Pattern pattern = Pattern::panel;  // planes default to grid
     bool visible = true;
+    std::optional<Color> pattern_color;      // second color; none: a darker one, see scene/description/looks.h
+    double pattern_scale = 0.0;              // m, of a cell; 0: by the size of the shape
+    std::shared_ptr<const Texture> texture;  // null: none. A mesh has its own in its paint
+    double texture_scale = 0.0;              // m that the image covers; 0: a face, or the way around
+    TextureFilter texture_filter = TextureFilter::linear;
 };
 
 /// A pose of a kinematic body's origin at a time.

@@ -6,6 +6,7 @@
 #include "scene/toml/limits.h"
 
 #include <array>
+#include <memory>
 #include <optional>
 
 namespace tumble {
@@ -21,12 +22,17 @@ struct Material {
     std::optional<double> roughness;
     std::optional<double> metallic;
     std::optional<Pattern> pattern;
+    std::optional<Color> pattern_color;
+    std::optional<double> pattern_scale;     // m
+    std::shared_ptr<const Texture> texture;  // null: none
+    std::optional<double> texture_scale;     // m
+    std::optional<TextureFilter> texture_filter;
     std::optional<SoundMaterial> sound;
 };
 
 template <class Visitor, class Self>
 void visit_fields(Of<Material>, Visitor& field, Self& self) {
-    field(self.color, "color", ByType(), {{}, "`\"#cf9a5b\"`, planes `\"#d6d8da\"`"});
+    field(self.color, "color", ByType(), {{}, "`\"#cf9a5b\"`, planes `\"#d6d8da\"`, with a texture white"});
     field(self.density, "density", limits::density, {{}, "1000"});
     field(self.restitution, "restitution", limits::restitution,
           {"ratio of normal speeds after and before an impact. The default is for dynamic bodies; fixed and kinematic "
@@ -48,7 +54,16 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
            "0"});
     field(self.roughness, "roughness", limits::fraction, {"0: mirror, 1: matte", "0.6"});
     field(self.metallic, "metallic", limits::fraction, {"1: metal", "0"});
-    field(self.pattern, "pattern", ByType(), {{}, "`\"plain\"`, planes `\"grid\"`"});
+    field(self.pattern, "pattern", ByType(),
+          {"see [patterns and textures](#patterns-and-textures)", "`\"panel\"`, planes `\"grid\"`"});
+    field(self.pattern_color, "pattern_color", ByType(), {"second color of the pattern", "the color, darker"});
+    field(self.pattern_scale, "pattern_scale", limits::size, {"of a cell of the pattern", "by the size of the body"});
+    field(self.texture, "texture", ByCode(),
+          {"PNG or JPEG file, relative to the folder of the scene; the color multiplies it", "none", {}, "string"});
+    field(self.texture_scale, "texture_scale", limits::size,
+          {"length that the image covers once", "a face of a box, the way around a sphere, 1 m of a plane"});
+    field(self.texture_filter, "texture_filter", ByType(),
+          {"magnified texels: blended, or squares", "`\"linear\"`"});
     field(self.sound, "sound", ByType(),
           {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`", .picture = true});
 }
@@ -60,6 +75,9 @@ void visit_fields(Of<Appearance>, Visitor& field, Self& self) {
     field(self.metallic, "metallic", limits::fraction);
     field(self.pattern, "pattern", ByType());
     field(self.visible, "visible", ByType());
+    field.since(self.pattern_color.has_value(), self.pattern_color);  // other scenes keep their hash
+    field.since(self.pattern_scale != 0.0, self.pattern_scale);
+    field.since(self.texture != nullptr, self.texture, self.texture_scale, self.texture_filter);
 }
 
 /// A body of the interface has its visibility itself, that of a description in its appearance.

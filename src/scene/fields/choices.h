@@ -74,7 +74,18 @@ inline constexpr auto choices<BodyType> = std::to_array<Choice<BodyType>>({{"dyn
                                                                            {"kinematic", BodyType::kinematic}});
 template <>
 inline constexpr auto choices<Pattern> =
-    std::to_array<Choice<Pattern>>({{"plain", Pattern::plain}, {"grid", Pattern::grid}, {"checker", Pattern::checker}});
+    std::to_array<Choice<Pattern>>({{"plain", Pattern::plain},
+                                    {"panel", Pattern::panel},
+                                    {"grid", Pattern::grid},
+                                    {"checker", Pattern::checker},
+                                    {"stripes", Pattern::stripes},
+                                    {"dots", Pattern::dots},
+                                    {"noise", Pattern::noise},
+                                    {"wood", Pattern::wood},
+                                    {"marble", Pattern::marble}});
+template <>
+inline constexpr auto choices<TextureFilter> = std::to_array<Choice<TextureFilter>>(
+    {{"linear", TextureFilter::linear}, {"nearest", TextureFilter::nearest}});
 template <>
 inline constexpr auto choices<SoundMaterial> = std::to_array<Choice<SoundMaterial>>({{"wood", SoundMaterial::wood},
                                                                                      {"metal", SoundMaterial::metal},

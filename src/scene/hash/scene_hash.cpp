@@ -190,6 +190,7 @@ private:
         add_all(levels.front().width, levels.front().height);
         add_bytes(std::as_bytes(std::span(levels.front().texels)));
     }
+    void add_value(const std::shared_ptr<const Texture>& texture) { add_shared(texture); }
     void add_value(const MeshMaterial& material) {
         const auto& [color, roughness, metallic, emission, cutoff, texture, wrap_u, wrap_v, nearest] = material;
         add_bytes(std::as_bytes(std::span(color)));

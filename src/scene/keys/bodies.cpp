@@ -19,7 +19,8 @@ namespace {
 
 /// "file" is no material unless the scene has one of that name: the colors of a mesh file, which it has without a color
 /// of its own.
-Material read_material(const TomlTable& table, const Shape& shape, const Materials& materials) {
+Material read_material(const TomlTable& table, const Shape& shape, const BodySources& sources) {
+    const Materials& materials = sources.materials;
     Material material, own;
     const auto name = table.find("material");
     if (name && name->text() == "file" && !materials.contains("file")) {
@@ -30,7 +31,7 @@ Material read_material(const TomlTable& table, const Shape& shape, const Materia
     } else if (name) {
         material = find_material(materials, *name);
     }
-    read_fields(table, own);
+    read_material_keys(table, {sources.folder, sources.textures}, own);
     return overridden(material, own);
 }
 
@@ -106,8 +107,8 @@ void BodyNames::take(const std::string& name, const SourcePosition& origin) {
 
 BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequest& shape,
                                 const BodySources& sources) {
-    Material material = read_material(table, shape.shape, sources.materials);
-    if (material.color || table.has("colors"))
+    Material material = read_material(table, shape.shape, sources);
+    if (material.color || material.texture || table.has("colors"))
         shape.shape = without_paint(shape.shape);
     else
         material.color = mean_paint(shape.shape);
@@ -117,6 +118,7 @@ BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequ
     read_fields(table, body);
     if (table.has("name") && body.name.empty()) table.find("name")->fail("must not be empty");
     apply_material(material, body);
+    shape.shape = body.shape;
     if (body.mass && table.has("density"))
         table.find("density")->origin().fail("and mass exclude each other: give one of them");
     check_motion(table, body);

@@ -21,7 +21,8 @@ struct BodySources {
     const std::filesystem::path& folder;  // of relative paths
     const SimulationSettings& settings;
     MeshCache& meshes;
-    std::vector<std::filesystem::path>& files;  // gets those that are read, beside meshes
+    TextureFiles& textures;
+    std::vector<std::filesystem::path>& files;  // gets those that are read, beside meshes and textures
 };
 
 /// The text of the file that the value names, at most limits::scene_bytes. `file`: gets its path. `what`: "template".

@@ -1,15 +1,57 @@
 #include "scene/keys/materials.h"
 
 #include "core/safe_text.h"
+#include "scene/description/looks.h"
 #include "scene/keys/read_fields.h"
+#include "scene/mesh/mesh_file.h"
+#include "scene/toml/limits.h"
 
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
 
 namespace tumble {
 namespace {
 
 constexpr Color default_color{0xcf, 0x9a, 0x5b};        // light wood: contrasts with ground and sky
 constexpr Color default_plane_color{0xd6, 0xd8, 0xda};  // light gray, on which shadows and grid lines are visible
+
+/// Shapes with a look of their own (Pattern::panel).
+bool has_panels(const Shape& shape) {
+    return std::holds_alternative<BoxShape>(shape) || std::holds_alternative<SphereShape>(shape) ||
+           std::holds_alternative<CompoundShape>(shape);
+}
+
+/// By the coordinates of the file, or by the sides of its bounding box.
+MeshShape with_texture(const MeshShape& mesh, const Appearance& look) {
+    auto asset = std::make_shared<MeshAsset>(*mesh.asset);
+    auto paint = std::make_shared<MeshPaint>(*texture_paint(mesh, look, asset->vertices, asset->indices));
+    const MeshPaint* of_file = mesh.asset->paint.get();
+    const auto placed = [](const MeshPaint::Corner& corner) { return corner.uv != std::array<float, 2>{}; };
+    if (of_file != nullptr && look.texture_scale == 0.0 && std::ranges::any_of(of_file->corners, placed)) {
+        for (std::size_t i = 0; i < paint->corners.size(); ++i) paint->corners[i].uv = of_file->corners[i].uv;
+        paint->materials.front().wrap_u = paint->materials.front().wrap_v = TextureWrap::repeat;
+    }
+    asset->paint = std::move(paint);
+    MeshShape made = mesh;
+    made.asset = std::move(asset);
+    made.painted = true;
+    return made;
+}
+
+Shape textured(const Shape& shape, const Appearance& look) {
+    if (const auto* mesh = std::get_if<MeshShape>(&shape)) return with_texture(*mesh, look);
+    const auto* compound = std::get_if<CompoundShape>(&shape);
+    if (compound == nullptr) return shape;
+    auto parts = std::make_shared<std::vector<CompoundPart>>(*compound->parts);
+    for (CompoundPart& part : *parts) {
+        Appearance of_part = look;
+        of_part.color = part.color.value_or(look.color);
+        part.shape = textured(part.shape, of_part);
+    }
+    return CompoundShape{std::move(parts)};
+}
 
 }  // namespace
 
@@ -23,18 +65,43 @@ Material overridden(const Material& material, const Material& over) {
             either(material.spinning_friction, over.spinning_friction),
             either(material.roughness, over.roughness),
             either(material.metallic, over.metallic),
-            either(material.pattern, over.pattern),
+            over.texture ? over.pattern : either(material.pattern, over.pattern),
+            either(material.pattern_color, over.pattern_color),
+            either(material.pattern_scale, over.pattern_scale),
+            over.pattern ? over.texture : either(material.texture, over.texture),
+            either(material.texture_scale, over.texture_scale),
+            either(material.texture_filter, over.texture_filter),
             either(material.sound, over.sound)};
 }
 
-Materials read_materials(const TomlTable& root) {
+void read_material_keys(const TomlTable& table, const TextureSource& textures, Material& material) {
+    read_fields(table, material);
+    const auto value = table.find("texture");
+    if (!value) return;
+    for (const char* key : {"pattern", "pattern_color", "pattern_scale"})
+        if (const auto other = table.find(key)) other->origin().fail("and texture exclude each other: give one of them");
+    const std::string name = value->text();
+    if (name.empty()) value->fail("must not be empty");
+    if (name.find('\0') != std::string::npos) value->fail("must not hold a zero byte");
+    const std::filesystem::path file = (textures.folder / std::filesystem::path(name)).lexically_normal();
+    try {
+        material.texture = textures.files.load(file);
+    } catch (const MeshError& error) {
+        throw InputError(value->origin().where, fmt::format("texture \"{}\" {} (looked at {})",
+                                                            safe_text(name, path_text_bytes), error.what(),
+                                                            safe_path(file)));
+    }
+}
+
+Materials read_materials(const TomlTable& root, const TextureSource& textures) {
     Materials materials;
     const auto table = root.find_table("materials");
     if (!table) return materials;
     for (const auto& [name, value] : table->entries()) {
         TomlTable entry = value.table();
         entry.set_title(fmt::format("[materials.{}]", name));
-        materials.emplace(name, read_all_fields<Material>(entry));
+        entry.expect_keys(list_keys<Material>().keys);
+        read_material_keys(entry, textures, materials[name]);
     }
     return materials;
 }
@@ -49,10 +116,22 @@ const Material& find_material(const Materials& materials, const TomlValue& value
 
 void apply_material(const Material& material, BodyDescription& body) {
     const bool is_plane = endless(body.shape);
-    body.appearance.color = material.color.value_or(is_plane ? default_plane_color : default_color);
-    body.appearance.pattern = material.pattern.value_or(is_plane ? Pattern::grid : Pattern::plain);
-    body.appearance.roughness = material.roughness.value_or(body.appearance.roughness);
-    body.appearance.metallic = material.metallic.value_or(body.appearance.metallic);
+    Appearance& look = body.appearance;
+    look.color = material.color.value_or(material.texture ? Color{255, 255, 255}
+                                         : is_plane       ? default_plane_color
+                                                          : default_color);
+    look.pattern = material.pattern.value_or(material.texture ? Pattern::plain
+                                             : is_plane       ? Pattern::grid
+                                                              : Pattern::panel);
+    if (look.pattern == Pattern::plain && !has_panels(body.shape)) look.pattern = Pattern::panel;
+    look.roughness = material.roughness.value_or(look.roughness);
+    look.metallic = material.metallic.value_or(look.metallic);
+    look.pattern_color = material.pattern_color;
+    look.pattern_scale = material.pattern_scale.value_or(0.0);
+    look.texture = material.texture;
+    look.texture_scale = material.texture_scale.value_or(0.0);
+    look.texture_filter = material.texture_filter.value_or(look.texture_filter);
+    if (look.texture) body.shape = textured(body.shape, look);
     body.density = material.density.value_or(body.density);
     body.restitution = material.restitution;
     body.sound = material.sound.value_or(body.sound);

@@ -2,8 +2,10 @@
 #pragma once
 
 #include "scene/fields/body_fields.h"
+#include "scene/mesh/texture_files.h"
 #include "scene/toml/toml_reader.h"
 
+#include <filesystem>
 #include <map>
 #include <string>
 
@@ -14,12 +16,22 @@ Material overridden(const Material& material, const Material& over);
 
 using Materials = std::map<std::string, Material, std::less<>>;
 
-Materials read_materials(const TomlTable& root);
+/// Where the textures of materials come from.
+struct TextureSource {
+    const std::filesystem::path& folder;  // of relative paths
+    TextureFiles& files;
+};
+
+Materials read_materials(const TomlTable& root, const TextureSource& textures);
+
+/// Reads the keys of a material in a table, those of a body as well, with its texture.
+void read_material_keys(const TomlTable& table, const TextureSource& textures, Material& material);
 
 /// The material of that name, or an error with the nearest or all known names.
 const Material& find_material(const Materials& materials, const TomlValue& name);
 
-/// Sets the physical and visual properties of a body, with the defaults of its shape.
+/// Sets the physical and visual properties of a body, with the defaults of its shape. Its meshes get the texture in
+/// place of the colors of their files.
 void apply_material(const Material& material, BodyDescription& body);
 
 }  // namespace tumble

@@ -312,6 +312,11 @@ Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes) {
         MeshShape larger = *mesh;
         larger.asset = meshes.load(request.mesh, request.mesh_scale * factor).asset;
         larger.thickness *= factor;
+        if (larger.painted && larger.asset->paint != mesh->asset->paint) {  // it has a texture of the scene
+            auto own = std::make_shared<MeshAsset>(*larger.asset);
+            own->paint = mesh->asset->paint;
+            larger.asset = std::move(own);
+        }
         return larger;
     }
     return meshes.enlarged(request.shape, factor);

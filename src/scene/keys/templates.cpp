@@ -33,9 +33,10 @@ SceneTemplate read_template_file(const TomlValue& value, const BodySources& sour
     const TomlTable root(document, {"template", {file.string(), 1, 1}}, "the file of a template");
     refuse_instances(root);
     root.expect_keys({"format", "title", "materials", "body", "joint", "chain"});
-    const Materials materials = read_materials(root);
     const std::filesystem::path folder = file.parent_path();
-    return read_content(root, {materials, folder, sources.settings, sources.meshes, sources.files}, value.origin());
+    const Materials materials = read_materials(root, {folder, sources.textures});
+    return read_content(root, {materials, folder, sources.settings, sources.meshes, sources.textures, sources.files},
+                        value.origin());
 }
 
 SceneTemplate read_template(const TomlTable& table, const BodySources& sources) {

@@ -21,6 +21,11 @@ namespace {
 
 using Linear = std::array<float, 4>;  // red, green and blue times alpha; alpha
 
+/// The predicate of an error: of the file, or of an image of that name in it.
+std::string about_image(const std::string& name, const std::string& fault) {
+    return name.empty() ? "is " + fault : fmt::format("has the image \"{}\", which is {}", name, fault);
+}
+
 bool is_jpeg(std::string_view bytes) { return bytes.starts_with("\xff\xd8\xff"); }
 
 /// The rows of an image in memory.
@@ -28,15 +33,15 @@ class ImageRows {
 public:
     explicit ImageRows(std::string_view bytes, const std::string& name) {
         OpenFile file(::fmemopen(const_cast<char*>(bytes.data()), bytes.size(), "rb"));  // opened for reading
-        if (!file) throw MeshError(fmt::format("has the image \"{}\", which is empty", name));
+        if (!file) throw MeshError(about_image(name, "empty"));
         if (is_jpeg(bytes))
             jpeg_.emplace(std::move(file), name);
         else
             png_.emplace(std::move(file), name);
         const ImageSize size = this->size();
         if (std::max(size.width, size.height) > limits::texture_side)
-            throw MeshError(fmt::format("has the image \"{}\" of {} x {} pixels (at most {} a side)", name, size.width,
-                                        size.height, limits::texture_side));
+            throw MeshError(about_image(name, fmt::format("too large: {} x {} pixels (at most {} a side)", size.width,
+                                                          size.height, limits::texture_side)));
     }
 
     ImageSize size() const { return jpeg_ ? jpeg_->size() : png_->size(); }
@@ -54,7 +59,7 @@ void with_rows(std::string_view bytes, const std::string& name, const Visit& vis
         ImageRows rows(bytes, name);
         visit(rows);
     } catch (const InputError& error) {
-        throw MeshError(fmt::format("has the image \"{}\", which is {}", name, error.message()));
+        throw MeshError(about_image(name, error.message()));
     }
 }
 
@@ -142,8 +147,8 @@ std::shared_ptr<const Texture> make_texture(std::string_view bytes, const std::s
         Texture::Level image{rows.size().width, rows.size().height, {}};
         texels += std::int64_t(image.width) * image.height;
         if (texels > limits::texture_texels)
-            throw MeshError(fmt::format("has images of more than {} megapixels together, with \"{}\"",
-                                        limits::texture_texels >> 20, name));
+            throw MeshError(about_image(name, fmt::format("too much: the limit of all images together is {} megapixels",
+                                                          limits::texture_texels >> 20)));
         for (int y = 0; y < image.height; ++y) {
             const std::span<const std::uint8_t> row = rows.next();
             for (std::size_t at = 0; at + 3 < row.size(); at += 4) {

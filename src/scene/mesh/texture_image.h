@@ -15,8 +15,8 @@ namespace tumble {
 bool is_texture_image(std::string_view bytes);
 
 /// The texture of an image in sRGB. Mip maps are means in linear light, weighted by alpha. Adds its texels to `texels`,
-/// of which a file has limits::texture_texels at most. Throws MeshError, with the image's name, if it is broken or too
-/// large.
+/// of which a file has limits::texture_texels at most. Throws MeshError if it is broken or too large, with the name of
+/// the image in a mesh file; without a name the image is the file.
 std::shared_ptr<const Texture> make_texture(std::string_view bytes, const std::string& name, std::int64_t& texels);
 
 /// The mean of the bytes of each channel, from 0 to 1, of an image that holds numbers. Throws as make_texture().

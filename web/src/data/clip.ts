@@ -65,6 +65,8 @@ export interface Scene {
   cords: Cord[];
   /** Triangle meshes that shapes name by index. */
   meshes: Mesh[];
+  /** Images that bodies name by index. */
+  textures: Texels[];
   light: { direction: Vec3; shadows: boolean };
   /** Whether the camera moves by itself: keyframes, an orbit or a followed body. */
   camera_moves: boolean;
@@ -99,11 +101,14 @@ export interface MeshPaint {
   groups: { first: number; count: number; texture: MeshTexture | null }[];
 }
 
-export interface MeshTexture {
+export interface Texels {
   width: number;
   height: number;
   /** Four bytes a texel, rows from the top: square roots of linear light, and alpha. */
   texels: Uint8Array;
+}
+
+export interface MeshTexture extends Texels {
   wrap: TextureHeader["wrap"];
   nearest: boolean;
   /** Texels with less alpha are holes. */
@@ -116,7 +121,7 @@ export type Shape =
   | { type: "box"; size: Vec3 }
   | { type: "sphere"; radius: number }
   | { type: "mesh"; mesh: number }
-  | { type: "compound"; parts: { shape: Shape; position: Vec3; rotation: Quat; color: ColorText }[] };
+  | { type: "compound"; parts: { shape: Shape; position: Vec3; rotation: Quat; color: ColorText; pattern_color?: ColorText }[] };
 
 export interface Body {
   /** The scene's name for it, or its index. */
@@ -127,7 +132,13 @@ export interface Body {
   /** 0 mirror to 1 chalk. */
   roughness: number;
   metallic: number;
-  pattern: "plain" | "grid" | "checker";
+  pattern: "panel" | "grid" | "checker" | "plain" | "stripes" | "dots" | "noise" | "wood" | "marble";
+  /** Of patterns of two colors; a grid and a checker without it only darken. */
+  pattern_color?: ColorText;
+  /** m, of a cell; by default by the size of the shape. */
+  pattern_scale?: number;
+  /** Index of an image; the length in m that it covers, or 0 for a face or the way around; squares in place of blended texels. */
+  texture?: { image: number; scale: number; nearest: boolean };
   visible: boolean;
   /** kg; 0 of bodies that are not dynamic: their inverse mass is zero. */
   mass: number;

@@ -1,15 +1,15 @@
 // The clip of a page from its data: base64 of raw deflate of the container that src/page writes.
-import type { Clip, Mesh, Run } from "./clip.ts";
+import type { Clip, Mesh, Run, Texels } from "./clip.ts";
 import { Container } from "./container.ts";
 import type { ClipHeader, RunHeader } from "./header.ts";
 import { inflate } from "./inflate.ts";
 import { DecodedMotion, read_events } from "./motion.ts";
-import { read_mesh, read_scene } from "./scene.ts";
+import { read_mesh, read_scene, read_texels } from "./scene.ts";
 import { read_contacts, read_energy, read_impacts, read_joint_marks, read_joints, read_loads, read_struck_times } from "./tables.ts";
 
 const known_format = 1;
 
-function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[]): Run {
+function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[], textures: Texels[]): Run {
   const events = read_events(run.motion, run.settings.step, reader);
   const motion = new DecodedMotion(run, reader, events, read_struck_times(run, reader));
   return {
@@ -18,7 +18,7 @@ function read_run(run: RunHeader, reader: Container<ClipHeader>, meshes: Mesh[])
     fps: run.fps,
     frames: run.frames,
     settings: run.settings,
-    scene: read_scene(run, reader, meshes),
+    scene: read_scene(run, reader, meshes, textures),
     motion,
     energy: read_energy(run, reader),
     joints: read_joints(run, reader),
@@ -44,5 +44,6 @@ export function read_clip(bytes: Uint8Array): Clip {
   if (format !== known_format)
     throw new Error(`The clip's data has the format ${format}, and this player reads ${known_format} only.`);
   const meshes = reader.header.meshes.map((mesh) => read_mesh(mesh, reader));
-  return { title, generator, sources, runs: runs.map((run) => read_run(run, reader, meshes)) };
+  const textures = (reader.header.textures ?? []).map((image) => read_texels(image, reader));
+  return { title, generator, sources, runs: runs.map((run) => read_run(run, reader, meshes, textures)) };
 }

@@ -9,6 +9,7 @@ export interface ClipHeader {
   sources: { name: string; text: string }[];
   runs: RunHeader[];
   meshes: MeshHeader[];
+  textures?: TexelsHeader[];
 }
 
 /** Quantum, order of the differences, and array. */
@@ -60,10 +61,13 @@ export interface PaintHeader {
   groups: { first: number; count: number; texture: TextureHeader | null }[];
 }
 
-export interface TextureHeader {
+export interface TexelsHeader {
   width: number;
   height: number;
   channels: PredictedReference[];
+}
+
+export interface TextureHeader extends TexelsHeader {
   wrap: ["repeat" | "mirror" | "clamp", "repeat" | "mirror" | "clamp"];
   nearest: boolean;
   cutoff: number;

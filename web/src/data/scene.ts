@@ -1,7 +1,7 @@
 // Bodies, cords, meshes, light and camera of a run (src/page/scene_data.h).
-import type { Camera, Mesh, MeshPaint, MeshTexture, Scene, Vec3 } from "./clip.ts";
+import type { Camera, Mesh, MeshPaint, MeshTexture, Scene, Texels, Vec3 } from "./clip.ts";
 import type { Container, PredictedReference } from "./container.ts";
-import type { MeshHeader, PaintHeader, RunHeader, TextureHeader } from "./header.ts";
+import type { MeshHeader, PaintHeader, RunHeader, TexelsHeader, TextureHeader } from "./header.ts";
 
 type Reader = Container<unknown>;
 
@@ -32,11 +32,15 @@ function interleaved(columns: PredictedReference[], reader: Reader, value: (whol
     value(whole[i % whole.length][Math.floor(i / whole.length)]));
 }
 
-function read_texture(header: TextureHeader, reader: Reader): MeshTexture {
-  const { width, height, wrap, nearest, cutoff } = header;
+export function read_texels({ width, height, channels }: TexelsHeader, reader: Reader): Texels {
   const texels = new Uint8Array(4 * width * height).fill(255);
-  header.channels.forEach((part, c) => reader.predicted(part).forEach((value, i) => (texels[4 * i + c] = value)));
-  return { width, height, texels, wrap, nearest, cutoff };
+  channels.forEach((part, c) => reader.predicted(part).forEach((value, i) => (texels[4 * i + c] = value)));
+  return { width, height, texels };
+}
+
+function read_texture(header: TextureHeader, reader: Reader): MeshTexture {
+  const { wrap, nearest, cutoff } = header;
+  return { ...read_texels(header, reader), wrap, nearest, cutoff };
 }
 
 function read_paint(header: PaintHeader, reader: Reader): MeshPaint {
@@ -75,11 +79,12 @@ function read_camera(run: RunHeader, reader: Reader): (time: number) => Camera {
   };
 }
 
-export function read_scene(run: RunHeader, reader: Reader, meshes: Mesh[]): Scene {
+export function read_scene(run: RunHeader, reader: Reader, meshes: Mesh[], textures: Texels[]): Scene {
   return {
     bodies: run.bodies,
     cords: run.cords,
     meshes,
+    textures,
     light: run.light,
     camera_moves: run.camera.frames !== undefined,
     camera: read_camera(run, reader),

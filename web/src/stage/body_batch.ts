@@ -14,7 +14,7 @@ export interface Instance {
   color: Vec3;
   roughness: number;
   metallic: number;
-  /** 0 plain, 1 grid, 2 checker. */
+  /** Index into patterns of body_parts.ts. */
   pattern: number;
   /** m. */
   pattern_cell: number;
@@ -22,10 +22,12 @@ export interface Instance {
   /** sRGB, and its share in what is seen. */
   tint: Vec3;
   tint_share: number;
+  /** See Part of body_parts.ts. */
+  second?: Vec3;
 }
 
-const stride = 24;
-const layout = { i_place: 0, i_rotation: 4, i_size: 8, i_color: 12, i_material: 16, i_tint: 20 };
+const stride = 28;
+const layout = { i_place: 0, i_rotation: 4, i_size: 8, i_color: 12, i_material: 16, i_tint: 20, i_second: 24 };
 
 export class BodyBatch {
   readonly mesh: THREE.Mesh;
@@ -77,6 +79,8 @@ export class BodyBatch {
     to[at + 21] = tint[1];
     to[at + 22] = tint[2];
     to[at + 23] = instance.tint_share;
+    const { second } = instance;
+    if (second) to.set(second, at + 24);
   }
 
   end(): void {

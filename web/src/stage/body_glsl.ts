@@ -9,6 +9,7 @@ in vec4 i_size;       // factors on the mesh; w: bevel, m
 in vec4 i_color;      // linear; w: roughness
 in vec4 i_material;   // metallic, pattern, opacity, 0
 in vec4 i_tint;       // sRGB; w: share of it in the shown color
+in vec4 i_second;     // second color of a pattern, linear; of an image how often it goes around and along a ball
 `;
 
 export const body_vertex_glsl = /* glsl */ `
@@ -24,6 +25,9 @@ out vec3 v_paint, v_emission;
 #endif
 flat out vec4 v_rotation, v_size, v_color, v_material, v_tint;
 flat out float v_cell;
+#if defined(TWO_COLORS) || defined(IMAGE)
+flat out vec3 v_second;
+#endif
 void main() {
   vec3 size = i_size.xyz;
   v_local = position * size;
@@ -39,6 +43,9 @@ void main() {
   v_material = i_material;
   v_tint = i_tint;
   v_cell = i_place.w;
+#if defined(TWO_COLORS) || defined(IMAGE)
+  v_second = i_second.xyz;
+#endif
 #ifdef PAINTED
   v_uv = p_uv;
   v_paint = p_color;
@@ -58,6 +65,13 @@ in vec3 v_local, v_world;
 in vec3 v_normal;
 flat in vec4 v_rotation, v_size, v_color, v_material, v_tint;
 flat in float v_cell;
+#if defined(TWO_COLORS) || defined(IMAGE)
+flat in vec3 v_second;
+#endif
+#ifdef IMAGE
+uniform sampler2D u_image;      // square roots of linear light
+uniform float u_image_scale;    // m that an image covers; 0: a face, or the way around
+#endif
 #ifdef PAINTED
 uniform sampler2D u_image;      // square roots of linear light, and alpha
 uniform float u_cutoff;
@@ -66,15 +80,25 @@ in vec3 v_paint, v_emission;
 #endif
 layout(location = 0) out highp vec4 pixel;
 
+// Grids and checkers of one color.
+bool darkens() { return v_material.y > 0.5 && v_material.y < 2.5; }
+
 void main() {
   vec3 color = v_color.rgb;
   float paint = 1.0;
 #if defined(BOX)
   vec3 local = clamp(v_local, -v_size.xyz, v_size.xyz), inner = v_size.xyz - v_size.w;
   vec3 normal = normalize(local - clamp(local, -inner, inner));
-  if (v_material.y > 0.5) {
+#if defined(TWO_COLORS)
+  color = mix(color, v_second, body_share(TWO_COLORS, local / v_cell, fwidth(v_local) / v_cell, normalize(v_normal), v_size.xyz));
+#elif defined(IMAGE)
+  vec2 images = images_on_face(v_size.xyz, v_normal, u_image_scale) / (2.0 * abs(seen_from_outside(v_size.xyz, v_normal)));
+  vec3 root = texture(u_image, 0.5 + seen_from_outside(local, v_normal) * images).rgb;
+  color *= root * root;
+#else
+  if (darkens()) {
     paint = triplanar_paint(vec2(v_material.y, v_cell), local, v_normal);
-  } else {
+  } else if (v_material.y < 0.5) {
     // The groove between the frame and the panel of a face.
     vec3 to_edges = v_size.xyz - abs(local) + step(0.5, abs(normalize(v_normal))) * 1e9;
     float edge = min(to_edges.x, min(to_edges.y, to_edges.z)), shortest = 2.0 * min(v_size.x, min(v_size.y, v_size.z));
@@ -83,17 +107,25 @@ void main() {
     float groove = clamp((half_width - off) * per_footprint + 0.5, 0.0, 1.0) * min(2.0 * half_width * per_footprint, 1.0);
     paint = 1.0 - crate_groove_depth * groove;
   }
+#endif
 #elif defined(BALL)
   vec3 normal = normalize(v_local);
-  if (v_material.y > 0.5) {
+#if defined(TWO_COLORS)
+  color = mix(color, v_second, ball_share(TWO_COLORS, v_local / v_cell, fwidth(v_local) / v_cell, normal));
+#elif defined(IMAGE)
+  vec2 footprint = footprint_on_ball(normal, max(abs(dFdx(normal)), abs(dFdy(normal))), v_second.xy) * vec2(textureSize(u_image, 0));
+  color *= texel_at(u_image, place_on_ball(normal, v_second.xy), log2(max(max(footprint.x, footprint.y), 1e-6)));
+#else
+  if (darkens()) {
     paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
-  } else {
+  } else if (v_material.y < 0.5) {
     // Paler paint on every second octant shows the rotation; metal has none.
     vec3 side = clamp(normal / max(fwidth(normal), vec3(1e-6)), -1.0, 1.0);
     float octant = 0.5 + 0.5 * side.x * side.y * side.z, metallic = v_material.x;
     color += octant * ball_contrast * (1.0 - metallic) * (1.0 - color);
     paint = 1.0 - octant * ball_contrast * metallic;
   }
+#endif
 #else
 #ifdef PAINTED
   vec4 texel = texture(u_image, v_uv);
@@ -104,7 +136,11 @@ void main() {
 #endif
   vec3 normal = normalize(v_normal);
   normal = gl_FrontFacing ? normal : -normal;
-  if (v_material.y > 0.5) paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
+#if defined(TWO_COLORS)
+  color = mix(color, v_second, body_share(TWO_COLORS, v_local / v_cell, fwidth(v_local) / v_cell, normal, vec3(1.0)));
+#else
+  if (darkens()) paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
+#endif
 #endif
   normal = rotate(v_rotation, normal);
   vec3 to_eye = cameraPosition - v_world;

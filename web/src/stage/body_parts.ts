@@ -18,9 +18,29 @@ export interface Part {
   metallic: number;
   pattern: number;
   pattern_cell: number;
+  /** A pattern of two colors, or an image, which need a program or a texture of their own. */
+  look?: Look;
+  /** Second color of a pattern, linear; of an image how often it goes around and along a ball. */
+  second?: Vec3;
 }
 
-export const patterns = ["plain", "grid", "checker"];
+/** Index of the pattern; the image with its scale and filter. */
+export type Look = { colors: number } | { image: number; scale: number; nearest: boolean };
+
+// As Pattern of src/scene/description/description.h.
+export const patterns = ["panel", "grid", "checker", "plain", "stripes", "dots", "noise", "wood", "marble"];
+
+export function look_of(body: Body): Look | undefined {
+  if (body.texture) return body.texture;
+  return body.pattern_color ? { colors: patterns.indexOf(body.pattern) } : undefined;
+}
+
+/** As images_on_ball() of src/scene/description/looks.cpp. */
+function images_on_ball(radius: number, scale: number): Vec3 {
+  const around = 2 * Math.PI * radius;
+  return scale > 0 ? [Math.max(1, Math.round(around / scale)), around / 2 / scale, 0] : [1, 1, 0];
+}
+
 const { bevel_of_edge, pattern_cell_of_radius } = drawing_style;
 const identity: Quat = [1, 0, 0, 0];
 
@@ -40,30 +60,35 @@ export function mesh_box(mesh: Mesh): Box {
 
 export function parts_of(scene: Scene, body: Body): Part[] {
   const parts: Part[] = [];
-  add_shape(scene, body, body.shape, [0, 0, 0], identity, body.color, parts);
+  add_shape(scene, body, body.shape, [0, 0, 0], identity, body.color, body.pattern_color, parts);
   return parts;
 }
 
-function add_shape(scene: Scene, body: Body, shape: Shape, position: Vec3, rotation: Quat, color: string, to: Part[]): void {
+function add_shape(scene: Scene, body: Body, shape: Shape, position: Vec3, rotation: Quat, color: string,
+  second: string | undefined, to: Part[]): void {
   const { roughness, metallic } = body;
   const common = {
     position, rotation, color: to_linear(from_text(color)), roughness, metallic, pattern: patterns.indexOf(body.pattern),
+    look: look_of(body), second: second === undefined ? undefined : to_linear(from_text(second)),
   };
+  const cell = (thinnest: number) => body.pattern_scale ?? pattern_cell_of_radius * thinnest;
   if (shape.type === "compound") {
     for (const part of shape.parts)
       add_shape(scene, body, part.shape, add(position, rotate(rotation, part.position)), multiply(rotation, part.rotation),
-        part.color, to);
+        part.color, part.pattern_color, to);
   } else if (shape.type === "box") {
     const half = shape.size.map((edge) => edge / 2) as Vec3;
     const thinnest = Math.min(...half);
-    to.push({ ...common, geometry: "box", size: half, bevel: 2 * bevel_of_edge * thinnest, pattern_cell: pattern_cell_of_radius * thinnest });
+    to.push({ ...common, geometry: "box", size: half, bevel: 2 * bevel_of_edge * thinnest, pattern_cell: cell(thinnest) });
   } else if (shape.type === "sphere") {
     const { radius } = shape;
-    to.push({ ...common, geometry: "ball", size: [radius, radius, radius], bevel: 0, pattern_cell: pattern_cell_of_radius * radius });
+    if (body.texture) common.second = images_on_ball(radius, body.texture.scale);
+    to.push({ ...common, geometry: "ball", size: [radius, radius, radius], bevel: 0, pattern_cell: cell(radius) });
   } else if (shape.type === "mesh") {
     const { low, high } = mesh_box(scene.meshes[shape.mesh]);
     const half = Math.min(...high.map((value, i) => (value - low[i]) / 2).filter((value) => value > 0));
-    to.push({ ...common, geometry: `mesh${shape.mesh}`, size: [1, 1, 1], bevel: 0, pattern_cell: pattern_cell_of_radius * half });
+    if (body.texture) common.look = undefined;  // it is in the paint of the mesh
+    to.push({ ...common, geometry: `mesh${shape.mesh}`, size: [1, 1, 1], bevel: 0, pattern_cell: cell(half) });
   }
 }
 

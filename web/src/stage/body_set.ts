@@ -1,8 +1,8 @@
 // Bodies of one scene, drawn by as few calls as there are geometries: the solid ones, their outlines, or translucent ghosts.
 import * as THREE from "three";
-import type { MeshPaint, Quat, Scene, Vec3 } from "../data/clip.ts";
+import type { MeshPaint, Quat, Scene, Texels, Vec3 } from "../data/clip.ts";
 import { BodyBatch, type Instance } from "./body_batch.ts";
-import { parts_of, type Part } from "./body_parts.ts";
+import { parts_of, type Look, type Part } from "./body_parts.ts";
 import type { Geometries, GeometryKey } from "./geometries.ts";
 import { add, multiply, rotate } from "./math.ts";
 import type { BodyKind } from "./materials.ts";
@@ -13,21 +13,29 @@ export interface Tint {
   share: number;
 }
 
+export interface LookMaterials {
+  /** One for each group of the mesh. */
+  painted(paint: MeshPaint, look: Look | undefined): THREE.Material[];
+  of_look(kind: BodyKind, look: Look, textures: Texels[]): THREE.Material;
+}
+
 const no_tint: Tint = { color: [0, 0, 0], share: 0 };
 
 export class BodySet {
   readonly group = new THREE.Group();
-  private readonly batches = new Map<GeometryKey, BodyBatch>();
+  private readonly batches = new Map<string, BodyBatch>();
   private readonly parts: Part[][];
+  private readonly textures: Texels[];
 
   constructor(
     scene: Scene,
     private readonly geometries: Geometries,
     private readonly materials: Record<BodyKind, THREE.Material>,
     private readonly set_up: (mesh: THREE.Mesh) => void = () => {},
-    /** The materials of a mesh in the colors of its file, one for each of its groups; without it, those of the body. */
-    private readonly painted?: (paint: MeshPaint) => THREE.Material[],
+    /** Materials of looks and of the colors of mesh files; without it, all bodies have the materials of their kind. */
+    private readonly looks?: LookMaterials,
   ) {
+    this.textures = scene.textures;
     this.parts = scene.bodies.map((body) => parts_of(scene, body));
   }
 
@@ -48,7 +56,7 @@ export class BodySet {
       tint: tint.color,
       tint_share: tint.share,
     };
-    this.batch(part.geometry).add(instance);
+    this.batch(part).add(instance);
   }
 
   end(): void {
@@ -59,16 +67,22 @@ export class BodySet {
     for (const batch of this.batches.values()) batch.dispose();
   }
 
-  private batch(key: GeometryKey): BodyBatch {
+  private batch({ geometry, look }: Part): BodyBatch {
+    const key = look && this.looks ? `${geometry} ${JSON.stringify(look)}` : geometry;
     let batch = this.batches.get(key);
     if (!batch) {
-      const kind = key === "box" || key === "ball" ? key : "mesh";
-      const paint = this.geometries.paint_of(key);
-      batch = new BodyBatch(this.geometries.get(key), paint && this.painted ? this.painted(paint) : this.materials[kind]);
+      batch = new BodyBatch(this.geometries.get(geometry), this.material(geometry, look));
       this.batches.set(key, batch);
       this.group.add(batch.mesh);
       this.set_up(batch.mesh);
     }
     return batch;
+  }
+
+  private material(geometry: GeometryKey, look: Look | undefined): THREE.Material | THREE.Material[] {
+    const kind = geometry === "box" || geometry === "ball" ? geometry : "mesh";
+    const paint = this.geometries.paint_of(geometry);
+    if (this.looks && paint) return this.looks.painted(paint, look);
+    return this.looks && look ? this.looks.of_look(kind, look, this.textures) : this.materials[kind];
   }
 }

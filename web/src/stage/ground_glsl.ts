@@ -19,6 +19,8 @@ ${light_glsl}
 uniform vec3 u_axis_u, u_axis_v, u_normal, u_origin;
 uniform vec3 u_color;           // linear
 uniform vec4 u_material;        // roughness, metallic, pattern, cell of it in m
+uniform vec3 u_second;          // second color of a pattern, linear
+uniform sampler2D u_image;
 uniform float u_dim;            // factor on its light: a dark page has a dark ground
 in vec3 v_world;
 layout(location = 0) out highp vec4 pixel;
@@ -27,14 +29,22 @@ void main() {
   vec2 cells = vec2(dot(from_origin, u_axis_u), dot(from_origin, u_axis_v)) / u_material.w;
   vec2 width = max(abs(dFdx(cells)), abs(dFdy(cells)));
   float distinct = clamp(2.0 - max(width.x, width.y), 0.0, 1.0);
+  vec3 color = u_color;
   float paint = 1.0;
-  if (u_material.z > 1.5) paint = 1.0 - 2.0 * ground_contrast * mix(0.5, checker(cells, width), distinct);
-  else if (u_material.z > 0.5) paint = 1.0 - grid_line_contrast * mix(2.0 * grid_line_width, grid(cells, width, grid_line_width), distinct);
+#if defined(TWO_COLORS)
+  color = mix(color, u_second, second_share(TWO_COLORS, vec3(cells, 0.0), vec3(width, 0.0), cells, width, cells.y, width.y));
+#elif defined(IMAGE)
+  vec3 root = texture(u_image, vec2(cells.x, -cells.y)).rgb;
+  color *= root * root;
+#else
+  if (u_material.z > 1.5 && u_material.z < 2.5) paint = 1.0 - 2.0 * ground_contrast * mix(0.5, checker(cells, width), distinct);
+  else if (u_material.z > 0.5 && u_material.z < 1.5) paint = 1.0 - grid_line_contrast * mix(2.0 * grid_line_width, grid(cells, width, grid_line_width), distinct);
+#endif
   vec3 to_eye = cameraPosition - v_world;
   float squared = dot(to_eye, to_eye);
   to_eye *= inversesqrt(squared);
   float sun = sun_visible(v_world, u_normal);
-  vec3 light = u_dim * shade(u_normal, to_eye, u_color * paint, u_material.x, u_material.y, 1.0, sun);
+  vec3 light = u_dim * shade(u_normal, to_eye, color * paint, u_material.x, u_material.y, 1.0, sun);
   light = in_fog(light, to_eye, squared);
   pixel = vec4(dithered(displayed(light)), 1.0);
 }

@@ -1,6 +1,7 @@
 // The materials of a stage, and the values that all of them share. The values are set before each view is drawn.
 import * as THREE from "three";
-import type { MeshPaint, MeshTexture } from "../data/clip.ts";
+import type { MeshPaint, MeshTexture, Texels } from "../data/clip.ts";
+import type { Look } from "./body_parts.ts";
 import { bytes } from "./color.ts";
 import {
   body_fragment_glsl, body_vertex_glsl, depth_fragment_glsl, depth_vertex_glsl, outline_fragment_glsl, outline_vertex_glsl,
@@ -14,15 +15,23 @@ const wrapping = { repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWra
 
 /** A white texel without a texture. */
 function image_of(texture: MeshTexture | null): THREE.DataTexture {
-  if (!texture) {
-    const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
-    white.needsUpdate = true;
-    return white;
-  }
-  const image = new THREE.DataTexture(texture.texels, texture.width, texture.height);
-  [image.wrapS, image.wrapT] = texture.wrap.map((name) => wrapping[name]);
-  image.magFilter = texture.nearest ? THREE.NearestFilter : THREE.LinearFilter;
-  image.minFilter = texture.nearest ? THREE.NearestMipmapLinearFilter : THREE.LinearMipmapLinearFilter;
+  if (texture) return filled(texture, texture.wrap, texture.nearest);
+  const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
+  white.needsUpdate = true;
+  return white;
+}
+
+/** The image of a look as texture_wraps() of src/scene/description/looks.cpp continues it beyond its edges. */
+export function image_of_look(image: Texels, kind: BodyKind | "plane", scale: number, nearest: boolean): THREE.DataTexture {
+  const around = kind === "plane" || scale > 0;
+  return filled(image, [around || kind === "ball" ? "repeat" : "clamp", around ? "repeat" : "clamp"], nearest);
+}
+
+function filled(texels: Texels, wrap: MeshTexture["wrap"], nearest: boolean): THREE.DataTexture {
+  const image = new THREE.DataTexture(texels.texels, texels.width, texels.height);
+  [image.wrapS, image.wrapT] = wrap.map((name) => wrapping[name]);
+  image.magFilter = nearest ? THREE.NearestFilter : THREE.LinearFilter;
+  image.minFilter = nearest ? THREE.NearestMipmapLinearFilter : THREE.LinearMipmapLinearFilter;
   image.generateMipmaps = true;
   image.needsUpdate = true;
   return image;
@@ -55,28 +64,47 @@ export class Materials {
   readonly depth = this.make(depth_vertex_glsl, depth_fragment_glsl, { side: THREE.DoubleSide });
   readonly sky = this.make(sky_vertex_glsl, sky_fragment_glsl, { depthWrite: false });
 
-  private readonly painted_of = new Map<MeshPaint, THREE.ShaderMaterial[]>();
+  private readonly painted_of = new Map<MeshPaint, Map<string, THREE.ShaderMaterial[]>>();
+  private readonly looks = new Map<string, THREE.ShaderMaterial>();
 
-  plane(uniforms: Uniforms): THREE.ShaderMaterial {
-    const material = this.make(plane_vertex_glsl, plane_fragment_glsl, {});
+  plane(uniforms: Uniforms, look: Look | undefined): THREE.ShaderMaterial {
+    const material = this.make(plane_vertex_glsl, plane_fragment_glsl, { defines: defines_of_look(look) });
     Object.assign(material.uniforms, uniforms);
     return material;
   }
 
   /** One material for each group of the mesh, which has its texture. */
-  painted(paint: MeshPaint): THREE.ShaderMaterial[] {
-    let materials = this.painted_of.get(paint);
+  painted(paint: MeshPaint, look: Look | undefined): THREE.ShaderMaterial[] {
+    const key = look ? JSON.stringify(look) : "";
+    const of_paint = this.painted_of.get(paint) ?? new Map<string, THREE.ShaderMaterial[]>();
+    this.painted_of.set(paint, of_paint);
+    let materials = of_paint.get(key);
     if (!materials) {
       materials = paint.groups.map(({ texture }) => {
-        const defines = { PAINTED: "", ...(texture && texture.cutoff > 0 ? { HOLES: "" } : {}) };
+        const defines = { PAINTED: "", ...(texture && texture.cutoff > 0 ? { HOLES: "" } : {}), ...defines_of_look(look) };
         const material = this.make(body_vertex_glsl, body_fragment_glsl, { defines, side: THREE.DoubleSide });
         material.uniforms.u_image = { value: image_of(texture) };
         material.uniforms.u_cutoff = { value: texture?.cutoff ?? 0 };
         return material;
       });
-      this.painted_of.set(paint, materials);
+      of_paint.set(key, materials);
     }
     return materials;
+  }
+
+  of_look(kind: BodyKind, look: Look, textures: Texels[]): THREE.ShaderMaterial {
+    const key = `${kind} ${JSON.stringify(look)}`;
+    let material = this.looks.get(key);
+    if (!material) {
+      material = this.make(body_vertex_glsl, body_fragment_glsl,
+        { defines: { ...defines_of(kind), ...defines_of_look(look) }, side: sides_of(kind) });
+      if ("image" in look) {
+        material.uniforms.u_image = { value: image_of_look(textures[look.image], kind, look.scale, look.nearest) };
+        material.uniforms.u_image_scale = { value: look.scale };
+      }
+      this.looks.set(key, material);
+    }
+    return material;
   }
 
   /** Multiplies the ground that it lies on. */
@@ -97,11 +125,15 @@ export class Materials {
 
   dispose(): void {
     for (const list of [this.solid, this.ghost, this.outline]) for (const material of Object.values(list)) material.dispose();
-    for (const materials of this.painted_of.values())
+    for (const materials of [...this.painted_of.values()].flatMap((of_paint) => [...of_paint.values()]))
       for (const material of materials) {
         material.uniforms.u_image.value.dispose();
         material.dispose();
       }
+    for (const material of this.looks.values()) {
+      material.uniforms.u_image?.value.dispose();
+      material.dispose();
+    }
     this.depth.dispose();
     this.sky.dispose();
   }
@@ -134,6 +166,8 @@ export const translucent = {
   blendDst: THREE.OneMinusSrcAlphaFactor,
 } as const;
 
+const defines_of_look = (look: Look | undefined): Record<string, string> =>
+  !look ? {} : "image" in look ? { IMAGE: "" } : { TWO_COLORS: String(look.colors) };
 const defines_of = (kind: BodyKind): Record<string, string> => ({ [kind.toUpperCase()]: "" });
 // The inside of an open mesh is visible.
 const sides_of = (kind: BodyKind) => (kind === "mesh" ? THREE.DoubleSide : THREE.FrontSide);

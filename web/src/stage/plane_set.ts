@@ -1,9 +1,9 @@
 // Planes without end: a square around the foot of the eye, so large that fog covers its edge.
 import * as THREE from "three";
 import type { Motion, Pose, Scene, Vec3 } from "../data/clip.ts";
-import { patterns } from "./body_parts.ts";
+import { look_of, patterns } from "./body_parts.ts";
 import { from_text, to_linear } from "./color.ts";
-import type { Materials } from "./materials.ts";
+import { image_of_look, type Materials } from "./materials.ts";
 import { add, cross, dot, normalized, rotate, scaled, subtract } from "./math.ts";
 
 /** Half of the square, in distances at which fog is half of the light: fog is 0.9998 of it there. */
@@ -42,6 +42,8 @@ export class PlaneSet {
   ) {
     scene.bodies.forEach((body, index) => {
       if (body.shape.type !== "plane" || !body.visible) return;
+      const { texture, pattern_color, pattern_scale } = body;
+      const size = texture ? texture.scale || 1 : pattern_scale ?? cell;
       const material = materials.plane({
         u_center: { value: new THREE.Vector3() },
         u_axis_u: { value: new THREE.Vector3() },
@@ -50,8 +52,10 @@ export class PlaneSet {
         u_origin: { value: new THREE.Vector3() },
         u_reach: { value: reach * fog_distance },
         u_color: { value: new THREE.Vector3(...to_linear(from_text(body.color))) },
-        u_material: { value: new THREE.Vector4(body.roughness, body.metallic, patterns.indexOf(body.pattern), cell) },
-      });
+        u_material: { value: new THREE.Vector4(body.roughness, body.metallic, patterns.indexOf(body.pattern), size) },
+        u_second: { value: new THREE.Vector3(...to_linear(from_text(pattern_color ?? body.color))) },
+        ...(texture && { u_image: { value: image_of_look(scene.textures[texture.image], "plane", texture.scale, texture.nearest) } }),
+      }, look_of(body));
       const mesh = new THREE.Mesh(this.square, material);
       mesh.frustumCulled = false;
       mesh.renderOrder = 1;
@@ -90,7 +94,10 @@ export class PlaneSet {
 
   dispose(): void {
     this.square.dispose();
-    for (const { material } of this.planes) material.dispose();
+    for (const { material } of this.planes) {
+      material.uniforms.u_image?.value.dispose();
+      material.dispose();
+    }
   }
 
   /** Far enough for the whole square, m. */

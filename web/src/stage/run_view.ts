@@ -49,7 +49,7 @@ export class RunView {
     this.size = measure(run);
     const { scene } = run;
     this.geometries = new Geometries(scene.meshes, scene.bodies.length);
-    this.solids = new BodySet(scene, this.geometries, materials.solid, casts_shadow, (paint) => materials.painted(paint));
+    this.solids = new BodySet(scene, this.geometries, materials.solid, casts_shadow, materials);
     this.outline = new BodySet(scene, this.geometries, materials.outline);
     this.planes = new PlaneSet(scene, materials, this.size.fog_distance, this.size.pattern_cell);
     this.sky = new Sky(materials);

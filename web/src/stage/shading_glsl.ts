@@ -6,6 +6,8 @@ import material from "../../../shaders/material.glsl";
 import pattern from "../../../shaders/pattern.glsl";
 import rotation from "../../../shaders/rotate.glsl";
 import sky from "../../../shaders/sky.glsl";
+import solid_pattern from "../../../shaders/solid_pattern.glsl";
+import texture_place from "../../../shaders/texture_place.glsl";
 
 export const frame_glsl = /* glsl */ `
 uniform vec3 u_to_light;        // unit
@@ -27,6 +29,12 @@ ${sky}
 ${material}
 ${lighting}
 ${pattern}
+#ifdef TWO_COLORS
+${solid_pattern}
+#endif
+#ifdef IMAGE
+${texture_place}
+#endif
 
 vec3 background(vec3 way) { return u_sky * sky(way.y, dot(way, u_to_light)); }
 
