@@ -105,6 +105,29 @@ struct Sphere {
     double radius = 0.5;  // m
 };
 
+/// A cylinder with half balls at its ends, about the y axis.
+struct Capsule {
+    double radius = 0.5;  // m
+    double height = 1.0;  // m, between the centers of the half balls
+};
+
+/// About the y axis.
+struct Cylinder {
+    double radius = 0.5;  // m
+    double height = 1.0;  // m
+};
+
+/// About the y axis, with its origin at half its height.
+struct Cone {
+    double radius = 0.5;      // m, of the base at the lower end
+    double height = 1.0;      // m
+    double top_radius = 0.0;  // m; 0: a tip
+};
+
+struct Ellipsoid {
+    Vec3 radii{0.5, 0.5, 0.5};  // m
+};
+
 /// The triangle mesh of a file.
 struct Mesh {
     std::string file;  // relative to SceneSpec::folder
@@ -161,7 +184,8 @@ struct Compound {
     std::vector<CompoundPart> parts;
 };
 
-using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound, TriangleMesh, Hull, HeightField>;
+using Shape = std::variant<Plane, Box, Sphere, Mesh, Compound, TriangleMesh, Hull, HeightField, Capsule, Cylinder, Cone,
+                           Ellipsoid>;
 
 struct CompoundPart {
     Shape shape;                    // not a plane

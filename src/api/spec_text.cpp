@@ -138,6 +138,26 @@ private:
         shape_type("sphere");
         set("radius", sphere.radius);
     }
+    void write_shape(const Capsule& capsule, const std::string&, const std::string&) {
+        shape_type("capsule");
+        set("radius", capsule.radius);
+        set("height", capsule.height);
+    }
+    void write_shape(const Cylinder& cylinder, const std::string&, const std::string&) {
+        shape_type("cylinder");
+        set("radius", cylinder.radius);
+        set("height", cylinder.height);
+    }
+    void write_shape(const Cone& cone, const std::string&, const std::string&) {
+        shape_type("cone");
+        set("radius", cone.radius);
+        set("height", cone.height);
+        set("top_radius", cone.top_radius);
+    }
+    void write_shape(const Ellipsoid& ellipsoid, const std::string&, const std::string&) {
+        shape_type("ellipsoid");
+        set("radii", ellipsoid.radii);
+    }
     void write_mass(const auto& mesh) {
         if (mesh.mass_from) value("mass_from", "mass_from", text_of(name_of(*mesh.mass_from)));
         if (mesh.thickness) set("thickness", *mesh.thickness);

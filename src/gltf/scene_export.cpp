@@ -156,6 +156,9 @@ SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape
                 return {writer.painted(*shape.asset, *paint, look), Vec3::Ones()};
             return {writer.mesh(writer.asset(*shape.asset), look), Vec3::Ones()};
         }
+        Placed operator()(const CurvedShape& shape) {
+            return {writer.mesh(writer.asset(*shape.drawn), look), Vec3::Ones()};
+        }
         Placed operator()(const CompoundShape&) { return {}; }  // written part by part
     };
     return std::visit(Form{*this, body, look}, shape);

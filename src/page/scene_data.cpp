@@ -49,6 +49,9 @@ struct ShapeForm {
     Json operator()(const MeshShape& mesh) {
         return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh.asset, mesh.paint())}};
     }
+    Json operator()(const CurvedShape& curved) {
+        return {{"type", "mesh"}, {"mesh", meshes.index_of(*curved.drawn, nullptr)}};
+    }
     Json operator()(const CompoundShape& compound) {
         Json parts = Json::array();
         for (const CompoundPart& part : *compound.parts)

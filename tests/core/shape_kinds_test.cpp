@@ -49,6 +49,8 @@ const std::map<std::string, std::string> known = {
     {"render/scene/compound_expansion.cpp", "parts of compounds"},
     {"scene/keys/instances.cpp", "makes a compound of one sphere"},
     {"scene/keys/made_shapes.cpp", "makes meshes from numbers"},
+    {"scene/mesh/curved_mesh.cpp", "the triangles of curved shapes, for drawing"},
+    {"scene/mesh/curved_mesh.h", "the triangles of curved shapes, for drawing"},
     {"scene/mesh/mesh_loader.cpp", "larger copies of meshes and compounds share their data"},
     {"scene/mesh/mesh_loader.h", "larger copies of meshes and compounds share their data"},
     {"sim/contact/model/turning_resistance.cpp", "parts of compounds"},
@@ -59,6 +61,7 @@ const std::map<std::string, std::string> known = {
     {"sim/ccd/ccd_clamp.cpp", "balls: rotation moves no point of the surface"},
     {"sim/contact/contact_solver.cpp", "balls: rotation moves no corner"},
     {"sim/contact/model/free_motion.cpp", "balls: the other body of the pair has the edge"},
+    {"sim/contact/model/predicted_gap.cpp", "cylinders and cones: the ball of a rim is not fixed in the body"},
     {"sim/event_driven/event_driven_motion.cpp", "balls and half-spaces: impacts in closed form"},
     // Times of impact of pairs of kinds.
     {"sim/ccd/time_of_impact.cpp", "closed forms for balls, axes of polyhedra, parts, triangles"},
@@ -81,9 +84,9 @@ const std::map<std::string, std::string> known = {
 
 bool distinguishes_kinds(std::istream& text) {
     static const std::regex kind(
-        "\\b(Plane|Box|Sphere|Mesh|Compound)Shape\\b|\\bDrawKind::(plane|box|ball|mesh)\\b|"
+        "\\b(Plane|Box|Sphere|Mesh|Compound|Curved)Shape\\b|\\bDrawKind::(plane|box|ball|mesh)\\b|"
         "\\b(get_if|get|holds_alternative)<(HalfSpace|Ball|\\w+Ref|std::shared_ptr<const "
-        "(Polyhedron|CollisionMesh|Compound)>)>"),
+        "(Polyhedron|CollisionMesh|Compound|CurvedBody)>)>"),
         comment("//.*"), quoted("\"[^\"]*\"");
     for (std::string line; std::getline(text, line);)
         // Regular expressions are slow: most lines hold no such word.

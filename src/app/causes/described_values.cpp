@@ -65,6 +65,10 @@ struct ShapeText {
         sum = fnv_hash(std::as_bytes(std::span(asset.indices)), sum);
         return fmt::format("mesh of {} triangles #{:016x}", asset.indices.size() / 3, sum);
     }
+    std::string operator()(const CurvedShape& s) const {
+        if (s.kind == CurvedKind::ellipsoid) return "ellipsoid " + text_of(s.radii);
+        return fmt::format("{} of radius {} to {}, height {}", name_of(s.kind), s.radius, s.top_radius, s.height);
+    }
     std::string operator()(const CompoundShape& s) const {
         std::string all;
         for (const CompoundPart& part : *s.parts) {

@@ -121,6 +121,14 @@ ShapeText shape_text(const Shape& shape) {
                                         safe_text(std::filesystem::path(s.asset->file).filename().native()),
                                         s.asset->mesh.triangles.size())};
         }
+        ShapeText operator()(const CurvedShape& s) const {
+            const std::string kind(name_of(s.kind));
+            if (s.kind == CurvedKind::ellipsoid)
+                return {kind, fmt::format("radii {:.4g} {:.4g} {:.4g}", s.radii.x(), s.radii.y(), s.radii.z())};
+            if (s.kind == CurvedKind::cone && s.top_radius > 0.0)
+                return {kind, fmt::format("radius {:.4g} to {:.4g}, height {:.4g}", s.radius, s.top_radius, s.height)};
+            return {kind, fmt::format("radius {:.4g}, height {:.4g}", s.radius, s.height)};
+        }
         ShapeText operator()(const CompoundShape& s) const {
             return {"compound", fmt::format("{} parts", s.parts->size())};
         }

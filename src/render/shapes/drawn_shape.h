@@ -80,6 +80,13 @@ Color encoded(const std::array<float, 3>& linear);
 /// The color of the file at the intersection of a ray with a triangle, sRGB. Precondition: the shape has paint.
 Color painted_color(const MeshShape& mesh, const PartPlace& place, std::uint32_t triangle, const Vec3& ray);
 
+void set_proxy(RenderBody& proxy, const CurvedShape& shape, std::vector<RenderMesh>& meshes);
+double reach(const CurvedShape& shape);
+bool closed(const CurvedShape& shape);
+std::vector<SurfaceCorner> surface_triangles(const CurvedShape& shape);
+void cast_rays(const CurvedShape& shape, const PartPlace& place, RayTarget& target);
+Vec3 surface_normal(const CurvedShape& shape, const PartPlace&, std::uint32_t triangle, const Vec3& ray, double depth);
+
 void set_proxy(RenderBody& proxy, const CompoundShape& shape, std::vector<RenderMesh>& meshes);
 double reach(const CompoundShape& shape);
 bool closed(const CompoundShape& shape);

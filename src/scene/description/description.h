@@ -169,18 +169,29 @@ struct MeshShape {
 
     const MeshPaint* paint() const { return painted ? asset->paint.get() : nullptr; }
 };
+enum class CurvedKind : std::uint8_t { capsule, cylinder, cone, ellipsoid };
+/// A solid with a curved surface, about the y axis and centered at half its height. Its surface is exact in contacts,
+/// masses and rays; frames draw it as triangles.
+struct CurvedShape {
+    CurvedKind kind = CurvedKind::cylinder;
+    double radius = 0.0;                               // m; of a cone that of its base, at the lower end
+    double top_radius = 0.0;                           // m, of a cone: 0 for a tip; of a cylinder the same as `radius`
+    double height = 0.0;                               // m; of a capsule between the centers of its caps
+    Vec3 radii = Vec3::Zero();                         // m, of an ellipsoid
+    std::shared_ptr<const MeshAsset> drawn = nullptr;  // scene/mesh/curved_mesh.h
+};
 struct CompoundPart;
 /// Several shapes that form one body, such as a table, a ring or an L. Shared by the bodies that use it.
 struct CompoundShape {
     std::shared_ptr<const std::vector<CompoundPart>> parts;  // at least one
 };
-using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape, CompoundShape>;
+using Shape = std::variant<PlaneShape, BoxShape, SphereShape, MeshShape, CompoundShape, CurvedShape>;
 
 /// True for a plane, which has no bounds and no mass.
 inline bool endless(const Shape& shape) { return std::holds_alternative<PlaneShape>(shape); }
 
 struct CompoundPart {
-    Shape shape;                       // a box, a sphere or a mesh; a mesh collides as its convex hull
+    Shape shape;                       // not a plane or a compound; a mesh collides as its convex hull
     Vec3 position = Vec3::Zero();      // of the part's origin, body frame, m
     Quat rotation = Quat::Identity();  // of the part, body frame
     std::optional<double> density;     // kg/m^3, overrides the body's

@@ -99,6 +99,11 @@ template <>
 inline constexpr auto choices<MassFrom> =
     std::to_array<Choice<MassFrom>>({{"solid", MassFrom::solid}, {"hull", MassFrom::hull}, {"shell", MassFrom::shell}});
 template <>
+inline constexpr auto choices<CurvedKind> = std::to_array<Choice<CurvedKind>>({{"capsule", CurvedKind::capsule},
+                                                                               {"cylinder", CurvedKind::cylinder},
+                                                                               {"cone", CurvedKind::cone},
+                                                                               {"ellipsoid", CurvedKind::ellipsoid}});
+template <>
 inline constexpr auto choices<Interpolation> =
     std::to_array<Choice<Interpolation>>({{"smooth", Interpolation::smooth}, {"linear", Interpolation::linear}});
 template <>

@@ -226,6 +226,10 @@ private:
         const auto& [parts] = compound;
         add_shared(parts);
     }
+    void add_value(const CurvedShape& curved) {
+        const auto& [kind, radius, top_radius, height, radii, drawn] = curved;  // drawn follows from the others
+        add_all(kind, radius, top_radius, height, radii);
+    }
     void add_value(const Shape& shape) {
         add(shape.index());
         std::visit([&](const auto& one) { add_value(one); }, shape);

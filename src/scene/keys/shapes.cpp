@@ -5,6 +5,7 @@
 #include "scene/fields/choices.h"
 #include "scene/keys/made_shapes.h"
 #include "scene/keys/read_fields.h"
+#include "scene/mesh/curved_mesh.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/hull.h"
 
@@ -17,12 +18,16 @@
 namespace tumble {
 namespace {
 
-enum class ShapeKind { plane, box, sphere, mesh, compound, hull, heightfield };
+enum class ShapeKind { plane, box, sphere, capsule, cylinder, cone, ellipsoid, mesh, compound, hull, heightfield };
 
 constexpr Choice<ShapeKind> shape_kinds[] = {
     {"plane", ShapeKind::plane},
     {"box", ShapeKind::box},
     {"sphere", ShapeKind::sphere},
+    {"capsule", ShapeKind::capsule},
+    {"cylinder", ShapeKind::cylinder},
+    {"cone", ShapeKind::cone},
+    {"ellipsoid", ShapeKind::ellipsoid},
     {"mesh", ShapeKind::mesh},
     {"compound", ShapeKind::compound},
     {"hull", ShapeKind::hull},
@@ -51,6 +56,25 @@ PlaneShape read_plane(const TomlTable& table) {
     if (const auto value = table.find("normal")) plane.normal = value->direction();
     table.read("offset", plane.offset, limits::coordinate);
     return plane;
+}
+
+CurvedShape read_curved(TomlTable& table, CurvedKind kind, MeshCache& meshes) {
+    table.set_title(fmt::format("{} {}", kind == CurvedKind::ellipsoid ? "an" : "a", name_of(kind)));
+    CurvedShape shape{kind};
+    if (kind == CurvedKind::ellipsoid) {
+        table.expect_keys({"type", "radii"});
+        shape.radii = table.require("radii").vector(limits::size);
+    } else {
+        if (kind == CurvedKind::cone)
+            table.expect_keys({"type", "radius", "height", "top_radius"});
+        else
+            table.expect_keys({"type", "radius", "height"});
+        shape.radius = table.require("radius").number(limits::size);
+        shape.height = table.require("height").number(limits::size);
+        if (kind == CurvedKind::cylinder) shape.top_radius = shape.radius;
+        if (kind == CurvedKind::cone) table.read("top_radius", shape.top_radius, limits::size_or_zero);
+    }
+    return meshes.drawn(shape);
 }
 
 /// Fails where the mesh encloses no volume. `which`: "this one", or the object of the file.
@@ -264,6 +288,14 @@ ShapeRequest read_shape(const TomlValue& value, BodyType type, const std::filesy
             table.set_title("a sphere");
             table.expect_keys({"type", "radius"});
             return {SphereShape{table.require("radius").number(limits::size)}, {}, 1.0};
+        case ShapeKind::capsule:
+            return {read_curved(table, CurvedKind::capsule, meshes), {}, 1.0};
+        case ShapeKind::cylinder:
+            return {read_curved(table, CurvedKind::cylinder, meshes), {}, 1.0};
+        case ShapeKind::cone:
+            return {read_curved(table, CurvedKind::cone, meshes), {}, 1.0};
+        case ShapeKind::ellipsoid:
+            return {read_curved(table, CurvedKind::ellipsoid, meshes), {}, 1.0};
         case ShapeKind::compound:
             table.set_title("a compound");
             return {read_compound(table, type, folder, meshes), {}, 1.0};

@@ -1,4 +1,5 @@
 #include "scene/mesh/mesh_loader.h"
+#include "scene/mesh/curved_mesh.h"
 #include "scene/mesh/file_paint.h"
 
 #include "scene/mesh/mesh_normals.h"
@@ -344,6 +345,19 @@ MeshShape MeshCache::larger(const MeshShape& shape, double factor) {
     result.asset = larger.made;
     result.thickness *= factor;
     return result;
+}
+
+CurvedShape MeshCache::drawn(const CurvedShape& shape) {
+    auto& made = curved_[{double(shape.kind), shape.radius, shape.top_radius, shape.height, shape.radii.x(),
+                          shape.radii.y(), shape.radii.z()}];
+    if (!made) made = curved_mesh(shape);
+    CurvedShape result = shape;
+    result.drawn = made;
+    return result;
+}
+
+CurvedShape MeshCache::larger(const CurvedShape& shape, double factor) {
+    return drawn(tumble::enlarged(shape, factor));
 }
 
 CompoundShape MeshCache::larger(const CompoundShape& shape, double factor) {

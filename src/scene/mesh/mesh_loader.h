@@ -5,6 +5,7 @@
 #include "scene/description/description.h"
 #include "scene/mesh/mesh_file.h"
 
+#include <array>
 #include <compare>
 #include <filesystem>
 #include <functional>
@@ -61,8 +62,11 @@ public:
     void add_file(std::filesystem::path file) { read_.push_back(std::move(file)); }
     /// All lengths enlarged by a factor, and the parts of a compound with their places.
     Shape enlarged(const Shape& shape, double factor);
+    /// With its triangles for drawing, which equal shapes share.
+    CurvedShape drawn(const CurvedShape& shape);
 
 private:
+    CurvedShape larger(const CurvedShape& shape, double factor);
     CompoundShape larger(const CompoundShape& shape, double factor);
     MeshShape larger(const MeshShape& shape, double factor);
     template <class Simple>
@@ -81,6 +85,7 @@ private:
     };
     std::map<std::pair<const MeshAsset*, double>, Larger<MeshAsset>> larger_meshes_;
     std::map<std::pair<const void*, double>, Larger<std::vector<CompoundPart>>> larger_compounds_;
+    std::map<std::array<double, 7>, std::shared_ptr<const MeshAsset>> curved_;  // by the values of the shape
 };
 
 /// One file at scale 1: welded, oriented outward if it is closed, without triangles of zero area, with normals for

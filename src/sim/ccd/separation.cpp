@@ -1,5 +1,7 @@
 #include "sim/ccd/separation.h"
 
+#include "sim/geometry/nearest_simplex.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,89 +10,12 @@ namespace tumble {
 
 namespace {
 
-// Up to four points of the Minkowski difference B - A whose hull contains the point nearest to the origin.
-struct Simplex {
-    std::array<Vec3, 4> points{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    int size = 0;
-};
+/// Share of the distance to which that of a curved body is searched: its axis is only a proposal.
+constexpr double curved_distance = 1e-6;
 
-// Each overload keeps only the points that support the nearest point (Ericson 2005, "Real-Time Collision Detection",
-// 5.1).
-Vec3 nearest(Simplex& s);
-
-Vec3 nearest_on_segment(Simplex& s) {
-    const Vec3 a = s.points[0], b = s.points[1], ab = b - a;
-    const double t = -a.dot(ab);
-    if (t <= 0.0) return s.size = 1, a;
-    const double square = ab.squaredNorm();
-    if (t >= square) return s.points[0] = b, s.size = 1, b;
-    return a + (t / square) * ab;
-}
-
-Vec3 nearest_of_edges(Simplex& s) {
-    const Simplex triangle = s;
-    Vec3 best = Vec3::Zero();
-    double distance = infinity;
-    for (int i = 0; i < 3; ++i) {
-        Simplex edge;
-        edge.points[0] = triangle.points[std::size_t(i)];
-        edge.points[1] = triangle.points[std::size_t((i + 1) % 3)];
-        edge.size = 2;
-        const Vec3 p = nearest_on_segment(edge);
-        if (p.squaredNorm() >= distance) continue;
-        distance = p.squaredNorm();
-        best = p;
-        s = edge;
-    }
-    return best;
-}
-
-Vec3 nearest_on_triangle(Simplex& s) {
-    const Vec3 a = s.points[0], ab = s.points[1] - a, ac = s.points[2] - a, n = ab.cross(ac);
-    const double square = n.squaredNorm();
-    if (square == 0.0) return nearest_of_edges(s);
-    // Barycentric coordinates of the origin's projection.
-    const double v = n.dot(ac.cross(a)) / square, w = n.dot(a.cross(ab)) / square;
-    if (v < 0.0 || w < 0.0 || v + w > 1.0) return nearest_of_edges(s);
-    return (n.dot(a) / square) * n;
-}
-
-Vec3 nearest_on_tetrahedron(Simplex& s) {
-    const Simplex whole = s;
-    Vec3 best = Vec3::Zero();
-    double distance = infinity;
-    bool inside = true;
-    for (std::size_t skip = 0; skip < 4; ++skip) {
-        Simplex face;
-        for (std::size_t i = 0; i < 4; ++i)
-            if (i != skip) face.points[std::size_t(face.size++)] = whole.points[i];
-        const Vec3 n = (face.points[1] - face.points[0]).cross(face.points[2] - face.points[0]);
-        const double origin = -n.dot(face.points[0]), opposite = n.dot(whole.points[skip] - face.points[0]);
-        if (origin * opposite > 0.0) continue;  // the origin is on the inner side of this face
-        inside = false;
-        const Vec3 p = nearest_on_triangle(face);
-        if (p.squaredNorm() >= distance) continue;
-        distance = p.squaredNorm();
-        best = p;
-        s = face;
-    }
-    return inside ? Vec3(Vec3::Zero()) : best;
-}
-
-Vec3 nearest(Simplex& s) {
-    switch (s.size) {
-        case 1:
-            return s.points[0];
-        case 2:
-            return nearest_on_segment(s);
-        case 3:
-            return nearest_on_triangle(s);
-        default:
-            return nearest_on_tetrahedron(s);
-    }
-}
-
-const Vec3& farthest(const SupportPoints& points, const Vec3& direction) {
+Vec3 farthest(const SupportPoints& points, const Vec3& direction) {
+    if (points.curved)
+        return points.place + points.rotation * points.curved->support(points.rotation.transpose() * direction);
     const Vec3* best = &points.arms[0];
     double most = direction.dot(*best);
     for (const Vec3& arm : points.arms) {
@@ -134,6 +59,7 @@ Vec3 rate_from_edge(const Vec3& normal, const Vec3& edge, const Vec3& omega, con
 std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& b, const Vec3& guess) {
     const Vec3 d = b.center - a.center;
     const double scale = a.reach + b.reach + d.norm();
+    const double enough = a.curved || b.curved ? curved_distance : 1e-13;
     Simplex simplex;
     Vec3 v = guess;
     simplex.points[0] = d + farthest(b, -v) - farthest(a, v);
@@ -144,7 +70,7 @@ std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& 
         if (square <= 1e-28 * scale * scale) return std::nullopt;
         const Vec3 w = d + farthest(b, -v) - farthest(a, v);
         // w is no nearer along v than the present point: converged, to a relative 1e-13.
-        if (square - v.dot(w) <= 1e-13 * square) return v;
+        if (square - v.dot(w) <= enough * square) return v;
         for (int i = 0; i < simplex.size; ++i)
             if (simplex.points[std::size_t(i)] == w) return v;
         simplex.points[std::size_t(simplex.size++)] = w;
@@ -157,6 +83,7 @@ std::optional<Vec3> closest_vector(const SupportPoints& a, const SupportPoints& 
 }
 
 TrackedAxis tracking_axis(const SupportPoints& a, const SupportPoints& b, const Vec3& normal, double tolerance) {
+    if (a.curved || b.curved) return {normal, Vec3::Zero()};  // the point of contact moves over the surface
     const Feature fa = feature_along(a, normal, tolerance), fb = feature_along(b, -normal, tolerance);
     const Vec3 &omega_a = a.angular_velocity, &omega_b = b.angular_velocity;
     if (fa.size >= 3) return {normal, omega_a.cross(normal)};
@@ -197,20 +124,30 @@ struct Height {
     double at(double s) const { return value + s * rate; }
 };
 
-Height height(const SupportPoints& points, std::size_t i, const TrackedAxis& axis) {
-    return {axis.normal.dot(points.arms[i]), axis.rate.dot(points.arms[i]) + axis.normal.dot(points.arm_velocity(i))};
+Height height(const SupportPoints& points, const Vec3& arm, const TrackedAxis& axis) {
+    return {axis.normal.dot(arm), axis.rate.dot(arm) + axis.normal.dot(points.angular_velocity.cross(arm))};
+}
+
+// The highest point of a curved body along the axis at time s, or with `sign` -1 the lowest. Heights at that time are
+// those along another direction now; of points within `near` (m) the fastest closing one.
+Height extreme(const SupportPoints& points, const TrackedAxis& axis, double sign, double s, double near) {
+    const Vec3 change = axis.rate + axis.normal.cross(points.angular_velocity);
+    const double rate = change.norm(), ahead = rate > 0.0 ? near / (2.0 * points.reach * rate) : 0.0;
+    return height(points, farthest(points, sign * (axis.normal + (s + ahead) * change)), axis);
 }
 
 // The lowest of B's points and the highest of A's at time s, as one line; at equal heights the faster closing one.
 Height lowest_line(const SupportPoints& a, const SupportPoints& b, const TrackedAxis& axis, const Height& centers,
                    double s) {
     Height low{infinity, 0.0}, high{-infinity, 0.0};
+    if (b.curved) low = extreme(b, axis, -1.0, s, 0.0);
+    if (a.curved) high = extreme(a, axis, 1.0, s, 0.0);
     for (std::size_t i = 0; i < b.arms.size(); ++i) {
-        const Height h = height(b, i, axis);
+        const Height h = height(b, b.arms[i], axis);
         if (h.at(s) < low.at(s) || (h.at(s) == low.at(s) && h.rate < low.rate)) low = h;
     }
     for (std::size_t i = 0; i < a.arms.size(); ++i) {
-        const Height h = height(a, i, axis);
+        const Height h = height(a, a.arms[i], axis);
         if (h.at(s) > high.at(s) || (h.at(s) == high.at(s) && h.rate > high.rate)) high = h;
     }
     return {centers.value + low.value - high.value, centers.rate + low.rate - high.rate};
@@ -232,13 +169,15 @@ SeparationBound bound_separation(const SupportPoints& a, const SupportPoints& b,
         for (std::size_t i = 0; i < b.arms.size(); ++i) low = std::min(low, axis.normal.dot(b.arms[i]));
         for (std::size_t i = 0; i < a.arms.size(); ++i) high = std::max(high, axis.normal.dot(a.arms[i]));
         for (std::size_t i = 0; i < b.arms.size(); ++i) {
-            const Height h = height(b, i, axis);
+            const Height h = height(b, b.arms[i], axis);
             if (h.value <= low + nearest) low_rate = std::min(low_rate, h.rate);
         }
         for (std::size_t i = 0; i < a.arms.size(); ++i) {
-            const Height h = height(a, i, axis);
+            const Height h = height(a, a.arms[i], axis);
             if (h.value >= high - nearest) high_rate = std::max(high_rate, h.rate);
         }
+        if (b.curved) low_rate = extreme(b, axis, -1.0, 0.0, nearest).rate;
+        if (a.curved) high_rate = extreme(a, axis, 1.0, 0.0, nearest).rate;
         bound.rate = centers.rate + low_rate - high_rate;
     }
 

@@ -13,6 +13,7 @@
 #pragma once
 
 #include "sim/ccd/trajectory.h"
+#include "sim/geometry/shapes/curved.h"
 
 #include <optional>
 #include <vector>
@@ -21,7 +22,7 @@ namespace tumble {
 
 /// A convex shape at one time for the search for impacts: points about a center, rounded by a radius, with bounds of
 /// their further motion. A ball is one point with a radius, a polyhedron its vertices, a half-space the point of its
-/// plane below the other body.
+/// plane below the other body. A curved body has no points but its support function.
 struct SupportPoints {
     Vec3 center = Vec3::Zero();            // m, world
     Vec3 velocity = Vec3::Zero();          // m/s, of the center
@@ -33,8 +34,9 @@ struct SupportPoints {
     double radius = 0.0;                   // m, of the rounding
     double reach = 0.0;                    // m, length of the longest arm
     std::vector<Vec3> arms;                // m, from the center, world axes
-
-    Vec3 arm_velocity(std::size_t i) const { return angular_velocity.cross(arms[i]); }
+    const CurvedBody* curved = nullptr;
+    Vec3 place = Vec3::Zero();         // m, of the curved body's origin from the center, world axes
+    Mat3 rotation = Mat3::Identity();  // of the curved body
 };
 
 /// An axis from A to B that rotates with the features that it separates.

@@ -2,6 +2,7 @@
 
 #include "sim/ccd/separation.h"
 #include "sim/ccd/settings.h"
+#include "sim/geometry/curved_axis.h"
 #include "sim/geometry/separating_axis.h"
 #include "sim/geometry/settings.h"
 
@@ -28,6 +29,7 @@ constexpr int impact_evaluations = 400;
 using PolyhedronRef = std::shared_ptr<const Polyhedron>;
 using MeshRef = std::shared_ptr<const CollisionMesh>;
 using CompoundRef = std::shared_ptr<const Compound>;
+using CurvedRef = std::shared_ptr<const CurvedBody>;
 
 // Shape that is searched: that of the whole body, or one part of a compound, at its pose in the body.
 const CollisionShape& collider_of(const MovingBody& t) { return t.part ? t.part->collider : t.body->collider; }
@@ -98,6 +100,13 @@ void prepare(SupportPoints& points, const MovingBody& t, double horizon) {
     points.radius = hull.radius;
     points.reach = (t.part ? t.part->place.position.norm() : 0.0) + hull.reach;
     points.arms.assign(hull.points.size(), Vec3::Zero());
+    points.curved = nullptr;
+    // A capsule is a rounded line.
+    const auto* curved = std::get_if<CurvedRef>(&collider_of(t));
+    if (curved && (*curved)->rounding == 0.0) {
+        points.curved = curved->get();
+        points.arms.clear();
+    }
     points.acceleration_change =
         t.path->parabolic() ? 0.0 : (t.path->acceleration(t.since + horizon) - t.path->acceleration(t.since)).norm();
 }
@@ -107,6 +116,12 @@ void pose(SupportPoints& points, const MovingBody& t, double time, const Motion&
     points.velocity = motion.velocity;
     points.acceleration = t.path->acceleration(t.since + time);
     points.angular_velocity = motion.angular_velocity;
+    if (points.curved) {
+        const Pose at = pose_of(t, motion);
+        points.place = at.position - motion.position;
+        points.rotation = at.rotation;
+        return;
+    }
     const RoundedHull hull = rounded_hull(collider_of(t));
     if (t.part) {  // arms start at the body's center of mass here too: the points move as the body does
         const Vec3 place = motion.rotation * t.part->place.position;
@@ -125,6 +140,14 @@ Motion motion_of(const MovingBody& t, double time) {
     motion.position = t.path->position(at);
     motion.velocity = t.path->velocity(at);
     return motion;
+}
+
+// The searched shape, if it is a ball, a polyhedron or a curved body.
+std::optional<ConvexShape> convex_of(const MovingBody& t, const Pose& pose) {
+    if (const auto* ball = std::get_if<Ball>(&collider_of(t))) return convex_shape(*ball, pose);
+    if (const auto* hull = std::get_if<PolyhedronRef>(&collider_of(t))) return convex_shape(**hull, pose);
+    if (const auto* curved = std::get_if<CurvedRef>(&collider_of(t))) return convex_shape(**curved, pose);
+    return std::nullopt;
 }
 
 // A bounding ball of the searched shape, with bounds of its motion.
@@ -309,6 +332,27 @@ void ImpactSearch::propose(const Pair& pair, const Motion& a, const Motion& b, d
         return;
     }
     // At so small a gap only the features themselves give the axis to the last digit.
+    if (std::holds_alternative<CurvedRef>(collider_of(pair.a)) ||
+        std::holds_alternative<CurvedRef>(collider_of(pair.b))) {
+        Pose of_b = pose_of(pair.b, b);
+        of_b.position -= a_.center;
+        const auto shape_b = convex_of(pair.b, of_b);
+        auto shape_a = std::optional<ConvexShape>();
+        if (pair.mesh) {
+            const Vec3 facing = (a_.arms[1] - a_.arms[0]).cross(a_.arms[2] - a_.arms[0]).normalized();
+            shape_a = convex_triangle({a_.arms[0], a_.arms[1], a_.arms[2]},
+                                      facing.dot(of_b.position) < 0.0 ? Vec3(-facing) : facing);
+        } else {
+            Pose of_a = pose_of(pair.a, a);
+            of_a.position -= a_.center;
+            shape_a = convex_of(pair.a, of_a);
+        }
+        CurvedAxisSearch search(*shape_a, *shape_b);
+        search.find_flat(infinity);
+        normals_.push_back(search.find_best().normal);
+        if (distance > 0.0) normals_.push_back(*v / distance);
+        return;
+    }
     if (pair.mesh) {
         if (const auto* shape = std::get_if<PolyhedronRef>(&collider_of(pair.b)))
             propose_triangle_axes(**shape, pose_of(pair.b, b).rotation);

@@ -366,6 +366,7 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
     if (count > 1) std::stable_sort(first, found.manifolds.end(), earlier);
     const bool swapped = b.surface != ContactSurface::curved &&
                          (b.surface != ContactSurface::polyhedral || a.surface == ContactSurface::curved);
+    const bool round = a.surface == ContactSurface::round || b.surface == ContactSurface::round;
     std::uint32_t old = entry.first;
     const std::uint32_t old_end = entry.first + entry.count;
     for (auto m = first; m != found.manifolds.end(); ++m) {
@@ -386,8 +387,9 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
                 transfer_impulses(manifolds_[old], *m);
             }
         }
+        const bool of_b = round ? m->corners == Corners::of_a : m->on_b() != swapped;
         PersistentManifold& persistent =
-            found.persistent.emplace_back(make_persistent_manifold(*m, a.pose, b.pose, m->on_b() != swapped));
+            found.persistent.emplace_back(make_persistent_manifold(*m, a.pose, b.pose, of_b));
         if (m->more) continue;
         keep_reduced_points(reduced(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, persistent);
     }

@@ -32,7 +32,7 @@ struct CollisionScratch {
     // m, world: displacement of B relative to A in the coming step; selects one of two faces that the shapes slide over
     Vec3 displacement = Vec3::Zero();
     bool turning = false;  // true if one of the bodies rotates fast (rolling_turn (narrow_phase.cpp))
-    bool on_ball = false;  // true if a manifold found lies on a ball. Cleared by the caller, as is gap
+    bool on_ball = false;  // true if a manifold found lies on a curved surface. Cleared by the caller, as is gap
     // The pair's manifolds of the last step, and the part index of the present one (Manifold::part): a manifold on B's
     // face stays on B's face when A's face separates equally well.
     std::span<const Manifold> before;
@@ -94,5 +94,10 @@ void collide_pair(const Polyhedron& a, const Polyhedron& b, const CollisionQuery
 void collide_boxes(const Polyhedron& a, const Polyhedron& b, const CollisionQuery& query);
 void collide_pair(const CollisionMesh& a, const Ball& b, const CollisionQuery& query);
 void collide_pair(const CollisionMesh& a, const Polyhedron& b, const CollisionQuery& query);
+void collide_pair(const HalfSpace& a, const CurvedBody& b, const CollisionQuery& query);
+void collide_pair(const Ball& a, const CurvedBody& b, const CollisionQuery& query);
+void collide_pair(const Polyhedron& a, const CurvedBody& b, const CollisionQuery& query);
+void collide_pair(const CurvedBody& a, const CurvedBody& b, const CollisionQuery& query);
+void collide_pair(const CollisionMesh& a, const CurvedBody& b, const CollisionQuery& query);
 
 }  // namespace tumble

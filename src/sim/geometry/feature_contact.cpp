@@ -15,8 +15,8 @@ void label_polygon(const std::vector<Vec3>& corners, const std::vector<std::uint
         polygon.push_back({corners[i], vertex_labels[i], std::uint32_t(i)});
 }
 
-// Clips the polygon to the inside of all side planes of the reference polygon, counterclockwise about `normal`
-// (Sutherland and Hodgman 1974). `spare` is working space.
+}  // namespace
+
 void clip_to_prism(const std::vector<Vec3>& reference, const Vec3& normal, std::vector<ClipVertex>& polygon,
                    std::vector<ClipVertex>& spare) {
     for (std::size_t side = 0; side < reference.size() && !polygon.empty(); ++side) {
@@ -38,8 +38,6 @@ void clip_to_prism(const std::vector<Vec3>& reference, const Vec3& normal, std::
         polygon.swap(spare);
     }
 }
-
-}  // namespace
 
 void add_face_manifold(const ReferenceFace& reference, bool must_touch, const ManifoldSink& sink) {
     CollisionScratch& scratch = sink.scratch;

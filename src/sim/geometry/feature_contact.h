@@ -23,6 +23,11 @@ struct ManifoldSink {
     std::vector<Manifold>& out;
 };
 
+/// Clips the polygon to the inside of all side planes of the reference polygon, counterclockwise about `normal`
+/// (Sutherland and Hodgman 1974). `spare` is working space.
+void clip_to_prism(const std::vector<Vec3>& reference, const Vec3& normal, std::vector<ClipVertex>& polygon,
+                   std::vector<ClipVertex>& spare);
+
 struct ReferenceFace {
     Vec3 normal;          // outward
     std::uint32_t label;  // distinguishes faces in the feature ids

@@ -47,12 +47,12 @@ struct Swap {
 
 PointGeometry swapped(const PointGeometry& geometry) { return std::visit(Swap{}, geometry); }
 
-PointGeometry Manifold::geometry() const {
+PointGeometry Manifold::geometry(int point) const {
     switch (kind) {
         case GeometryKind::ball_of_a:
-            return BallOverFace{true, points[2].position};
+            return BallOverFace{true, points[std::size_t(2 + point)].position};
         case GeometryKind::ball_of_b:
-            return BallOverFace{false, points[2].position};
+            return BallOverFace{false, points[std::size_t(2 + point)].position};
         case GeometryKind::curved_gap:
             return CurvedGap{points[1].separation, points[1].position, points[2].position, points[3].position};
         case GeometryKind::crossing_edges:

@@ -29,10 +29,11 @@ struct ContactPoint {
 /// points on balls.
 enum class Corners : std::uint8_t { neither, of_a, of_b };
 
-/// Geometry of a manifold's single point, where its gap or its normal changes otherwise than that of corners over a
-/// face. All vectors in the world frame.
+/// Geometry of a manifold's single point, or of two on a round side, where its gap or its normal changes otherwise than
+/// that of corners over a face. All vectors in the world frame.
 struct NoCurve {};
-/// A ball over the other body's face: the gap is the height of the ball's center, less the radius.
+/// A ball over the other body's face: the gap is the height of the ball's center, less the radius. A round side on a
+/// face has one such ball at each of its two points, centered on its axis.
 struct BallOverFace {
     bool ball_of_a = false;
     Vec3 center = Vec3::Zero();
@@ -90,8 +91,10 @@ struct Manifold {
 
     /// Geometry of the single point. It is kept in the slots of the points that such a manifold does not have: with a
     /// member of its own a manifold has 376 bytes instead of 288, and heaps take 4 % more time.
-    PointGeometry geometry() const;
+    PointGeometry geometry(int point = 0) const;
     void set_geometry(const PointGeometry& geometry);
+    /// Center of the ball at the second point. Precondition: the first is a BallOverFace, and there are two points.
+    void set_second_ball(const Vec3& center) { points[3].position = center; }
     bool has_curved_gap() const { return kind == GeometryKind::curved_gap; }
     bool has_ball_over_face() const { return kind == GeometryKind::ball_of_a || kind == GeometryKind::ball_of_b; }
 

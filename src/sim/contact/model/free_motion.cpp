@@ -86,7 +86,7 @@ Vec3 FreeMotion::acceleration(std::uint32_t body, const Body& state, const Vec3&
 }
 
 Gap gap_of(const Manifold& m, int point, const Body& a, const Body& b) {
-    Gap gap{m.normal, m.corners, m.geometry(), Vec3::Zero(), Vec3::Zero()};
+    Gap gap{m.normal, m.corners, m.geometry(m.has_ball_over_face() ? point : 0), Vec3::Zero(), Vec3::Zero()};
     Vec3 on_a = m.points[std::size_t(point)].position, on_b = on_a;
     if (const auto* ball = std::get_if<BallOverFace>(&gap.geometry)) on_a = on_b = ball->center;
     if (const auto* curve = std::get_if<CurvedGap>(&gap.geometry)) on_a = curve->on_a, on_b = curve->on_b;

@@ -2,9 +2,11 @@
 
 #include "core/deterministic_math.h"
 #include "sim/geometry/settings.h"
+#include "sim/geometry/shapes/curved.h"
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 namespace tumble {
 namespace {
@@ -162,12 +164,16 @@ PredictedGap predicted_gap(const Manifold& m, int index, const BodiesInStep& bod
 //   r(h) - r - h w x r = (cos wh - 1) r_x + (sin wh - wh) e x r.
 Vec3 arc_velocity(const Manifold& m, const BodiesInStep& bodies, double h) {
     if (!m.has_ball_over_face()) return Vec3::Zero();
-    const auto ball = std::get<BallOverFace>(m.geometry());
+    auto ball = std::get<BallOverFace>(m.geometry());
+    if (m.count == 2) ball.center = 0.5 * (ball.center + std::get<BallOverFace>(m.geometry(1)).center);
     const auto& [a, b, before_a, before_b] = bodies;
     const bool of_a = ball.ball_of_a;
     const Body &body = of_a ? a : b, &face = of_a ? b : a;
     const Vec3 &turn = of_a ? before_a.angular_velocity : before_b.angular_velocity,
                &face_turn = of_a ? before_b.angular_velocity : before_a.angular_velocity;
+    // The ball of a cylinder or a cone is centered on its axis, at no fixed point where the body tilts.
+    const auto* curved = std::get_if<std::shared_ptr<const CurvedBody>>(&body.collider);
+    if (curved && (*curved)->rounding == 0.0) return Vec3::Zero();
     const Vec3 arm = ball.center - body.position;
     const double w = turn.norm();
     if (!body.dynamic() || !(w > 0.0) || arm.isZero(0.0)) return Vec3::Zero();

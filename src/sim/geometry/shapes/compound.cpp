@@ -6,6 +6,8 @@ namespace tumble {
 namespace {
 
 double farthest_point(const Compound::Part& part) {
+    if (const auto* curved = std::get_if<std::shared_ptr<const CurvedBody>>(&part.collider))
+        return (*curved)->farthest_from(part.place.to_body(Vec3::Zero()));
     const RoundedHull hull = rounded_hull(part.collider);
     double farthest = 0.0;
     for (const Vec3& v : hull.points) farthest = std::max(farthest, part.place.to_world(v).norm());

@@ -2,6 +2,7 @@
 // Frame: the body's, with the center of mass of the whole at the origin.
 #pragma once
 
+#include "sim/geometry/shapes/curved.h"
 #include "sim/geometry/shapes/hull.h"
 #include "sim/geometry/shapes/mesh.h"
 #include "sim/geometry/shapes/plane.h"
@@ -13,7 +14,7 @@ namespace tumble {
 
 struct Compound {
     struct Part {
-        CollisionShape collider;  // a ball or a polyhedron, in the part's frame
+        CollisionShape collider;  // a ball, a polyhedron or a curved body, in the part's frame
         Pose place;               // pose of the part's frame in the body frame
         double reach = 0.0;       // m, distance of the part's farthest point from its own origin
     };

@@ -73,17 +73,19 @@ struct RoundedHull {
 inline const Vec3 origin_point = Vec3::Zero();
 
 /// Features by which a collision shape touches others: a plane; a curved surface; corners, edges and faces; triangles
-/// on either side; or those of several parts.
-enum class ContactSurface : std::uint8_t { plane, curved, polyhedral, triangles, parts };
+/// on either side; those of several parts; or discs, rims, round sides and tips.
+enum class ContactSurface : std::uint8_t { plane, curved, polyhedral, triangles, parts, round };
 
 struct HalfSpace;
 struct Ball;
 struct Polyhedron;
 struct CollisionMesh;
 struct Compound;
+struct CurvedBody;
 /// Shared by bodies with the same shape, so that a hull is built once.
-using CollisionShape = std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>,
-                                    std::shared_ptr<const CollisionMesh>, std::shared_ptr<const Compound>>;
+using CollisionShape =
+    std::variant<HalfSpace, Ball, std::shared_ptr<const Polyhedron>, std::shared_ptr<const CollisionMesh>,
+                 std::shared_ptr<const Compound>, std::shared_ptr<const CurvedBody>>;
 
 struct ColliderRequest {
     bool fixed = false;          // the body never moves: a mesh collides as it is, not as its convex hull
@@ -105,6 +107,7 @@ struct ColliderCache {
     // By the address of their data: looked up only, never iterated. The source of the mass decides their origin.
     std::map<std::tuple<const MeshAsset*, MassFrom, double>, Mesh> meshes;
     std::map<const void*, Whole> compounds;
+    std::map<std::array<double, 8>, std::shared_ptr<const CurvedBody>> curved;  // by the values of the shape
 };
 
 // The functions of a described shape. A kind without one does not compile where a shape of any kind has it.

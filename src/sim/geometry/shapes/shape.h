@@ -3,6 +3,7 @@
 
 #include "sim/geometry/shapes/box.h"
 #include "sim/geometry/shapes/compound.h"
+#include "sim/geometry/shapes/curved.h"
 #include "sim/geometry/shapes/hull.h"
 #include "sim/geometry/shapes/mesh.h"
 #include "sim/geometry/shapes/plane.h"

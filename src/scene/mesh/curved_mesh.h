@@ -1,0 +1,13 @@
+// The surfaces of curved shapes as triangles, for drawing.
+#pragma once
+
+#include "scene/description/description.h"
+
+#include <memory>
+
+namespace tumble {
+
+/// Smooth, with sharp rims; the largest error is 0.05 % of a radius for round sides, 0.1 % for balls and ellipsoids.
+std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape);
+
+}  // namespace tumble
