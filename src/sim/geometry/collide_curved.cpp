@@ -48,6 +48,13 @@ void add_other(const ConvexShape& a, const ConvexShape& b, const Vec3& n, const 
     add_curved_manifold(of_a, of_b, n, false, sink);
 }
 
+// The normal of the pair's last manifold in the frame of the search; zero without one.
+Vec3 last_normal(const CollisionScratch& scratch, const Pose& frame) {
+    const auto found = std::find_if(scratch.before.begin(), scratch.before.end(),
+                                    [&](const Manifold& m) { return m.part == scratch.part; });
+    return found == scratch.before.end() ? Vec3(Vec3::Zero()) : Vec3(frame.rotation.transpose() * found->normal);
+}
+
 // True if one of the manifold's points is as near as `seen` (m).
 bool reaches(const Manifold& m, double seen) {
     return std::any_of(m.points.begin(), m.points.begin() + m.count,
@@ -57,7 +64,7 @@ bool reaches(const Manifold& m, double seen) {
 void collide_convex(const ConvexShape& a, const ConvexShape& b, const Pose& frame, const CollisionQuery& query) {
     CollisionScratch& scratch = query.scratch;
     CurvedAxisSearch search(a, b);
-    if (!search.find_flat(query.margin)) {
+    if (!search.find_flat(query.margin, last_normal(scratch, frame))) {
         scratch.gap = search.gap();
         return;
     }

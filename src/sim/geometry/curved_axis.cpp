@@ -12,6 +12,12 @@ namespace {
 /// Share of the size below which the result of the search by simplices is rounding: the shapes are shrunk for another.
 constexpr double simplex_rounding = 1e-7;
 
+/// Overlap (share of the smaller size) up to which the axis of the last step is taken as it is.
+constexpr double deep_overlap = 0.05;
+
+/// Cosine of the largest angle between the first axis and the normal of a face or disc that is tried.
+constexpr double face_reach = 0.3;
+
 /// Angle (its sine) by which an arc may lie off the first axis.
 constexpr double arc_reach = 0.7;
 
@@ -68,14 +74,16 @@ void CurvedAxisSearch::add_features(const ConvexShape& shape, bool of_b) {
     const auto kind = of_b ? CurvedAxis::Kind::face_b : CurvedAxis::Kind::face_a;
     auto& arcs = arcs_[of_b ? 1 : 0];
     std::size_t& count = arc_count_[of_b ? 1 : 0];
+    const auto take = [&](const Vec3& normal, std::uint32_t feature) {
+        if (normal.dot(n) > face_reach) consider(normal, kind, feature);
+    };
     const auto add = [&](const Vec3& axis, double level) {
         if (count < arcs.size() && std::fabs(n.dot(axis) - level) < arc_reach) arcs[count++] = {axis, level};
     };
     if (shape.curved) {
         if (shape.curved->ellipsoid) return;
         for (const int end : {0, 1})
-            if (shape.curved->has_disc(end))
-                consider(sign * (end == 0 ? -1.0 : 1.0) * shape.axis(), kind, std::uint32_t(end));
+            if (shape.curved->has_disc(end)) take(sign * (end == 0 ? -1.0 : 1.0) * shape.axis(), std::uint32_t(end));
         add(shape.axis(), sign * shape.curved->slant.y());
     } else if (shape.hull) {
         const Polyhedron& hull = *shape.hull;
@@ -90,8 +98,7 @@ void CurvedAxisSearch::add_features(const ConvexShape& shape, bool of_b) {
         const bool few_faces = hull.faces.size() <= few_features, few_edges = hull.edges.size() <= few_features;
         for (std::uint32_t f = 0; f < hull.faces.size(); ++f) {
             const auto& loop = hull.faces[f].vertices;
-            if (few_faces || std::any_of(loop.begin(), loop.end(), near))
-                consider(sign * out(hull.faces[f].normal), kind, f);
+            if (few_faces || std::any_of(loop.begin(), loop.end(), near)) take(sign * out(hull.faces[f].normal), f);
         }
         for (const Polyhedron::Edge& e : hull.edges)
             if (few_edges || e.tail == corner || e.head == corner)
@@ -175,8 +182,21 @@ void CurvedAxisSearch::search_crossing(const Arc& one, const Arc& other) {
     consider((in_plane - across).normalized());
 }
 
-bool CurvedAxisSearch::find_flat(double margin) {
-    if (!start(margin)) return false;
+// True if a guess is as good as the result of a search: the shapes overlap little along it, or not at all.
+bool CurvedAxisSearch::start_from(const Vec3& guess) {
+    if (guess.isZero(0.0)) return false;
+    const double ahead = separation(guess), back = separation(-guess);
+    first_ = ahead >= back ? guess : Vec3(-guess);
+    gap_ = std::max(ahead, back);
+    return gap_ > -deep_overlap * std::min(a_.size, b_.size);
+}
+
+bool CurvedAxisSearch::find_flat(double margin, const Vec3& guess) {
+    if (start_from(guess)) {
+        if (gap_ > margin) return false;
+    } else if (!start(margin)) {
+        return false;
+    }
     add_features(a_, false);
     add_features(b_, true);
     gap_ = best_.separation;

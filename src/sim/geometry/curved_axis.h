@@ -56,8 +56,8 @@ public:
     CurvedAxisSearch(const ConvexShape& a, const ConvexShape& b) : a_(a), b_(b) {}
 
     /// Finds the best faces and discs. False if the shapes are farther apart than `margin` (m); gap() is then a lower
-    /// bound of their distance.
-    bool find_flat(double margin);
+    /// bound of their distance. `guess`: the normal of the last step in either direction, or zero.
+    bool find_flat(double margin, const Vec3& guess = Vec3::Zero());
     /// The best face or disc of A, or of B; separation -infinity without one.
     const CurvedAxis& flat(bool of_b) const { return flat_[of_b ? 1 : 0]; }
     /// The axis of the search by simplices: near the best one.
@@ -79,6 +79,7 @@ private:
     Vec3 between(const Vec3& n) const { return b_.support(-n) - a_.support(n); }
     double bend(const Vec3& n, const Vec3& u, const Vec3& v) const { return a_.bend(n, u, v) + b_.bend(-n, u, v); }
     bool start(double margin);
+    bool start_from(const Vec3& guess);
     void consider(const Vec3& n, CurvedAxis::Kind kind = CurvedAxis::Kind::other, std::uint32_t feature = 0);
     void add_features(const ConvexShape& shape, bool of_b);
     void search_smooth();
