@@ -18,6 +18,9 @@ constexpr double deep_overlap = 0.05;
 /// Cosine of the largest angle between the first axis and the normal of a face or disc that is tried.
 constexpr double face_reach = 0.3;
 
+/// Steps of Newton's method: four to six are usual.
+constexpr int newton_rounds = 9;
+
 /// Angle (its sine) by which an arc may lie off the first axis.
 constexpr double arc_reach = 0.7;
 
@@ -114,7 +117,7 @@ void CurvedAxisSearch::add_features(const ConvexShape& shape, bool of_b) {
 void CurvedAxisSearch::search_smooth() {
     Vec3 n = first_;
     double best = separation(n);
-    for (int round = 0; round < 16; ++round) {
+    for (int round = 0; round < newton_rounds; ++round) {
         const Vec3 w = between(n);
         const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
         const double along = n.dot(w), gu = u.dot(w), gv = v.dot(w), uv = bend(n, u, v);
@@ -128,7 +131,7 @@ void CurvedAxisSearch::search_smooth() {
         const double length = step.norm();
         if (length > 0.5) step *= 0.5 / length;
         bool better = false;
-        for (int half = 0; half < 5 && !better; ++half, step *= 0.25) {
+        for (int half = 0; half < 3 && !better; ++half, step *= 0.25) {
             const Vec3 next = (n + step).normalized();
             const double s = separation(next);
             better = s > best || length < 1e-7;
@@ -149,14 +152,14 @@ void CurvedAxisSearch::search_arc(const Arc& arc) {
     if (!(out.squaredNorm() > 1e-12)) out = arc.axis.unitOrthogonal();
     Vec3 u = out.normalized();
     double best = separation(base + radius * u);
-    for (int round = 0; round < 16; ++round) {
+    for (int round = 0; round < newton_rounds; ++round) {
         const Vec3 n = base + radius * u, t = radius * arc.axis.cross(u), w = between(n);
         const double slope = w.dot(t), curve = radius * w.dot(u) + bend(n, t, t);
         double step = curve > 0.0 ? slope / curve : std::copysign(0.3, slope);
         step = std::clamp(step, -0.5, 0.5);
         const double length = std::fabs(step);
         bool better = false;
-        for (int half = 0; half < 5 && !better; ++half, step *= 0.25) {
+        for (int half = 0; half < 3 && !better; ++half, step *= 0.25) {
             const Vec3 next = (u + step * arc.axis.cross(u)).normalized();
             const double s = separation(base + radius * next);
             better = s > best || length < 1e-7;

@@ -1,5 +1,7 @@
 // Curved bodies: the axis of largest separation against brute force over all directions, masses, rays, manifolds.
 #include "support/curved.h"
+#include "core/error.h"
+#include "scene/load.h"
 #include "sim/geometry/curved_axis.h"
 #include "sim/random_shapes.h"
 
@@ -171,6 +173,67 @@ TEST(Curved, ManifoldsOnAPlaneHaveThePointsOfTheirFeatures) {
     EXPECT_EQ(points(capsule(0.3, 1.0), 0.8, Quat::Identity()).count, 1);
     EXPECT_EQ(points(ellipsoid({0.5, 0.3, 0.2}), 0.3, Quat::Identity()).count, 1);
     EXPECT_EQ(points(cone(0.3, 1.0), 0.25, Quat::Identity()).count, 4);
+}
+
+// The first points on rays: on the surface, and none nearer.
+TEST(Curved, RaysMeetTheSurface) {
+    Random random(4);
+    int hits = 0;
+    for (int trial = 0; trial < trials(4000); ++trial) {
+        const CurvedShape shape = random_shape(random, trial % 4);
+        const CurvedRef body = body_of(shape);
+        const Vec3 center = mass_properties(shape, 1.0).center_of_mass;
+        const Vec3 from = 4.0 * random.direction(), to = random.vector(0.8);
+        const double found = first_hit(shape, from, to - from);
+        bool inside = false;  // whether the ray comes into the body before
+        for (int k = 0; k < 200 && !inside; ++k) {
+            const double t = 2.0 * k / 200.0;
+            inside = t < found - 1e-9 && body->contains(from + t * (to - from) - center, -1e-9);
+        }
+        EXPECT_FALSE(inside) << "trial " << trial;
+        if (std::isinf(found)) continue;
+        ++hits;
+        const Vec3 at = from + found * (to - from), normal = normal_at(shape, at);
+        EXPECT_TRUE(body->contains(at - center, 1e-9)) << "trial " << trial;
+        EXPECT_FALSE(body->contains(at - center, -1e-6)) << "trial " << trial;
+        EXPECT_NEAR(normal.dot(at - center), body->extent(normal), 1e-9) << "trial " << trial;
+    }
+    EXPECT_GT(hits, trials(4000) / 4);
+}
+
+// Equal shapes share the triangles for drawing, each of which lies near the surface and faces outward.
+TEST(Curved, AreDrawnAsClosedSurfaces) {
+    for (const CurvedShape& shape :
+         {capsule(0.3, 0.5), cylinder(0.3, 0.5), cone(0.3, 0.5), cone(0.3, 0.5, 0.1), ellipsoid({0.3, 0.2, 0.5})}) {
+        const Closedness form = closedness(shape.drawn->mesh);
+        EXPECT_TRUE(form.closed());
+        const double volume = mass_properties(shape, 1.0).mass;
+        EXPECT_NEAR(form.signed_volume, volume, 0.01 * volume);
+        for (const MeshAsset::Vertex& v : shape.drawn->vertices) {
+            const Vec3 p(v.position[0], v.position[1], v.position[2]);
+            const Vec3 normal(v.normal[0], v.normal[1], v.normal[2]);
+            const Vec3 center = mass_properties(shape, 1.0).center_of_mass;
+            EXPECT_NEAR(normal.dot(p - center), body_of(shape)->extent(normal), 1e-6);
+        }
+    }
+}
+
+TEST(Curved, ScenesHaveTheirKeys) {
+    const auto shape_of = [](const std::string& keys) {
+        return std::get<CurvedShape>(
+            parse_scene("format = 1\n[[body]]\nshape = { type = " + keys + " }\n", "scene.toml").bodies[0].shape);
+    };
+    const CurvedShape can = shape_of("\"cylinder\", radius = 0.25, height = 2");
+    EXPECT_EQ(can.kind, CurvedKind::cylinder);
+    EXPECT_EQ(can.top_radius, 0.25);
+    EXPECT_EQ(shape_of("\"cone\", radius = 0.25, height = 2").top_radius, 0.0);
+    EXPECT_EQ(shape_of("\"cone\", radius = 0.25, height = 2, top_radius = 0.5").top_radius, 0.5);
+    EXPECT_EQ(shape_of("\"capsule\", radius = 0.25, height = 2").height, 2.0);
+    EXPECT_EQ(shape_of("\"ellipsoid\", radii = [1, 2, 3]").radii, Vec3(1.0, 2.0, 3.0));
+    EXPECT_THROW(shape_of("\"cylinder\", radius = 0.25, height = 2, top_radius = 0.1"), InputError);
+    EXPECT_THROW(shape_of("\"cone\", radius = 0.25, height = 2, top_radius = -0.1"), InputError);
+    EXPECT_THROW(shape_of("\"capsule\", radius = 0, height = 2"), InputError);
+    EXPECT_THROW(shape_of("\"ellipsoid\", radius = 1"), InputError);
 }
 
 }  // namespace tumble::curved_test

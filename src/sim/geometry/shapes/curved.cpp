@@ -84,16 +84,19 @@ double first_on_ball(const Vec3& from, const Vec3& direction, double radius) {
     return first > 0.0 ? first : infinity;
 }
 
+// Length of a direction's part across the axis: squares of directions neither overflow nor vanish.
+double across_axis(const Vec3& d) { return std::sqrt(d.x() * d.x() + d.z() * d.z()); }
+
 }  // namespace
 
 int CurvedBody::end_along(const Vec3& d) const {
-    const double out = hypotenuse(d.x(), d.z());
+    const double out = across_axis(d);
     return d.y() * (discs[1].y - discs[0].y) + out * (discs[1].radius - discs[0].radius) > 0.0 ? 1 : 0;
 }
 
 Vec3 CurvedBody::rim_point(int end, const Vec3& d) const {
     const Disc& disc = discs[std::size_t(end)];
-    const double out = hypotenuse(d.x(), d.z());
+    const double out = across_axis(d);
     if (!(out > 0.0)) return {disc.radius, disc.y, 0.0};
     return {disc.radius * d.x() / out, disc.y, disc.radius * d.z() / out};
 }
@@ -110,7 +113,7 @@ Mat3 CurvedBody::bend(const Vec3& d) const {
         const double length = radii.cwiseProduct(d).norm();
         return Mat3(square.asDiagonal()) / length - point * point.transpose() / (length * length * length);
     }
-    const double out = hypotenuse(d.x(), d.z());
+    const double out = across_axis(d);
     if (!(out > 0.0)) return Mat3::Zero();
     const Vec3 around(d.z() / out, 0.0, -d.x() / out);
     return discs[std::size_t(end_along(d))].radius / out * around * around.transpose();
