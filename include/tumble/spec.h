@@ -208,12 +208,12 @@ struct Material {
     std::optional<Pattern> pattern;
     std::optional<double> rolling_friction{};   // torque against rolling, over the load times the radius; see PairRules
     std::optional<double> spinning_friction{};  // m: torque about the normal, over the load; see PairRules
-    std::optional<Color> pattern_color = {};   // the color, darker, where not given
-    std::optional<double> pattern_scale = {};  // m, of a cell of the pattern
-    std::optional<std::string> texture = {};   // PNG or JPEG file, relative to SceneSpec::folder
-    std::optional<double> texture_scale = {};  // m that the image covers once
+    std::optional<Color> pattern_color = {};    // the color, darker, where not given
+    std::optional<double> pattern_scale = {};   // m, of a cell of the pattern
+    std::optional<std::string> texture = {};    // PNG or JPEG file, relative to SceneSpec::folder
+    std::optional<double> texture_scale = {};   // m that the image covers once
     std::optional<TextureFilter> texture_filter = {};
-    std::optional<SoundMaterial> sound = {};   // of the body with --sound; wood where not given
+    std::optional<SoundMaterial> sound = {};  // of the body with --sound; wood where not given
 };
 
 /// A pose of a kinematic body's origin.

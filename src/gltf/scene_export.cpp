@@ -44,8 +44,8 @@ private:
         Vec3 scale;
     };
     using MaterialKey = std::tuple<int, int, int, double, double>;
-    using TexturedKey = std::tuple<std::tuple<const Texture*, std::size_t, double, double, double, double>, MaterialKey,
-                                   TextureFilter>;
+    using TexturedKey =
+        std::tuple<std::tuple<const Texture*, std::size_t, double, double, double, double>, MaterialKey, TextureFilter>;
 
     void add_body(std::size_t index);
     Json shape_node(const BodyDescription& body, const Shape& shape, const Appearance& look, const Vec3& place,
@@ -157,6 +157,7 @@ SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape
             return {writer.mesh(writer.asset(*shape.asset), look), Vec3::Ones()};
         }
         Placed operator()(const CurvedShape& shape) {
+            if (shape.drawn->paint) return {writer.painted(*shape.drawn, *shape.drawn->paint, look), Vec3::Ones()};
             return {writer.mesh(writer.asset(*shape.drawn), look), Vec3::Ones()};
         }
         Placed operator()(const CompoundShape&) { return {}; }  // written part by part

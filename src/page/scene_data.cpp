@@ -50,7 +50,7 @@ struct ShapeForm {
         return {{"type", "mesh"}, {"mesh", meshes.index_of(*mesh.asset, mesh.paint())}};
     }
     Json operator()(const CurvedShape& curved) {
-        return {{"type", "mesh"}, {"mesh", meshes.index_of(*curved.drawn, nullptr)}};
+        return {{"type", "mesh"}, {"mesh", meshes.index_of(*curved.drawn, curved.drawn->paint.get())}};
     }
     Json operator()(const CompoundShape& compound) {
         Json parts = Json::array();

@@ -35,9 +35,9 @@ TEST_P(DemoRedraw, HasTheBytesOfAFullRedraw) {
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DemoRedraw,
                          testing::Values("bouncing_balls", "chain_mail", "dominoes", "double_pendulums", "engine",
-                                         "dice", "falling_boxes", "furniture", "hanging_cradle", "marbles", "mixed_heap",
-                                         "newtons_cradle", "paddle", "ragdoll", "rope_bridge", "tennis_racket",
-                                         "thousand_boxes", "tower_hit", "turntable", "wrecking_ball"),
+                                         "dice", "falling_boxes", "furniture", "hanging_cradle", "marbles",
+                                         "mixed_heap", "newtons_cradle", "paddle", "ragdoll", "rope_bridge",
+                                         "tennis_racket", "thousand_boxes", "tower_hit", "turntable", "wrecking_ball"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

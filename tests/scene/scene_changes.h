@@ -13,9 +13,7 @@ struct Change {
 };
 
 /// The key of a texture: an image of the repository.
-inline std::string texture_line() {
-    return "texture = \"" TUMBLE_SOURCE_DIR "/tests/fuzz/corpus/texture/rgb.png\"\n";
-}
+inline std::string texture_line() { return "texture = \"" TUMBLE_SOURCE_DIR "/tests/fuzz/corpus/texture/rgb.png\"\n"; }
 
 /// Lines of a scene with bodies "ball", "table" and "cloud.0" to "cloud.2", and a change of each key of
 /// joints.

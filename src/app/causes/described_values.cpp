@@ -173,9 +173,9 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     if (look.pattern_color) kind.look["pattern_color"] = to_string(*look.pattern_color);
     if (look.pattern_scale > 0.0) kind.look["pattern_scale"] = fmt::format("{}", look.pattern_scale);
     if (look.texture)
-        kind.look["texture"] = fmt::format(
-            "#{:016x} {} {}", fnv_hash(std::as_bytes(std::span(look.texture->levels.front().texels))),
-            look.texture_scale, name_of(look.texture_filter));
+        kind.look["texture"] =
+            fmt::format("#{:016x} {} {}", fnv_hash(std::as_bytes(std::span(look.texture->levels.front().texels))),
+                        look.texture_scale, name_of(look.texture_filter));
     kind.round = std::holds_alternative<SphereShape>(body.shape) && (own_look || plain) && !look.texture;
     return kind;
 }

@@ -123,7 +123,8 @@ void add_export(Command& command) {
         "leave out the tangents of cubics, as Blender");
     add_frames_of_time(command, c.overrides);
     add_run(command, c.threads, std::to_string(c.threads), c.quiet);
-    command.notes = "Planes become finite squares; patterns of two colors become their mean, cords and overlays are left out.";
+    command.notes =
+        "Planes become finite squares; patterns of two colors become their mean, cords and overlays are left out.";
     command.examples =
         "  tumble export scene.toml -o scene.glb\n"
         "  tumble export scene.toml -o scene.glb --set simulation.impacts=exact   exact between frames too\n"

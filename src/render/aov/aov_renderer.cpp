@@ -99,8 +99,7 @@ void fill_albedo(const VisibilityBuffer& map, const SceneDescription& scene, con
                 const auto normal_of = [&](const auto& shape) {
                     return surface_normal(shape, place, map.triangle[pixel], ray, depth);
                 };
-                const TexturePlace at =
-                    texture_place(part.shape, position, std::visit(normal_of, part.shape), scale);
+                const TexturePlace at = texture_place(part.shape, position, std::visit(normal_of, part.shape), scale);
                 const Color color =
                     encoded(color_at(images[run.surface], {float(at[0]), float(at[1])}, {1.0f, 1.0f, 1.0f}));
                 to[0] = color.r, to[1] = color.g, to[2] = color.b;

@@ -54,7 +54,7 @@ private:
     std::filesystem::path shaders_;
     bool shadows_;
     ShadowFilter filter_;
-    bool metal_boxes_ = false;                         // highlights on their bevels flicker without filtering
+    bool metal_boxes_ = false;  // highlights on their bevels flicker without filtering
     // By kind, light, look and cascade span; null: not yet used.
     std::array<const ShaderProgram*, 14 * look_shaders> programs_{};
     std::vector<SurfaceLook> looks_;

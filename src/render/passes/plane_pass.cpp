@@ -73,8 +73,7 @@ std::size_t PlanePass::index_of(const RenderBody& proxy) {
 
 const ShaderProgram* PlanePass::make(const RenderBody& proxy, const std::vector<std::string>& more) const {
     const ShaderProgram& made = device_->program(
-        shaders_,
-        {"plane.vert", "plane.frag", with(defines(proxy.pattern, looks_[proxy.look], other_planes_), more)});
+        shaders_, {"plane.vert", "plane.frag", with(defines(proxy.pattern, looks_[proxy.look], other_planes_), more)});
     connect(made);
     return &made;
 }

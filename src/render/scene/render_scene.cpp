@@ -47,7 +47,7 @@ void set_look(const BodyDescription& body, RenderBody& proxy, RenderScene& scene
     } else if (look.texture) {
         SurfaceLook image{Pattern::plain, texture_material(body.shape, look)};
         proxy.look = look_index(image, scene.looks);
-        const auto [around, along] = images_on_ball(body.shape, look.texture_scale);
+        const auto [around, along] = images_around(body.shape, look.texture_scale);
         proxy.paint = glm::vec4(float(around), float(along), 0.0f, float(look.texture_scale));
         if (proxy.kind == DrawKind::plane) proxy.pattern_cell = look.texture_scale > 0.0 ? look.texture_scale : 1.0;
     } else if (two_colored(look)) {

@@ -13,9 +13,9 @@ namespace tumble {
 
 struct RenderScene {
     LightDescription light;
-    bool sun_up = true;              // false disables sunlight, see sun_is_up()
-    std::vector<RenderBody> bodies;  // in scene order
-    std::vector<RenderMesh> meshes;  // without repetition, in order of first use
+    bool sun_up = true;                             // false disables sunlight, see sun_is_up()
+    std::vector<RenderBody> bodies;                 // in scene order
+    std::vector<RenderMesh> meshes;                 // without repetition, in order of first use
     std::vector<SurfaceLook> looks{SurfaceLook{}};  // the first: the look of the shape or of its mesh file
     std::vector<OcclusionLightmap> lightmaps;
     std::vector<CordDescription> cords;

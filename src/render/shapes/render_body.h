@@ -35,10 +35,10 @@ struct RenderBody {
     Pattern pattern = Pattern::panel;  // or a grid or a checker that darkens; others are looks
     std::size_t look = 0;              // index into RenderScene::looks
     glm::vec4 paint{0.0f};             // Instance::paint
-    bool large_receiver = false;     // a large receiver, see large_receivers.h
-    bool fixed = false;              // never moves
-    bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
-    std::ptrdiff_t lightmap = -1;    // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
+    bool large_receiver = false;       // a large receiver, see large_receivers.h
+    bool fixed = false;                // never moves
+    bool without_occlusion = false;    // without AO: too large for its number of texels, which would give wrong values
+    std::ptrdiff_t lightmap = -1;      // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
 
     /// False for planes, which have no bounds and no inside, and for bodies that are not drawn.
     bool solid() const { return kind != DrawKind::hidden && kind != DrawKind::plane; }
@@ -66,7 +66,7 @@ struct RenderMesh {
     std::shared_ptr<const MeshAsset> asset;
     const MeshPaint* paint = nullptr;  // of the asset: the colors of its file; null: the color of the body
     std::shared_ptr<const MeshPaint> own_paint = nullptr;  // paint of a shape with a texture, whose asset has none
-    bool closed = true;                // and facing outward; otherwise both sides are visible
+    bool closed = true;                                    // and facing outward; otherwise both sides are visible
     Vec3 bound_center = Vec3::Zero(), half_extent = Vec3::Zero();  // m
     std::vector<OccluderBox> occluders;
     std::vector<VertexSample> vertex_samples;

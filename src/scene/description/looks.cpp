@@ -36,6 +36,24 @@ TexturePlace seen_from_outside(const Vec3& position, const Vec3& normal) {
     return {normal.z() > 0.0 ? position.x() : -position.x(), -position.y()};
 }
 
+/// A flat end of a cylinder or of a cone.
+bool on_cap(const Shape& shape, const Vec3& normal) {
+    const auto* curved = std::get_if<CurvedShape>(&shape);
+    const bool has_caps = curved && (curved->kind == CurvedKind::cylinder || curved->kind == CurvedKind::cone);
+    return has_caps && std::abs(normal.y()) > 0.9999;
+}
+
+/// From end to end.
+double whole_height(const CurvedShape& shape) {
+    if (shape.kind == CurvedKind::ellipsoid) return 2.0 * shape.radii.y();
+    return shape.height + (shape.kind == CurvedKind::capsule ? 2.0 * shape.radius : 0.0);
+}
+
+double widest(const CurvedShape& shape) {
+    if (shape.kind == CurvedKind::ellipsoid) return std::max(shape.radii.x(), shape.radii.z());
+    return std::max(shape.radius, shape.top_radius);
+}
+
 /// Places of a texture on one kind of shape.
 struct PlaceOn {
     const Vec3& position;
@@ -52,7 +70,7 @@ struct PlaceOn {
 
     TexturePlace operator()(const BoxShape& box) const { return on_box(position, box.size); }
     TexturePlace operator()(const SphereShape& ball) const {
-        const auto [images, height] = images_on_ball(ball, scale);
+        const auto [images, height] = images_around(ball, scale);
         const double polar = atan2_stable(hypotenuse(position.x(), position.z()), position.y());
         return {images * (0.5 + atan2_stable(position.x(), position.z()) / (2.0 * pi)),
                 0.5 + height * (polar / pi - 0.5)};
@@ -66,12 +84,23 @@ struct PlaceOn {
         const Bounds bounds = mesh.asset->mesh.bounds();
         return on_box(position - bounds.center(), bounds.extent());
     }
+    // Around the axis and down its height, as a label on a can; an end has the image as a disk.
+    TexturePlace operator()(const CurvedShape& shape) const {
+        const double width = 2.0 * widest(shape), height = whole_height(shape);
+        if (on_cap(shape, normal)) return on_box(position, {width, height, width});
+        return {images_around(shape, scale)[0] * (0.5 + atan2_stable(position.x(), position.z()) / (2.0 * pi)),
+                0.5 - position.y() / (scale > 0.0 ? scale : height)};
+    }
     TexturePlace operator()(const CompoundShape&) const { return {}; }  // its parts have places
 };
 
 }  // namespace
 
-std::array<double, 2> images_on_ball(const Shape& shape, double scale) {
+std::array<double, 2> images_around(const Shape& shape, double scale) {
+    if (const auto* curved = std::get_if<CurvedShape>(&shape)) {
+        if (!(scale > 0.0)) return {1.0, 1.0};
+        return {std::max(1.0, std::round(2.0 * pi * widest(*curved) / scale)), whole_height(*curved) / scale};
+    }
     const auto* ball = std::get_if<SphereShape>(&shape);
     if (ball == nullptr) return {};
     const double around = 2.0 * pi * ball->radius;
@@ -116,7 +145,7 @@ PlaneAxes plane_axes(const Vec3& normal) {
 TextureWraps texture_wraps(const Shape& shape, const Appearance& look) {
     if (std::holds_alternative<PlaneShape>(shape) || look.texture_scale > 0.0)
         return {TextureWrap::repeat, TextureWrap::repeat};
-    return {images_on_ball(shape, 0.0)[0] > 0.0 ? TextureWrap::repeat : TextureWrap::clamp, TextureWrap::clamp};
+    return {images_around(shape, 0.0)[0] > 0.0 ? TextureWrap::repeat : TextureWrap::clamp, TextureWrap::clamp};
 }
 
 TexturePlace texture_place(const Shape& shape, const Vec3& position, const Vec3& normal, double scale) {
@@ -125,19 +154,18 @@ TexturePlace texture_place(const Shape& shape, const Vec3& position, const Vec3&
 
 std::array<TexturePlace, 3> texture_places(const Shape& shape, const std::array<Vec3, 3>& positions,
                                            const std::array<Vec3, 3>& normals, double scale) {
-    const double images = images_on_ball(shape, scale)[0];
+    const double images = images_around(shape, scale)[0];
     // A face of a box has one normal; a rounded corner belongs to the face of its triangle.
     const Vec3 flat = (positions[1] - positions[0]).cross(positions[2] - positions[0]);
     std::array<TexturePlace, 3> places;
     for (std::size_t i = 0; i < 3; ++i)
         places[i] = texture_place(shape, positions[i], images > 0.0 ? normals[i] : flat, scale);
-    if (images == 0.0) return places;
+    if (images == 0.0 || on_cap(shape, normals[0])) return places;
     const auto at_pole = [&](std::size_t i) {
         return hypotenuse(positions[i].x(), positions[i].z()) < 1e-6 * positions[i].norm();
     };
     const std::size_t fixed = at_pole(0) ? 1 : 0;
-    for (std::size_t i = 0; i < 3; ++i)
-        places[i][0] -= images * std::round((places[i][0] - places[fixed][0]) / images);
+    for (std::size_t i = 0; i < 3; ++i) places[i][0] -= images * std::round((places[i][0] - places[fixed][0]) / images);
     for (std::size_t i = 0; i < 3; ++i)
         if (at_pole(i)) places[i][0] = 0.5 * (places[(i + 1) % 3][0] + places[(i + 2) % 3][0]);
     return places;

@@ -28,8 +28,8 @@ TextureWraps texture_wraps(const Shape& shape, const Appearance& look);
 using TexturePlace = std::array<double, 2>;
 /// `normal`: of the surface, in the frame of the shape. `scale`: Appearance::texture_scale.
 TexturePlace texture_place(const Shape& shape, const Vec3& position, const Vec3& normal, double scale);
-/// Images around a ball, and from pole to pole; 0 of other shapes.
-std::array<double, 2> images_on_ball(const Shape& shape, double scale);
+/// Images around a ball or a curved shape, and from end to end; 0 of other shapes.
+std::array<double, 2> images_around(const Shape& shape, double scale);
 /// The same of the corners of a triangle: continuous where the image closes around a shape.
 std::array<TexturePlace, 3> texture_places(const Shape& shape, const std::array<Vec3, 3>& positions,
                                            const std::array<Vec3, 3>& normals, double scale);

@@ -62,10 +62,9 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
           {"PNG or JPEG file, relative to the folder of the scene; the color multiplies it", "none", {}, "string"});
     field(self.texture_scale, "texture_scale", limits::size,
           {"length that the image covers once", "a face of a box, the way around a sphere, 1 m of a plane"});
-    field(self.texture_filter, "texture_filter", ByType(),
-          {"magnified texels: blended, or squares", "`\"linear\"`"});
+    field(self.texture_filter, "texture_filter", ByType(), {"magnified texels: blended, or squares", "`\"linear\"`"});
     field(self.sound, "sound", ByType(),
-          {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`", .picture = true});
+          {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`"});
 }
 
 template <class Visitor, class Self>

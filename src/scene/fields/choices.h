@@ -73,19 +73,18 @@ inline constexpr auto choices<BodyType> = std::to_array<Choice<BodyType>>({{"dyn
                                                                            {"fixed", BodyType::fixed},
                                                                            {"kinematic", BodyType::kinematic}});
 template <>
-inline constexpr auto choices<Pattern> =
-    std::to_array<Choice<Pattern>>({{"plain", Pattern::plain},
-                                    {"panel", Pattern::panel},
-                                    {"grid", Pattern::grid},
-                                    {"checker", Pattern::checker},
-                                    {"stripes", Pattern::stripes},
-                                    {"dots", Pattern::dots},
-                                    {"noise", Pattern::noise},
-                                    {"wood", Pattern::wood},
-                                    {"marble", Pattern::marble}});
+inline constexpr auto choices<Pattern> = std::to_array<Choice<Pattern>>({{"plain", Pattern::plain},
+                                                                         {"panel", Pattern::panel},
+                                                                         {"grid", Pattern::grid},
+                                                                         {"checker", Pattern::checker},
+                                                                         {"stripes", Pattern::stripes},
+                                                                         {"dots", Pattern::dots},
+                                                                         {"noise", Pattern::noise},
+                                                                         {"wood", Pattern::wood},
+                                                                         {"marble", Pattern::marble}});
 template <>
-inline constexpr auto choices<TextureFilter> = std::to_array<Choice<TextureFilter>>(
-    {{"linear", TextureFilter::linear}, {"nearest", TextureFilter::nearest}});
+inline constexpr auto choices<TextureFilter> =
+    std::to_array<Choice<TextureFilter>>({{"linear", TextureFilter::linear}, {"nearest", TextureFilter::nearest}});
 template <>
 inline constexpr auto choices<SoundMaterial> = std::to_array<Choice<SoundMaterial>>({{"wood", SoundMaterial::wood},
                                                                                      {"metal", SoundMaterial::metal},

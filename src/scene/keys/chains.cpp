@@ -222,11 +222,12 @@ void read_chains(const TomlTable& root, const BodySources& sources, std::vector<
     JointNames joint_names(joints);
     for (TomlTable& table : list->tables("; write [[chain]] for each")) {
         table.set_title("[[chain]]");
-        table.expect_keys({"name",        "links",     "shape",    "from",      "to",      "sag",      "length",
-                           "loop",        "normal",    "twist",    "joint",     "ends",    "material", "color",
-                           "colors",      "roughness", "metallic", "pattern",   "visible", "density",  "mass",
-                           "restitution", "friction",  "velocity", "integrator", "pattern_color", "pattern_scale", "texture",
-                           "texture_scale", "texture_filter"});
+        table.expect_keys({"name",          "links",         "shape",    "from",          "to",
+                           "sag",           "length",        "loop",     "normal",        "twist",
+                           "joint",         "ends",          "material", "color",         "colors",
+                           "roughness",     "metallic",      "pattern",  "visible",       "density",
+                           "mass",          "restitution",   "friction", "velocity",      "integrator",
+                           "pattern_color", "pattern_scale", "texture",  "texture_scale", "texture_filter"});
         const ChainTable chain = read_chain(table, index);
         check_number_of_bodies(std::int64_t(bodies.size() + chain.links), table.require("links").origin());
         ShapeRequest shape = read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);

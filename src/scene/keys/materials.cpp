@@ -42,6 +42,13 @@ MeshShape with_texture(const MeshShape& mesh, const Appearance& look) {
 
 Shape textured(const Shape& shape, const Appearance& look) {
     if (const auto* mesh = std::get_if<MeshShape>(&shape)) return with_texture(*mesh, look);
+    if (const auto* curved = std::get_if<CurvedShape>(&shape)) {
+        auto asset = std::make_shared<MeshAsset>(*curved->drawn);
+        asset->paint = texture_paint(shape, look, asset->vertices, asset->indices);
+        CurvedShape made = *curved;
+        made.drawn = std::move(asset);
+        return made;
+    }
     const auto* compound = std::get_if<CompoundShape>(&shape);
     if (compound == nullptr) return shape;
     auto parts = std::make_shared<std::vector<CompoundPart>>(*compound->parts);
@@ -79,7 +86,8 @@ void read_material_keys(const TomlTable& table, const TextureSource& textures, M
     const auto value = table.find("texture");
     if (!value) return;
     for (const char* key : {"pattern", "pattern_color", "pattern_scale"})
-        if (const auto other = table.find(key)) other->origin().fail("and texture exclude each other: give one of them");
+        if (const auto other = table.find(key))
+            other->origin().fail("and texture exclude each other: give one of them");
     const std::string name = value->text();
     if (name.empty()) value->fail("must not be empty");
     if (name.find('\0') != std::string::npos) value->fail("must not hold a zero byte");
@@ -87,9 +95,9 @@ void read_material_keys(const TomlTable& table, const TextureSource& textures, M
     try {
         material.texture = textures.files.load(file);
     } catch (const MeshError& error) {
-        throw InputError(value->origin().where, fmt::format("texture \"{}\" {} (looked at {})",
-                                                            safe_text(name, path_text_bytes), error.what(),
-                                                            safe_path(file)));
+        throw InputError(value->origin().where,
+                         fmt::format("texture \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
+                                     safe_path(file)));
     }
 }
 
