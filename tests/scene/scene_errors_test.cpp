@@ -302,7 +302,7 @@ TEST(SceneErrors, OfBodies) {
         {body("rolling_friction = @-1"), "rolling_friction must be from 0 to 1000 (given -1)"},
         {body("type = \"fixed\"\ncenter_of_mass = @[0, 0, 0]"), "center_of_mass is for dynamic bodies"},
         {body("inertia = @[1, 1, 1]"), "inertia must be an array of 6 numbers xx, yy, zz, xy, xz, yz"},
-        {body("inertia = [1, @-1, 1, 0, 0, 0]"), "inertia must be above 0, to 1e+30 kg m^2 (given -1)"},
+        {body("inertia = [1, @-1, 1, 0, 0, 0]"), "inertia must be above 0 and at most 1e+30 kg m^2 (given -1)"},
         {body("inertia = @[1, 1, 1, 2, 0, 0]"),
          "inertia must be positive about every axis (given the moments -1, 1 and 3"},
         {body("inertia = @{ principal = [1, 2, 4] }"),

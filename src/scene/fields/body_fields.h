@@ -166,7 +166,7 @@ void visit_fields(Of<CompoundPart>, Visitor& field, Self& self) {
     field(self.shape, "shape", Required(ByCode()),
           {.text =
                "a box, a sphere, a mesh (which collides as its convex hull, in fixed bodies too), or a compound (whose "
-               "parts become parts of this body); not a plane",
+               "parts become parts of this body); not a plane or a height field",
            .type = "table"});
     field(self.position, "position", limits::coordinate, {"of the part's origin, in the body's frame"});
     field(self.rotation, "rotation", ByType(), {"of the part, in the body's frame"});

@@ -1,4 +1,4 @@
-// DirectSolver: rolling and spinning friction (turning_resistance.h). Rolling friction lies in a disc, as friction does;
+// DirectSolver: rolling and spinning friction (turning_resistance.h). Rolling friction lies in a disc as friction does;
 // both have limits that follow the loads from round to round.
 #include "sim/contact/direct/direct_solver.h"
 
