@@ -4,6 +4,7 @@
 
 #include "sim/geometry/shapes/interface.h"
 
+#include <algorithm>
 #include <array>
 
 namespace tumble {
@@ -46,6 +47,11 @@ struct CurvedBody {
     double mean_projected_area() const { return projected_area; }
     /// Exact for capsules; for others see support().
     RoundedHull rounded_hull() const { return {ends, radius - rounding, rounding}; }
+    /// Of the widest circle; of an ellipsoid the middle one of its radii.
+    double rolling_radius() const {
+        if (ellipsoid) return radii.sum() - radii.maxCoeff() - radii.minCoeff();
+        return std::max(discs[0].radius, discs[1].radius) + rounding;
+    }
     std::uint32_t part_count() const { return 1; }
     bool contains(const Vec3& point, double tolerance) const;
 };
