@@ -1,6 +1,7 @@
 #version 410 core
 // Compiled for each kind of body. Defines: BOX, BALL or MESH; CHARTED for meshes with a lightmap; SUNLIT for surfaces
-// that may face the sun; PLAIN for surfaces of one color, with TWO_COLORS of a pattern, with IMAGE of a texture; SHADOWED for surfaces that may receive shadows; SPANS_CASCADES for bodies that span cascades.
+// that may face the sun; PLAIN for surfaces of one color, with TWO_COLORS of a pattern, with IMAGE of a texture; SHADOWED
+// for surfaces that may receive shadows; SPANS_CASCADES for bodies that span cascades.
 #include "frame.glsl"
 #include "instance.glsl"
 #include "light_constants.glsl"

@@ -33,6 +33,8 @@ SceneSpec everything() {
     spec.bodies[0].material.friction = 0.4;
     spec.bodies[0].material.pattern = Pattern::checker;
     spec.bodies[1].material = {Color{1, 2, 254}, 600.0, 0.3, 0.2, 0.1, 1.0, Pattern::grid};
+    spec.bodies[1].material.pattern_color = Color{3, 4, 5};
+    spec.bodies[1].material.pattern_scale = 0.25;
     spec.bodies[1].mass = 12.5;
     spec.bodies[1].rotation = AxisAngle{{1.0, 2.0, 3.0}, 40.0};
     spec.bodies[2].rotation = Quat{0.8, 0.6, 0.0, 0.0};

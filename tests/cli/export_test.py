@@ -378,6 +378,25 @@ rotation = { axis = [1.0, 2.0, 3.0], angle = 50.0 }
         self.assertEqual(sorted(glb.accessors[primitive["attributes"]["COLOR_0"]]), [(0, 0, 1), (0, 1, 0), (1, 0, 0)])
         self.assertNotIn("textures", glb.json)
 
+    def test_textures_of_shapes_and_the_mean_of_a_pattern(self):
+        (self.folder / "image.png").write_bytes(program.png(4, 2, (200, 40, 20)))
+        glb = self.export('format = 1\n[materials.image]\ntexture = "image.png"\n'
+                          '[[body]]\ntype = "fixed"\nshape = { type = "sphere", radius = 1 }\npattern = "stripes"\n'
+                          'color = "#ffffff"\npattern_color = "#000000"\n'
+                          '[[body]]\ntype = "fixed"\nshape = { type = "box", size = [1, 2, 3] }\nmaterial = "image"\n'
+                          '[[body]]\ntype = "fixed"\nshape = { type = "box", size = [1, 2, 3] }\nmaterial = "image"\n'
+                          'position = [9, 0, 0]\n'
+                          '[[body]]\ntype = "fixed"\nshape = { type = "sphere", radius = 2 }\nmaterial = "image"\n'
+                          'texture_scale = 1\nposition = [0, 9, 0]\n')
+        self.assertEqual(len(glb.json["meshes"]), 3)  # both boxes share one
+        self.assertEqual(len(glb.json["images"]), 1)
+        factor = glb.json["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"]
+        self.assertAlmostEqual(factor[0], 0.5, delta=0.01)
+        box, ball = ([place for one in mesh["primitives"] for place in glb.accessors[one["attributes"]["TEXCOORD_0"]]]
+                     for mesh in glb.json["meshes"][1:])
+        self.assertEqual({place for place in box}, {(0, 0), (0, 1), (1, 0), (1, 1)})
+        self.assertGreaterEqual(max(u for u, _ in ball) - min(u for u, _ in ball), 13)  # 4 pi m around, once each meter
+
     def test_the_same_bytes_for_any_number_of_threads(self):
         self.write("tetrahedron.obj", TETRAHEDRON)
         self.write("scene.toml", VARIED)

@@ -209,7 +209,7 @@ class FileColorsTest(program.ProgramTest):
                                                  program.chunk(b"IDAT", b"") + program.chunk(b"IEND", b""))
         self.write("a.gltf", square("broken.png"))
         run = self.check(2, "render", "scene.toml", "--frames", "none")
-        self.assertIn('"broken.png" of 20000 x 4 pixels (at most 8192 a side)', run.stderr)
+        self.assertIn('"broken.png", which is too large: 20000 x 4 pixels (at most 8192 a side)', run.stderr)
 
     def test_images_are_inputs_and_count_for_the_scene(self):
         (self.folder / "a.png").write_bytes(checker(8))

@@ -235,8 +235,8 @@ TEST(Patterns, OfPlanesKeepTheirPlaceWhenTheEyeMoves) {
         ground.appearance.pattern_scale = 0.3;
         SceneDescription scene = empty_scene();
         scene.bodies = {ground};
-        scene.camera.eye = Vec3(0.0, 6.0, 0.01);
-        scene.camera.target = Vec3::Zero();
+        scene.camera.eye = Vec3(-0.3, 6.0, -0.19);
+        scene.camera.target = Vec3(-0.3, 0.0, -0.2);
         const Image before = drawn(scene);
         SceneDescription aside = scene;
         const Vec3 step(0.7, 0.0, 0.4);

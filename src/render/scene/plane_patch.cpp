@@ -10,7 +10,7 @@ namespace tumble {
 namespace {
 
 // Coordinates along the axes are kept small by subtracting whole periods of the pattern, in cells. Noise has none: it
-// has a seam there.
+// is other noise from half of this distance on.
 constexpr double checker_period = 2.0, noise_period = 65536.0;
 
 using Polygon = std::vector<Eigen::Vector2d>;  // clip space x and y
@@ -37,7 +37,8 @@ Polygon clipped(const Polygon& polygon, Function function) {
 
 glm::vec4 axis(const Vec3& direction, const Vec3& eye_from_origin, double cell, double period) {
     const double cells = direction.dot(eye_from_origin) / cell;
-    return to_glm(direction / cell, cells - period * std::floor(cells / period));
+    const double periods = period == noise_period ? std::round(cells / period) : std::floor(cells / period);
+    return to_glm(direction / cell, cells - period * periods);
 }
 
 }  // namespace

@@ -209,8 +209,8 @@ inline Color plain_color(const Shape& shape, Color of_body) {
 /// The material that a body sounds of (sound/sound_track.h).
 enum class SoundMaterial { wood, metal, glass, stone, plastic, rubber, none };
 
-/// panel: the look of the shape itself, which are grooves on a box and paler octants on a sphere. Other shapes have none,
-/// so that for them it stands for plain too.
+/// panel: the look of the shape itself, which are grooves on a box and paler octants on a sphere. Other shapes have
+/// none, so that for them it stands for plain too.
 enum class Pattern { panel, grid, checker, plain, stripes, dots, noise, wood, marble };
 
 /// Magnified texels: blended with their neighbors, or squares.
