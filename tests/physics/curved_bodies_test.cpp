@@ -2,12 +2,15 @@
 #include "core/deterministic_math.h"
 #include "sim/geometry/shapes/shape.h"
 #include "support/curved.h"
+#include "support/meshes.h"
 #include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <string>
 #include <vector>
 
 namespace tumble::curved_bodies_test {
@@ -107,6 +110,46 @@ TEST(CurvedBodies, StandingAndLyingBodiesComeToRest) {
                 EXPECT_FALSE(before.empty());
                 for (std::size_t i = 0; i < before.size(); ++i) EXPECT_LT((after[i] - before[i]).norm(), 1e-6);
             }
+}
+
+// Internal edges of a mesh do not catch them; a can stands and rests on several triangles.
+TEST(CurvedBodies, MeshesCarryThem) {
+    SceneDescription scene = ground_scene(0.0, 0.9);
+    scene.bodies[0].shape = MeshShape{asset_of(grid_mesh(20, 4.0, 0.0))};
+    BodyDescription& wheel = add_body(scene, cylinder(0.2, 0.5), {-3.0, 0.2, 0.03});
+    wheel.rotation = lying();
+    wheel.velocity = {2.0, 0.0, 0.0};
+    wheel.angular_velocity = {0.0, 0.0, -10.0};
+    wheel.restitution = 0.0;
+    wheel.friction = 0.9;
+    BodyDescription& can = add_body(scene, cylinder(0.3, 0.5), {0.1, 0.251, 1.5});
+    can.restitution = 0.0;
+    World world(scene);
+    run(world, scene, 2.0);
+    const Snapshot end = world.snapshot();
+    EXPECT_NEAR(end.bodies[1].center_of_mass.x(), 1.0, 1e-3);
+    EXPECT_NEAR(end.bodies[1].center_of_mass.y(), 0.2, 1e-5);
+    EXPECT_LT(std::fabs(end.bodies[1].center_of_mass.z() - 0.03), 1e-4);
+    EXPECT_TRUE(end.bodies[2].asleep);
+    EXPECT_NEAR(end.bodies[2].center_of_mass.y(), 0.25, 1e-5);
+}
+
+// A pencil of parts comes to rest on its side.
+TEST(CurvedBodies, PartsOfCompoundsTouchTheGround) {
+    SceneDescription scene = ground_scene(0.1, 0.5);
+    auto parts = std::make_shared<std::vector<CompoundPart>>(2);
+    (*parts)[0].shape = cylinder(0.004, 0.15);
+    (*parts)[1].shape = cone(0.004, 0.014);
+    (*parts)[1].position = {0.0, 0.082, 0.0};
+    BodyDescription& pencil = add_body(scene, CompoundShape{parts}, {0.0, 0.05, 0.0});
+    pencil.rotation = turn({0.2, 0.1, 1.0}, 1.2);
+    pencil.friction = 0.5;
+    pencil.restitution = 0.1;
+    World world(scene);
+    run(world, scene, 3.0);
+    const BodyState end = world.snapshot().bodies[1];
+    EXPECT_NEAR(end.center_of_mass.y(), 0.004, 1e-6);
+    EXPECT_LT(std::fabs((end.orientation * Vec3::UnitY()).y()), 1e-4);
 }
 
 // A cylinder tips over its rim beyond atan(2 r / h), a cone beyond 45 degrees for r = h / 4.

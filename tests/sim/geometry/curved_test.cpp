@@ -185,7 +185,7 @@ TEST(Curved, RaysMeetTheSurface) {
         const Vec3 center = mass_properties(shape, 1.0).center_of_mass;
         const Vec3 from = 4.0 * random.direction(), to = random.vector(0.8);
         const double found = first_hit(shape, from, to - from);
-        bool inside = false;  // whether the ray comes into the body before
+        bool inside = false;  // the ray comes into the body before
         for (int k = 0; k < 200 && !inside; ++k) {
             const double t = 2.0 * k / 200.0;
             inside = t < found - 1e-9 && body->contains(from + t * (to - from) - center, -1e-9);
