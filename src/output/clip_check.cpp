@@ -72,7 +72,7 @@ private:
     std::array<std::uint8_t, 4096> window_;
 };
 
-/// MP4 and MOV (ISO/IEC 14496-12): nested boxes. Counts the samples of all tracks.
+/// MP4 and MOV (ISO/IEC 14496-12): nested boxes. Counts the samples of the tracks of pictures.
 class BoxReader {
 public:
     explicit BoxReader(FileBytes& file) : file_(file) {}
@@ -98,7 +98,11 @@ private:
                 type_ = true;
             else if (type == "mdat")
                 data_ = true;
-            else if (type == "stsz")
+            else if (type == "hdlr" && file_.text(place + head + 8, 4) == "vide")
+                pictures_ = true;
+            else if (type == "hdlr" && file_.text(place + head + 8, 4) == "soun")
+                pictures_ = false;
+            else if (type == "stsz" && pictures_)
                 samples_ += static_cast<std::int64_t>(file_.number(place + head + 8, 4));
             else if (type == "moov" || type == "trak" || type == "mdia" || type == "minf" || type == "stbl")
                 walk(place + head, place + size);
@@ -107,11 +111,11 @@ private:
     }
 
     FileBytes& file_;
-    bool type_ = false, data_ = false;
+    bool type_ = false, data_ = false, pictures_ = true;
     std::int64_t samples_ = 0;
 };
 
-/// Matroska and WebM (RFC 9559): nested elements. Counts the blocks.
+/// Matroska and WebM (RFC 9559): nested elements. Counts the blocks of the first track.
 class ElementReader {
 public:
     ElementReader(FileBytes& file, std::string_view kind) : file_(file), kind_(kind) {}
@@ -123,6 +127,7 @@ public:
             segment = 0x18538067,
             cluster = 0x1f43b675,
             block_group = 0xa0,
+            block = 0xa1,
             simple_block = 0xa3
         };
         if (file_.number(0, 4) != ebml) throw Fault{"it is of another kind"};
@@ -130,9 +135,12 @@ public:
         std::string kind;
         while (position_ < file_.size()) {
             const std::uint64_t element = variable_number(true), size = variable_number(false);
-            if (element == block_group || element == simple_block) ++blocks;
-            if (element == ebml || element == segment || element == cluster) continue;  // its content comes next
+            if (element == ebml || element == segment || element == cluster || element == block_group)
+                continue;  // its content comes next
             if (size > file_.size() - position_) throw Fault{"the file ends too early"};
+            constexpr std::uint8_t first_track = 0x81;  // with the mark of its length
+            if ((element == block || element == simple_block) && size > 0 && file_.at(position_) == first_track)
+                ++blocks;
             if (element == doc_type) kind = file_.text(position_, std::min<std::uint64_t>(size, 16));
             position_ += size;
         }

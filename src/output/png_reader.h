@@ -22,8 +22,8 @@ struct GrayImage {
     std::vector<std::uint16_t> samples;
 };
 
-/// The samples of a gray PNG file as they are, without a gamma: those of fewer than 16 bits are stretched to 0 to 65535.
-/// Throws InputError if it is missing, not a PNG file, broken, not gray, or has more than `most` pixels.
+/// The samples of a gray PNG file as they are, without a gamma: fewer than 16 bits are stretched to 0 to 65535. Throws
+/// InputError if it is missing, not a PNG file, broken, not gray, or has more than `most` pixels.
 GrayImage read_gray_png(const std::filesystem::path& path, std::int64_t most);
 
 /// A image from top to bottom. Every color type, depth and interlacing becomes 8-bit sRGB with alpha (255 if the file

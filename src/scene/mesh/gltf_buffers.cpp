@@ -89,7 +89,7 @@ std::uint32_t index_value(const char* at, Component type) {
     throw MeshError("has indices that are not unsigned whole numbers");
 }
 
-// Of accessors, by the number of components.
+// Types of accessors, by the number of components.
 constexpr const char* kinds[17] = {"", "SCALAR", "VEC2", "VEC3", "VEC4", "", "", "",    "",
                                    "", "",       "",     "",     "",     "", "", "MAT4"};
 

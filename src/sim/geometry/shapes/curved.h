@@ -47,7 +47,7 @@ struct CurvedBody {
     double mean_projected_area() const { return projected_area; }
     /// Exact for capsules; for others see support().
     RoundedHull rounded_hull() const { return {ends, radius - rounding, rounding}; }
-    /// Of the widest circle; of an ellipsoid the middle one of its radii.
+    /// That of the widest circle; the middle radius of an ellipsoid.
     double rolling_radius() const {
         if (ellipsoid) return radii.sum() - radii.maxCoeff() - radii.minCoeff();
         return std::max(discs[0].radius, discs[1].radius) + rounding;
