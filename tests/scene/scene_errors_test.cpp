@@ -246,8 +246,9 @@ TEST(SceneErrors, OfShapes) {
         {"format = 1\n@[[body]]\nname = \"a\"\n[[body]]\nname = \"b\"", "[[body]] needs \"shape\" (not given)"},
         {shape("@{ size = [1, 1, 1] }"), "a shape needs \"type\" (not given)"},
         {shape("{ type = @\"cube\", size = [1, 1, 1] }"),
-         "type must be one of \"plane\", \"box\", \"sphere\", \"mesh\", \"compound\", \"hull\", "
-         "\"heightfield\" (given \"cube\")"},
+         "type must be one of \"plane\", \"box\", \"sphere\", \"capsule\", \"cylinder\", \"cone\", \"ellipsoid\", "
+         "\"mesh\", "
+         "\"compound\", \"hull\", \"heightfield\" (given \"cube\")"},
         {shape("{ type = \"box\", size = [1, @0, 1] }"), "size must be from 1e-09 to 1000000000 m (given 0)"},
         {shape("{ type = \"box\", size = [1, 1, @nan] }"), "size must be a finite number (given nan)"},
         {shape("{ type = \"box\", size = [1, 1, @2e9] }"), "size must be"},

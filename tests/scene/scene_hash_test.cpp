@@ -116,6 +116,15 @@ shape = { type = "heightfield", file = "../../tests/scene/heights.csv", size = [
 name = "wedge"
 shape = { type = "hull", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]] }
 [[body]]
+name = "tin"
+shape = { type = "cylinder", radius = 0.3, height = 0.8 }
+[[body]]
+name = "hat"
+shape = { type = "cone", radius = 0.35, height = 0.85, top_radius = 0.2 }
+[[body]]
+name = "egg"
+shape = { type = "ellipsoid", radii = [0.3, 0.4, 0.3] }
+[[body]]
 name = "crate"
 shape = { type = "box", size = [0.5, 0.5, 0.5] }
 grid = { count = [2, 1, 2], spacing = 0.75, jitter = 0.05, tilt = 10 }
@@ -247,6 +256,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"friction", "name = \"ball\"", "friction = 0.7", "friction = 0.8", true},
      {"rolling_friction", "name = \"ball\"", "friction = 0.7", "friction = 0.7\nrolling_friction = 0.1", true},
      {"spinning_friction", "name = \"ball\"", "friction = 0.7", "friction = 0.7\nspinning_friction = 0.1", true},
+     {"sound", "name = \"ball\"", "friction = 0.7", "friction = 0.7\nsound = \"glass\"", true},
      {"gravity_scale", "", "mass = 3", "mass = 3\ngravity_scale = 0.5", true},
      {"center_of_mass", "", "mass = 3", "mass = 3\ncenter_of_mass = [0, 0, 0]", true},
      {"inertia", "", "mass = 3", "mass = 3\ninertia = [1, 1, 1, 0, 0, 0]", true},
@@ -312,6 +322,15 @@ const std::vector<std::vector<Change>> own_tables = {
      {"base", "name = \"hills\"", "base = 0.25", "base = 0.3", true}},
     {{"type", "name = \"wedge\"", "", "", true},  // by the shapes above
      {"points", "name = \"wedge\"", "[0, 0, 1]]", "[0, 0, 2]]", true}},
+    {{"type", "name = \"tin\"", "cylinder", "capsule", true},
+     {"radius", "name = \"tin\"", "radius = 0.3", "radius = 0.31", true},
+     {"height", "name = \"tin\"", "height = 0.8", "height = 0.81", true}},
+    {{"type", "name = \"hat\"", "", "", true},  // by the shape above
+     {"radius", "name = \"hat\"", "radius = 0.35", "radius = 0.36", true},
+     {"height", "name = \"hat\"", "height = 0.85", "height = 0.86", true},
+     {"top_radius", "name = \"hat\"", "top_radius = 0.2", "top_radius = 0.21", true}},
+    {{"type", "name = \"egg\"", "", "", true},
+     {"radii", "name = \"egg\"", "[0.3, 0.4, 0.3]", "[0.3, 0.45, 0.3]", true}},
     {{"principal", "", "mass = 3", "mass = 3\ninertia = { principal = [1, 1, 1] }", true},
      {"rotation", "", "mass = 3", "mass = 3\ninertia = { principal = [1, 2, 2], rotation = [0, 1, 0, 0] }", true}},
     {{"count", "name = \"crate\"", "count = [2, 1, 2]", "count = [2, 1, 3]", true},
