@@ -83,11 +83,11 @@ double noise(std::uint64_t counter) {
 
 double area_of(const Vec3& size) { return 2.0 * (size.x() * size.y() + size.y() * size.z() + size.z() * size.x()); }
 
-/// Spectrum of a half-sine pulse of that duration at a frequency, 1 at 0.
+/// Spectrum of a half-sine pulse of that duration at a frequency, 1 at 0: its envelope, for only an exact half-sine has
+/// zeros between.
 double pulse_spectrum(double frequency, double duration) {
     const double x = 2.0 * frequency * duration;
-    if (std::abs(x - 1.0) < 1e-4) return pi / 4.0;
-    return std::abs(sincos(0.5 * pi * x).cos / (1.0 - x * x));
+    return 1.0 / (1.0 + x * x);
 }
 
 /// The displacement of a mode at a point, for a force along a direction. A tenth of the modes' motion is in the other

@@ -42,8 +42,9 @@ TEST(Compound, ABoxOfEightBoxesFliesLikeTheBox) {
         SceneDescription whole = empty_scene(), parts = empty_scene();
         for (auto* scene : {&whole, &parts}) {
             scene->simulation.integrator = integrator;
-            BodyDescription& body =
-                add_body(*scene, scene == &whole ? Shape{BoxShape{size}} : Shape{box_of_eight(size)}, {1.0, 2.0, 3.0});
+            Shape shape = BoxShape{size};
+            if (scene == &parts) shape = box_of_eight(size);
+            BodyDescription& body = add_body(*scene, shape, {1.0, 2.0, 3.0});
             body.velocity = {1.0, 2.0, -0.5};
             body.angular_velocity = {3.0, 0.2, 1.0};
         }

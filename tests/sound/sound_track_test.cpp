@@ -15,12 +15,12 @@
 namespace tumble::sound_track_test {
 namespace {
 
-struct Run {
+struct Heard {
     SoundTrack track;
     std::vector<ImpactRecord> impacts;
 };
 
-Run run(const std::string& bodies, double duration = 1.0) {
+Heard run(const std::string& bodies, double duration = 1.0) {
     const std::string text = R"(
 format = 1
 [simulation]
@@ -35,7 +35,7 @@ shape = { type = "plane" }
     const SceneDescription scene = parse_scene(text, "test.toml");
     World world(scene);
     world.record_contacts();
-    Run made{SoundTrack(scene), {}};
+    Heard made{SoundTrack(scene), {}};
     made.track.see(world.snapshot(), world.contact_records());
     for (std::int64_t n = 1; n < scene.timing().frame_count(duration); ++n) {
         world.advance_frame();
@@ -83,7 +83,7 @@ double loudest(const std::vector<double>& samples, double from, double to, doubl
 }
 
 TEST(SoundTrack, AClickBeginsInTheSampleOfItsImpact) {
-    const Run r = run(ball(0.6, "restitution = 0.8\n"), 1.2);
+    const Heard r = run(ball(0.6, "restitution = 0.8\n"), 1.2);
     ASSERT_GE(r.impacts.size(), 2u);
     const std::vector<double> samples = r.track.pressure({0.0, 1.2, 1.0});
     EXPECT_LE(std::abs(onset(samples) - std::llround(r.impacts[0].when.time * sound_rate)), 1);
@@ -96,7 +96,7 @@ TEST(SoundTrack, AClickBeginsInTheSampleOfItsImpact) {
 TEST(SoundTrack, TheEnergyOfAClickGrowsWithTheImpulse) {
     double last = 0.0;
     for (const double height : {0.1, 0.2, 0.4, 0.8}) {
-        const Run r = run(ball(height, "restitution = 0\n"), 0.6);
+        const Heard r = run(ball(height, "restitution = 0\n"), 0.6);
         const double now = energy(r.track.pressure({0.0, 0.6, 1.0}));
         EXPECT_GT(now, 1.5 * last) << height;
         last = now;
@@ -107,8 +107,8 @@ TEST(SoundTrack, SlowMotionIsLaterAndLower) {
     const std::string bar =
         "[[body]]\nshape = { type = \"box\", size = [0.5, 0.02, 0.02] }\nposition = [0, 0.2, 0]\nrotation = { axis = "
         "[0, 0, 1], "
-        "degrees = 5 }\nmaterial = \"steel\"\n[materials.steel]\nsound = \"metal\"\ndensity = 7800\nrestitution = 0\n";
-    const Run r = run(bar, 0.4);
+        "angle = 5 }\nmaterial = \"steel\"\n[materials.steel]\nsound = \"metal\"\ndensity = 7800\nrestitution = 0\n";
+    const Heard r = run(bar, 0.4);
     ASSERT_FALSE(r.impacts.empty());
     const std::vector<double> normal = r.track.pressure({0.0, 0.4, 1.0}), slow = r.track.pressure({0.0, 0.8, 0.5});
     EXPECT_EQ(slow.size(), 2 * normal.size());
@@ -119,14 +119,14 @@ TEST(SoundTrack, SlowMotionIsLaterAndLower) {
 }
 
 TEST(SoundTrack, TheLowestModeOfABallIsLambs) {
-    const Run r = run(ball(0.3, "material = \"steel\"\n[materials.steel]\nsound = \"metal\"\ndensity = 7800\n"), 0.5);
+    const Heard r = run(ball(0.3, "material = \"steel\"\n[materials.steel]\nsound = \"metal\"\ndensity = 7800\n"), 0.5);
     // 2.64 c_s / (2 pi R) with c_s = 3200 m/s: 26.9 kHz, inaudible. At a tenth of the speed 2.69 kHz.
     const std::vector<double> slow = r.track.pressure({0.2, 3.0, 0.1});
     EXPECT_NEAR(loudest(slow, 2200, 3200, 10.0), 2690.0, 0.05 * 2690.0);
 }
 
 TEST(SoundTrack, SilentBodiesAndSilentMaterialsGiveZeros) {
-    const Run r = run(ball(0.3, "material = \"quiet\"\n[materials.quiet]\nsound = \"none\"\n"), 0.5);
+    const Heard r = run(ball(0.3, "material = \"quiet\"\n[materials.quiet]\nsound = \"none\"\n"), 0.5);
     ASSERT_FALSE(r.impacts.empty());
     const std::vector<double> samples = r.track.pressure({0.0, 0.5, 1.0});
     EXPECT_EQ(energy(samples), 0.0);
@@ -134,7 +134,7 @@ TEST(SoundTrack, SilentBodiesAndSilentMaterialsGiveZeros) {
 }
 
 TEST(SoundTrack, ASlidingBoxHissesUntilItRests) {
-    const Run r =
+    const Heard r =
         run("[[body]]\nshape = { type = \"box\", size = [0.2, 0.1, 0.2] }\nposition = [0, 0.05, 0]\n"
             "velocity = [2, 0, 0]\nfriction = 0.5\n",
             1.0);  // for v / (mu g) = 0.41 s

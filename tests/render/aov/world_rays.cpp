@@ -60,6 +60,9 @@ double depth_of(const MeshShape& mesh, const WorldRay& ray) {
     return nearest;
 }
 
+/// The triangles that stand for it.
+double depth_of(const CurvedShape& shape, const WorldRay& ray) { return depth_of(MeshShape{shape.drawn}, ray); }
+
 double depth_of(const CompoundShape&, const WorldRay&) { return -1.0; }
 
 }  // namespace
