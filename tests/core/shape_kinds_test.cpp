@@ -37,6 +37,8 @@ const std::map<std::string, std::string> known = {
     {"render/scene/plane_patch.h", "planes: drawn as the part in view"},
     {"scene/camera/camera_visibility.cpp",
      "planes: bodies fall onto them; parts of compounds; the number of triangles"},
+    {"scene/description/looks.cpp", "places of a texture on each kind"},
+    {"scene/keys/materials.cpp", "the look without a material; textures of meshes and of parts"},
     {"scene/camera/default_camera.cpp", "planes: bodies fall onto them"},
     {"scene/camera/throw_preview.cpp", "planes: bodies bounce off them; spheres roll"},
     {"sim/detection/broad_phase.cpp", "half-spaces: not in a tree of bounds"},

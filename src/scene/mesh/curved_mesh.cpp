@@ -45,7 +45,7 @@ std::vector<Ring> rings_of(const CurvedShape& shape) {
             break;
         case CurvedKind::cylinder:
         case CurvedKind::cone: {
-            const double low = shape.radius, high = shape.top_radius, slant = std::hypot(shape.height, low - high);
+            const double low = shape.radius, high = shape.top_radius, slant = hypotenuse(shape.height, low - high);
             const double outward = shape.height / slant, upward = (low - high) / slant;
             rings = {{0.0, -half, 0.0, -1.0},
                      {low, -half, 0.0, -1.0, true},
