@@ -96,14 +96,15 @@ SetResult check_cases(const GoldenSuite& suite, std::span<const DrawnCase> drawn
             result.images[i] = lone_result(pair, *places[i].drawn);
         }
     }
-    for (const auto& [tolerances, indices] : groups) {
+    for (const auto& group : groups) {
+        const std::vector<std::size_t>& indices = group.second;
         std::size_t next = 0;
         const auto source = [&]() -> std::optional<ImagePair> {
             if (interrupt.pending()) throw Interrupted();
             if (next == indices.size()) return std::nullopt;
             return pair_of(places[indices[next++]], references.files);
         };
-        std::vector<ImageResult> compared = compare_pairs(source, *tolerances, options.workers);
+        std::vector<ImageResult> compared = compare_pairs(source, *group.first, options.workers);
         for (std::size_t k = 0; k < indices.size(); ++k) result.images[indices[k]] = std::move(compared[k]);
     }
     for (std::size_t i = 0; i < places.size(); ++i) {
