@@ -370,6 +370,9 @@ void add_checkpoints(CLI::App& command, SimulateCommand& c) {
 }
 
 void run_simulate(const SimulateCommand& command) {
+    if (command.sound && command.sound->extension() != ".wav")
+        throw InputError(
+            fmt::format("--sound: must be a file that ends with .wav (was '{}')", safe_path(*command.sound)));
     if (command.sound && (command.checkpoints || command.from_checkpoints))
         throw InputError("--sound: is of a whole run, without --checkpoints and --from-checkpoints");
     if (command.checkpoints) return simulate_clip(command);
