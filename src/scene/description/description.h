@@ -97,7 +97,7 @@ struct CameraKeyframe {
 /// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
 /// (render/camera/camera_animation.h).
 struct CameraDescription {
-    Vec3 eye, target, up{0.0, 1.0, 0.0};
+    Vec3 eye = Vec3::Zero(), target = Vec3::Zero(), up{0.0, 1.0, 0.0};
     double vertical_fov = 40.0;             // degrees
     std::vector<CameraKeyframe> keyframes;  // empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
