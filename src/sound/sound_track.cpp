@@ -93,9 +93,9 @@ double pulse_spectrum(double frequency, double duration) {
 /// The displacement of a mode at a point, for a force along a direction. A tenth of the modes' motion is in the other
 /// directions, as in real bodies, whose edges are not free of each other.
 double coupling(const Mode& mode, const SoundTrack::Body& body, const SoundTrack::Strike& strike) {
-    const double place = std::clamp(strike.point[mode.along] / body.size[mode.along] + 0.5, 0.0, 1.0);
+    const double position = std::clamp(strike.point[mode.along] / body.size[mode.along] + 0.5, 0.0, 1.0);
     const double along = strike.impulse[mode.across];
-    return std::sqrt(2.0) * sincos(pi * mode.half_waves * place).cos *
+    return std::sqrt(2.0) * sincos(pi * mode.half_waves * position).cos *
            std::sqrt(along * along + 0.1 * strike.impulse.squaredNorm());
 }
 
@@ -116,7 +116,7 @@ public:
         decay_ = r * r;
         gain_ = turn.sin;
     }
-    /// Adds to the samples from `first` until `end`, or until the mode has faded.
+    /// Adds the mode's pressure to the samples. `drive`: an impulse for each sample; empty: none.
     void run(std::span<double> samples, std::span<const double> drive) {
         for (std::size_t i = 0; i < samples.size(); ++i) {
             const double y = feedback_ * y1_ - decay_ * y2_ + (drive.empty() ? 0.0 : drive[i]) * gain_;
@@ -132,7 +132,7 @@ private:
     double y1_ = 0.0, y2_ = 0.0;
 };
 
-/// Samples that are driven or that ring, without the silence between them.
+/// Samples that are made at a time; a block in which a mode is silent costs nothing.
 constexpr std::size_t block = 1024;
 
 class BodyVoice {
@@ -143,7 +143,7 @@ public:
     void ring(std::span<const SoundTrack::Strike> strikes, std::span<const SoundTrack::Rub> rubs) {
         const double loss = elasticity(body_.material).loss_factor;
         for (const Mode& mode : modes_of(body_)) {
-            if (mode.frequency * span_.speed > 0.45 * sound_rate) continue;  // not to be heard
+            if (mode.frequency * span_.speed > 0.45 * sound_rate) continue;  // inaudible
             // Amplitude of the surface's acceleration by an impulse J: 4 w J / m, for a modal mass of a quarter.
             const double w = 2.0 * pi * mode.frequency;
             const double loudness =

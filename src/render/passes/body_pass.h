@@ -23,7 +23,7 @@ std::vector<std::string> shadow_defines(const ShadowFilter& filter);
 /// Connects a program's samplers and blocks to them.
 void connect(const ShaderProgram& program);
 
-/// Shaders of looks: the shape's own, grids and checkers that darken, then those of RenderScene::looks by kind.
+/// Shaders by look: the shape's own look, grids and checkers that darken, then RenderScene::looks by kind.
 inline constexpr std::size_t look_shaders = 11;
 /// Preprocessor definitions of a look.
 std::vector<std::string> look_defines(const SurfaceLook& look);

@@ -10,11 +10,11 @@
 
 namespace tumble {
 
-/// Attributes of a vertex beside those of MeshAsset::Vertex, as in shaders/body.vert.
+/// Attributes of a vertex in addition to MeshAsset::Vertex, as in shaders/body.vert.
 struct VertexPaint {
     std::array<float, 2> uv;
     std::array<float, 3> color;     // linear light, without the texture
-    std::array<float, 3> surface;   // roughness, metallic (below 0: those of the body), alpha below which is a hole
+    std::array<float, 3> surface;   // roughness, metallic (below 0: the body's values), alpha below which is a hole
     std::array<float, 3> emission;  // linear light
 };
 

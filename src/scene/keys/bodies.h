@@ -22,7 +22,7 @@ struct BodySources {
     const SimulationSettings& settings;
     MeshCache& meshes;
     TextureFiles& textures;
-    std::vector<std::filesystem::path>& files;  // gets those that are read, beside meshes and textures
+    std::vector<std::filesystem::path>& files;  // receives the files that are read, except meshes and textures
 };
 
 /// The text of the file that the value names, at most limits::scene_bytes. `file`: gets its path. `what`: "template".
@@ -45,7 +45,7 @@ private:
 std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySources& sources);
 
 /// The body described by its table, but for its type and its shape; the model of all copies of a grid, a scatter or a
-/// chain. A color of its own takes those of the file from the shape.
+/// chain. If the table has a color, the shape loses the colors of its file.
 BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequest& shape, const BodySources& sources);
 
 /// Fails at the origin if a scene with so many bodies has too many.

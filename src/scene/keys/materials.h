@@ -24,7 +24,7 @@ struct TextureSource {
 
 Materials read_materials(const TomlTable& root, const TextureSource& textures);
 
-/// Reads the keys of a material in a table, those of a body as well, with its texture.
+/// Reads the keys of a material from the table of a material or of a body, and loads the texture.
 void read_material_keys(const TomlTable& table, const TextureSource& textures, Material& material);
 
 /// The material of that name, or an error with the nearest or all known names.
