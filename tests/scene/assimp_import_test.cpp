@@ -1,10 +1,11 @@
-// Mesh files of the formats that assimp imports in a child process: the same shapes, and no harm from malformed files.
+// Mesh files of the formats that other libraries import in a child process: the same shapes, and no harm from malformed files.
 #include "mesh_files.h"
+#include "scene/mesh/mesh_file.h"
 #include "scene/mesh/mesh_loader.h"
-#include "scene/mesh/three_mf_unit.h"
 
 #include <fmt/format.h>
 #include <sys/stat.h>
+#include <zlib.h>
 
 namespace tumble::assimp_import_test {
 namespace {
@@ -72,23 +73,73 @@ TEST_F(AssimpImport, FbxHasItsUnitAndItsUpAxis) {
     EXPECT_TRUE(turned.in_meters);
 }
 
-// The archive has one stored file, and no more of a 3MF package than the search for the unit needs.
-TEST_F(AssimpImport, TheUnitOfA3mfIsThatOfItsModel) {
-    const auto archive = [](const std::string& model) {
-        const std::string name = "3D/3dmodel.model";
-        const auto number = [](std::size_t value, int bytes) {
-            std::string text;
-            for (int i = 0; i < bytes; ++i) text += char(value >> (8 * i) & 0xff);
-            return text;
-        };
-        const std::string sizes = number(model.size(), 4) + number(model.size(), 4) + number(name.size(), 2);
-        const std::string local = std::string("PK\3\4") + std::string(14, '\0') + sizes + number(0, 2) + name + model;
-        return local + "PK\1\2" + std::string(16, '\0') + sizes + std::string(16, '\0') + name;
+/// A 3MF package, whose files are stored.
+std::string three_mf(const std::string& model) {
+    const auto number = [](std::size_t value, int bytes) {
+        std::string text;
+        for (int i = 0; i < bytes; ++i) text += char(value >> (8 * i) & 0xff);
+        return text;
     };
-    EXPECT_EQ(three_mf_unit(archive("<model unit=\"inch\"><build/></model>")), 0.0254);
-    EXPECT_EQ(three_mf_unit(archive("<model xml:lang='en' unit='meter'>")), 1.0);
-    EXPECT_EQ(three_mf_unit(archive("<model><object unit=\"meter\"/></model>")), 0.001);
-    EXPECT_EQ(three_mf_unit("PK\1\2"), 0.001);
+    const std::pair<std::string, std::string> files[] = {
+        {"[Content_Types].xml",
+         "<?xml version=\"1.0\" encoding=\"UTF-8\"?><Types "
+         "xmlns=\"http://schemas.openxmlformats.org/package/2006/content-types\"><Default Extension=\"rels\" "
+         "ContentType=\"application/vnd.openxmlformats-package.relationships+xml\"/><Default Extension=\"model\" "
+         "ContentType=\"application/vnd.ms-package.3dmanufacturing-3dmodel+xml\"/></Types>"},
+        {"_rels/.rels",
+         "<?xml version=\"1.0\" encoding=\"UTF-8\"?><Relationships "
+         "xmlns=\"http://schemas.openxmlformats.org/package/2006/relationships\"><Relationship "
+         "Target=\"/3D/3dmodel.model\" Id=\"rel0\" "
+         "Type=\"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel\"/></Relationships>"},
+        {"3D/3dmodel.model", model}};
+    std::string archive, directory;
+    for (const auto& [name, content] : files) {
+        const auto sum = ::crc32(0, reinterpret_cast<const Bytef*>(content.data()), uInt(content.size()));
+        const std::string common = number(20, 2) + std::string(8, '\0') + number(sum, 4) + number(content.size(), 4) +
+                                   number(content.size(), 4) + number(name.size(), 2) + number(0, 2);
+        directory += "PK\1\2" + number(20, 2) + common + std::string(10, '\0') + number(archive.size(), 4) + name;
+        archive += "PK\3\4" + common + name + content;
+    }
+    const std::string end = "PK\5\6" + std::string(4, '\0') + number(std::size(files), 2) + number(std::size(files), 2) +
+                            number(directory.size(), 4) + number(archive.size(), 4) + number(0, 2);
+    return archive + directory + end;
+}
+
+/// A tetrahedron with three edges of length 1 along the axes, twice: as it is, and 10 farther along x as a component.
+std::string tetrahedra(const std::string& attributes, const std::string& of_triangles = "") {
+    return "<?xml version=\"1.0\" encoding=\"UTF-8\"?><model " + attributes +
+           " xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>"
+           "<basematerials id=\"3\"><base name=\"red\" displaycolor=\"#FF0000\"/></basematerials>"
+           "<object id=\"1\" type=\"model\" " + of_triangles + "><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" "
+           "y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles>"
+           "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" "
+           "v3=\"2\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/></triangles></mesh></object>"
+           "<object id=\"2\" type=\"model\"><components><component objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 10 0 "
+           "0\"/></components></object></resources><build><item objectid=\"1\"/><item objectid=\"2\"/></build></model>";
+}
+
+TEST_F(AssimpImport, A3mfHasItsUnitItsComponentsAndItsColors) {
+    for (const auto& [unit, meters] : {std::pair{"unit=\"inch\"", 0.0254}, {"unit=\"meter\"", 1.0}, {"", 0.001}}) {
+        const std::filesystem::path file = write("two.3mf", three_mf(tetrahedra(unit, "pid=\"3\" pindex=\"0\"")));
+        const MeshFile mesh = read_mesh_file(file);
+        ASSERT_EQ(mesh.triangles.size(), 8u);
+        EXPECT_EQ(mesh.objects, (std::vector<std::size_t>{0, 4}));
+        EXPECT_TRUE(mesh.in_meters);
+        Bounds bounds;
+        for (const Vec3& position : mesh.positions) bounds.add(position);
+        EXPECT_NEAR((bounds.min - meters * Vec3(0, 0, -1)).norm(), 0.0, 1e-9 * meters) << unit;  // z is up in the file
+        EXPECT_NEAR((bounds.max - meters * Vec3(11, 1, 0)).norm(), 0.0, 1e-6 * meters) << unit;
+        EXPECT_TRUE(mesh.colored);
+        EXPECT_EQ(mesh.triangles[0][0].color, (std::array<float, 3>{1.0f, 0.0f, 0.0f}));
+    }
+}
+
+TEST_F(AssimpImport, ABroken3mfIsAnErrorOfItsReader) {
+    const std::string whole = three_mf(tetrahedra("unit=\"meter\""));
+    for (const std::string& bytes : {whole.substr(0, whole.size() / 2), std::string("PK\3\4"), three_mf("<model>")}) {
+        const std::filesystem::path file = write("broken.3mf", bytes);
+        EXPECT_THROW(read_mesh_file(file), MeshError);
+    }
 }
 
 TEST_F(AssimpImport, NodesOfColladaAreObjectsWithTheirTransforms) {

@@ -5,7 +5,7 @@
 #include "scene/mesh/mesh_images.h"
 #include "scene/mesh/mesh_transform.h"
 #include "scene/mesh/mtl_file.h"
-#include "scene/mesh/three_mf_unit.h"
+#include "scene/mesh/three_mf_file.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
@@ -37,6 +37,7 @@ constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 
 constexpr unsigned import_seconds = 60;   // the largest allowed mesh takes about ten
 constexpr unsigned deepest_node = 1000;   // nested transforms: a file with more is made to exhaust the stack
 constexpr std::size_t shown_bytes = 120;  // characters of assimp's own message
+constexpr std::string_view three_mf = ".3mf";
 
 /// Hides all other files, so that a mesh consists of one file only.
 class NoOtherFiles : public Assimp::IOSystem {
@@ -163,14 +164,8 @@ MeshTransform fbx_frame(const aiScene& scene) {
     return {(centimeters > 0.0f ? as_written(centimeters) : 1.0) * per_centimeter * axes, Vec3::Zero()};
 }
 
-/// The z axis of 3MF files points upward.
-MeshTransform three_mf_frame(std::string_view bytes) {
-    Mat3 axes;
-    axes << 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, -1.0, 0.0;
-    return {three_mf_unit(bytes) * axes, Vec3::Zero()};
-}
-
 Imported import(std::string_view bytes, const std::string& extension) {
+    if (extension == three_mf) return {read_three_mf(bytes), {}, {}, {}};  // assimp crashes on most of them
     Assimp::Importer importer;
     importer.SetIOHandler(new NoOtherFiles);  // the importer deletes it
     // Only assimp's check of the data is used: welding, normals and triangulation follow later.
@@ -180,11 +175,9 @@ Imported import(std::string_view bytes, const std::string& extension) {
         throw MeshError(fmt::format("cannot be read: {}", readable(importer.GetErrorString(), shown_bytes)));
     Imported all;
     MeshFile& result = all.mesh;
-    const MeshTransform frame = extension == ".fbx"   ? fbx_frame(*scene)
-                                : extension == ".3mf" ? three_mf_frame(bytes)
-                                                      : MeshTransform();
+    const MeshTransform frame = extension == ".fbx" ? fbx_frame(*scene) : MeshTransform();
     add_node(*scene->mRootNode, *scene, frame, 0, result);
-    constexpr std::string_view with_unit[] = {".fbx", ".3mf", ".dae", ".gltf", ".glb"};  // assimp turns Collada itself
+    constexpr std::string_view with_unit[] = {".fbx", ".dae", ".gltf", ".glb"};  // assimp turns Collada itself
     result.in_meters = std::find(std::begin(with_unit), std::end(with_unit), extension) != std::end(with_unit);
     add_materials(*scene, all);
     return all;
@@ -330,14 +323,18 @@ MeshFile checked_mesh(std::string_view bytes, const std::filesystem::path& folde
     return mesh;
 }
 
-[[noreturn]] void fail(int status, std::size_t file_bytes) {
+[[noreturn]] void fail(int status, std::size_t file_bytes, const std::string& extension) {
+    const char* const reader = extension == three_mf ? "lib3mf" : "assimp";
     if (WIFEXITED(status) && WEXITSTATUS(status) == ENOMEM)
         throw MeshError(fmt::format("takes more than {} MiB of memory to import", import_memory(file_bytes) >> 20));
     if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
         throw MeshError(fmt::format("takes more than {} s to import", import_seconds));
     if (WIFSIGNALED(status))
-        throw MeshError(fmt::format("makes assimp crash (signal {}): it is malformed", WTERMSIG(status)));
-    throw MeshError("cannot be imported by assimp");
+        throw MeshError(
+            fmt::format("cannot be read, because {} crashes on it (signal {}); the file may be right: save it as .glb, "
+                        ".obj or .stl",
+                        reader, WTERMSIG(status)));
+    throw MeshError(fmt::format("cannot be imported by {}", reader));
 }
 
 }  // namespace
@@ -360,7 +357,7 @@ MeshFile import_with_assimp(std::string_view bytes, const std::filesystem::path&
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size());
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size(), extension);
     if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * shown_bytes));
     return checked_mesh(std::string_view(answer).substr(1), folder);
 }

@@ -1,6 +1,6 @@
-// Import by assimp of the mesh formats that Tumble does not read itself (Collada, 3D Studio, OFF, FBX and more). It
-// runs in a child process with limits of memory and time: assimp allocates as much as a file claims, and a malformed
-// file can crash it.
+// Import of the mesh formats that Tumble does not read itself: 3MF by lib3mf, the others (Collada, 3D Studio, OFF, FBX
+// and more) by assimp. It runs in a child process with limits of memory and time: the libraries allocate as much as a
+// file claims, and some files crash them.
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
