@@ -44,6 +44,18 @@ TEST_F(MeshUse, FilesAreFoundFromTheScenesFolder) {
     EXPECT_EQ(mesh, std::get<MeshShape>(scene.bodies[1].shape).asset);
 }
 
+// The tetrahedron's edge from 1 to 2 has a corner in its middle on one side only; a triangle without area closes the gap.
+TEST_F(MeshUse, AMeshThatASliverClosesHasItsMass) {
+    write("sliver.obj",
+          "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0.5 0\nf 1 3 5\nf 1 5 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n");
+    const SceneDescription scene = parse_scene(
+        "format = 1\n[[body]]\nshape = { type = \"mesh\", file = \"sliver.obj\" }\n", folder() / "scene.toml");
+    const auto& shape = std::get<MeshShape>(scene.bodies[0].shape);
+    EXPECT_EQ(shape.mass_from, MassFrom::solid);
+    EXPECT_EQ(shape.asset->mesh.triangles.size(), 5u);
+    EXPECT_NEAR(mass_properties(shape, 6.0).mass, 1.0, 1e-12);
+}
+
 TEST_F(MeshUse, AnStlIsInItsUnitWithItsUpAxis) {
     write("box.obj", "v 0 0 0\nv 100 0 0\nv 0 200 0\nv 0 0 300\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n");
     const auto bounds = [&](const std::string& keys) {

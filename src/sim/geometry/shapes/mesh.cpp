@@ -226,7 +226,9 @@ MassProperties mass_properties(const MeshShape& mesh, double density) {
         case MassFrom::solid:
             break;
     }
-    return closedness(surface).has_volume() ? mesh_mass(surface, density) : MassProperties{};
+    // A mesh that moves is closed, but the slivers without area that closed it may be gone; a fixed one may be open.
+    const MassProperties solid = mesh_mass(surface, density);
+    return solid.mass > 0.0 ? solid : MassProperties{};
 }
 
 /// Moeller and Trumbore 1997, Fast, Minimum Storage Ray/Triangle Intersection.
