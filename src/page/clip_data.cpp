@@ -45,7 +45,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
     const bool precise = has_precise_impacts(run);
     MotionData motion = make_motion_data(run, clip.motion_budget, precise, arrays);
     errors.add(motion.errors);
-    return {{"label", run.label},
+    Json json{{"label", run.label},
             {"fps", run.scene.output.fps},
             {"frames", run.frames},
             {"settings", settings_json(run)},
@@ -63,6 +63,8 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
             {"loads", make_load_data(run, arrays)},
             {"joint_marks", make_joint_marks(run, arrays)},
             {"overlays", make_overlays(run)}};
+    if (!run.pace.empty()) json["pace"] = run.pace;
+    return json;
 }
 
 std::vector<std::byte> deflated(std::span<const std::byte> bytes) {

@@ -58,6 +58,7 @@ struct PageRun {
     SceneDescription scene;  // with its own timing
     std::string integrator;  // its name in a scene file
     std::int64_t frames = 0;
+    std::vector<double> pace;  // s, the times of a clip's frames where its speed changes ([[speed]]); otherwise empty
     std::vector<BodyReport> reports;         // by body
     std::vector<BodyRecord> bodies;          // by body
     std::vector<CameraDescription> cameras;  // one, or one a frame if it moves

@@ -123,7 +123,7 @@ struct World::State {
     }
 
     void begin_frame();
-    void end_frame();
+    void end_frame(int length);
     void advance(std::int64_t to);
     void step();
     void run_stages(const StepContext& step);
@@ -196,9 +196,9 @@ void World::State::begin_frame() {
     joints.begin_frame();
 }
 
-void World::State::end_frame() {
-    joints.end_frame(settings.steps_per_frame, clock.seconds(1), set.bodies);
-    if (log) finish_records(clock.seconds(settings.steps_per_frame));
+void World::State::end_frame(int length) {
+    joints.end_frame(length, clock.seconds(1), set.bodies);
+    if (log) finish_records(clock.seconds(length));
 }
 
 // Steps only while a body needs stepping: bodies in free flight do not.
@@ -324,15 +324,16 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 
 void World::step() { state_->advance(state_->steps + 1); }
-void World::advance_frame() {
+void World::advance_frame(std::optional<int> other) {
+    const int steps = other.value_or(state_->settings.steps_per_frame);
     state_->begin_frame();
-    state_->advance(state_->steps + state_->settings.steps_per_frame);
-    state_->end_frame();
+    state_->advance(state_->steps + steps);
+    state_->end_frame(steps);
 }
 
-Snapshot World::advance_frame_by_middle() {
+Snapshot World::advance_frame_by_middle(std::optional<int> other) {
     State& s = *state_;
-    const int steps = s.settings.steps_per_frame;
+    const int steps = other.value_or(s.settings.steps_per_frame);
     s.begin_frame();
     s.advance(s.steps + steps / 2);
     Snapshot middle = snapshot();
@@ -341,7 +342,7 @@ Snapshot World::advance_frame_by_middle() {
         middle = middle_of(middle, snapshot());
     }
     s.advance(s.steps + steps / 2);
-    s.end_frame();
+    s.end_frame(steps);
     return middle;
 }
 

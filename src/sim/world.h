@@ -10,6 +10,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -28,11 +29,11 @@ public:
 
     /// One fixed step. Throws RunError naming the step and the body when a state stops being finite.
     void step();
-    /// The steps of one frame.
-    void advance_frame();
+    /// The steps of one frame; `steps`: of a frame of another length, above 0.
+    void advance_frame(std::optional<int> steps = {});
     /// The same; returns the bodies at the middle of the frame: between the two states around it where the number of
     /// steps is odd.
-    Snapshot advance_frame_by_middle();
+    Snapshot advance_frame_by_middle(std::optional<int> steps = {});
 
     /// Collects impacts, contacts and energy losses of each frame from now on. The motion is the same.
     void record_contacts();

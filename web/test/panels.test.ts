@@ -7,6 +7,7 @@ import { impulses_together, joint_row } from "../src/panels/joint_impulses.ts";
 import { add, cross, dot, inverse, multiply, scaled, subtract, transform } from "../src/panels/linear.ts";
 import { body_quantities, joint_column, read_subjects, scene_quantities } from "../src/panels/quantities.ts";
 import { energy_stack, plot_series } from "../src/panels/series.ts";
+import { paced_time } from "../src/ui/clock.ts";
 import { number_text, tick_text, trimmed_text } from "../src/ui/format.ts";
 import { moment_at, moment_text, moments_of, next_moment, previous_moment } from "../src/ui/moments.ts";
 import { PlayerState } from "../src/ui/player_state.ts";
@@ -198,4 +199,17 @@ test("numbers are short, aligned and complete as asked", () => {
   assert.equal(tick_text(-4e6), "\u22124\u00b710\u2076");
   assert.equal(trimmed_text(0.5), "0.5");
   assert.equal(trimmed_text(2e9), "2\u00b710\u2079");
+});
+
+test("a clip whose speed changes plays its frames at their times", () => {
+  const fps = 10;
+  const pace = [0, 0.1, 0.2, 0.22, 0.24, 0.24, 0.24, 0.34]; // slow from 0.2 s, and a stop at 0.24 s
+  const near = (value: number, expected: number) => assert.ok(Math.abs(value - expected) < 1e-12, `${value}`);
+  for (let frame = 0; frame < pace.length - 1; ++frame) near(paced_time(pace, fps, 0, frame / fps), pace[frame]);
+  near(paced_time(pace, fps, 0.05, 0.1), 0.15);
+  near(paced_time(pace, fps, 0.2, 0.05), 0.21);
+  near(paced_time(pace, fps, 0.24, 0.2), 0.24);
+  near(paced_time(pace, fps, 0.24, 0.25), 0.29);
+  assert.equal(paced_time(pace, fps, 0.24, 1), Infinity);
+  near(paced_time([], fps, 0.3, 0.2), 0.5);
 });

@@ -238,7 +238,7 @@ export function make_synthetic_run(restitution: number): Run {
   const mass_of = (body: number) => (body === bodies_index.ball ? ball_mass : body === bodies_index.box ? box_mass : 0);
   return {
     label: `restitution ${restitution}`,
-    duration, fps, frames,
+    duration, fps, pace: [], frames,
     settings: { impacts: "exact", method: "tumble", integrator: "exact", step: 1 / 240, gravity: [0, -gravity, 0] },
     scene: {
       bodies: make_bodies(restitution),

@@ -16,8 +16,7 @@ BodyIndex::BodyIndex(const std::vector<BodyDescription>& bodies) {
     }
 }
 
-std::size_t BodyIndex::find(const TomlValue& value) const {
-    const std::string name = value.text();
+std::size_t BodyIndex::find(const TomlValue& value, const std::string& name) const {
     if (const auto found = index_.find(name); found != index_.end()) return found->second;
     if (index_.count(name + ".0")) {
         value.origin().fail(

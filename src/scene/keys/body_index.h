@@ -17,7 +17,9 @@ public:
     explicit BodyIndex(const std::vector<BodyDescription>& bodies);
 
     /// The body that the value names. Without one, fails at the value's position and suggests the nearest name.
-    std::size_t find(const TomlValue& value) const;
+    std::size_t find(const TomlValue& value) const { return find(value, value.text()); }
+    /// The same for a name that is a part of the value.
+    std::size_t find(const TomlValue& value, const std::string& name) const;
 
     bool has(const std::string& name) const { return index_.count(name) != 0; }
 

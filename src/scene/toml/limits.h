@@ -35,6 +35,7 @@ inline constexpr std::int64_t steps_per_frame = 1'000'000;
 inline constexpr Range step{0.0, 1e9, "s", true};
 inline constexpr double step_tolerance = 1e-9;  // s: tolerance for the division of a frame into steps (the format's)
 inline constexpr Range time{0.0, 1e9, "s"};     // of keyframes and forces
+inline constexpr Range clip_speed{1e-3, 1e3, ""};  // a thousandth to a thousandfold of the scene's own
 
 // -- Output
 inline constexpr std::int64_t image_side = 16'384;  // pixels: the largest texture of common OpenGL drivers

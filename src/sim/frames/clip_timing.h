@@ -2,10 +2,11 @@
 #pragma once
 
 #include "scene/description/description.h"
+#include "scene/toml/limits.h"
 
 namespace tumble {
 
-inline constexpr double slowest_speed = 1e-3, fastest_speed = 1e3;
+inline constexpr double slowest_speed = limits::clip_speed.min, fastest_speed = limits::clip_speed.max;
 inline constexpr int most_blur_samples = 64;
 
 /// The timing of a simulation whose frames are speed / fps seconds of the scene's motion apart, for a clip of the

@@ -16,9 +16,16 @@ void FrameSequence::keep_impacts() {
     struck_.insert(struck_.end(), records.struck.begin(), records.struck.end());
 }
 
+/// Steps of each interval of the last frame given, if the world has not the same number for all.
+std::optional<int> FrameSequence::steps() const {
+    const std::size_t frame = std::size_t(frames_) - 1;
+    return frame < steps_.size() ? std::optional(steps_[frame]) : std::nullopt;
+}
+
 void FrameSequence::reach_next() {
+    if (steps() == 0) intervals_to_start_ = 0;
     for (; intervals_to_start_ > 0; --intervals_to_start_) {
-        world_.advance_frame();
+        world_.advance_frame(steps());
         keep_impacts();
     }
 }
@@ -26,6 +33,7 @@ void FrameSequence::reach_next() {
 Snapshot FrameSequence::next_start() {
     reach_next();
     intervals_to_start_ = shutter_.intervals;
+    ++frames_;
     if (world_.records_contacts()) {
         records_ = world_.contact_records();
         records_.impacts = std::exchange(impacts_, {});
@@ -36,9 +44,9 @@ Snapshot FrameSequence::next_start() {
 
 std::vector<Snapshot> FrameSequence::next() {
     std::vector<Snapshot> moments{next_start()};
-    if (shutter_.blur_samples == 1) return moments;
+    if (shutter_.blur_samples == 1 || steps() == 0) return moments;
     for (int i = 0; i < shutter_.blur_samples; ++i, --intervals_to_start_) {
-        moments.push_back(world_.advance_frame_by_middle());
+        moments.push_back(world_.advance_frame_by_middle(steps()));
         keep_impacts();
     }
     return moments;

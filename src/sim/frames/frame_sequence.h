@@ -4,14 +4,19 @@
 #include "sim/frames/clip_timing.h"
 #include "sim/world.h"
 
+#include <cstdint>
+#include <optional>
+#include <span>
 #include <vector>
 
 namespace tumble {
 
 class FrameSequence {
 public:
-    /// Precondition: the world is at time 0, and its frames are the intervals of the shutter (see divided()).
-    FrameSequence(World& world, Shutter shutter) : world_(world), shutter_(shutter) {}
+    /// `steps`: of each interval of the shutter, by frame (clip_speed.h); empty: the world's frames are the intervals
+    /// (see divided()). It must outlive the sequence. Precondition: the world is at time 0.
+    FrameSequence(World& world, Shutter shutter, std::span<const int> steps = {})
+        : world_(world), shutter_(shutter), steps_(steps) {}
 
     /// The moments of the next frame in order; the first call: of frame 0. First its own, when the shutter opens; with
     /// motion blur the samples follow, each at the middle of its interval. The frame is simulated only as far as its
@@ -31,8 +36,9 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [world, shutter, intervals_to_start, records, impacts, struck] = self;
-        archive.rebuilt(world, shutter);
+        auto& [world, shutter, steps, frames, intervals_to_start, records, impacts, struck] = self;
+        archive.rebuilt(world, shutter, steps);
+        archive.count(frames);
         archive.between(0, intervals_to_start, shutter.intervals);
         archive.keep(records, impacts, struck);
         archive.require([&] { return names_struck(self.impacts_, self.struck_.size()); });
@@ -40,9 +46,12 @@ public:
 
 private:
     void keep_impacts();
+    std::optional<int> steps() const;
 
     World& world_;
     Shutter shutter_;
+    std::span<const int> steps_;
+    std::int64_t frames_ = 0;     // given
     int intervals_to_start_ = 0;  // from the world's time to the start of the next frame
     ContactRecords records_;
     std::vector<ImpactRecord> impacts_;  // since the start of the last frame

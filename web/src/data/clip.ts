@@ -29,6 +29,8 @@ export interface Run {
   fps: number;
   /** Frame n shows n / fps. */
   frames: number;
+  /** Times of the frames of a clip whose speed changes, by fps; empty: the speed is 1. */
+  pace: number[];
   settings: RunSettings;
   scene: Scene;
   motion: Motion;

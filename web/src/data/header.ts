@@ -19,6 +19,8 @@ export interface RunHeader {
   label: string;
   fps: number;
   frames: number;
+  /** s, the times of the frames of a clip whose speed changes. */
+  pace?: number[];
   settings: RunSettings;
   bodies: Body[];
   cords: Cord[];
