@@ -55,6 +55,8 @@ struct OutputSettings {
     int samples = 4;                 // per pixel: 1, 2 or 4
 };
 
+enum class CameraFit { motion, start };
+
 struct CameraKeyframe {
     double time = 0.0;                   // s, later than the keyframe before
     std::optional<Vec3> eye, target;     // m; the camera's where not given
@@ -62,13 +64,14 @@ struct CameraKeyframe {
 };
 
 struct Camera {
-    std::optional<Vec3> eye, target;  // m; chosen to show all bodies where not given
+    std::optional<Vec3> eye, target;  // m; chosen to show the motion where not given
     Vec3 up{0.0, 1.0, 0.0};
     double vertical_fov = 40.0;  // degrees
     std::vector<CameraKeyframe> keyframes;
     Interpolation interpolation = Interpolation::smooth;  // between keyframes
     double orbit = 0.0;                                   // degrees/s about the target
     std::string follow;                                   // the name of a body; empty: none
+    CameraFit fit = CameraFit::motion;                    // which motion a camera without eye or target shows
 };
 
 struct Light {

@@ -23,7 +23,7 @@ AovSet to_internal(const AovSelection& selection) {
 
 struct AovRenderer::State {
     State(const Scene& drawn, const AovSelection& selection)
-        : scene(drawn), motion(selection.motion), renderer(*scene.data().description, to_internal(selection)) {}
+        : scene(drawn), motion(selection.motion), renderer(scene.data().drawn(), to_internal(selection)) {}
 
     AovFrame render(const AovPoses& poses) {
         const tumble::AovFrame& made = renderer.make(poses);

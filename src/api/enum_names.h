@@ -46,6 +46,7 @@ TUMBLE_DESCRIBED(TextureFilter, TextureFilter);
 TUMBLE_DESCRIBED(MassFrom, MassFrom);
 TUMBLE_DESCRIBED(PairRule, PairRule);
 TUMBLE_DESCRIBED(Interpolation, Interpolation);
+TUMBLE_DESCRIBED(CameraFit, CameraFit);
 TUMBLE_DESCRIBED(JointType, JointType);
 TUMBLE_DESCRIBED(JointFrame, JointFrame);
 #undef TUMBLE_DESCRIBED

@@ -38,8 +38,8 @@ void copy_pixels(const tumble::Image& from, const std::vector<Rectangle>& parts,
 struct Renderer::State {
     State(const Scene& drawn, const RenderOptions& options)
         : scene(drawn),
-          filter(*scene.data().description),
-          renderer(*scene.data().description, to_internal(options)),
+          filter(scene.data().drawn()),
+          renderer(scene.data().drawn(), to_internal(options)),
           transparent(options.transparent) {}
 
     Scene scene;  // the renderer reads its data

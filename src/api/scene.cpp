@@ -5,6 +5,7 @@
 #include "api/guard.h"
 #include "api/scene_data.h"
 #include "api/spec_text.h"
+#include "framing/motion_camera.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
@@ -112,6 +113,15 @@ const std::unordered_map<std::string_view, std::size_t>& SceneData::names() cons
         for (std::size_t i = 0; i < description->bodies.size(); ++i) names_.emplace(description->bodies[i].name, i);
     });
     return names_;
+}
+
+const SceneDescription& SceneData::drawn() const {
+    std::call_once(framed_, [&] {
+        drawn_ = description->camera.fits_motion()
+                     ? std::make_shared<const SceneDescription>(framed(*description, 1))
+                     : description;
+    });
+    return *drawn_;
 }
 
 Scene make_scene(std::shared_ptr<const SceneDescription> description, FileList files) {

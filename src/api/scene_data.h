@@ -19,9 +19,12 @@ struct SceneData {
 
     /// Bodies by name, made by the first call from any thread.
     const std::unordered_map<std::string_view, std::size_t>& names() const;
+    /// The description with its camera by the motion, which the first call from any thread simulates.
+    const SceneDescription& drawn() const;
 
 private:
-    mutable std::once_flag named_;
+    mutable std::once_flag named_, framed_;
+    mutable std::shared_ptr<const SceneDescription> drawn_;
     mutable std::unordered_map<std::string_view, std::size_t> names_;  // only looked up
 };
 

@@ -170,9 +170,9 @@ void ScaleSurvey::add(const ScaleSurvey& other) {
     marks_.add(other.marks_);
 }
 
-OverlayScales ScaleSurvey::scales() const {
+OverlayScales ScaleSurvey::scales(const CameraDescription& camera) const {
     OverlayScales scales{};
-    const double height = visible_height(scene_->camera);
+    const double height = visible_height(camera);
     for (std::size_t q = 0; q < arrow_quantity_count; ++q) {
         if (scene_->overlay.scale[q]) {
             scales[q] = *scene_->overlay.scale[q];

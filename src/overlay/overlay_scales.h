@@ -63,8 +63,9 @@ public:
     /// Takes the counts of another panel instead of its own.
     void take(const ScaleSurvey& other) { sizes_ = other.sizes_, marks_ = other.marks_; }
     const OverlayMarks& marks() const { return marks_; }
-    /// The scene's scales where given.
-    OverlayScales scales() const;
+    /// The scene's scales where given, otherwise by the height that the camera sees.
+    OverlayScales scales(const CameraDescription& camera) const;
+    OverlayScales scales() const { return scales(scene_->camera); }
 
 private:
     void add(ArrowQuantity quantity, double size);

@@ -10,6 +10,7 @@
 #include "scene/keys/matter.h"
 #include "scene/keys/overlay.h"
 #include "scene/keys/settings.h"
+#include "scene/keys/speed.h"
 #include "scene/keys/templates.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"
@@ -59,7 +60,8 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
     root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "contact", "materials",
-                      "body", "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption"});
+                      "body", "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption",
+                      "speed"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -95,6 +97,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     add_cords_of_joints(scene);
     scene.camera = read_camera(root, scene);
     scene.overlay = read_overlay(root, scene.bodies, overrides);
+    read_speed(root, scene);
     return scene;
 }
 

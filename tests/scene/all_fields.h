@@ -6,6 +6,7 @@
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/fields/speed_fields.h"
 
 namespace tumble {
 
@@ -26,6 +27,7 @@ void for_all_fields(auto&& use) {
     use.template operator()<ScatterRequest>("scatter");
     use.template operator()<ForceDescription>("force");
     use.template operator()<CordDescription>("cord");
+    use.template operator()<SpeedKeyframe>("speed");
     use.template operator()<OverlayDescription>("overlay");
     use.template operator()<TrailPoint>("trail point");
     use.template operator()<Caption>("caption");

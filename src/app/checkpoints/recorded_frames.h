@@ -3,6 +3,7 @@
 
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/checkpoints/frame_record.h"
+#include "app/survey/simulated_frames.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -11,16 +12,15 @@
 
 namespace tumble {
 
-class RecordedFrames {
+class RecordedFrames : public SimulatedFrames {
 public:
     /// From this frame on. The folder must outlive it. Throws InputError for a file that is damaged; the other members
     /// throw RunError.
     RecordedFrames(const CheckpointReading& folder, std::size_t panel, std::size_t bodies, std::int64_t frame);
 
-    /// As of FrameSequence.
-    std::vector<Snapshot> next();
-    Snapshot next_start() { return take().samples.front(); }
-    const ContactRecords* records() const { return records_ ? &*records_ : nullptr; }
+    std::vector<Snapshot> next() override;
+    Snapshot next_start() override { return take().samples.front(); }
+    const ContactRecords* records() const override { return records_ ? &*records_ : nullptr; }
 
 private:
     RecordedFrame take();

@@ -8,6 +8,7 @@
 #include "app/survey/survey.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "framing/motion_camera.h"
 #include "gltf/scene_export.h"
 #include "output/temporary_file.h"
 #include "render/camera/camera_animation.h"
@@ -66,7 +67,11 @@ private:
 
 }  // namespace
 
-ExportedScene export_scene(const SceneDescription& scene, KeyKind keys, int threads, bool quiet, Interrupt& interrupt) {
+ExportedScene export_scene(const SceneDescription& unframed, KeyKind keys, int threads, bool quiet,
+                           Interrupt& interrupt) {
+    const SceneDescription scene = framed(unframed, threads, [&] {
+        if (interrupt.pending()) throw Interrupted();
+    });
     const bool cubic = keys == KeyKind::cubic;
     const int parts = cubic ? moments_per_frame(scene.simulation.steps_per_frame) : 1;
     const FrameTiming timing{scene.output.fps * parts, scene.simulation.steps_per_frame / parts};

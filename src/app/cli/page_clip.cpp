@@ -176,6 +176,7 @@ PageFilm draw_film(RenderCommand command, const FilmOptions& options) {
     command.aovs = {};
     command.aov_folder.reset();
     command.drawing.transparent = false;
+    command.own_speed = false;  // the player has the scene's own time
     command.clip_options = {FrameTimes::constant_rate, VideoQuality::small};
     const fs::path jpeg = folder.path() / "poster.jpg";
     PageFilm made;

@@ -3,6 +3,7 @@
 #include "app/causes/record_file.h"
 #include "app/causes/run_recorder.h"
 #include "app/checkpoints/checkpoint_folder.h"
+#include "app/checkpoints/recorded_frames.h"
 #include "app/cli/progress.h"
 #include "app/cli/run_notes.h"
 #include "app/cli/say.h"
@@ -37,6 +38,10 @@ namespace tumble {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Of frames that are simulated before the drawing: a minute of 1,000 bodies at 60 frames/s has 600 MB. Where there are
+// more, the motion is simulated twice.
+constexpr std::size_t most_kept_bytes = std::size_t(256) << 20;
 
 /// The folder of the AOVs, if any are requested.
 std::optional<fs::path> folder_of_aovs(const RenderCommand& command) {
@@ -119,24 +124,38 @@ struct ClipMotion {
     std::optional<ClipState> state;  // to go on from
     std::vector<std::unique_ptr<World>> worlds;
     std::vector<std::unique_ptr<OverlayBuilder>> overlays;
-    std::vector<std::unique_ptr<RecordedFrames>> recorded;
+    std::vector<std::unique_ptr<SimulatedFrames>> recorded;
     std::vector<PanelSource> panels;
 
-    void make_panels(const RenderScenes& scenes, bool image, int threads) {
+    void make_panels(RenderScenes& scenes, bool image, int threads) {
         const bool known = checkpoints && checkpoints->has_motion();
         for (std::size_t i = 0; i < scenes.scenes.size(); ++i) {
             const std::int64_t first = PanelRun::first_recorded(state ? state->frame : 0, scenes.ends[i]);
             const std::size_t bodies = scenes.scenes[i].scene->bodies.size();
-            worlds.push_back(known ? nullptr : std::make_unique<World>(scenes.world(i, threads)));
-            recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, bodies, first) : nullptr);
+            SurveyedRun run = scenes.take_run(i);
+            if (known) run.frames.reset();
+            if (run.frames) {
+                worlds.push_back(std::move(run.world));
+                recorded.push_back(std::move(run.frames));
+            } else {
+                worlds.push_back(known ? nullptr : std::make_unique<World>(scenes.world(i, threads)));
+                recorded.push_back(known ? std::make_unique<RecordedFrames>(*checkpoints, i, bodies, first) : nullptr);
+            }
             overlays.push_back(image ? scenes.overlay(i) : nullptr);
-            panels.push_back({worlds[i].get(), scenes.ends[i], overlays[i].get(), recorded[i].get(), bodies, {}});
+            panels.push_back({worlds[i].get(),
+                              scenes.ends[i],
+                              overlays[i].get(),
+                              recorded[i].get(),
+                              bodies,
+                              {},
+                              scenes.scenes[i].steps});
         }
     }
-    void say_overlaps_at_start(const RenderScenes& scenes) const {
+    /// `surveyed`: the notes of worlds that have been simulated.
+    void say_overlaps_at_start(const RenderScenes& scenes, const std::vector<std::string>& surveyed) const {
         std::set<std::string> said;  // panels often show one scene with other values
         for (std::size_t i = 0; i < worlds.size() && !state; ++i)
-            if (worlds[i]) said.insert(start_notes(*scenes.scenes[i].scene, *worlds[i]));
+            if (worlds[i]) said.insert(recorded[i] ? surveyed[i] : start_notes(*scenes.scenes[i].scene, *worlds[i]));
         for (const std::string& lines : said) say_text(lines);
     }
     void say_broken_joints(const RenderScenes& scenes) const {
@@ -322,7 +341,14 @@ RenderFigures render_to_files(const RenderCommand& command) {
         say("note: {} render processes in place of {}, because there is no memory for more\n", workers,
             requested_workers);
     const int threads = command.threads.value_or(simulation_threads_beside_drawing(scenes.bodies(), machine_threads()));
-    if (outputs.image() && !command.from_checkpoints) scenes.survey_clip(threads, interrupt);
+    std::vector<std::string> notes(scenes.scenes.size());
+    if (!command.from_checkpoints) {
+        const bool keeps = shutter.blur_samples == 1 && !command.motion_record && !command.aovs.has(Aov::motion);
+        const auto at_start = [&](std::size_t i, const World& world) {
+            notes[i] = start_notes(*scenes.scenes[i].scene, world);
+        };
+        scenes.survey_clip({threads, outputs.image(), keeps ? most_kept_bytes : 0, at_start}, interrupt);
+    }
     std::optional<TemporaryFolder> sound_folder;
     if (command.sound) {
         sound_folder.emplace("sound");
@@ -333,7 +359,8 @@ RenderFigures render_to_files(const RenderCommand& command) {
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);
-    if (!command.quiet) motion.say_overlaps_at_start(scenes);
+    if (!command.quiet) say_text(scenes.notes);
+    if (!command.quiet) motion.say_overlaps_at_start(scenes, notes);
     std::optional<RunRecorder> recorder;
     if (command.motion_record) {
         recorder.emplace(composition, numbers_of(scenes.frames), scenes.frames.end());

@@ -65,7 +65,8 @@ struct RecordedPanel {
     RecordedPanel(RenderScenes& scenes, std::size_t index, const ClipRecording& recording)
         : world(scenes.world(index, recording.threads)),
           overlay(scenes.overlay(index)),
-          run({.world = &world, .end = scenes.ends[index], .overlay = overlay.get()}, recording.shutter),
+          run({.world = &world, .end = scenes.ends[index], .overlay = overlay.get(), .steps = scenes.scenes[index].steps},
+              recording.shutter),
           poses(*scenes.composition.panels[index].scene),
           observers(scenes.observers(index)),
           needs(needs_of(observers)) {
@@ -141,7 +142,8 @@ void record_clip(RenderScenes& scenes, const ClipRecording& recording, Checkpoin
         if (panels.size() == 1) panels.front()->motion->add({panels.front()->run.next_start()}, nullptr);
         add_motion(first, panels, checkpoints);
     }
-    scenes.use_survey();
+    panels.clear();  // they refer to the scenes of the composition
+    scenes.use_survey(recording.threads);
     checkpoints.finish(scenes.survey_bytes());
 }
 
@@ -227,6 +229,14 @@ void simulate_tables(const SimulateCommand& command) {
     if (!command.quiet) say_run(command, description, frames, wall_seconds() - start, broken);
 }
 
+/// Tables are of frames that are equally far apart.
+void require_even_frames(const SimulateCommand& command, const RenderScenes& scenes) {
+    if (scenes.scenes.front().steps.empty() || command.tables.all().empty()) return;
+    throw InputError(
+        "--checkpoints: a clip whose speed changes ([[speed]]) has no tables; write them by a run without "
+        "--checkpoints");
+}
+
 /// The clip that will be drawn from the checkpoints.
 RenderCommand clip_of(const SimulateCommand& command) {
     RenderCommand clip = command.clip;
@@ -247,6 +257,7 @@ void simulate_rest(const SimulateCommand& command) {
     clip.start = command.start;
     RenderScenes scenes(clip, Shutter::of(clip.shutter, clip.blur_samples));
     check_tables(command, scenes.inputs);
+    require_even_frames(command, scenes);
     const CheckpointReading checkpoints(*command.from_checkpoints, scenes.identity());
     const std::int64_t first = scenes.frames.first(), end = scenes.ends.front();
     const std::optional<ClipState> state = checkpoints.before(first);
@@ -279,6 +290,7 @@ void simulate_clip(const SimulateCommand& command) {
     const Shutter shutter = Shutter::of(clip.shutter, clip.blur_samples);
     RenderScenes scenes(clip, shutter);
     check_tables(command, scenes.inputs);
+    require_even_frames(command, scenes);
     const SceneDescription& first = scenes.first();
     const v0::Scene scene = v0::make_scene(scenes.scenes.front().scene, scenes.inputs);
     const std::int64_t frames = scenes.clip_frames;

@@ -23,6 +23,7 @@ struct ClipRequest {
     std::optional<std::string> frames_range;  // "1-10,30-40:2": frames that are drawn; otherwise all
     double start = 0.0;                       // s, scene time; earlier frames are not drawn
     double speed = 1.0;                       // of the motion in the clip: 0.25 is slow motion
+    bool own_speed = true;                    // with the changes of speed of the scenes
     bool sound = false;                       // the clip has the sound of its impacts
     int frame_step = 1;  // of the scene's frames one in so many is in the clip; the motion is the same
 };

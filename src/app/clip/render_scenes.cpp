@@ -5,9 +5,11 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
+#include "core/rounding.h"
 #include "core/safe_text.h"
 #include "scene/hash/scene_hash.h"
 #include "sim/checkpoint/archive.h"
+#include "sim/frames/clip_speed.h"
 
 #include <fmt/format.h>
 
@@ -51,27 +53,29 @@ RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
     load(command);
     for (const ClipScene& one : scenes) {
         scales_.emplace_back(*one.scene);
+        motions_.emplace_back(*one.scene);
+        cameras_.push_back(one.scene->camera);
         if (command.sound) sounds_.emplace_back(*one.scene);
     }
     if (scenes.size() > 1 && !command.aovs.empty())
         throw InputError(fmt::format("--aov: needs a single scene ({} are shown side by side)", scenes.size()));
+    kept_.resize(scenes.size());
     require_same_rate(scenes);
     std::size_t longest = 0;
     for (const ClipScene& one : scenes) {
         const FrameTiming timing = timing_at_speed(*one.scene, command.speed);
-        ends.push_back(timing.frame_count(one.scene->simulation.duration));
+        ends.push_back(one.steps.empty() ? timing.frame_count(one.scene->simulation.duration)
+                                         : std::int64_t(one.steps.size()));
         if (ends.back() > ends[longest]) longest = ends.size() - 1;
     }
-    const SceneDescription& last = *scenes[longest].scene;
-    const FrameTiming timing = timing_at_speed(last, command.speed);
-    clip_frames = timing.frame_count(last.simulation.duration);
+    clip_frames = ends[longest];
     if (command.frames_range && command.start > 0.0)
         throw InputError("--frames-range: not together with --start; frames are numbered from the start of the clip");
     frames = command.frames_range ? read_frame_set(*command.frames_range, clip_frames)
-                                  : frames_from(timing, last.simulation.duration, command.start);
+                                  : frames_from(longest, command.start);
     CompositionOptions options;
     options.arrangement = command.arrangement;
-    options.last_time = double(clip_frames - 1) / timing.fps;
+    options.last_time = time_of(longest, clip_frames - 1);
     read_plot(command, options);
     composition = make_composition(scenes, options);
     add_overlays();
@@ -86,9 +90,40 @@ void RenderScenes::load(const ClipRequest& command) {
         loaded.output.fps /= command.frame_step;
         loaded.simulation.steps_per_frame *= command.frame_step;
         auto scene = std::make_shared<const SceneDescription>(std::move(loaded));
-        const FrameTiming timing = divided(timing_at_speed(*scene, command.speed), shutter_.intervals);
-        scenes.push_back({std::move(scene), variant.label, timing});
+        if (scene->speed.empty() || !command.own_speed) {
+            const FrameTiming timing = divided(timing_at_speed(*scene, command.speed), shutter_.intervals);
+            scenes.push_back({std::move(scene), variant.label, timing});
+            continue;
+        }
+        const FrameTiming timing = timing_at_speeds(*scene, command.speed, shutter_);
+        const ClipSpeed found = clip_speed(*scene, timing);
+        for (const std::string& bodies : found.missing)
+            notes += fmt::format("note: [[speed]] time: {} have no impact; the keyframe is left out\n", bodies);
+        std::vector<int> steps = steps_of_frames(*scene, found.keys, command.speed, timing, shutter_);
+        scenes.push_back({std::move(scene), variant.label, timing, std::move(steps)});
     }
+}
+
+/// The frames at and after a time of the scene, s. Throws InputError if there are none.
+FrameSet RenderScenes::frames_from(std::size_t scene, double start) const {
+    std::int64_t first = 0;
+    if (scenes[scene].steps.empty()) {
+        const double fps = timing_at_speed(*scenes[scene].scene, speed_).fps;
+        first = std::int64_t(std::min(std::ceil(rounded_if_nearly_whole(start * fps)), double(clip_frames)));
+    } else {
+        while (first < clip_frames && time_of(scene, first) < start * (1.0 - 1e-12)) ++first;
+    }
+    if (first < clip_frames) return {first, clip_frames};
+    throw InputError(fmt::format("--start: the scene's last frame is at {:g} s ({:g} was given)",
+                                 time_of(scene, clip_frames - 1), start));
+}
+
+double RenderScenes::time_of(std::size_t scene, std::int64_t frame) const {
+    const ClipScene& one = scenes[scene];
+    if (one.steps.empty()) return double(frame) / timing_at_speed(*one.scene, speed_).fps;
+    std::int64_t steps = 0;
+    for (std::int64_t n = 0; n < frame; ++n) steps += one.steps[std::size_t(n)];
+    return double(steps * shutter_.intervals) / (one.timing.fps * one.timing.steps_per_frame);
 }
 
 /// The plot of the first scene that has one, of all scenes.
@@ -127,32 +162,70 @@ void RenderScenes::add_overlays() {
 }
 
 std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
+    const SceneDescription& scene = *scenes[index].scene;
     std::vector<SurveyObserver*> observers;
     if (!runs_.empty()) observers.push_back(&runs_[index]);
-    if (composition.panels[index].overlay && needs_survey(scenes[index].scene->overlay))
-        observers.push_back(&scales_[index]);
+    if (composition.panels[index].overlay && needs_survey(scene.overlay)) observers.push_back(&scales_[index]);
     if (!sounds_.empty()) observers.push_back(&sounds_[index]);
+    // A clip that ends before the scene's own duration does not show the whole motion.
+    if (scene.camera.fits_motion() && scene.simulation.duration >= scene.camera.fitted_time)
+        observers.push_back(&motions_[index]);
     return observers;
 }
 
-void RenderScenes::survey_clip(int threads, Interrupt& interrupt) {
+void RenderScenes::survey_clip(const SurveyWork& work, Interrupt& interrupt) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        const std::vector<SurveyObserver*> seeing = observers(i);
+        std::vector<SurveyObserver*> seeing = observers(i);
+        if (!work.image) std::erase_if(seeing, [&](SurveyObserver* observer) { return observer != &motions_[i]; });
         if (seeing.empty()) continue;
-        World simulated = world(i, threads);
-        survey(simulated, {ends[i], shutter_.intervals}, seeing, interrupt);
+        auto simulated = std::make_unique<World>(world(i, work.threads));
+        if (work.at_start) work.at_start(i, *simulated);
+        auto surveyed = std::make_unique<SurveyedFrames>(work.to_keep);
+        if (work.to_keep > 0) seeing.push_back(surveyed.get());
+        try {
+            survey(*simulated, {ends[i], shutter_.intervals, scenes[i].steps}, seeing, interrupt);
+        } catch (const Interrupted&) {
+            throw;
+        } catch (const RunError&) {  // the frames before are drawn, and then it fails again
+            if (seeing.front() != &motions_[i]) throw;
+            continue;
+        }
+        if (surveyed->whole()) kept_[i] = {std::move(simulated), std::move(surveyed)};
     }
-    use_survey();
+    use_survey(work.threads);
 }
 
-void RenderScenes::use_survey() {
+/// Panels of one file are variants of one scene: their cameras show the motion of all, so that they can be compared.
+void RenderScenes::frame_motion(int threads) {
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        const SceneDescription& scene = *scenes[i].scene;
+        if (scene.camera.fits_motion() && !motions_[i].motion.seen())
+            motions_[i].motion = simulated_motion(scene, threads);
+    }
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (!cameras_[i].fits_motion()) continue;
+        MotionCamera shown = motions_[i].motion;
+        for (std::size_t k = 0; k < scenes.size(); ++k)
+            if (k != i && scenes[k].scene->file == scenes[i].scene->file) shown.add(motions_[k].motion);
+        cameras_[i] = shown.camera();
+    }
+    place_cameras();
+}
+
+void RenderScenes::place_cameras() {
+    for (std::size_t i = 0; i < scenes.size(); ++i)
+        if (cameras_[i].fits_motion()) place_camera(composition, i, *scenes[i].scene, cameras_[i]);
+}
+
+void RenderScenes::use_survey(int threads) {
+    frame_motion(threads);
     // One scale for all panels, so that their arrows can be compared.
     for (std::size_t i = 1; i < scales_.size(); ++i) scales_[0].sizes.add(scales_[i].sizes);
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         if (i > 0) scales_[i].sizes.take(scales_[0].sizes);
         std::optional<PanelOverlay>& overlay = composition.panels[i].overlay;
         if (!overlay) continue;
-        overlay->scales = scales_[i].sizes.scales();
+        overlay->scales = scales_[i].sizes.scales(cameras_[i]);
         overlay->marks = scales_[i].sizes.marks();
     }
     fill_plots();
@@ -162,6 +235,8 @@ template <class Archive, class Self>
 void RenderScenes::visit_survey(Archive& archive, Self& self) {
     for (auto& panel : self.composition.panels)
         if (panel.overlay) archive.keep(panel.overlay->scales, panel.overlay->marks);
+    for (auto& camera : self.cameras_)
+        if (camera.fits_motion()) archive.keep(camera.eye, camera.target);
     for (auto& run : self.runs_) {
         archive.keep(run.times, run.values);
         archive.require([&run = run] {
@@ -181,6 +256,7 @@ std::vector<std::byte> RenderScenes::survey_bytes() const {
 void RenderScenes::take_survey(std::span<const std::byte> bytes) {
     CheckpointReader reader(bytes);
     visit_survey(reader, *this);
+    place_cameras();
     fill_plots();
 }
 
@@ -212,9 +288,37 @@ std::vector<std::byte> RenderScenes::sound() const {
         const double fps = scenes[i].scene->output.fps;
         const auto last = std::min(frames.end(), ends[i]);
         const double duration = double(std::max<std::int64_t>(0, last - frames.first())) / fps;
-        tracks.push_back(sounds_[i].track.pressure({double(frames.first()) / fps * speed_, duration, speed_}));
+        if (scenes[i].steps.empty())
+            tracks.push_back(sounds_[i].track.pressure({double(frames.first()) / fps * speed_, duration, speed_}));
+        else
+            tracks.push_back(warped_sound(i, last));
     }
     return wav_bytes(mix(tracks));
+}
+
+/// The sound of the scene's time, played as slowly as its frames follow each other; silent where they stand still.
+std::vector<double> RenderScenes::warped_sound(std::size_t index, std::int64_t last) const {
+    const ClipScene& one = scenes[index];
+    const double from = time_of(index, frames.first()), to = time_of(index, last - 1);
+    const std::vector<double> plain = sounds_[index].track.pressure({from, to - from + 1.0, 1.0});
+    const double samples = sound_rate / one.scene->output.fps;  // of the track in a frame
+    const double step = shutter_.intervals / (one.timing.fps * one.timing.steps_per_frame);  // s
+    std::vector<double> warped;
+    double time = 0.0;  // s, from the first frame
+    std::int64_t frame = frames.first();
+    double begin = 0.0;  // of the frame, in samples
+    for (; frame < last; ++frame, begin += samples) {
+        const double way = one.steps[std::size_t(frame)] * step;
+        for (auto n = std::int64_t(std::ceil(begin)); double(n) < begin + samples; ++n) {
+            const double at = (time + way * (double(n) - begin) / samples) * sound_rate;
+            const auto before = std::size_t(at);
+            const double part = at - double(before);
+            const bool heard = way > 0.0 && before + 1 < plain.size();
+            warped.push_back(heard ? plain[before] + part * (plain[before + 1] - plain[before]) : 0.0);
+        }
+        time += way;
+    }
+    return warped;
 }
 
 std::size_t RenderScenes::bodies() const {

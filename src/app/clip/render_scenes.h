@@ -6,8 +6,10 @@
 #include "app/composition/make_composition.h"
 #include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
+#include "app/survey/surveyed_frames.h"
 #include "app/survey/survey.h"
 #include "app/threads/interrupt.h"
+#include "framing/motion_camera.h"
 #include "overlay/overlay_builder.h"
 #include "overlay/overlay_scales.h"
 #include "scene/load.h"
@@ -17,8 +19,11 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -41,21 +46,44 @@ struct SoundObserver : SurveyObserver {
     SoundTrack track;
 };
 
+/// The motion of a clip, for its camera.
+struct CameraObserver : SurveyObserver {
+    explicit CameraObserver(const SceneDescription& scene) : motion(scene) {}
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords*) override { motion.see(snapshot); }
+    MotionCamera motion;
+};
+
+/// A scene that survey_clip() has simulated with all of its frames kept.
+struct SurveyedRun {
+    std::unique_ptr<World> world;  // at the end
+    std::unique_ptr<SurveyedFrames> frames;
+};
+
+/// How a clip is surveyed.
+struct SurveyWork {
+    int threads = 1;
+    bool image = true;        // otherwise AOVs alone are drawn
+    std::size_t to_keep = 0;  // bytes of frames that may be kept for the drawing; 0: none
+    std::function<void(std::size_t, const World&)> at_start = {};  // called for each scene that is simulated
+};
+
 class RenderScenes {
 public:
     /// Loads and checks the scenes. Throws InputError if they do not fit together.
     RenderScenes(const ClipRequest& command, const Shutter& shutter);
 
-    /// Simulates all scenes once, if a plot, the scale of arrows or the sound needs it, and fills them in. Leaves no
-    /// thread behind.
-    void survey_clip(int threads, Interrupt& interrupt);
+    /// Simulates the scenes once of which a plot, the scale of arrows, the sound or the camera needs it, and fills them
+    /// in. Leaves no thread behind.
+    void survey_clip(const SurveyWork& work, Interrupt& interrupt);
+    /// What survey_clip() has kept of a scene; empty where the scene is to be simulated.
+    SurveyedRun take_run(std::size_t index) { return std::move(kept_[index]); }
 
     // The same by another run of the simulation, and its result in a checkpoint.
 
     /// Consumers of a scene that have to see all of its frames, in order.
     std::vector<SurveyObserver*> observers(std::size_t index);
-    /// Fills in what the observers have seen.
-    void use_survey();
+    /// Fills in what the observers have seen. Replaces scenes of the composition.
+    void use_survey(int threads);
     std::vector<std::byte> survey_bytes() const;
     /// Throws InputError where the bytes are not of such a survey.
     void take_survey(std::span<const std::byte> bytes);
@@ -79,10 +107,17 @@ public:
     FrameSet frames;               // that the command asks for
     std::int64_t clip_frames = 0;  // of the longest scene
     Composition composition;
+    std::string notes;  // for the user, a line each
 
 private:
     void load(const ClipRequest& command);
+    /// s, scene time that a frame shows.
+    double time_of(std::size_t scene, std::int64_t frame) const;
+    FrameSet frames_from(std::size_t scene, double start) const;
+    std::vector<double> warped_sound(std::size_t index, std::int64_t last) const;
     void fill_plots();
+    void frame_motion(int threads);
+    void place_cameras();
     void add_overlays();
     void read_plot(const ClipRequest& command, CompositionOptions& options);
 
@@ -94,6 +129,9 @@ private:
     std::vector<PlottedRun> runs_;  // one for each scene if there is a plot
     std::vector<ScaleObserver> scales_;
     std::vector<SoundObserver> sounds_;  // one for each scene if the clip has sound
+    std::vector<CameraObserver> motions_;
+    std::vector<CameraDescription> cameras_;  // of the scenes; those that fit the motion are placed by the survey
+    std::vector<SurveyedRun> kept_;
 };
 
 }  // namespace tumble

@@ -101,6 +101,19 @@ SceneDescription panel_scene(const SceneDescription& scene, int width, int heigh
     return panel;
 }
 
+void place_camera(Composition& composition, std::size_t panel, const SceneDescription& scene,
+                  const CameraDescription& camera) {
+    SceneDescription framed = scene;
+    framed.camera = camera;
+    const Rectangle& place = composition.panels[panel].place;
+    auto whole = std::make_shared<const SceneDescription>(std::move(framed));
+    if (panel == 0) composition.aov_scene = whole;
+    composition.panels[panel].scene =
+        is_whole(place, *whole)
+            ? std::move(whole)
+            : std::make_shared<const SceneDescription>(panel_scene(*whole, place.width, place.height));
+}
+
 Composition make_composition(std::span<const ClipScene> scenes, const CompositionOptions& options) {
     const SceneDescription& first = *scenes.front().scene;
     Composition composition;

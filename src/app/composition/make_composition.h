@@ -4,9 +4,11 @@
 #include "app/composition/composition.h"
 #include "app/composition/frame_layout.h"
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -15,6 +17,7 @@ struct ClipScene {
     std::shared_ptr<const SceneDescription> scene;
     std::string label;  // above its panel
     FrameTiming timing;
+    std::vector<int> steps = {};  // where its speed changes: of each interval of the shutter, by frame (clip_speed.h)
 };
 
 struct CompositionOptions {
@@ -27,6 +30,10 @@ struct CompositionOptions {
 /// The frame has the size of the first scene. Title, clock, mode and captions are shown once, those of the first scene
 /// that shows them. Figures of plots are left empty but for their style. Throws InputError if the frame is too small.
 Composition make_composition(std::span<const ClipScene> scenes, const CompositionOptions& options);
+
+/// Gives a panel's scene that camera, and that of the AOVs if it is the first one.
+void place_camera(Composition& composition, std::size_t panel, const SceneDescription& scene,
+                  const CameraDescription& camera);
 
 /// The scene for a panel of that size. Its camera shows at least the view of the scene: where the panel is narrower
 /// than the scene's frame, the vertical field of view is wider.

@@ -2,14 +2,12 @@
 
 #include "core/check.h"
 #include "core/error.h"
-#include "core/rounding.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 
 namespace tumble {
 namespace {
@@ -111,15 +109,6 @@ std::string FrameSet::text(std::size_t most) const {
         text += end - first == 1 ? fmt::format("{}", first) : fmt::format("{}-{}", first, end - 1);
     }
     return runs_.size() > most ? text + ",..." : text;
-}
-
-FrameSet frames_from(const FrameTiming& timing, double duration, double start) {
-    const std::int64_t end = timing.frame_count(duration);
-    const double last = double(end - 1) / timing.fps;
-    const double first = std::ceil(rounded_if_nearly_whole(start * timing.fps));
-    if (!(first < double(end)))
-        throw InputError(fmt::format("--start: the scene's last frame is at {:g} s ({:g} was given)", last, start));
-    return {std::int64_t(first), end};
 }
 
 FrameSet read_frame_set(std::string_view text, std::int64_t frame_count) {

@@ -2,8 +2,6 @@
 // simulated, so that frame n does not depend on the other frames of the set.
 #pragma once
 
-#include "scene/description/description.h"
-
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -51,9 +49,6 @@ private:
     std::vector<Run> runs_;  // ascending, with gaps between them
     std::int64_t count_ = 0;
 };
-
-/// The clip's frames at `start` or later (s), of a scene of that duration (s). Throws InputError where there are none.
-FrameSet frames_from(const FrameTiming& timing, double duration, double start);
 
 /// Numbers from 0 in the syntax of range expressions of OpenJD: "7", "1-10", "30-40:2", and several with commas between
 /// them, in any order. Throws InputError, also for frames that are named twice and for frames beyond a clip of

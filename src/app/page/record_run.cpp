@@ -1,8 +1,11 @@
 #include "app/page/record_run.h"
 
 #include "app/plots/plotted_run.h"
+#include "core/error.h"
+#include "framing/motion_camera.h"
 #include "render/camera/camera_animation.h"
 #include "scene/fields/choices.h"
+#include "sim/frames/clip_speed.h"
 #include "sim/world.h"
 
 #include <algorithm>
@@ -160,12 +163,16 @@ std::vector<Quantity> joint_quantities_of(const std::string& plot, const SceneDe
 
 }  // namespace
 
-PageRun record_run(const SceneDescription& scene, const RecordSettings& settings, Interrupt& interrupt) {
+PageRun record_run(const SceneDescription& unframed, const RecordSettings& settings, Interrupt& interrupt) {
+    const SceneDescription scene = framed(unframed, settings.threads, [&] {
+        if (interrupt.pending()) throw Interrupted();
+    });
     PageRun run;
     run.label = settings.label;
     run.scene = scene;
     run.integrator = name_of(scene.simulation.integrator);
     run.frames = scene.frame_count();
+    if (!scene.speed.empty()) run.pace = frame_times(scene);
     run.bodies.resize(scene.bodies.size());
     World world(scene, settings.threads);
     world.record_contacts();

@@ -12,7 +12,7 @@ std::vector<std::byte> bytes_of(const CheckpointWriter& writer) {
 }  // namespace
 
 PanelRun::PanelRun(const PanelSource& source, Shutter shutter) : source_(source) {
-    if (source.recorded == nullptr) sequence_.emplace(*source.world, shutter);
+    if (source.recorded == nullptr) sequence_.emplace(*source.world, shutter, source.steps);
 }
 
 PanelPoses PanelRun::next(std::int64_t frame) {

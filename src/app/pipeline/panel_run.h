@@ -2,7 +2,7 @@
 #pragma once
 
 #include "app/checkpoints/clip_state.h"
-#include "app/checkpoints/recorded_frames.h"
+#include "app/survey/simulated_frames.h"
 #include "app/survey/survey.h"
 #include "app/workers/motion_blur_frame.h"
 #include "overlay/overlay_builder.h"
@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace tumble {
@@ -21,9 +22,10 @@ struct PanelSource {
     World* world = nullptr;                       // its frames are the intervals of the shutter
     std::int64_t end = 0;                         // one after its last frame; later frames of the clip repeat that
     OverlayBuilder* overlay = nullptr;            // of the shapes over it, or null
-    RecordedFrames* recorded = nullptr;           // instead of a world
+    SimulatedFrames* recorded = nullptr;              // instead of a world
     std::size_t bodies = 0;                       // of the scene
     std::vector<SurveyObserver*> observers = {};  // see every simulated frame
+    std::span<const int> steps = {};              // of the world's intervals, by frame (frame_sequence.h)
 };
 
 class PanelRun {

@@ -19,7 +19,7 @@ SurveyNeeds needs_of(std::span<SurveyObserver* const> observers) {
 void survey(World& world, const SurveyFrames& frames, std::span<SurveyObserver* const> observers,
             Interrupt& interrupt) {
     const SurveyNeeds needs = needs_of(observers);
-    FrameSequence sequence(world, {frames.intervals, 1});
+    FrameSequence sequence(world, {frames.intervals, 1}, frames.steps);
     for (std::int64_t n = 0; n < frames.count; ++n) {
         const Snapshot snapshot = sequence.next_start();
         const Survey seen(world, needs);

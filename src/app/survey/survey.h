@@ -44,6 +44,7 @@ SurveyNeeds needs_of(std::span<SurveyObserver* const> observers);
 struct SurveyFrames {
     std::int64_t count = 1;
     int intervals = 1;
+    std::span<const int> steps = {};  // of each interval, by frame, where the speed changes (frame_sequence.h)
 };
 
 /// Runs the world from its start and shows each frame to all observers. Throws RunError after an interrupt.

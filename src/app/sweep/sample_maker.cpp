@@ -153,7 +153,7 @@ SampleFigures SampleMaker::write_files(const SweepSample& sample, RenderScenes& 
     }
     if (plan_.outputs.drawn()) {
         const bool image = plan_.outputs.frames || !plan_.outputs.clip.empty();
-        if (image) scenes.survey_clip(1, interrupt_);
+        scenes.survey_clip({.image = image}, interrupt_);
         try {
             figures.drawn = write_clip(plan_, scenes, image ? &device() : nullptr, folder);
         } catch (...) {

@@ -18,13 +18,12 @@ struct ViewKeys {
 
 void check_view(const Vec3& eye, const Vec3& target, const Vec3& up, const ViewKeys& given, const TomlTable& table) {
     const Vec3 view = target - eye;
-    constexpr double parallel = 1e-6;  // rad: within this angle of `up` the roll is undefined
     if (view.norm() == 0.0) {
         if (given.eye) given.eye->fail("must not be at the target");
         if (given.target) given.target->fail("must not be at the eye");
         table.origin().fail("has its eye in its target");
     }
-    if (view.normalized().cross(up.normalized()).norm() >= parallel) return;
+    if (view.normalized().cross(up.normalized()).norm() >= least_roll_angle) return;
     const SourcePosition& origin = given.up       ? given.up->origin()
                                    : given.eye    ? given.eye->origin()
                                    : given.target ? given.target->origin()
@@ -87,17 +86,23 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
     CameraDescription lens;
     const double duration = duration_in_file(root);
     const auto table = root.find_table("camera");
+    lens.fitted_time = duration;
     if (!table) return default_camera(scene, lens, duration);
 
     table->expect_keys(list_keys<CameraDescription>().keys);
     read_fields(*table, lens);
     const ViewKeys given{table->find("eye"), table->find("target"), table->find("up")};
 
+    lens.own_eye = given.eye.has_value();
+    lens.own_target = given.target.has_value();
+
     CameraDescription camera = lens;
     // a camera that follows a body needs no view of the whole throw
     if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
+    if (table->find("fit") && given.eye && given.target)
+        table->find("fit")->fail("is for a camera without an eye or without a target");
     if (const auto keyframes = table->find("keyframes")) {
         camera.keyframes = read_keyframes(*keyframes, camera);
         camera.eye = camera.keyframes.front().eye;

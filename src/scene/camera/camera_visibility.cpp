@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -22,11 +23,19 @@ std::size_t triangles_of(const Shape& shape) {
 }  // namespace
 
 CameraVisibility::CameraVisibility(const SceneDescription& scene) {
+    if (find_pieces(scene)) find_rest_positions(scene);
+}
+
+CameraVisibility::CameraVisibility(const SceneDescription& scene, std::vector<Vec3> places) {
+    if (find_pieces(scene)) places_ = std::move(places);
+}
+
+bool CameraVisibility::find_pieces(const SceneDescription& scene) {
     std::size_t triangles = 0;
     for (const BodyDescription& body : scene.bodies)
         if (body.type == BodyType::fixed && body.appearance.visible) add(body.shape, body.position, body.rotation);
     for (const Piece& piece : pieces_) triangles += triangles_of(*piece.shape);
-    if (!pieces_.empty() && pieces_.size() <= most_pieces && triangles <= most_triangles) find_rest_positions(scene);
+    return !pieces_.empty() && pieces_.size() <= most_pieces && triangles <= most_triangles;
 }
 
 void CameraVisibility::add(const Shape& shape, const Vec3& position, const Quat& rotation) {
@@ -71,15 +80,15 @@ void CameraVisibility::find_rest_positions(const SceneDescription& scene) {
                 if (height > 0.0 && approach > 0.0) fall = std::min(fall, height / approach);
             }
         const double rests = fall < infinity ? std::max(fall - 0.5 * bounds.extent().minCoeff(), 0.0) : 0.0;
-        rest_positions_.push_back(middle + down * rests);
+        places_.push_back(middle + down * rests);
     }
 }
 
 double CameraVisibility::visible_share(const Vec3& eye) const {
-    if (rest_positions_.empty()) return 1.0;
-    const auto seen = std::count_if(rest_positions_.begin(), rest_positions_.end(),
+    if (places_.empty()) return 1.0;
+    const auto seen = std::count_if(places_.begin(), places_.end(),
                                     [&](const Vec3& place) { return first_hit(eye, place - eye) > 0.999; });
-    return double(seen) / double(rest_positions_.size());
+    return double(seen) / double(places_.size());
 }
 
 }  // namespace tumble

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 namespace tumble {
@@ -19,7 +21,12 @@ constexpr double azimuth = 28.0;    // degrees to the right of the front
 constexpr double elevation = 17.0;  // degrees above the horizon: the ground fills the lower two thirds
 constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};  // degrees; tried where fixed bodies hide the bodies in them
 constexpr double enough = 0.6;                           // share of the rest positions that must be visible
-constexpr double used_fraction = 0.86;                   // of the image's half width and height; the rest is a margin
+constexpr double used_fraction = 0.86;         // of the image's half width and height; the rest is a margin
+constexpr double used_by_motion = 0.8;         // the same where the motion is known, and needs no reserve
+constexpr double from_above = 35.0;            // degrees; of a motion that spreads over the ground
+constexpr double flat = 0.2;                   // such a motion's height, of the smaller of its two other sides
+constexpr double side_on = 0.6;                // part of the paths' length that the image shows at least
+constexpr double ground_near_motion = 2.0;     // as ground_factor; more than that of a wall would make bodies small
 constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all moving bodies is ground
 
 constexpr double least_distance = 0.2;  // of the scene's diagonal, between the eye and the nearest point
@@ -32,11 +39,16 @@ struct Axes {
     Vec3 right, up, forward;  // unit, right-handed as seen by the camera (forward into the image)
 };
 
-Axes view_axes(const Vec3& up, double above) {
+/// Directions of the ground as the default camera sees it: to the right, and toward it.
+std::pair<Vec3, Vec3> level_axes(const Vec3& up) {
     const Vec3 front = std::fabs(up.z()) < 0.9 ? Vec3(0.0, 0.0, 1.0) : Vec3(0.0, -1.0, 0.0);
     const Vec3 level_front = (front - up * up.dot(front)).normalized();
-    const Vec3 level_right = up.cross(level_front);
-    const SinCos a = sincos(azimuth * degrees), e = sincos(above * degrees);
+    return {up.cross(level_front), level_front};
+}
+
+Axes view_axes(const Vec3& up, double above, double to_the_right = azimuth) {
+    const auto [level_right, level_front] = level_axes(up);
+    const SinCos a = sincos(to_the_right * degrees), e = sincos(above * degrees);
     Axes axes;
     axes.forward = -(e.cos * (a.cos * level_front + a.sin * level_right) + e.sin * up);
     axes.right = axes.forward.cross(up).normalized();
@@ -120,19 +132,31 @@ std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
     return points;
 }
 
-std::vector<Vec3> points_of_note(const SceneDescription& scene, double seconds) {
-    std::vector<Vec3> points = moving_points(scene, seconds);
+/// Bodies beside the moving points: fixed ones, and those that stand.
+struct Surroundings {
+    double ground_factor;          // one that is this many times larger than the motion is ground
+    bool near_only = false;        // those that are not near the motion are left out
+    std::vector<char> stands = {}; // by body; empty: none
+};
+
+/// The moving points and those of their surroundings; of the ground only the part near them.
+std::vector<Vec3> with_surroundings(const SceneDescription& scene, std::vector<Vec3> points,
+                                    const Surroundings& beside) {
     const Bounds moving = bounds_of(points);
     const double reach = points.empty() ? 0.0 : moving.extent().norm();
+    const Bounds near = points.empty() ? moving : moving.grown(0.25 * reach);
     BoundsOfShapes bounds_of_shape;
-    for (const BodyDescription& body : scene.bodies) {
-        if (body.type != BodyType::fixed || endless(body.shape)) continue;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyDescription& body = scene.bodies[i];
+        const bool stands = body.type == BodyType::fixed || (!beside.stands.empty() && beside.stands[i]);
+        if (!stands || endless(body.shape)) continue;
         std::vector<Vec3> corners;
         add_corners(bounds_of_shape(body.shape), body.position, body.rotation, corners);
         const Bounds bounds = bounds_of(corners);
-        if (moving.empty() || bounds.extent().norm() < ground_factor * reach) {
-            points.insert(points.end(), corners.begin(), corners.end());
-        } else if (const Bounds near = moving.grown(0.25 * reach); bounds.overlaps(near)) {
+        const bool overlaps = moving.empty() || bounds.overlaps(near);
+        if (moving.empty() || bounds.extent().norm() < beside.ground_factor * reach) {
+            if (overlaps || !beside.near_only) points.insert(points.end(), corners.begin(), corners.end());
+        } else if (overlaps) {
             const Bounds part{bounds.min.cwiseMax(near.min), bounds.max.cwiseMin(near.max)};
             add_corners(part, Vec3::Zero(), Quat::Identity(), points);
         }
@@ -152,10 +176,10 @@ Vec3 off_center(const std::vector<Vec3>& points, const Vec3& eye, const Axes& ax
 
 /// The camera along the axes that has all points in its image.
 CameraDescription fitted(const SceneDescription& scene, const CameraDescription& lens, const std::vector<Vec3>& points,
-                         const Axes& axes) {
+                         const Axes& axes, double used) {
     CameraDescription camera = lens;
     const SinCos half = sincos(0.5 * lens.vertical_fov * degrees);
-    const double tangent_y = used_fraction * half.sin / half.cos;
+    const double tangent_y = used * half.sin / half.cos;
     const double tangent_x = tangent_y * scene.output.width / scene.output.height;
 
     // A point p is in view of the eye e if |(p - e).right| <= tangent_x (p - e).forward, and likewise for up: four
@@ -184,24 +208,84 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
     return camera;
 }
 
-}  // namespace
+/// The side, as degrees to the right of the front, from which the motion is seen.
+double side_of(const Mat3& paths, const Vec3& up) {
+    const auto [level_right, level_front] = level_axes(up);
+    const double whole = level_right.dot(paths * level_right) + level_front.dot(paths * level_front);
+    const auto seen = [&](double to_the_right) {  // part of the level paths' length, squared
+        const SinCos a = sincos(to_the_right * degrees);
+        const Vec3 right = a.cos * level_right - a.sin * level_front;
+        return right.dot(paths * right) / whole;
+    };
+    if (!(whole > 0.0) || seen(azimuth) >= side_on * side_on) return azimuth;
+    double best = azimuth;
+    for (const double other : {90.0 - azimuth, -azimuth, azimuth - 90.0})
+        if (seen(other) > seen(best)) best = other;
+    return best;
+}
 
-CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
-    std::vector<Vec3> points = points_of_note(scene, seconds);
-    if (points.empty()) {  // default extent, at the origin
-        add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
-    }
-    const CameraVisibility visibility(scene);
-    const Vec3 up = lens.up.normalized();
-    CameraDescription best = fitted(scene, lens, points, view_axes(up, elevation));
+/// Degrees above the horizon.
+double height_of(const Bounds& level, std::size_t axis) {
+    const Vec3 sides = level.extent();
+    double least = infinity;
+    for (std::size_t c = 0; c < 3; ++c)
+        if (c != axis) least = std::min(least, sides[Eigen::Index(c)]);
+    return sides[Eigen::Index(axis)] < flat * least ? from_above : elevation;
+}
+
+/// The camera at that height, or higher up where fixed bodies hide too much.
+template <class Place>
+CameraDescription unhidden(const CameraVisibility& visibility, double first, const Place& place) {
+    CameraDescription best = place(first);
     double share = visibility.visible_share(best.eye);
     for (const double above : higher) {
         if (share >= enough) break;
-        const CameraDescription camera = fitted(scene, lens, points, view_axes(up, above));
+        if (above <= first) continue;
+        const CameraDescription camera = place(above);
         const double now = visibility.visible_share(camera.eye);
         if (now > share) best = camera, share = now;
     }
     return best;
+}
+
+}  // namespace
+
+CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds) {
+    std::vector<Vec3> points = with_surroundings(scene, moving_points(scene, seconds), {ground_factor});
+    if (points.empty()) {  // default extent, at the origin
+        add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
+    }
+    const Vec3 up = lens.up.normalized();
+    return unhidden(CameraVisibility(scene), elevation, [&](double above) {
+        return fitted(scene, lens, points, view_axes(up, above), used_fraction);
+    });
+}
+
+CameraDescription camera_of_motion(const SceneDescription& scene, const CameraDescription& lens,
+                                   const ShownMotion& motion) {
+    const Vec3 up = lens.up.normalized();
+    const double side = side_of(motion.paths, up);
+    Eigen::Index axis = 0;
+    up.cwiseAbs().maxCoeff(&axis);
+    const double height = height_of(bounds_of(motion.points), std::size_t(axis));
+    Surroundings beside{ground_near_motion, true, std::vector<char>(scene.bodies.size(), 0)};
+    for (const std::size_t body : motion.standing) beside.stands[body] = 1;
+    const std::vector<Vec3> points = with_surroundings(scene, motion.points, beside);
+    return unhidden(CameraVisibility(scene, motion.places), height, [&](double above) {
+        return fitted(scene, lens, points, view_axes(up, above, side), used_by_motion);
+    });
+}
+
+CameraDescription with_own_place(CameraDescription chosen, const CameraDescription& own) {
+    const Vec3 offset = chosen.eye - chosen.target;
+    if (own.own_target) chosen.target = own.target, chosen.eye = own.target + offset;
+    if (own.own_eye) chosen.eye = own.eye;
+    const Vec3 view = chosen.target - chosen.eye;
+    if (view.norm() == 0.0 || view.normalized().cross(own.up.normalized()).norm() < least_roll_angle) return own;
+    CameraDescription placed = own;
+    placed.eye = chosen.eye;
+    placed.target = chosen.target;
+    return placed;
 }
 
 }  // namespace tumble

@@ -3,6 +3,9 @@
 
 #include "scene/description/description.h"
 
+#include <cstddef>
+#include <vector>
+
 namespace tumble {
 
 /// Keeps `lens.up` and `lens.vertical_fov`. Chooses eye and target so that these are in the image:
@@ -12,5 +15,25 @@ namespace tumble {
 /// bodies.
 /// Where fixed bodies would hide bodies in them, the camera is raised.
 CameraDescription default_camera(const SceneDescription& scene, const CameraDescription& lens, double seconds = 0.0);
+
+/// A motion to be shown, in the world frame.
+struct ShownMotion {
+    std::vector<Vec3> points;          // m: in the image
+    std::vector<Vec3> places;          // m: not to be hidden by fixed bodies
+    Mat3 paths = Mat3::Zero();         // m^2: sum of d d^T over all displacements d
+    std::vector<std::size_t> standing; // bodies that are shown where they are near the motion, as fixed ones
+};
+
+/// The same for a motion that is known. The side is the one from which its direction is seen; a motion that spreads over
+/// the ground is seen from higher up.
+CameraDescription camera_of_motion(const SceneDescription& scene, const CameraDescription& lens,
+                                   const ShownMotion& motion);
+
+/// rad: within this angle of `up` the roll is undefined.
+inline constexpr double least_roll_angle = 1e-6;
+
+/// The camera with the eye and the target that are its own, and otherwise the chosen ones: an eye or a target alone
+/// keeps the chosen offset.
+CameraDescription with_own_place(CameraDescription chosen, const CameraDescription& own);
 
 }  // namespace tumble

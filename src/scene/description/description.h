@@ -94,6 +94,9 @@ struct CameraKeyframe {
     double vertical_fov = 40.0;  // degrees
 };
 
+/// The motion that a camera without an eye or a target of its own shows: the simulated one, or a guess from the start.
+enum class CameraFit { motion, start };
+
 /// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
 /// (render/camera/camera_animation.h).
 struct CameraDescription {
@@ -105,7 +108,14 @@ struct CameraDescription {
     std::optional<std::size_t> follow;  // index into bodies
     Vec3 follow_start = Vec3::Zero();   // pose of that body's origin at the start
     Quat follow_start_rotation = Quat::Identity();
+    CameraFit fit = CameraFit::motion;
+    bool own_eye = false, own_target = false;  // given, not chosen
+    double fitted_time = 0.0;                  // s: the duration in the file
 
+    /// True if the simulated motion decides its place (framing/motion_camera.h). Until then it shows the start.
+    bool fits_motion() const {
+        return fit == CameraFit::motion && !(own_eye && own_target) && keyframes.empty() && !follow;
+    }
     bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow; }
 };
 
@@ -298,6 +308,18 @@ struct FrameTiming {
     std::int64_t frame_count(double duration) const;
 };
 
+enum class SpeedEasing { smooth, linear, step };
+
+/// The speed of a clip, as seconds of the scene's motion in a second of the clip: the factor at the keyframe's time, and
+/// up to the next one by the easing. Before the first one it is 1.
+struct SpeedKeyframe {
+    double time = 0.0;                                 // s; after the impact, if there is one
+    std::optional<std::array<std::size_t, 2>> impact;  // bodies: their first impact is at time 0
+    double factor = 1.0;
+    double hold = 0.0;  // s of the clip in which the motion stands still
+    SpeedEasing easing = SpeedEasing::smooth;
+};
+
 struct SceneDescription {
     std::string file;  // path of the scene file, for messages
     std::string title;
@@ -312,6 +334,7 @@ struct SceneDescription {
     std::vector<JointDescription> joints;
     std::vector<CordDescription> cords;
     OverlayDescription overlay;
+    std::vector<SpeedKeyframe> speed;  // of clips; empty: the scene's own
 
     FrameTiming timing() const { return {output.fps, simulation.steps_per_frame}; }
     double step() const { return timing().step(); }  // s

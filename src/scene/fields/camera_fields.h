@@ -28,8 +28,14 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
            "position "
            "in the frame; without a `target`, the camera looks at the body",
            "none", "the name of a body that is not fixed", "string"});
+    field(self.fit, "fit", ByType(),
+          {.text = "the motion that a camera without `eye` or `target` shows: the simulated one in the file's "
+                   "`duration`, or a guess from the bodies at the start, which needs no simulation. A camera with "
+                   "`keyframes` or `follow` is placed by the start",
+           .later = true});
     if constexpr (requires { self.follow_start; }) {
         field.inner(self.follow_start, self.follow_start_rotation);
+        field.since(self.fits_motion(), self.own_eye, self.own_target, self.fitted_time);
     }
 }
 

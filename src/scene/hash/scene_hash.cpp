@@ -8,6 +8,7 @@
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/fields/speed_fields.h"
 
 #include <array>
 #include <bit>
@@ -86,7 +87,7 @@ public:
 
     void add_scene(const SceneDescription& scene) {
         const auto& [file, title, simulation, output, camera, light, wind, contact, forces, bodies, joints, cords,
-                     overlay] = scene;
+                     overlay, speed] = scene;
         add_value(simulation);
         add_value(output);
         add_value(wind);
@@ -97,6 +98,7 @@ public:
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
         add_shown_file(scene);
+        if (!speed.empty()) add_value(speed);  // other scenes keep their hash
     }
 
     void add_shown_file(const SceneDescription& scene) {
@@ -131,6 +133,7 @@ public:
 
 private:
     // Defaults of fields that are newer than hashes in use.
+    static bool is_default(CameraFit value) { return value == CameraFit{}; }
     static bool is_default(bool value) { return value; }
     static bool is_default(double value) { return value == 1.0; }
     template <class T>
@@ -268,7 +271,7 @@ std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, C
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
     const auto& [file, title, simulation, output, camera, light, wind, contact, forces, bodies, joints, cords,
-                 overlay] = scene;
+                 overlay, speed] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
     of_any_duration.duration = 0.0;
@@ -285,6 +288,7 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
     if (!joints.empty()) parts.emplace_back("joints", part(joints));           // as in the hash
     parts.emplace_back("cords", part(cords));
     parts.emplace_back("overlay", text.finish_with(overlay));
+    if (!speed.empty()) parts.emplace_back("speed", part(speed));  // as in the hash
     return parts;
 }
 
