@@ -156,7 +156,13 @@ CameraDescription MotionCamera::camera() const {
     for (const Body* body : moving) shown[body->index] = 1;
     for (const Body& body : bodies_)
         if (!shown[body.index]) motion.standing.push_back(body.index);
-    return with_own_place(camera_of_motion(*scene_, scene_->camera, motion), scene_->camera);
+    CameraDescription placed = scene_->camera;
+    const auto place = [&](CameraDescription& camera) {
+        if (camera.fits_motion()) camera = with_own_place(camera_of_motion(*scene_, camera, motion), camera);
+    };
+    place(placed);
+    for (CameraShot& shot : placed.shots) place(shot.camera);
+    return placed;
 }
 
 MotionCamera simulated_motion(const SceneDescription& scene, int threads, const std::function<void()>& each) {
@@ -177,7 +183,7 @@ MotionCamera simulated_motion(const SceneDescription& scene, int threads, const 
 
 SceneDescription framed(const SceneDescription& scene, int threads, const std::function<void()>& each) {
     SceneDescription placed = scene;
-    if (scene.camera.fits_motion()) placed.camera = simulated_motion(scene, threads, each).camera();
+    if (scene.camera.any_fits_motion()) placed.camera = simulated_motion(scene, threads, each).camera();
     return placed;
 }
 

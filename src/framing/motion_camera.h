@@ -28,7 +28,8 @@ public:
 
     /// False if it has seen no frame, or there is nothing to see.
     bool seen() const { return seen_ > 0; }
-    /// The scene's camera, at the place from which the motion is seen. Keeps an eye or a target of its own.
+    /// The scene's camera, and those of its shots, at the places from which the motion is seen. Each keeps an eye or a
+    /// target of its own.
     CameraDescription camera() const;
 
 private:

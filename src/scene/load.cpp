@@ -59,7 +59,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format", "title", "simulation", "output", "camera", "light", "wind", "contact", "materials",
+    root.expect_keys({"format", "title", "simulation", "output", "camera", "cameras", "shot", "light", "wind", "contact", "materials",
                       "body", "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption",
                       "speed"});
 
@@ -95,7 +95,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_forces(root, scene);
     read_cords(root, scene);
     add_cords_of_joints(scene);
-    scene.camera = read_camera(root, scene);
+    scene.camera = read_camera(root, scene, overrides.camera);
     scene.overlay = read_overlay(root, scene.bodies, overrides);
     read_speed(root, scene);
     return scene;

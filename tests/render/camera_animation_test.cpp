@@ -320,5 +320,54 @@ TEST(FogDistance, ATowerBehindMarblesIsVisible) {
         EXPECT_NEAR(image.at(at.x, at.y)[channel], alone.at(at.x, at.y)[channel], 30) << "channel " << channel;
 }
 
+/// A shot by a camera at (x, 1, 8), to (x, 1, 0).
+CameraShot shot_at(double x, double start, double end, double move = 0.0) {
+    CameraShot shot;
+    shot.start = start;
+    shot.end = end;
+    shot.move = move;
+    shot.camera.eye = {x, 1.0, 8.0};
+    shot.camera.target = {x, 1.0, 0.0};
+    return shot;
+}
+
+TEST(Shots, CutAtTheirTimes) {
+    SceneDescription scene = small_heap();
+    scene.camera.shots = {shot_at(1.0, 1.0, 2.0), shot_at(2.0, 3.0, INFINITY)};
+    const CameraAnimation animation(scene.camera);
+    for (const auto& [time, x] : {std::pair{0.0, 0.0}, {0.999, 0.0}, {1.0, 1.0}, {1.999, 1.0}, {2.0, 0.0}, {3.0, 2.0},
+                                  {100.0, 2.0}})
+        EXPECT_EQ(animation.at(at_time(scene, time)).eye.x(), x) << time;
+    EXPECT_TRUE(scene.camera.moves());
+}
+
+TEST(Shots, MoveFromTheViewBefore) {
+    SceneDescription scene = small_heap();
+    scene.camera.shots = {shot_at(1.0, 1.0, 2.0, 0.5), shot_at(3.0, 2.0, INFINITY, 0.5)};
+    scene.camera.shots[1].camera.vertical_fov = 60.0;
+    const CameraAnimation animation(scene.camera);
+    const auto x = [&](double time) { return animation.at(at_time(scene, time)).eye.x(); };
+    EXPECT_EQ(x(1.0), 0.0);
+    EXPECT_NEAR(x(1.25), 0.5, rounding);
+    EXPECT_NEAR(x(1.125), 0.15625, rounding);  // 3 p^2 - 2 p^3 at a quarter
+    EXPECT_EQ(x(1.5), 1.0);
+    EXPECT_NEAR(x(2.25), 2.0, rounding);  // from the shot before
+    EXPECT_NEAR(animation.at(at_time(scene, 2.25)).vertical_fov, 0.5 * (60.0 + scene.camera.vertical_fov), rounding);
+}
+
+TEST(Shots, FollowTheirOwnBodies) {
+    SceneDescription scene = small_heap();
+    scene.camera.shots = {shot_at(1.0, 1.0, INFINITY), shot_at(2.0, 2.0, INFINITY)};
+    scene.camera.shots[0].camera.follow = 3;
+    scene.camera.shots[1].camera.follow = 2;
+    EXPECT_EQ(followed_bodies(scene.camera), (std::vector<std::size_t>{2, 3}));
+    Snapshot snapshot = at_time(scene, 1.0);
+    const CameraAnimation animation(scene.camera);
+    const Vec3 before = animation.at(snapshot).eye;
+    snapshot.bodies[3].center_of_mass += Vec3(1, 2, 3);
+    snapshot.bodies[3].origin += Vec3(1, 2, 3);
+    EXPECT_NEAR((animation.at(snapshot).eye - before - Vec3(1, 2, 3)).norm(), 0.0, rounding);
+}
+
 }  // namespace
 }  // namespace tumble::camera_animation_test

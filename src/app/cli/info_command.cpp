@@ -142,6 +142,7 @@ std::string camera_motion(const SceneDescription& scene) {
     std::string text;
     if (!scene.camera.keyframes.empty()) text += fmt::format(", {} keyframes", scene.camera.keyframes.size());
     if (scene.camera.orbit != 0.0) text += fmt::format(", turning at {:.4g} degrees/s", scene.camera.orbit);
+    if (!scene.camera.shots.empty()) text += fmt::format(", {} shots by other cameras", scene.camera.shots.size());
     if (scene.camera.follow) text += fmt::format(", following {}", safe_text(scene.bodies[*scene.camera.follow].name));
     return text;
 }

@@ -41,6 +41,7 @@ std::string options_text(const SceneOverrides& overrides, std::span<const std::s
     if (overrides.fps) text += fmt::format("--fps {}\n", fps_text(*overrides.fps));
     for (const std::string& value : overrides.set) text += fmt::format("--set {}\n", value);
     for (const std::string& values : vary) text += fmt::format("--vary {}\n", values);
+    add("--camera", overrides.camera);
     add("--overlay", overrides.overlay);
     add("--plot", overrides.plot);
     return text;

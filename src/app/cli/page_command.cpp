@@ -175,6 +175,7 @@ void add_page(Command& command) {
                             {{"single", "single"}, {"ghost", "ghost"}, {"side-by-side", "side-by-side"}},
                             "How the page shows several runs at first: one, the others as ghosts, or all");
     add_frames_of_time(command, c.overrides);
+    add_camera(command, c.overrides);
     add_overlay(command, c.overrides,
                 "Overlays that the page shows at first, in place of the scene's: none, or a list\nout of");
     command

@@ -157,6 +157,7 @@ void add_panels(CLI::App& command, RenderCommand& clip, const std::string& what)
 }
 
 void add_text(CLI::App& command, SceneOverrides& overrides) {
+    add_camera(command, overrides);
     add_overlay(command, overrides, "Overlays of the pictures, in place of the scene's: none, or a list out of");
     command
         .add_option("--plot", overrides.plot,

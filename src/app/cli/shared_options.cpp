@@ -154,6 +154,12 @@ void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string
         ->type_name("LIST");
 }
 
+void add_camera(CLI::App& command, SceneOverrides& overrides) {
+    command
+        .add_option("--camera", overrides.camera, "One of [cameras] for the whole clip, in place of [camera] and [[shot]]")
+        ->type_name("NAME");
+}
+
 void add_workers(CLI::App& command, int& workers, const std::string& help, int most) {
     workers = std::min(machine_threads(), most);
     command.add_option("--workers", workers, help)

@@ -68,6 +68,9 @@ void add_values(CLI::App& command, SceneOverrides& overrides);
 void add_frames_of_time(CLI::App& command, SceneOverrides& overrides);
 /// --overlay; the help is followed by the names.
 void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string& help);
+
+/// --camera.
+void add_camera(CLI::App& command, SceneOverrides& overrides);
 /// --vary; `what` is made for each value: "A panel", "A run".
 void add_vary(CLI::App& command, std::vector<std::string>& vary, const std::string& what);
 void add_quality(CLI::App& command, VideoQuality& quality);

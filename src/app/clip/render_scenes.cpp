@@ -168,7 +168,7 @@ std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
     if (composition.panels[index].overlay && needs_survey(scene.overlay)) observers.push_back(&scales_[index]);
     if (!sounds_.empty()) observers.push_back(&sounds_[index]);
     // A clip that ends before the scene's own duration does not show the whole motion.
-    if (scene.camera.fits_motion() && scene.simulation.duration >= scene.camera.fitted_time)
+    if (scene.camera.any_fits_motion() && scene.simulation.duration >= scene.camera.fitted_time)
         observers.push_back(&motions_[index]);
     return observers;
 }
@@ -199,11 +199,11 @@ void RenderScenes::survey_clip(const SurveyWork& work, Interrupt& interrupt) {
 void RenderScenes::frame_motion(int threads) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         const SceneDescription& scene = *scenes[i].scene;
-        if (scene.camera.fits_motion() && !motions_[i].motion.seen())
+        if (scene.camera.any_fits_motion() && !motions_[i].motion.seen())
             motions_[i].motion = simulated_motion(scene, threads);
     }
     for (std::size_t i = 0; i < scenes.size(); ++i) {
-        if (!cameras_[i].fits_motion()) continue;
+        if (!cameras_[i].any_fits_motion()) continue;
         MotionCamera shown = motions_[i].motion;
         for (std::size_t k = 0; k < scenes.size(); ++k)
             if (k != i && scenes[k].scene->file == scenes[i].scene->file) shown.add(motions_[k].motion);
@@ -214,7 +214,7 @@ void RenderScenes::frame_motion(int threads) {
 
 void RenderScenes::place_cameras() {
     for (std::size_t i = 0; i < scenes.size(); ++i)
-        if (cameras_[i].fits_motion()) place_camera(composition, i, *scenes[i].scene, cameras_[i]);
+        if (cameras_[i].any_fits_motion()) place_camera(composition, i, *scenes[i].scene, cameras_[i]);
 }
 
 void RenderScenes::use_survey(int threads) {
@@ -235,8 +235,11 @@ template <class Archive, class Self>
 void RenderScenes::visit_survey(Archive& archive, Self& self) {
     for (auto& panel : self.composition.panels)
         if (panel.overlay) archive.keep(panel.overlay->scales, panel.overlay->marks);
-    for (auto& camera : self.cameras_)
-        if (camera.fits_motion()) archive.keep(camera.eye, camera.target);
+    for (auto& camera : self.cameras_) {
+        if (!camera.any_fits_motion()) continue;
+        archive.keep(camera.eye, camera.target);
+        for (auto& shot : camera.shots) archive.keep(shot.camera.eye, shot.camera.target);
+    }
     for (auto& run : self.runs_) {
         archive.keep(run.times, run.values);
         archive.require([&run = run] {

@@ -96,8 +96,12 @@ SceneDescription panel_scene(const SceneDescription& scene, int width, int heigh
     panel.output.height = height;
     const double factor = double(scene.output.width) / double(scene.output.height) / (double(width) / double(height));
     if (factor <= 1.0) return panel;
-    panel.camera.vertical_fov = wider(scene.camera.vertical_fov, factor);
-    for (CameraKeyframe& key : panel.camera.keyframes) key.vertical_fov = wider(key.vertical_fov, factor);
+    const auto widen = [&](CameraDescription& camera) {
+        camera.vertical_fov = wider(camera.vertical_fov, factor);
+        for (CameraKeyframe& key : camera.keyframes) key.vertical_fov = wider(key.vertical_fov, factor);
+    };
+    widen(panel.camera);
+    for (CameraShot& shot : panel.camera.shots) widen(shot.camera);
     return panel;
 }
 

@@ -4,6 +4,7 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "output/png_writer.h"
+#include "render/camera/camera_animation.h"
 
 #include <fmt/format.h>
 
@@ -18,7 +19,6 @@ namespace tumble {
 namespace {
 
 constexpr std::size_t page = 4096;            // bytes: regions with different writers are on separate pages
-constexpr std::size_t numbers_of_sample = 4;  // time; x, y, z
 constexpr std::size_t numbers_of_body = 7;    // x, y, z; x, y, z, w
 
 // Bytes for the shapes of an overlay: a million arrows. Pages that are never written take no memory.
@@ -61,11 +61,13 @@ SharedFrames::SharedFrames(const Composition& composition, const FrameOutputs& o
 
 SharedFrames::~SharedFrames() { munmap(memory_, size_); }
 
-std::size_t SharedFrames::PoseRegion::size_of_sample() const { return numbers_of_sample + bodies * numbers_of_body; }
+std::size_t SharedFrames::PoseRegion::size_of_sample() const {
+    return 1 + 3 * followed.size() + bodies * numbers_of_body;  // the time; centers of mass; poses
+}
 
 /// Reserves space in front of the slots.
 SharedFrames::PoseRegion SharedFrames::add_region(const SceneDescription& scene, std::size_t samples) {
-    const PoseRegion region{scene.camera.follow, scene.bodies.size(), slots_at_};
+    const PoseRegion region{followed_bodies(scene.camera), scene.bodies.size(), slots_at_};
     slots_at_ += whole_pages((1 + samples * region.size_of_sample()) * sizeof(double));
     return region;
 }
@@ -78,8 +80,10 @@ void SharedFrames::write(const PoseRegion& region, std::size_t index, const Snap
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), region.bodies);
     double* to = sample(region, index);
     *to++ = snapshot.time;
-    if (region.followed) std::copy_n(snapshot.bodies[*region.followed].center_of_mass.data(), 3, to);
-    to += 3;
+    for (const std::size_t body : region.followed) {
+        std::copy_n(snapshot.bodies[body].center_of_mass.data(), 3, to);
+        to += 3;
+    }
     for (const BodyState& body : snapshot.bodies) {
         std::copy_n(body.origin.data(), 3, to);
         std::copy_n(body.orientation.coeffs().data(), 4, to + 3);
@@ -91,8 +95,10 @@ void SharedFrames::read(const PoseRegion& region, std::size_t index, Snapshot& s
     snapshot.bodies.resize(region.bodies);
     const double* from = sample(region, index);
     snapshot.time = *from++;
-    if (region.followed) std::copy_n(from, 3, snapshot.bodies[*region.followed].center_of_mass.data());
-    from += 3;
+    for (const std::size_t body : region.followed) {
+        std::copy_n(from, 3, snapshot.bodies[body].center_of_mass.data());
+        from += 3;
+    }
     for (BodyState& body : snapshot.bodies) {
         std::copy_n(from, 3, body.origin.data());
         std::copy_n(from + 3, 4, body.orientation.coeffs().data());

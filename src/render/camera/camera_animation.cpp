@@ -3,6 +3,7 @@
 #include "core/deterministic_math.h"
 
 #include <cmath>
+#include <set>
 
 namespace tumble {
 namespace {
@@ -34,7 +35,15 @@ std::optional<CameraAnimation::Tracks> CameraAnimation::tracks_of(const CameraDe
                   })};
 }
 
-CameraAnimation::CameraAnimation(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {}
+CameraAnimation::CameraAnimation(const CameraDescription& camera) : camera_(camera), tracks_(tracks_of(camera)) {
+    for (const CameraShot& shot : camera.shots) shots_.emplace_back(shot.camera);
+}
+
+std::size_t CameraAnimation::shot_at(double time) const {
+    std::size_t k = shots_.size();
+    while (k > 0 && camera_.shots[k - 1].start > time) --k;
+    return k > 0 && time < camera_.shots[k - 1].end ? k - 1 : shots_.size();
+}
 
 Vec3 CameraAnimation::up_at(double time) const {
     constexpr double parallel = 1e-9;  // rad: as for Camera
@@ -53,6 +62,7 @@ Vec3 CameraAnimation::up_at(double time) const {
 }
 
 Vec3 CameraAnimation::carried(const Snapshot& snapshot) const {
+    if (const std::size_t k = shot_at(snapshot.time); k < shots_.size()) return shots_[k].carried(snapshot);
     if (!camera_.follow) return Vec3::Zero();
     const BodyState& body = snapshot.bodies.at(*camera_.follow);
     // The scene has no center of mass. The body is rigid, so its center is constant in the body frame.
@@ -61,6 +71,23 @@ Vec3 CameraAnimation::carried(const Snapshot& snapshot) const {
 }
 
 CameraDescription CameraAnimation::at(const Snapshot& snapshot) const {
+    const std::size_t k = shot_at(snapshot.time);
+    if (k == shots_.size()) return own_at(snapshot);
+    const CameraShot& shot = camera_.shots[k];
+    CameraDescription now = shots_[k].own_at(snapshot);
+    if (snapshot.time >= shot.start + shot.move) return now;
+    const bool joins = k > 0 && camera_.shots[k - 1].end >= shot.start;
+    const CameraDescription before = joins ? shots_[k - 1].own_at(snapshot) : own_at(snapshot);
+    const double part = (snapshot.time - shot.start) / shot.move, eased = part * part * (3.0 - 2.0 * part);
+    now.eye = before.eye + eased * (now.eye - before.eye);
+    now.target = before.target + eased * (now.target - before.target);
+    now.vertical_fov = before.vertical_fov + eased * (now.vertical_fov - before.vertical_fov);
+    const Vec3 up = (1.0 - eased) * before.up.normalized() + eased * now.up.normalized();
+    if (up.cross(now.target - now.eye).norm() > 1e-6 * (now.target - now.eye).norm()) now.up = up;
+    return now;
+}
+
+CameraDescription CameraAnimation::own_at(const Snapshot& snapshot) const {
     CameraDescription now;
     now.eye = camera_.eye;
     now.target = camera_.target;
@@ -85,6 +112,13 @@ CameraDescription CameraAnimation::at(const Snapshot& snapshot) const {
         now.target += way;
     }
     return now;
+}
+
+std::vector<std::size_t> followed_bodies(const CameraDescription& camera) {
+    std::set<std::size_t> followed;
+    for (const CameraDescription* one : camera.all())
+        if (one->follow) followed.insert(*one->follow);
+    return {followed.begin(), followed.end()};
 }
 
 bool same_place(const CameraDescription& a, const CameraDescription& b) {

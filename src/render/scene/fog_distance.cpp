@@ -33,8 +33,10 @@ double viewing_distance(const SceneDescription& description, const RenderScene& 
         if (distances.empty()) return;
         to_bodies = std::max(to_bodies, lower_median(distances));
     };
-    if (description.camera.keyframes.empty()) add(description.camera.eye, description.camera.target);
-    for (const CameraKeyframe& key : description.camera.keyframes) add(key.eye, key.target);
+    for (const CameraDescription* camera : description.camera.all()) {
+        if (camera->keyframes.empty()) add(camera->eye, camera->target);
+        for (const CameraKeyframe& key : camera->keyframes) add(key.eye, key.target);
+    }
     if (to_bodies > 0.0)
         to_target = std::clamp(to_target, to_bodies / style::about_there, to_bodies * style::about_there);
     return to_target > 0.0 ? to_target : 1.0;
@@ -42,8 +44,7 @@ double viewing_distance(const SceneDescription& description, const RenderScene& 
 
 double fog_distance(const SceneDescription& description, const RenderScene& scene, double viewing_distance) {
     double distance = style::half_fog * viewing_distance;
-    CameraDescription camera = description.camera;
-    camera.keyframes.clear();
+    CameraDescription camera;
     const auto seen_from_camera = [&] {
         const Camera view(camera, description.output.width, description.output.height);
         const double least_slope =
@@ -61,12 +62,17 @@ double fog_distance(const SceneDescription& description, const RenderScene& scen
             for (const Keyframe& key : description.bodies[i].keyframes) add(proxy, key.position, key.rotation);
         }
     };
-    if (description.camera.keyframes.empty()) seen_from_camera();
-    for (const CameraKeyframe& key : description.camera.keyframes) {
-        camera.eye = key.eye;
-        camera.target = key.target;
-        camera.vertical_fov = key.vertical_fov;
-        seen_from_camera();
+    for (const CameraDescription* one : description.camera.all()) {
+        camera = *one;
+        camera.keyframes.clear();
+        camera.shots.clear();
+        if (one->keyframes.empty()) seen_from_camera();
+        for (const CameraKeyframe& key : one->keyframes) {
+            camera.eye = key.eye;
+            camera.target = key.target;
+            camera.vertical_fov = key.vertical_fov;
+            seen_from_camera();
+        }
     }
     return distance;
 }

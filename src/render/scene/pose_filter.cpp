@@ -12,11 +12,11 @@ namespace tumble {
 PoseFilter::PoseFilter(const SceneDescription& scene)
     : path_(scene.camera),
       camera_(scene.camera),
-      followed_(scene.camera.follow),
+      followed_(followed_bodies(scene.camera)),
       view_(scene.camera, scene.output.width, scene.output.height) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const BodyDescription& body = scene.bodies[i];
-        const bool moves = body.appearance.visible || followed_ == i;  // a followed body moves everything that is drawn
+        const bool moves = body.appearance.visible || follows(i);  // a followed body moves everything that is drawn
         radii_.push_back(moves ? std::visit([](const auto& shape) { return reach(shape); }, body.shape) : 0.0);
     }
     for (const CordDescription& cord : scene.cords) {
@@ -25,6 +25,8 @@ PoseFilter::PoseFilter(const SceneDescription& scene)
             radii_[*cord.anchor_body] = std::max(radii_[*cord.anchor_body], cord.anchor.norm() + cord.radius);
     }
 }
+
+bool PoseFilter::follows(std::size_t body) const { return std::ranges::binary_search(followed_, body); }
 
 bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const {
     const double radius = radii_[body];
@@ -55,13 +57,14 @@ bool PoseFilter::follow(Snapshot& snapshot) {
     if (moved)
         for (const BodyState& state : snapshot.bodies)
             drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
-    if (followed_ && settle(*followed_, snapshot.bodies[*followed_])) moved = true;
+    for (const std::size_t body : followed_)
+        if (settle(body, snapshot.bodies[body])) moved = true;
     CameraDescription camera = path_.at(snapshot);
     if (!same_place(camera, camera_)) {
         camera_ = std::move(camera);
         view_ = view_.from(camera_);
         for (std::size_t i = 0; i < drawn_.size(); ++i)
-            if (i != followed_) {
+            if (!follows(i)) {
                 const BodyState& state = snapshot.bodies[i];
                 drawn_[i] = {state.origin, state.orientation, state.center_of_mass};
             }

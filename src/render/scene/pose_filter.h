@@ -5,7 +5,7 @@
 // difference of the unit quaternions (the smaller of both signs; a rotation by a moves a point at r by at most 2 r
 // sin(a / 2) <= 2 r |dq|).
 //
-// While the camera moves, every drawn pose is the true one. So is that of a body that the camera follows, unless the
+// While the camera moves, every drawn pose is the true one. So is that of a body that a camera follows, unless the
 // body only jitters: then both stand still.
 //
 // Every frame of a clip passes through one PoseFilter, in order, before any is drawn, so that all workers and a full
@@ -53,6 +53,7 @@ private:
             archive.keep(origin, orientation, center_of_mass);
         }
     };
+    bool follows(std::size_t body) const;
     bool may_stay(std::size_t body, const Pose& drawn, const BodyState& state) const;
 
     /// Updates the pose to draw of one body; false: it is unchanged.
@@ -60,7 +61,7 @@ private:
 
     CameraAnimation path_;
     CameraDescription camera_;
-    std::optional<std::size_t> followed_;
+    std::vector<std::size_t> followed_;
     Camera view_;
     std::vector<double> radii_;  // m, of each body around its origin; 0: not drawn; infinite: a plane
     std::vector<Pose> drawn_;    // empty before the first call

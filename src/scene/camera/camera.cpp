@@ -1,5 +1,6 @@
 #include "scene/camera/camera.h"
 
+#include "core/safe_text.h"
 #include "scene/camera/default_camera.h"
 #include "scene/fields/camera_fields.h"
 #include "scene/keys/body_index.h"
@@ -7,6 +8,10 @@
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
+
+#include <map>
+#include <string>
+#include <vector>
 
 namespace tumble {
 namespace {
@@ -80,19 +85,15 @@ double duration_in_file(const TomlTable& root) {
     return duration;
 }
 
-}  // namespace
-
-CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene) {
+/// A camera of the file; without its table the default one.
+CameraDescription read_one(const std::optional<TomlTable>& table, const SceneDescription& scene, double duration) {
     CameraDescription lens;
-    const double duration = duration_in_file(root);
-    const auto table = root.find_table("camera");
     lens.fitted_time = duration;
     if (!table) return default_camera(scene, lens, duration);
 
     table->expect_keys(list_keys<CameraDescription>().keys);
     read_fields(*table, lens);
     const ViewKeys given{table->find("eye"), table->find("target"), table->find("up")};
-
     lens.own_eye = given.eye.has_value();
     lens.own_target = given.target.has_value();
 
@@ -112,6 +113,65 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
         interpolation->origin().fail("is for a camera with keyframes");
     }
     return camera;
+}
+
+std::vector<std::string_view> names_of(const std::map<std::string, CameraDescription>& cameras) {
+    std::vector<std::string_view> names;
+    for (const auto& [name, camera] : cameras) names.push_back(name);
+    return names;
+}
+
+std::vector<CameraShot> read_shots(const TomlTable& root, const std::map<std::string, CameraDescription>& cameras) {
+    std::vector<CameraShot> shots;
+    const auto list = root.find("shot");
+    if (!list) return shots;
+    std::vector<bool> open;  // the end follows from the next shot
+    for (TomlTable& table : list->tables("; write [[shot]] for each")) {
+        table.set_title("[[shot]]");
+        CameraShot shot = read_all_fields<CameraShot>(table);
+        const TomlValue name = table.require("camera");
+        const auto found = cameras.find(name.text());
+        if (found == cameras.end())
+            name.origin().fail(fmt::format("\"{}\" is not the name of one of [cameras]{}", safe_text(name.text()),
+                                           suggestion(name.text(), names_of(cameras))));
+        shot.camera = found->second;
+        if (!shots.empty() && shot.start < (open.back() ? shots.back().start : shots.back().end))
+            table.find(table.has("from") ? "from" : "camera")
+                ->origin()
+                .fail(fmt::format("makes the shot begin before the one before it {}, at {} s",
+                                  open.back() ? "begins" : "ends",
+                                  number_text(open.back() ? shots.back().start : shots.back().end)));
+        const auto end = table.find("to");
+        shot.end = end ? end->number(limits::time) : infinity;
+        if (end && shot.end <= shot.start)
+            end->fail(fmt::format("must come after the start of the shot, at {} s", number_text(shot.start)));
+        if (!shots.empty() && open.back()) shots.back().end = shot.start;
+        open.push_back(!end);
+        shots.push_back(std::move(shot));
+    }
+    return shots;
+}
+
+}  // namespace
+
+CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene,
+                              const std::optional<std::string>& named) {
+    const double duration = duration_in_file(root);
+    std::map<std::string, CameraDescription> cameras;
+    if (const auto tables = root.find_table("cameras"))
+        for (const auto& [name, value] : tables->entries()) {
+            TomlTable table = value.table();
+            table.set_title(fmt::format("[cameras.{}]", name));
+            cameras.emplace(name, read_one(table, scene, duration));
+        }
+    CameraDescription camera = read_one(root.find_table("camera"), scene, duration);
+    camera.shots = read_shots(root, cameras);
+    if (!named) return camera;
+    const auto found = cameras.find(*named);
+    if (found == cameras.end())
+        throw InputError(fmt::format("--camera: the scene has no [cameras.{}]{}", safe_text(*named),
+                                     suggestion(*named, names_of(cameras))));
+    return found->second;
 }
 
 }  // namespace tumble

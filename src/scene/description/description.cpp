@@ -1,5 +1,7 @@
 #include "scene/description/description.h"
 
+#include <algorithm>
+
 #include "core/rounding.h"
 
 #include <cmath>
@@ -8,6 +10,16 @@ namespace tumble {
 
 std::int64_t FrameTiming::frame_count(double duration) const {
     return std::int64_t(std::floor(rounded_if_nearly_whole(duration * fps))) + 1;
+}
+
+bool CameraDescription::any_fits_motion() const {
+    return std::ranges::any_of(all(), [](const CameraDescription* camera) { return camera->fits_motion(); });
+}
+
+std::vector<const CameraDescription*> CameraDescription::all() const {
+    std::vector<const CameraDescription*> cameras{this};
+    for (const CameraShot& shot : shots) cameras.push_back(&shot.camera);
+    return cameras;
 }
 
 }  // namespace tumble

@@ -97,6 +97,8 @@ struct CameraKeyframe {
 /// The motion that a camera without an eye or a target of its own shows: the simulated one, or a guess from the start.
 enum class CameraFit { motion, start };
 
+struct CameraShot;
+
 /// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
 /// (render/camera/camera_animation.h).
 struct CameraDescription {
@@ -111,12 +113,25 @@ struct CameraDescription {
     CameraFit fit = CameraFit::motion;
     bool own_eye = false, own_target = false;  // given, not chosen
     double fitted_time = 0.0;                  // s: the duration in the file
+    std::vector<CameraShot> shots;             // in which other cameras take its place, by their start
 
     /// True if the simulated motion decides its place (framing/motion_camera.h). Until then it shows the start.
     bool fits_motion() const {
         return fit == CameraFit::motion && !(own_eye && own_target) && keyframes.empty() && !follow;
     }
-    bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow; }
+    /// The same of this camera or one of its shots.
+    bool any_fits_motion() const;
+    /// True if the view changes during a clip.
+    bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow || !shots.empty(); }
+    /// This camera and those of its shots. The pointers are valid as long as it is.
+    std::vector<const CameraDescription*> all() const;
+};
+
+/// A span of time, in s of the scene, in which a clip is seen by another camera, which has no shots.
+struct CameraShot {
+    double start = 0.0, end = 0.0;  // infinity: up to the end of the clip
+    double move = 0.0;              // s, in which the view goes over from the one before; 0: a cut
+    CameraDescription camera;
 };
 
 struct LightDescription {

@@ -13,7 +13,7 @@ struct SceneOverrides {
     std::optional<int> steps_per_frame, width, height, samples;
     std::vector<std::string> set;  // "PATH=VALUE", applied to the parsed file (toml/set_values.h)
     std::optional<std::string> method, integrator, impacts, impact_law;
-    std::optional<std::string> overlay, plot, plot_place;
+    std::optional<std::string> overlay, plot, plot_place, camera;
 };
 
 }  // namespace tumble
