@@ -78,6 +78,7 @@ struct Joint {
     std::optional<double> friction, turn_friction;         // N, or N m
     std::optional<double> friction_coefficient;            // of a bearing
     std::optional<double> bearing_radius;                  // m
+    std::optional<double> armature;                        // kg m^2 of a hinge, kg of a slider
     std::optional<double> length, min_length, max_length;  // m, of a distance joint
     // Coordinates of a joint of type six_dof: displacements along and angles about x, y and z; locked where not given.
     std::array<std::optional<JointCoordinate>, 3> move, turn;

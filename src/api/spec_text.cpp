@@ -301,6 +301,7 @@ private:
         lines_.set("turn_friction", j.turn_friction);
         lines_.set("friction_coefficient", j.friction_coefficient);
         lines_.set("bearing_radius", j.bearing_radius);
+        lines_.set("armature", j.armature);
         lines_.set("length", j.length);
         lines_.set("min_length", j.min_length);
         lines_.set("max_length", j.max_length);

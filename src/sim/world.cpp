@@ -406,6 +406,9 @@ Measurement World::measure() const {
     const State& s = *state_;
     Measurement m = measure_motion(s.set.bodies, s.settings.gravity, s.set.origin);
     m.elastic = s.joints.elastic(s.set.bodies);
+    const double rotors = s.joints.rotor_energy(s.set.bodies);
+    m.kinetic += rotors;
+    m.kinetic_angular += rotors;
     s.with_present_contacts([&](const std::vector<Manifold>& found) { measure_contacts(found, s.set.bodies, m); });
     return m;
 }

@@ -110,6 +110,7 @@ SceneSpec everything_joined() {
     hinge.limit_restitution = 0.5;
     hinge.friction_coefficient = 0.1;
     hinge.bearing_radius = 0.02;
+    hinge.armature = 0.003;
     hinge.motor = JointMotor{};
     hinge.motor->keyframes = {{0.0, 0.0}, {0.1, 50.0}, {0.3, 80.0}};
     hinge.motor->interpolation = Interpolation::linear;

@@ -258,6 +258,7 @@ const std::vector<std::vector<Change>> joint_changes = {
      {"turn_friction", "\"rail\"", "turn_friction = 0.2", "turn_friction = 0.3", true},
      {"friction_coefficient", "[[joint]]", "friction_coefficient = 0.3", "friction_coefficient = 0.4", true},
      {"bearing_radius", "[[joint]]", "bearing_radius = 0.02", "bearing_radius = 0.03", true},
+     {"armature", "[[joint]]", "bearing_radius = 0.02", "bearing_radius = 0.02\narmature = 0.1", true},
      {"length", "\"rod\"", "length = 2", "length = 3", true},
      {"min_length", "\"rope\"", "min_length = 1", "", true},
      {"max_length", "\"rope\"", "max_length = 20", "max_length = 21", true},

@@ -199,6 +199,7 @@ TEST(JointErrors, OfSpringsAndMotors) {
                 {hinge + "friction = @-1", "friction must be from 0"},
                 {hinge + "friction_coefficient = @0.1", "needs a bearing_radius"},
                 {hinge + "bearing_radius = @0.1", "needs a friction_coefficient"},
+                {hinge + "armature = @0", "must be above 0"},
                 {slider + "bearing_radius = @0.1", "is a key of joints of another type"},
             });
 }

@@ -44,8 +44,8 @@ std::size_t number_of_members(const OverlayDescription& overlay) {
     return 14;
 }
 std::size_t number_of_members(const JointDescription& joint) {
-    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w] = joint;
-    return 23;
+    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = joint;
+    return 24;
 }
 
 TEST(SceneFields, EveryMemberOfADescriptionHasAField) {

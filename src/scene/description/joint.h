@@ -71,6 +71,7 @@ struct JointDescription {
     double ratio = 0.0;                 // unit of the first coordinate over that of the second, rad and m
     double friction_coefficient = 0.0;  // of a bearing: its friction is that times its load,
     double bearing_radius = 0.0;        // m, times this for rotation
+    std::optional<double> armature;     // kg m^2 of a hinge, kg of a slider: inertia along its coordinate alone
     double break_force = infinity, break_torque = infinity, break_impulse = infinity;  // N, N m, N s
     bool collide = false;                // true if the two bodies collide with each other
     double start = 0.0, end = infinity;  // s: the joint holds in [start, end)

@@ -100,6 +100,14 @@ void visit_fields(Of<JointDescription>, Visitor& field, Self& self) {
     field(self.bearing_radius, "bearing_radius", limits::size,
           {"with a `friction_coefficient`", "none", {}, {}, bearings & ~bits_of(slider)});
 
+    field(self.armature, "armature", limits::armature,
+          {.text = "inertia along the coordinate alone, as of the rotor of a geared motor: it resists a change of the "
+                   "relative speed of the two bodies",
+           .standard = "none",
+           .type = "number, kg m² or kg",
+           .joints = bits_of(hinge, slider),
+           .later = true});
+
     field.section("strength");
     field(self.break_force, "break_force", limits::strength_force,
           {"the joint breaks where it carries more, as a mean over a step; trees with `exact` or `rk4` at the "

@@ -63,6 +63,7 @@ void enlarge_joint(JointDescription& joint, double scale, double mass, double ge
     joint.length *= scale;
     joint.ratio *= gear_ratio;
     joint.bearing_radius *= scale;
+    if (joint.armature) *joint.armature *= joint.type == JointType::slider ? mass : mass * scale * scale;
     joint.break_force *= mass;
     joint.break_torque *= mass * scale;
     joint.break_impulse *= mass * time;

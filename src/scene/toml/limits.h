@@ -78,6 +78,7 @@ inline constexpr Range joint_torque{0.0, 1e15, "N m"};
 inline constexpr Range strength_force{0.0, 1e15, "N", true};  // 0 would break, or stand still, at once
 inline constexpr Range strength_torque{0.0, 1e15, "N m", true};
 inline constexpr Range strength_impulse{0.0, 1e15, "N s", true};
+inline constexpr Range armature{0.0, 1e18, "kg m^2 or kg", true};
 inline constexpr double anchor_tolerance = 1e-6;  // of the smaller body's size: rounding of hand-written numbers
 inline constexpr double axis_tolerance = 1e-6;    // rad, the same
 inline constexpr double start_tolerance = 1e-9;   // m or rad: a start at a limit is forgiven its rounding

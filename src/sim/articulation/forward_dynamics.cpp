@@ -101,7 +101,7 @@ void ForwardDynamics::speed_node(const TreeNode& node, Link& link, const double*
 
 // I_i of a rigid body about its joint.
 void ForwardDynamics::load_inertia(const TreeNode& node, Link& link) {
-    link.added = 0.0;
+    link.added = node.armature;
     link.about.setZero();
     if (node.body == TreeNode::no_body) {
         link.turning = {};

@@ -37,6 +37,7 @@ struct Sequence {
         node.kind = kind;
         node.coordinate = std::uint8_t(coordinate);
         node.sign = forward ? 1.0 : -1.0;
+        node.armature = joint.armature(coordinate);
         nodes.push_back(node);
         return nodes.back();
     }

@@ -38,6 +38,7 @@ struct TreeNode {
     Sym3 inertia;                // kg m^2, about the center of mass
     bool aligned = false;        // the inertia has its principal axes along the frame
     Vec3 center = Vec3::Zero();  // m, from the reference to the center of mass
+    double armature = 0.0;       // kg m^2 or kg, of the joint's coordinate
 
     /// Inertia in world axes, of a frame that r rotates into them.
     Sym3 inertia_at(const Mat3& r) const {

@@ -16,6 +16,8 @@ void TreeAccount::begin(const TreeStep& step) {
         const Body& body = step.bodies[step.island[i]];
         starts_[i] = {body.position, body.momentum, body.angular_momentum, body.kinetic_energy()};
     }
+    rotors_.resize(m);
+    for (std::size_t k = 0; k < m; ++k) rotors_[k] = JointSet::rotor_energy(*step.joints[k], step.bodies);
     samples_.resize(m);
     moments_.assign(m, Vec3::Zero());
     carried_.assign(m, Vec3::Zero());
@@ -265,6 +267,7 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     }
     joint.account.step = {};
     joint.account.step.add_flight(load, 0.0, 0.0);
+    joint.account.step.work.springs = rotors_[k] - JointSet::rotor_energy(joint, step_->bodies);
     return true;
 }
 

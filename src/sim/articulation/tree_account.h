@@ -102,6 +102,7 @@ private:
     std::vector<Vec3> struck_;          // N s, by joint: at both ends of a stage
     std::vector<Behind> behind_;        // by body
     std::vector<double> sums_;          // by body
+    std::vector<double> rotors_;        // J, by joint, at the start
     std::vector<SpatialForce> forces_;  // by node
 };
 

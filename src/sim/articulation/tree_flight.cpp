@@ -155,6 +155,10 @@ bool TreeFlight::fits() {
 double TreeFlight::kinetic_energy() const {
     double sum = 0.0;
     for (const TreeNode& node : tree_.nodes()) {
+        if (node.armature > 0.0) {
+            const double speed = y_[coordinates_ + node.speed_at];
+            sum += 0.5 * node.armature * speed * speed;
+        }
         if (node.body == TreeNode::no_body) continue;
         const ForwardDynamics::Link& link = dynamics_.link(int(&node - tree_.nodes().data()));
         const Vec3 turn = link.rotation.transpose() * link.velocity.turn;

@@ -26,10 +26,11 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
     std::vector<std::uint32_t> by_place = island.bodies;
     if (!island.joints.empty()) {
         groups_.emplace(island.bodies, island.joints, island.all_joints, bodies);
+        by_place.assign(groups_->size(), island.bodies.front());  // of rotors: any
         for (std::size_t i = 0; i < island.bodies.size(); ++i) by_place[groups_->places()[i]] = island.bodies[i];
     }
-    roots_.reserve(island.bodies.size());
-    velocity_.resize(6 * Eigen::Index(island.bodies.size()));
+    roots_.reserve(by_place.size());
+    velocity_.resize(6 * Eigen::Index(by_place.size()));
     for (std::size_t i = 0; i < by_place.size(); ++i) {
         const Body& body = bodies[by_place[i]];
         roots_.emplace_back(body);
@@ -37,6 +38,7 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
     }
     if (groups_) {
         groups_->load(bodies, roots_);
+        groups_->turn_rotors(velocity_);
         groups_->project(velocity_);
         pushed_.setZero(velocity_.size());
     }

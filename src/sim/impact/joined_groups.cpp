@@ -75,11 +75,7 @@ void add_square(BlockCholesky& matrix, std::uint32_t pair, const LockSides& lock
 
 JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vector<Joint*>& joints,
                            std::span<const Joint> all_joints, const std::vector<Body>& all)
-    : bodies_(bodies.begin(), bodies.end()),
-      places_(bodies.size()),
-      group_of_(bodies.size(), no_place),
-      joints_(joints),
-      all_joints_(all_joints) {
+    : bodies_(bodies.begin(), bodies.end()), places_(bodies.size()), joints_(joints), all_joints_(all_joints) {
     const std::size_t n = bodies.size();
     DisjointSets sets(n);
     const auto index = [&](std::uint32_t body) {
@@ -103,20 +99,31 @@ JoinedGroups::JoinedGroups(std::span<const std::uint32_t> bodies, const std::vec
         group[i] = group[r];
         ++groups_[group[i]].bodies;
     }
+    std::vector<std::uint32_t> own(groups_.size());  // bodies
+    for (std::size_t g = 0; g < groups_.size(); ++g) own[g] = groups_[g].bodies;
+    rotors_.assign(joints.size(), no_place);
+    for (std::size_t k = 0; k < joints.size(); ++k) {
+        const std::uint32_t a = index(joints[k]->a), b = index(joints[k]->b);
+        if (a == no_place && b == no_place) continue;
+        Group& g = groups_[group[a != no_place ? a : b]];
+        g.joints.push_back(k);
+        if (joints[k]->description.armature) rotors_[k] = g.bodies++;  // within the group
+    }
     std::uint32_t first = 0;
     for (Group& g : groups_) {
         g.first = first;
         first += g.bodies;
+        for (const std::size_t k : g.joints)
+            if (rotors_[k] != no_place) rotors_[k] += g.first;
     }
+    group_of_.assign(first, no_place);
     std::vector<std::uint32_t> next(groups_.size(), 0);
     for (std::uint32_t i = 0; i < n; ++i) {
         places_[i] = groups_[group[i]].first + next[group[i]]++;
         group_of_[places_[i]] = has_joint[i] ? group[i] : no_place;
     }
-    for (std::size_t k = 0; k < joints.size(); ++k) {
-        const std::uint32_t a = index(joints[k]->a), b = index(joints[k]->b);
-        if (a != no_place || b != no_place) groups_[group[a != no_place ? a : b]].joints.push_back(k);
-    }
+    for (std::uint32_t g = 0; g < groups_.size(); ++g)
+        for (std::uint32_t rotor = own[g]; rotor < groups_[g].bodies; ++rotor) group_of_[groups_[g].first + rotor] = g;
 }
 
 JoinedGroups::Rate JoinedGroups::rate_of(const Joint& joint, const Vec3& point, const Vec3& direction, bool turns,
@@ -164,6 +171,25 @@ void JoinedGroups::load_gear(Group& group, std::size_t index, const std::vector<
     ++group.locks;
 }
 
+// q' + offset = y / sqrt(a) of the rotor.
+void JoinedGroups::add_rotor(Group& group, std::size_t index, Lock lock) {
+    const double rate = 1.0 / std::sqrt(*joints_[index]->description.armature);
+    lock.rotor = true;
+    lock.other.a = rotors_[index];
+    lock.length = std::sqrt(lock.form.squared_norm() + rate * rate);
+    lock.offset /= lock.length;
+    lock.form.on_a /= lock.length;
+    lock.form.on_b /= lock.length;
+    lock.other.on_a[0] = -rate / lock.length;
+    locks_.push_back(lock);
+    ++group.locks;
+}
+
+void JoinedGroups::turn_rotors(Eigen::VectorXd& y) const {
+    for (const Lock& lock : locks_)
+        if (lock.rotor) y[6 * Eigen::Index(lock.other.a)] = -(lock.form.dot(y) + lock.offset) / lock.other.on_a[0];
+}
+
 void JoinedGroups::load_joint(Group& group, std::size_t index, const std::vector<Body>& all,
                               const std::vector<MassRoot>& roots) {
     const Joint& joint = *joints_[index];
@@ -201,6 +227,10 @@ void JoinedGroups::load_joint(Group& group, std::size_t index, const std::vector
     }
     if (joint.description.swing && g.swing.value >= g.swing_limit - tuning::joint_rounding)
         add_limit(-g.swing.direction, true, joint.axis(4).restitution);
+    if (rotors_[index] == no_place) return;
+    const std::size_t k = joint.armature(0) > 0.0 ? 0 : 3;
+    const Rate along = rate(g.coordinates[k].direction, k == 3);
+    add_rotor(group, index, {index, g.coordinates[k].direction, k == 3, 0.0, along.offset, along.form});
 }
 
 void JoinedGroups::factor(Group& group) {
@@ -243,7 +273,7 @@ void JoinedGroups::load(const std::vector<Body>& all, const std::vector<MassRoot
     for (const Lock& lock : locks_) moving = moving || lock.offset != 0.0;
     given_.assign(locks_.size(), 0.0);
     asked_.assign(locks_.size(), 0.0);
-    work_.setZero(6 * Eigen::Index(places_.size()));
+    work_.setZero(6 * Eigen::Index(size()));
     carried_.resize(0);
     if (!moving) return;
     carried_.setZero(work_.size());
@@ -340,7 +370,7 @@ std::vector<JointImpulse> JoinedGroups::joint_impulses(Eigen::VectorXd& change) 
         const Lock& lock = locks_[k];
         const double impulse = given_[k] / lock.length;
         (lock.turns ? joint_impulses[lock.joint].torque : joint_impulses[lock.joint].force) += impulse * lock.direction;
-        if (!lock.gear()) continue;
+        if (!lock.gear() || lock.rotor) continue;
         JointImpulse second;
         second.joint = joints_[lock.joint];
         second.at = &all_joints_[second.joint->description.geared[1]];

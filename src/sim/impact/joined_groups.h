@@ -9,6 +9,9 @@
 // remove the rates -c but for a share R / (R + s^2) along a singular value s of G, and are repeated. The matrix has a
 // 6 x 6 block for each body and each joined pair and is factored without fill for trees, so a projection costs a time
 // linear in the links. Redundant rows need no treatment.
+//
+// The armature a of a joint is a rotor with a place of its own in y: its first number is sqrt(a) times the rate of the
+// coordinate, which is a lock.
 #pragma once
 
 #include "sim/impact/mass_root.h"
@@ -42,6 +45,10 @@ public:
 
     /// Places of the bodies in y: each group's are consecutive. In the order of the list of bodies.
     const std::vector<std::uint32_t>& places() const { return places_; }
+    /// Number of places: of bodies and rotors.
+    std::size_t size() const { return group_of_.size(); }
+    /// Sets y of the rotors from that of the bodies.
+    void turn_rotors(Eigen::VectorXd& y) const;
 
     /// Reads the joints at the bodies' present poses. `roots`: by index in the group.
     void load(const std::vector<Body>& all, const std::vector<MassRoot>& roots);
@@ -71,6 +78,7 @@ private:
         VelocityRow other = {};               // of a gear: of its second joint
         Vec3 other_direction = Vec3::Zero();  // world, times the ratio
         bool other_turns = false;
+        bool rotor = false;  // `other` is the rotor's
 
         bool gear() const { return other.a != VelocityRow::none || other.b != VelocityRow::none; }
         double dot(const Eigen::VectorXd& y) const { return form.dot(y) + (gear() ? other.dot(y) : 0.0); }
@@ -92,6 +100,7 @@ private:
     };
     Rate rate_of(const Joint& joint, const Vec3& point, const Vec3& direction, bool turns, const std::vector<Body>& all,
                  const std::vector<MassRoot>& roots) const;
+    void add_rotor(Group& group, std::size_t index, Lock lock);
     void load_joint(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
     void load_gear(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
     void factor(Group& group);
@@ -102,8 +111,9 @@ private:
     std::span<const Joint> all_joints_;
     std::vector<Group> groups_;
     std::vector<Lock> locks_;
-    std::vector<Vec3> points_;        // by joint: m, world
-    std::vector<Vec3> other_points_;  // by joint, of a gear: of its second joint
+    std::vector<std::uint32_t> rotors_;  // by joint: place
+    std::vector<Vec3> points_;           // by joint: m, world
+    std::vector<Vec3> other_points_;     // by joint, of a gear: of its second joint
     std::vector<Limit> limits_;
     std::vector<double> given_, asked_, z_;  // by lock: impulses along the forms, rates to remove; work space
     Eigen::VectorXd carried_, work_;

@@ -67,6 +67,12 @@ struct Joint {
     void describe(const JointDescription& joint);
     /// A ball, whose spring and friction act about all axes alike.
     bool turns_alike() const { return description.type == JointType::ball && !locked(3) && !locked(4) && !locked(5); }
+    /// Inertia along the coordinate alone, kg m^2 or kg.
+    double armature(std::size_t coordinate) const {
+        return description.armature && coordinate == (description.type == JointType::slider ? 0 : 3)
+                   ? *description.armature
+                   : 0.0;
+    }
     /// Number of coordinates: the others do not exist.
     std::size_t count() const { return distance() ? 1 : gear() ? 0 : coordinates; }
 

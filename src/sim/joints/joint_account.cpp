@@ -35,6 +35,22 @@ void add_span(const Joint& joint, const JointAccount::Span& from, JointAccount::
 
 }  // namespace
 
+double JointSet::rotor_energy(const Joint& joint, const std::vector<Body>& bodies) {
+    if (!joint.description.armature || !joint.active || joint.broken) return 0.0;
+    return 0.5 * *joint.description.armature * square(rotor_speed(joint, bodies));
+}
+
+double JointSet::rotor_energy(const std::vector<Body>& bodies) const {
+    double sum = 0.0;
+    for (const Joint& joint : joints_) sum += rotor_energy(joint, bodies);
+    return sum;
+}
+
+// Springs and armature: what a joint can give back.
+double JointSet::stored(const Joint& joint, const std::vector<Body>& bodies) {
+    return potential(joint, bodies) + rotor_energy(joint, bodies);
+}
+
 double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) {
     if (!joint.active || joint.broken) return 0.0;
     bool any = false;
@@ -52,7 +68,7 @@ double JointSet::potential(const Joint& joint, const std::vector<Body>& bodies) 
 void JointSet::start_account(const std::vector<Body>& bodies) {
     for (Joint& joint : joints_) {
         joint.account.work = {};
-        joint.account.work.stored = potential(joint, bodies);
+        joint.account.work.stored = stored(joint, bodies);
     }
 }
 
@@ -127,11 +143,11 @@ JointEnergies JointSet::energies(const std::vector<Body>& bodies) const {
     JointEnergies sum;
     for (const Joint& joint : joints_) {
         const JointWork& work = joint.account.work;
-        const double elastic = potential(joint, bodies);
+        const double elastic = potential(joint, bodies), rotor = rotor_energy(joint, bodies);
         sum.elastic += elastic;
         sum.motors += work.motors;
         sum.carriers += work.carriers;
-        sum.heat += work.heat + (work.stored - elastic - work.springs);  // springs do not give it back
+        sum.heat += work.heat + (work.stored - elastic - rotor - work.springs);  // not given back
         sum.impacts += work.impacts;
     }
     return sum;

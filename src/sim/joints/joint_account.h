@@ -10,10 +10,10 @@ namespace tumble {
 struct JointWork {
     double motors = 0.0;    // by motors on the bodies, and in springs of joints that begin to hold later
     double carriers = 0.0;  // by kinematic bodies, through the joint
-    double springs = 0.0;   // by springs with their dampers on the bodies
+    double springs = 0.0;   // by springs with their dampers, and by the armature, on the bodies
     double heat = 0.0;      // lost by dry friction and by breaking
     double impacts = 0.0;   // lost at limits, and by joints that catch their bodies in motion
-    double stored = 0.0;    // given into the springs: at the start, and by joints that begin to hold later
+    double stored = 0.0;    // given into springs and armature: at the start, and by joints that begin to hold later
 
     void add(const JointWork& other) {
         motors += other.motors;

@@ -1,5 +1,7 @@
 #include "sim/joints/joint_impulse.h"
 
+#include "sim/joints/joint_set.h"
+
 #include <algorithm>
 
 namespace tumble {
@@ -30,6 +32,7 @@ void apply_joint_impulse(const JointImpulse& impulse, std::vector<Body>& bodies)
         account.work.heat -= impulse.work_a + impulse.work_b;
     else
         account.work.impacts += impulse.lost;
+    account.work.springs -= impulse.rotor;
     const auto carrier = [&](std::uint32_t i) { return i == Joint::world || !bodies[i].dynamic(); };
     if (carrier(impulse.at->a)) account.work.carriers -= impulse.work_a;
     if (carrier(impulse.at->b)) account.work.carriers -= impulse.work_b;
@@ -49,6 +52,11 @@ void find_work(JointImpulse& impulse, const std::vector<Body>& bodies) {
         }
         return impulse.force.dot(velocity + spin.cross(impulse.point - body.position)) + impulse.torque.dot(spin);
     };
+    if (const auto armature = impulse.joint->description.armature) {
+        const double before = rotor_speed(*impulse.joint, bodies, RotorTime::before_impact),
+                     after = rotor_speed(*impulse.joint, bodies);
+        impulse.rotor = 0.5 * *armature * (after - before) * (after + before);
+    }
     impulse.work_a = -work(impulse.at->a);
     impulse.work_b = work(impulse.at->b);
 }

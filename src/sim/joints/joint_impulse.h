@@ -16,6 +16,7 @@ struct JointImpulse {
     Vec3 torque = Vec3::Zero();         // N m s
     Vec3 point = Vec3::Zero();          // m, world
     double work_a = 0.0, work_b = 0.0;  // J, on each body
+    double rotor = 0.0;                 // J, that the joint's armature gains
     double lost = 0.0;                  // J, at the joint's limits: by their mean speeds before and after the impact
 
     bool breaks = false;  // the joint breaks: its work is heat

@@ -38,7 +38,24 @@ double compliance_along(const std::vector<Body>& bodies, const Joint& joint, con
         const Vec3 turn = k < 3 ? Vec3((g.point - body.position).cross(n)) : n;
         gives += (k < 3 ? body.inverse_mass : 0.0) + turn.dot(body.inverse_inertia * turn);
     }
-    return gives;
+    const double armature = joint.armature(k);
+    return armature > 0.0 ? gives / (1.0 + armature * gives) : gives;
+}
+
+double rotor_speed(const Joint& joint, const std::vector<Body>& bodies, RotorTime time) {
+    const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
+    const bool turns = joint.description.type != JointType::slider;
+    const Vec3& n = g.coordinates[turns ? 3 : 0].direction;
+    const auto speed = [&](std::uint32_t i) {
+        if (i == Joint::world) return 0.0;
+        const Body& body = bodies[i];
+        const bool of_momenta = time == RotorTime::before_impact && body.dynamic();
+        const Vec3 spin = of_momenta ? Vec3(body.inverse_inertia * body.angular_momentum) : body.angular_velocity;
+        if (turns) return n.dot(spin);
+        const Vec3 velocity = of_momenta ? Vec3(body.inverse_mass * body.momentum) : body.velocity;
+        return n.dot(velocity + spin.cross(g.point - body.position));
+    };
+    return speed(joint.b) - speed(joint.a);
 }
 
 JointSide side_of(const std::vector<Body>& bodies, std::uint32_t body) {
@@ -72,7 +89,7 @@ JointSet::JointSet(const SceneDescription& scene, const std::vector<Body>& bodie
         for (const std::uint32_t i : {joint.a, joint.b})
             if (i != Joint::world && bodies[i].dynamic()) joint.size = std::min(joint.size, bodies[i].radius);
         const JointGeometry g = measure(joint, side_of(bodies, joint.a), side_of(bodies, joint.b));
-        joint.soft = description.swing || description.friction_coefficient > 0.0;
+        joint.soft = description.armature || description.swing || description.friction_coefficient > 0.0;
         joint.steady = description.start <= 0.0 && description.end == infinity && !description.ever_breaks();
         for (std::size_t k = 0; k < joint.count(); ++k) {
             joint.value[k] = joint.locked(k) ? 0.0 : g.coordinates[k].value;
@@ -143,7 +160,7 @@ void JointSet::begin_step(double from, double to, const std::vector<Body>& bodie
             joint.active = active;
             if (active && joint.gear()) engage_gear(joint, joints_, bodies);
             joint.account.holds = false;
-            const double given = potential(joint, bodies);  // a joint that ends leaves its own as heat
+            const double given = stored(joint, bodies);  // a joint that ends leaves its own as heat
             joint.account.work.stored += given;
             joint.account.work.motors += given;
             joint.impulse = {};

@@ -57,6 +57,10 @@ public:
     /// Energy in the springs of all joints, or of one, J.
     double elastic(const std::vector<Body>& bodies) const;
     static double potential(const Joint& joint, const std::vector<Body>& bodies);
+    static double stored(const Joint& joint, const std::vector<Body>& bodies);
+    /// Kinetic energy of the armature of one joint, or of all, J.
+    static double rotor_energy(const Joint& joint, const std::vector<Body>& bodies);
+    double rotor_energy(const std::vector<Body>& bodies) const;
 
     /// States for the output: of the present poses and velocities, with the loads of the last step.
     std::vector<JointState> states(const std::vector<Body>& bodies) const;
@@ -85,6 +89,11 @@ private:
 
 /// Pose of a joint's side.
 JointSide side_of(const std::vector<Body>& bodies, std::uint32_t body);
+
+/// An impact changes the velocities, then the momenta.
+enum class RotorTime { now, before_impact };
+/// Rate of the coordinate that has the armature: rad/s of a hinge, m/s of a slider.
+double rotor_speed(const Joint& joint, const std::vector<Body>& bodies, RotorTime time = RotorTime::now);
 
 /// J M^-1 J^T of one coordinate, of bodies without their other joints: 1/kg, or 1/(kg m^2) of an angle.
 double compliance_along(const std::vector<Body>& bodies, const Joint& joint, const JointGeometry& g, std::size_t k);

@@ -78,7 +78,7 @@ bool masses_are_alike(const JointGroup& group, const JointSet& joints, const std
 
 bool known_to_sweeps(const Joint& joint) {
     const JointDescription& description = joint.description;
-    if (joint.gear() || description.ever_breaks()) return false;
+    if (joint.gear() || description.ever_breaks() || description.armature) return false;
     std::size_t rubs = 0;
     bool drives = description.friction_coefficient > 0.0, swing_limited = false;
     for (std::size_t c = 0; c < joint.count(); ++c) {

@@ -10,9 +10,10 @@ namespace {
 
 constexpr int of_law = int(Joint::coordinates) + 1;
 
-// Springs, motors, friction and limits act along coordinates of the tree.
+// Springs, motors, friction, limits and armature act along coordinates of the tree.
 bool has_laws(const Joint& joint) {
-    return has_springs(joint) || has_motors(joint) || has_friction(joint) || limited(joint);
+    return has_springs(joint) || has_motors(joint) || has_friction(joint) || limited(joint) ||
+           joint.description.armature;
 }
 
 int place_in(std::span<const std::uint32_t> bodies, std::uint32_t body) {

@@ -39,6 +39,18 @@ JointSide JointRows::side_at(const JointIsland& island, std::uint32_t body) cons
     return side;
 }
 
+// m/s: before the forces that the fit belongs to.
+double JointRows::rate_before(const Block& block, const Row& row) const {
+    double rate = row.offset;
+    for (const auto& [place, six] : {std::pair(block.a, row.on_a), std::pair(block.b, row.on_b)}) {
+        if (place == none) continue;
+        const BodyVelocity& before = before_[std::size_t(place)];
+        for (int i = 0; i < 3; ++i)
+            rate += six[i] * before.velocity[i] + six[3 + i] * length_ * before.angular_velocity[i];
+    }
+    return rate;
+}
+
 void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, bool struck) {
     ahead_ = ahead;
     weights_changed_ = true;
@@ -84,8 +96,12 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
                 row.direction = end.direction;
                 row.compliance = compliance_;
             }
-            row.soft = false;
-            if (block.breaks || !(rigid || limits || drives || strike)) {
+            row.soft = row.inert = row.inert && !block.breaks;
+            if (row.inert) {
+                row.compliance = (row.turns() ? length_ * length_ : 1.0) / j.armature(row.coordinate);
+                row.least = -infinity;
+                row.most = infinity;
+            } else if (block.breaks || !(rigid || limits || drives || strike)) {
                 row.least = row.most = 0.0;
             } else if (strike) {
                 row.least = row.law == Joint::lower ? 0.0 : -infinity;
@@ -97,7 +113,7 @@ void JointRows::start_fit(const JointIsland& island, double ahead, bool solved, 
                 row.least = row.law == Joint::lower ? -row.impulse : -infinity;
                 row.most = row.law == Joint::lower ? infinity : -row.impulse;
             }
-            if (row.law != Joint::motor) row.target = 0.0;
+            if (row.law != Joint::motor) row.target = row.inert ? rate_before(block, row) : 0.0;
             if (strike) row.target = (row.turns() ? length_ : 1.0) * strike->rebound;
             row.estimate = row.impulse = 0.0;
             row.starts_ball = false;
@@ -120,6 +136,7 @@ double JointRows::request_close(const JointIsland& island) {
             g = measure(j, side_at(island, j.a), side_at(island, j.b));
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
+            if (row.inert) row.target = 0.0;
             if (row.law != Joint::lock || block.breaks) continue;
             const double error = block.gear ? geared : g.coordinates[row.coordinate].value;
             row.target = -(row.turns() ? length_ : 1.0) * error;
@@ -132,7 +149,7 @@ double JointRows::request_close(const JointIsland& island) {
 double JointRows::misfit() const {
     double most = 0.0;
     for (const Row& row : rows_) {
-        const double missing = row.target - row.speed;
+        const double missing = row.target - row.speed - (row.soft ? row.compliance * row.impulse : 0.0);
         if (row.least < row.most && (row.impulse > row.least || missing > 0.0) &&
             (row.impulse < row.most || missing < 0.0))
             most = std::max(most, std::abs(missing));

@@ -125,6 +125,23 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     push_row(r);
 }
 
+// The inertia resists a change of the rate from that before the forces. In one row with the spring, whose 1 / R and
+// b / R are sums of both.
+void JointRows::add_armature(const JointIsland& island, const Row& row, double value, std::size_t k) {
+    const Joint& j = joint(blocks_.back());
+    const JointSpring limp, &s = j.axis(k).spring ? j.springs[k] : limp;
+    const double unit = row.turns() ? length_ : 1.0, inertia = j.armature(k);
+    const double gain = h_ * (h_ * s.stiffness + s.damping) + inertia;
+    Row r = row;
+    r.law = Joint::spring;
+    r.soft = r.inert = true;
+    r.compliance = unit * unit / gain;
+    r.target =
+        unit / gain *
+        (h_ * s.stiffness * (s.rest - value) + inertia * limit_rates(island, row, blocks_.back().point).at_start);
+    push_row(r);
+}
+
 void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std::size_t k, const Row& row) {
     const Joint& j = joint(blocks_.back());
     const JointAxis& axis = j.axis(k);
@@ -154,7 +171,9 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         r.least = -r.most;
         push_row(r);
     };
-    if (axis.spring) {
+    if (j.armature(k) > 0.0) {
+        add_armature(island, row, value, k);
+    } else if (axis.spring) {
         const JointSpring& s = j.springs[k];
         add_soft(Joint::spring, s.stiffness, s.damping, {s.rest, 0.0}, infinity);
     }

@@ -60,6 +60,7 @@ public:
         bool bounces = false;  // a limit with restitution that the coordinate is to meet with its whole speed: open
         double room = 0.0, approach = 0.0;  // m or rad, and m/s or rad/s: of such a limit, at the start
         bool soft = false;                  // its estimate stays 0: a spring; in a push, a row whose error is moved out
+        bool inert = false;                 // a spring with the armature: it acts in the fit too
         bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
@@ -230,6 +231,8 @@ public:
 private:
     void add_joint(const JointIsland& island, std::uint32_t index, double compliance);
     Row make_row(const JointIsland& island, const Block& block, const Vec3& direction, std::size_t coordinate) const;
+    void add_armature(const JointIsland& island, const Row& row, double value, std::size_t coordinate);
+    double rate_before(const Block& block, const Row& row) const;
     void add_laws(const JointIsland& island, const JointGeometry& g, std::size_t coordinate, const Row& row);
     struct LimitRates {
         double speed = 0.0, at_start = 0.0, by_forces = 0.0, gained = 0.0;  // m/s or rad/s
