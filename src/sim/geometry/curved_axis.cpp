@@ -24,6 +24,14 @@ constexpr int newton_rounds = 9;
 /// Angle (its sine) by which an arc may lie off the first axis.
 constexpr double arc_reach = 0.7;
 
+/// The same of arcs that the axis of the last step counts as lying on, and the cosine of the largest turn of the axis
+/// since then. Not fitted: bodies turn by less in a step.
+constexpr double near_arc = 0.02;
+constexpr double settled_turn = 0.99;
+
+/// Parting of the nearest points across the axis, as a share of the size, that is rounding.
+constexpr double axis_rounding = 1e-13;
+
 }  // namespace
 
 // Gilbert, Johnson and Keerthi 1988. Of overlapping shapes the result is that of shapes shrunk about their centers.
@@ -80,14 +88,17 @@ void CurvedAxisSearch::add_features(const ConvexShape& shape, bool of_b) {
     const auto take = [&](const Vec3& normal, std::uint32_t feature) {
         if (normal.dot(n) > face_reach) consider(normal, kind, feature);
     };
-    const auto add = [&](const Vec3& axis, double level) {
-        if (count < arcs.size() && std::fabs(n.dot(axis) - level) < arc_reach) arcs[count++] = {axis, level};
+    const auto add = [&](const Arc& arc) {
+        if (count < arcs.size() && std::fabs(n.dot(arc.axis) - arc.level) < arc_reach) arcs[count++] = arc;
+    };
+    const auto add_edge = [&](const Vec3& tail, const Vec3& head) {
+        add({(head - tail).normalized(), 0.0, true, {tail, head}});
     };
     if (shape.curved) {
         if (shape.curved->ellipsoid) return;
         for (const int end : {0, 1})
             if (shape.curved->has_disc(end)) take(sign * (end == 0 ? -1.0 : 1.0) * shape.axis(), std::uint32_t(end));
-        add(shape.axis(), sign * shape.curved->slant.y());
+        add({shape.axis(), sign * shape.curved->slant.y(), false, {Vec3::Zero(), Vec3::Zero()}});
     } else if (shape.hull) {
         const Polyhedron& hull = *shape.hull;
         const auto out = [&](const Vec3& v) { return Vec3(shape.pose.rotation * v); };
@@ -105,25 +116,30 @@ void CurvedAxisSearch::add_features(const ConvexShape& shape, bool of_b) {
         }
         for (const Polyhedron::Edge& e : hull.edges)
             if (few_edges || e.tail == corner || e.head == corner)
-                add(out(hull.vertices[e.head] - hull.vertices[e.tail]).normalized(), 0.0);
+                add_edge(shape.pose.to_world(hull.vertices[e.tail]), shape.pose.to_world(hull.vertices[e.head]));
     } else if (shape.corner_count == 3) {
         consider(sign * shape.facing, kind, 0);
-        for (std::size_t i = 0; i < 3; ++i) add((shape.corners[(i + 1) % 3] - shape.corners[i]).normalized(), 0.0);
+        for (std::size_t i = 0; i < 3; ++i) add_edge(shape.corners[i], shape.corners[(i + 1) % 3]);
     }
 }
 
 // Newton's method on the sphere: with the distance vector w and D = bend of both, (D + n.w) step = the part of w across
 // n.
-void CurvedAxisSearch::search_smooth() {
+bool CurvedAxisSearch::search_smooth() {
     Vec3 n = first_;
     double best = separation(n);
+    bool settled = false;
+    const double size = a_.size + b_.size;
     for (int round = 0; round < newton_rounds; ++round) {
         const Vec3 w = between(n);
         const Vec3 u = n.unitOrthogonal(), v = n.cross(u);
         const double along = n.dot(w), gu = u.dot(w), gv = v.dot(w), uv = bend(n, u, v);
         double uu = bend(n, u, u) + along, vv = bend(n, v, v) + along;
+        settled = gu * gu + gv * gv <= axis_rounding * axis_rounding * size * size;
         const double least = 0.5 * (uu + vv) - std::sqrt(0.25 * (uu - vv) * (uu - vv) + uv * uv);
-        const double floor = 1e-3 * (a_.size + b_.size);
+        const double floor = 1e-3 * size;
+        settled = settled && least > 0.0;
+        if (settled) break;
         if (!(least > 0.0)) uu += floor - least, vv += floor - least;
         const double determinant = uu * vv - uv * uv;
         if (!(determinant > 0.0)) break;
@@ -142,10 +158,19 @@ void CurvedAxisSearch::search_smooth() {
         if (!better || length < 1e-14) break;
     }
     consider(n);
+    return settled;
+}
+
+// The line of an arc's farthest points along an outward normal of the arc.
+CurvedAxisSearch::Line CurvedAxisSearch::line_of(const Arc& arc, const ConvexShape& shape, const Vec3& outward) const {
+    if (arc.edge) return {arc.ends[0], arc.ends[1] - arc.ends[0]};
+    const Vec3 d = shape.pose.rotation.transpose() * outward;
+    const Vec3 first = shape.curved->rim_point(0, d), second = shape.curved->rim_point(1, d);
+    return {shape.pose.to_world(first), shape.pose.rotation * (second - first)};
 }
 
 // The same along an arc, whose angle is the only unknown.
-void CurvedAxisSearch::search_arc(const Arc& arc) {
+bool CurvedAxisSearch::search_arc(const Arc& arc, bool of_b) {
     const Vec3 base = arc.level * arc.axis;
     const double radius = std::sqrt(std::max(0.0, 1.0 - arc.level * arc.level));
     Vec3 out = first_ - first_.dot(arc.axis) * arc.axis;
@@ -169,20 +194,74 @@ void CurvedAxisSearch::search_arc(const Arc& arc) {
         }
         if (!better || length < 1e-14) break;
     }
-    consider((base + radius * u).normalized());
+    const Vec3 n = (base + radius * u).normalized();
+    consider(n);
+    return level_along(arc, of_b, n);
 }
 
-void CurvedAxisSearch::search_crossing(const Arc& one, const Arc& other) {
+// True if the other shape's point lies over the line of the arc.
+bool CurvedAxisSearch::level_along(const Arc& arc, bool of_b, const Vec3& n) const {
+    const ConvexShape &own = of_b ? b_ : a_, &other = of_b ? a_ : b_;
+    const Vec3 out = of_b ? Vec3(-n) : n, point = other.support(-out);
+    const Line line = line_of(arc, own, out);
+    const double size = a_.size + b_.size, rounding = axis_rounding * size;
+    if (std::fabs(out.dot(line.from - own.support(out))) > rounding) return false;
+    const Vec3 across = n.cross(line.way);
+    if (std::fabs(across.dot(point - line.from)) > rounding * across.norm()) return false;
+    const double along = line.way.dot(point - line.from);
+    return along >= 0.0 && along <= line.way.squaredNorm();
+}
+
+bool CurvedAxisSearch::settle_crossing(const Arc& of_a, const Arc& of_b) {
+    int count = 0;
+    for (const Vec3& n : crossings(of_a, of_b, count)) {
+        if (count-- <= 0 || !(n.dot(first_) > settled_turn)) continue;
+        const Line one = line_of(of_a, a_, n), other = line_of(of_b, b_, -n);
+        const double rounding = axis_rounding * (a_.size + b_.size);
+        if (std::fabs(n.dot(one.from - a_.support(n))) > rounding ||
+            std::fabs(n.dot(other.from - b_.support(-n))) > rounding)
+            continue;
+        // one.from + s one.way and other.from + t other.way lie on a line along n.
+        const Vec3 apart = other.from - one.from, u = n.cross(one.way), v = n.cross(other.way);
+        const double s = v.dot(apart) / v.dot(one.way), t = -u.dot(apart) / u.dot(other.way);
+        if (!(s >= 0.0 && s <= 1.0 && t >= 0.0 && t <= 1.0)) continue;
+        consider(n);
+        return true;
+    }
+    return false;
+}
+
+// True if the kind of candidate nearest to the first axis gives the best axis.
+bool CurvedAxisSearch::settle() {
+    if (!guessed_) return false;
+    const Arc* near[2] = {nullptr, nullptr};
+    for (int i = 0; i < 2; ++i) {
+        double least = near_arc;
+        for (std::size_t k = 0; k < arc_count_[i]; ++k) {
+            const double off = std::fabs(first_.dot(arcs_[i][k].axis) - arcs_[i][k].level);
+            if (off >= least) continue;
+            least = off;
+            near[i] = &arcs_[i][k];
+        }
+    }
+    if (near[0] && near[1] && settle_crossing(*near[0], *near[1])) return true;
+    for (int i = 0; i < 2; ++i)
+        if (near[i] && search_arc(*near[i], i == 1)) return true;
+    return !near[0] && !near[1] && search_smooth();
+}
+
+std::array<Vec3, 2> CurvedAxisSearch::crossings(const Arc& one, const Arc& other, int& count) const {
     const double cosine = one.axis.dot(other.axis);
     const Vec3 cross = one.axis.cross(other.axis);
     const double square = cross.squaredNorm();
-    if (square < 1e-12) return;
+    count = 0;
+    if (square < 1e-12) return {Vec3::Zero(), Vec3::Zero()};
     const double x = (one.level - cosine * other.level) / square, y = (other.level - cosine * one.level) / square;
     const double rest = 1.0 - x * one.level - y * other.level;
-    if (rest < 0.0) return;
+    if (rest < 0.0) return {Vec3::Zero(), Vec3::Zero()};
     const Vec3 in_plane = x * one.axis + y * other.axis, across = std::sqrt(rest / square) * cross;
-    consider((in_plane + across).normalized());
-    consider((in_plane - across).normalized());
+    count = 2;
+    return {(in_plane + across).normalized(), (in_plane - across).normalized()};
 }
 
 // True if a guess is as good as the result of a search: the shapes overlap little along it, or not at all.
@@ -191,7 +270,7 @@ bool CurvedAxisSearch::start_from(const Vec3& guess) {
     const double ahead = separation(guess), back = separation(-guess);
     first_ = ahead >= back ? guess : Vec3(-guess);
     gap_ = std::max(ahead, back);
-    return gap_ > -deep_overlap * std::min(a_.size, b_.size);
+    return guessed_ = gap_ > -deep_overlap * std::min(a_.size, b_.size);
 }
 
 bool CurvedAxisSearch::find_flat(double margin, const Vec3& guess) {
@@ -206,12 +285,29 @@ bool CurvedAxisSearch::find_flat(double margin, const Vec3& guess) {
     return best_.separation <= margin;
 }
 
-const CurvedAxis& CurvedAxisSearch::find_best() {
+void CurvedAxisSearch::search_all() {
     search_smooth();
     for (int i = 0; i < 2; ++i)
-        for (std::size_t k = 0; k < arc_count_[i]; ++k) search_arc(arcs_[i][k]);
+        for (std::size_t k = 0; k < arc_count_[i]; ++k) search_arc(arcs_[i][k], i == 1);
     for (std::size_t i = 0; i < arc_count_[0]; ++i)
-        for (std::size_t k = 0; k < arc_count_[1]; ++k) search_crossing(arcs_[0][i], arcs_[1][k]);
+        for (std::size_t k = 0; k < arc_count_[1]; ++k) {
+            int count = 0;
+            for (const Vec3& n : crossings(arcs_[0][i], arcs_[1][k], count))
+                if (count-- > 0) consider(n);
+        }
+}
+
+// The axis of the last step may lie beyond a ridge, at which Newton's method stops.
+const CurvedAxis& CurvedAxisSearch::find_best() {
+    if (!settle()) {
+        search_all();
+        if (guessed_ && start(infinity)) {
+            arc_count_[0] = arc_count_[1] = 0;
+            add_features(a_, false);
+            add_features(b_, true);
+            search_all();
+        }
+    }
     gap_ = best_.separation;
     return best_;
 }

@@ -68,10 +68,16 @@ public:
     double gap() const { return gap_; }
 
 private:
-    /// Normals of an arc, at an angle with its axis: n . axis = level.
+    /// Normals of an arc, at an angle with its axis: n . axis = level. Along them the farthest points are a line: an
+    /// edge with these ends, or one of a round side.
     struct Arc {
         Vec3 axis;
         double level;
+        bool edge;
+        std::array<Vec3, 2> ends;
+    };
+    struct Line {
+        Vec3 from, way;
     };
     /// Faces and edges up to which all of a polyhedron are tried; of larger ones those at the corners near the axis.
     static constexpr std::size_t few_features = 24;
@@ -82,14 +88,22 @@ private:
     bool start_from(const Vec3& guess);
     void consider(const Vec3& n, CurvedAxis::Kind kind = CurvedAxis::Kind::other, std::uint32_t feature = 0);
     void add_features(const ConvexShape& shape, bool of_b);
-    void search_smooth();
-    void search_arc(const Arc& arc);
-    void search_crossing(const Arc& one, const Arc& other);
+    Line line_of(const Arc& arc, const ConvexShape& shape, const Vec3& outward) const;
+    bool level_along(const Arc& arc, bool of_b, const Vec3& n) const;
+    bool settle();
+    bool settle_crossing(const Arc& of_a, const Arc& of_b);
+    // True if the result is the largest nearby to rounding: where the shapes are nearest, the line between them is
+    // along the axis.
+    bool search_smooth();
+    void search_all();
+    bool search_arc(const Arc& arc, bool of_b);
+    std::array<Vec3, 2> crossings(const Arc& one, const Arc& other, int& count) const;
 
     const ConvexShape &a_, &b_;
     CurvedAxis best_, flat_[2];
     Vec3 first_ = Vec3::UnitY();
     double gap_ = 0.0;
+    bool guessed_ = false;  // first_ is the axis of the last step
     std::array<Arc, 2 * few_features> arcs_[2];
     std::size_t arc_count_[2] = {0, 0};
 };

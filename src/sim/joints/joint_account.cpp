@@ -46,7 +46,7 @@ double JointSet::rotor_energy(const std::vector<Body>& bodies) const {
     return sum;
 }
 
-// Springs and armature: what a joint can give back.
+// The energy that a joint can give back: of springs and armature.
 double JointSet::stored(const Joint& joint, const std::vector<Body>& bodies) {
     return potential(joint, bodies) + rotor_energy(joint, bodies);
 }
