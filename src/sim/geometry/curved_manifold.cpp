@@ -291,12 +291,14 @@ ContactArea area_of(const ContactFeature& a, const ContactFeature& b, const Vec3
         // The polygon of a face is in place.
         const bool polygon_of_a = a.kind == FeatureKind::polygon,
                    discs = !polygon_of_a && b.kind != FeatureKind::polygon;
-        if (discs) {
-            scratch.polygon.clear();
-            outline(a, normal, [&](const Vec3& p) { scratch.polygon.push_back({p, 0, 0}); });
-        }
+        // The outline is clipped to the polygon, which has few sides.
         scratch.reference.clear();
-        outline(polygon_of_a || discs ? b : a, normal, [&](const Vec3& p) { scratch.reference.push_back(p); });
+        if (discs) outline(b, normal, [&](const Vec3& p) { scratch.reference.push_back(p); });
+        if (!discs)
+            for (const ClipVertex& v : scratch.polygon) scratch.reference.push_back(v.position);
+        if (!discs && !polygon_of_a) std::reverse(scratch.reference.begin(), scratch.reference.end());
+        scratch.polygon.clear();
+        outline(polygon_of_a ? b : a, normal, [&](const Vec3& p) { scratch.polygon.push_back({p, 0, 0}); });
         clip_to_prism(scratch.reference, normal, scratch.polygon, scratch.spare);
         scratch.incident.clear();
         for (const ClipVertex& v : scratch.polygon) scratch.incident.push_back(sink.frame.to_world(v.position));
