@@ -29,7 +29,10 @@ void each_pair(const HitIsland& island, Use&& use) {
 }
 
 bool ball(const Body& body) { return std::holds_alternative<Ball>(body.collider); }
-bool hull(const Body& body) { return std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider); }
+bool curved(const Body& body) { return std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider); }
+bool solid(const Body& body) {
+    return std::holds_alternative<std::shared_ptr<const Polyhedron>>(body.collider) || curved(body);
+}
 bool flat(const Body& body) { return std::holds_alternative<HalfSpace>(body.collider) && !body.moves(); }
 
 // A hit is looked for where points have moved in the step by more than this share of the smaller radius.
@@ -52,7 +55,7 @@ bool takes_part(const Body& a, const Body& b, std::size_t pairs) {
     if (ball(a) && ball(b)) return true;
     if (ball(a) || ball(b)) return pairs <= most_pairs_of_edges;
     // Faces without restitution stop at the surface.
-    return pairs == 1 && hull(a) && hull(b) && pair_restitution(a, b) > 0.0;
+    return pairs == 1 && solid(a) && solid(b) && pair_restitution(a, b) > 0.0;
 }
 
 // True if the pair is new in contact, overlaps, and came so far in the step that its normal may be out of date.
@@ -82,8 +85,9 @@ bool may_have_met(std::span<const std::uint32_t> pair, const std::vector<Manifol
 }
 
 // True if a normal of the hit differs from the normal of the overlapped pose.
-bool differ(const std::vector<Manifold>& then, const Manifold& now) {
-    const double least = now.count == 1 && now.corners == Corners::neither ? least_turn_of_curve : least_turn;
+bool differ(const std::vector<Manifold>& then, const Manifold& now, bool of_curves) {
+    const bool exactly = now.count == 1 && (now.corners == Corners::neither || of_curves);
+    const double least = exactly ? least_turn_of_curve : least_turn;
     return std::any_of(then.begin(), then.end(),
                        [&](const Manifold& m) { return m.normal.dot(now.normal) < 1.0 - least; });
 }
@@ -143,7 +147,7 @@ bool HitStage::resolve_island(const HitIsland& island, const std::vector<Manifol
         const auto hit = next_hit(m.a, m.b, step);
         if (!hit || !(hit->lag < step.h)) return;
         find_touch(*hit, step);
-        if (differ(found_, manifolds[pair[0]])) hits_.push_back(*hit);
+        if (differ(found_, manifolds[pair[0]], curved(a) || curved(b))) hits_.push_back(*hit);
     });
     const std::size_t most = most_hits_each * island.manifolds.size();
     for (std::size_t count = 0; count < most && !hits_.empty(); ++count) {
