@@ -3,6 +3,7 @@
 #include "scene/camera/camera.h"
 #include "scene/keys/bodies.h"
 #include "scene/keys/chains.h"
+#include "scene/keys/force_fields.h"
 #include "scene/keys/forces_and_cords.h"
 #include "scene/keys/instances.h"
 #include "scene/keys/joints.h"
@@ -59,9 +60,10 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format", "title", "simulation", "output", "camera", "cameras", "shot", "light", "wind", "contact", "materials",
-                      "body", "joint", "chain", "template", "instance", "force", "cord", "overlay", "caption",
-                      "speed"});
+    root.expect_keys({"format",   "title",    "simulation", "output",  "camera",    "cameras", "shot",
+                      "light",    "wind",     "contact",    "materials", "body",    "joint",   "chain",
+                      "template", "instance", "force",      "field",   "pair_force", "cord",   "overlay",
+                      "caption",  "speed"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -93,6 +95,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     if (overrides.integrator)  // the option applies to every body
         for (BodyDescription& body : scene.bodies) body.integrator.reset();
     read_forces(root, scene);
+    read_force_fields(root, scene);
     read_cords(root, scene);
     add_cords_of_joints(scene);
     scene.camera = read_camera(root, scene, overrides.camera);

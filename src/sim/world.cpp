@@ -70,7 +70,8 @@ struct World::State {
         std::uint32_t body;
         Vec3 place;  // m
     };
-    std::vector<Sleeper> asleep;  // at the start of skipped steps, for the log
+    double potential_at_start = 0.0;  // J, in fields, where the account of energies began
+    std::vector<Sleeper> asleep;      // at the start of skipped steps, for the log
     ThreadPool pool;
 
     State(const SceneDescription& scene, const FrameTiming& timing, int threads)
@@ -112,11 +113,12 @@ struct World::State {
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
         auto& [settings, clock, steps, set, joints, joined, woken, forces, detection, impacts, hits, contact_solver,
-               motion, sleep, check, log, totals, records, notes, asleep, pool] = self;
+               motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
         archive.between(0, steps, most_steps);
         archive.keep(set, joints, joined, forces, detection, impacts, hits, contact_solver, sleep, check);
+        if (forces.field().has_potential()) archive.keep(potential_at_start);
         archive.require([&] { return self.sleep.sound(self.set.bodies); });
         if (notes) archive.keep(*notes);
         archive.scratch(woken, motion, log, totals, records, asleep, pool);
@@ -307,6 +309,9 @@ void World::State::finish_records(double duration) {
         with_present_contacts(finish);
     else
         finish({});
+    // Fields give energy to the bodies out of their potential, which is no work.
+    if (forces.field().has_potential())
+        records.energy.work += forces.field().potential(set.bodies) - potential_at_start;
     if (joints.empty()) return;
     if (log->has_records()) records.joints = joint_states();
     const JointEnergies energy = joints.energies(set.bodies);
@@ -351,6 +356,7 @@ void World::State::record(ContactLog::Detail detail) {
     log->begin_frame(set.bodies);
     joints.begin_frame();
     joints.start_account(set.bodies);
+    potential_at_start = forces.field().potential(set.bodies);
     finish_records(0.0);
 }
 
@@ -405,6 +411,7 @@ JointReport World::joint_report() const {
 Measurement World::measure() const {
     const State& s = *state_;
     Measurement m = measure_motion(s.set.bodies, s.settings.gravity, s.set.origin);
+    m.potential += s.forces.field().potential(s.set.bodies);
     m.elastic = s.joints.elastic(s.set.bodies);
     const double rotors = s.joints.rotor_energy(s.set.bodies);
     m.kinetic += rotors;

@@ -3,6 +3,7 @@
 
 #include "scene/fields/body_fields.h"
 #include "scene/fields/camera_fields.h"
+#include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
@@ -27,6 +28,9 @@ void for_all_fields(auto&& use) {
     use.template operator()<GridRequest>("grid");
     use.template operator()<ScatterRequest>("scatter");
     use.template operator()<ForceDescription>("force");
+    use.template operator()<FieldDescription>("field");
+    use.template operator()<FieldRegion>("field region");
+    use.template operator()<PairForceDescription>("pair force");
     use.template operator()<CordDescription>("cord");
     use.template operator()<SpeedKeyframe>("speed");
     use.template operator()<OverlayDescription>("overlay");

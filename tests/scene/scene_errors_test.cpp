@@ -362,6 +362,32 @@ TEST(SceneErrors, OfCopies) {
     });
 }
 
+TEST(SceneErrors, OfFieldsAndPairForces) {
+    const std::string two =
+        "name = \"a\"\n[[body]]\nname = \"b\"\nshape = { type = \"sphere\", radius = 1 }\n"
+        "position = [9, 0, 0]\n[[body]]\nname = \"floor\"\ntype = \"fixed\"\n"
+        "shape = { type = \"plane\" }\n";
+    const auto pair = [&](const std::string& keys) { return body(two + "[[pair_force]]\n" + keys); };
+    const auto field = [&](const std::string& keys) { return body("[[field]]\n" + keys); };
+    expect_errors({
+        {field("type = @\"magnet\""), "\"uniform\", \"point\""},
+        {body("@[[field]]\ntype = \"uniform\""), "[[field]] needs \"acceleration\""},
+        {field("type = \"point\"\nstrength = 1\nlinear = @1"), "is a key of another type than \"point\""},
+        {field("type = @\"drag\""), "needs linear or quadratic"},
+        {field("type = \"point\"\nstrength = 1\nregion = { box = @[1, 1, 1], sphere = 1 }"), "exclude each other"},
+        {field("type = \"point\"\nstrength = 1\nenabled = @[2, 1]"), "must end after it starts"},
+        {pair("type = \"gravity\"\nbodies = [\"a\", @\"c\"]"), "is not the name of a body"},
+        {pair("type = \"gravity\"\nbodies = [\"a\", @\"a\"]"), "names 'a' again"},
+        {pair("type = \"gravity\"\nbodies = [\"a\", @\"floor\"]"), "must be a dynamic body: others have no mass"},
+        {pair("type = \"1/r^2\"\nstrength = 1\nbodies = [\"a\", @\"floor\"]"), "must have a center"},
+        {pair("type = \"gravity\"\nbodies = @[\"a\"]"), "must name two bodies or more"},
+        {pair("type = \"coulomb\"\nbodies = [\"a\", \"b\"]\ncharges = @[1]"), "one charge for each of the 2 entries"},
+        {body(two + "@[[pair_force]]\ntype = \"spring\"\nbodies = [\"a\", \"b\"]"), "needs \"stiffness\""},
+        {pair("type = \"spring\"\nbodies = [\"a\", \"b\"]\nstiffness = 1\nstrength = @1"),
+         "is a key of another type than \"spring\""},
+    });
+}
+
 TEST(SceneErrors, OfForcesAndCords) {
     expect_errors({
         {body("name = \"crate\"\n[[force]]\nbody = @\"crat\"\nforce = [1, 0, 0]"),

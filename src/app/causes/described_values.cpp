@@ -4,6 +4,7 @@
 #include "core/frame_rate.h"
 #include "scene/fields/body_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/hash/scene_hash.h"
 #include "sim/geometry/shapes/shape.h"
 
 #include <fmt/format.h>
@@ -188,6 +189,9 @@ ValueMap values_of(const SceneDescription& scene) {
     if (scene.wind)
         values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) values["forces"] = forces_text(scene);
+    if (!scene.fields.empty() || !scene.pair_forces.empty())
+        for (const auto& [part, hash] : scene_parts(scene))
+            if (part == "fields" || part == "pair forces") values[part] = hash;
     if (!scene.cords.empty()) values["cords"] = cords_text(scene);
     values["overlay"] = shown_text(scene.overlay);
     if (!values["overlay"].empty()) values["overlay style"] = overlay_style_text(scene.overlay);

@@ -163,6 +163,12 @@ void print_head(const SceneDescription& scene) {
         put("  wind      {} m/s, density {:.4g} kg/m^3, drag {:.4g}\n", vector_text(scene.wind->velocity),
             scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) put("  forces    {} at points of bodies\n", scene.forces.size());
+    if (!scene.fields.empty()) {
+        const bool stepped = scene.simulation.impacts == ImpactMode::exact;
+        put("  fields    {}{}\n", scene.fields.size(),
+            stepped ? ", which have no closed form: bodies move step by step between their impacts" : "");
+    }
+    if (!scene.pair_forces.empty()) put("  forces    {} between bodies\n", scene.pair_forces.size());
 }
 
 void print_groups(const SceneDescription& scene, const World& world) {

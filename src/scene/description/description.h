@@ -6,6 +6,7 @@
 #include "core/color.h"
 #include "core/triangle_mesh.h"
 #include "core/vector.h"
+#include "scene/description/force_fields.h"
 #include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
 #include "scene/description/mesh_paint.h"
@@ -345,6 +346,8 @@ struct SceneDescription {
     std::optional<WindDescription> wind;
     PairRules contact;
     std::vector<ForceDescription> forces;
+    std::vector<FieldDescription> fields;
+    std::vector<PairForceDescription> pair_forces;
     std::vector<BodyDescription> bodies;  // with grids and scatters expanded
     std::vector<JointDescription> joints;
     std::vector<CordDescription> cords;

@@ -73,6 +73,17 @@ inline constexpr auto choices<BodyType> = std::to_array<Choice<BodyType>>({{"dyn
                                                                            {"fixed", BodyType::fixed},
                                                                            {"kinematic", BodyType::kinematic}});
 template <>
+inline constexpr auto choices<FieldKind> = std::to_array<Choice<FieldKind>>({{"uniform", FieldKind::uniform},
+                                                                             {"point", FieldKind::point},
+                                                                             {"vortex", FieldKind::vortex},
+                                                                             {"drag", FieldKind::drag}});
+template <>
+inline constexpr auto choices<PairForceKind> =
+    std::to_array<Choice<PairForceKind>>({{"gravity", PairForceKind::gravity},
+                                          {"coulomb", PairForceKind::coulomb},
+                                          {"spring", PairForceKind::spring},
+                                          {"1/r^2", PairForceKind::inverse_square}});
+template <>
 inline constexpr auto choices<Pattern> = std::to_array<Choice<Pattern>>({{"plain", Pattern::plain},
                                                                          {"panel", Pattern::panel},
                                                                          {"grid", Pattern::grid},

@@ -5,6 +5,7 @@
 #include "core/vector.h"
 #include "scene/fields/body_fields.h"
 #include "scene/fields/camera_fields.h"
+#include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
@@ -86,13 +87,15 @@ public:
     explicit DescriptionHash(Content content) : all_(content == Content::all) {}
 
     void add_scene(const SceneDescription& scene) {
-        const auto& [file, title, simulation, output, camera, light, wind, contact, forces, bodies, joints, cords,
-                     overlay, speed] = scene;
+        const auto& [file, title, simulation, output, camera, light, wind, contact, forces, fields, pair_forces, bodies,
+                     joints, cords, overlay, speed] = scene;
         add_value(simulation);
         add_value(output);
         add_value(wind);
         if (contact != PairRules{}) add_value(contact);  // other scenes keep their hash
         add_value(forces);
+        if (!fields.empty()) add_value(fields);            // other scenes keep their hash
+        if (!pair_forces.empty()) add_value(pair_forces);  // the same
         add_value(bodies);
         if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
         if (!all_) return;
@@ -270,8 +273,8 @@ std::string scene_hash(const SceneDescription& scene) { return hash_of(scene, Co
 std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, Content::motion); }
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
-    const auto& [file, title, simulation, output, camera, light, wind, contact, forces, bodies, joints, cords,
-                 overlay, speed] = scene;
+    const auto& [file, title, simulation, output, camera, light, wind, contact, forces, fields, pair_forces, bodies,
+                 joints, cords, overlay, speed] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
     of_any_duration.duration = 0.0;
@@ -285,7 +288,9 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
                                                            {"forces", part(forces)},
                                                            {"bodies", part(bodies)}};
     if (contact != PairRules{}) parts.emplace_back("contact", part(contact));  // as in the hash
-    if (!joints.empty()) parts.emplace_back("joints", part(joints));           // as in the hash
+    if (!fields.empty()) parts.emplace_back("fields", part(fields));
+    if (!pair_forces.empty()) parts.emplace_back("pair forces", part(pair_forces));
+    if (!joints.empty()) parts.emplace_back("joints", part(joints));  // as in the hash
     parts.emplace_back("cords", part(cords));
     parts.emplace_back("overlay", text.finish_with(overlay));
     if (!speed.empty()) parts.emplace_back("speed", part(speed));  // as in the hash

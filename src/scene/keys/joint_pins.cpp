@@ -9,8 +9,8 @@
 namespace tumble {
 namespace {
 
-constexpr double thickness = 0.15;  // radius of a pin over the thinnest extent of the smaller body
-constexpr double beyond = 1.5;      // by which it stands out of that body, over its radius
+constexpr double pin_thickness = 0.15;  // radius of a pin over the thinnest extent of the smaller body
+constexpr double beyond = 1.5;          // by which it stands out of that body, over its radius
 
 /// A side of a joint with a body of finite size.
 struct PinSide {
@@ -44,7 +44,10 @@ std::optional<PinSide> side_of_pin(const SceneDescription& scene, const std::opt
 class PinMaker {
 public:
     PinMaker(std::size_t joint, const PinSide& holder, const PinSide& smaller)
-        : joint_(joint), holder_(holder), smaller_(smaller), radius_(thickness * smaller.bounds.extent().minCoeff()) {}
+        : joint_(joint),
+          holder_(holder),
+          smaller_(smaller),
+          radius_(pin_thickness * smaller.bounds.extent().minCoeff()) {}
 
     /// Through the smaller body along an axis of the joint, and by `further` (m) more at both ends, up to the body that
     /// holds it.

@@ -83,6 +83,13 @@ inline constexpr double anchor_tolerance = 1e-6;  // of the smaller body's size:
 inline constexpr double axis_tolerance = 1e-6;    // rad, the same
 inline constexpr double start_tolerance = 1e-9;   // m or rad: a start at a limit is forgiven its rounding
 
+// -- Fields and forces between bodies
+inline constexpr Range field_strength{-1e30, 1e30, "m^3/s^2, or m^2/s^2 of a vortex"};
+inline constexpr Range drag_linear{0.0, 1e15, "N s/m"};
+inline constexpr Range drag_quadratic{0.0, 1e15, "N s^2/m^2"};
+inline constexpr Range charge{-1e9, 1e9, "C"};
+inline constexpr std::size_t pair_force_bodies = 1000;  // half a million pairs
+
 // -- Matter
 inline constexpr Range mass{0.0, 1e30, "kg", true};         // half a sun
 inline constexpr Range density{0.0, 1e20, "kg/m^3", true};  // beyond a neutron star's 1e18

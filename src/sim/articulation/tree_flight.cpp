@@ -224,7 +224,8 @@ void TreeFlight::add_pushes(const Vector& y, Vector& dy, double ahead) {
         const ForwardDynamics::Link& link = dynamics_.link(node);
         const Mat3& rotation = link.rotation;
         const Vec3 velocity = link.center_velocity() + speed, place = link.position();
-        Wrench wrench = step_->forces.at(index, body, velocity, rotation, law_time_);
+        const Vec3 at_scene = place + (free ? frame_.place(t) : tree_.origin());
+        Wrench wrench = step_->forces.at(index, body, at_scene, velocity, rotation, law_time_);
         wrench.force -= body.mass * frame_.gravity;
         pushes_[i] = wrench;
         dynamics_.push(node, wrench);

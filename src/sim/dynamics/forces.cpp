@@ -18,18 +18,57 @@ void add(Wrench& sum, const ForceDescription& f, const Body& body, const Mat3& r
     sum.torque += r.cross(force);  // notes eq. 6
 }
 
+// Index in the simulation of each body of the scene.
+std::vector<std::size_t> places_of(std::size_t count, std::span<const std::uint32_t> order) {
+    std::vector<std::size_t> places(count);
+    for (std::size_t i = 0; i < count; ++i) places[order.empty() ? i : order[i]] = i;
+    return places;
+}
+
+std::vector<MassPoint> points_of(const PairForces& pairs, const std::vector<Body>& bodies) {
+    std::vector<MassPoint> points;
+    for (const std::uint32_t i : pairs.bodies())
+        points.push_back({bodies[i].dynamic() ? bodies[i].mass : infinity, bodies[i].position, bodies[i].velocity});
+    return points;
+}
+
 }  // namespace
 
-ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order)
-    : gravity_(scene.simulation.gravity), wind_(scene.wind), at_points_(scene.bodies.size()) {
-    std::vector<std::size_t> places(scene.bodies.size());
-    for (std::size_t i = 0; i < places.size(); ++i) places[order.empty() ? i : order[i]] = i;
+ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order, const Vec3& origin)
+    : gravity_(scene.simulation.gravity),
+      wind_(scene.wind),
+      at_points_(scene.bodies.size()),
+      place_(scene.fields, origin),
+      pairs_(scene.pair_forces, places_of(scene.bodies.size(), order)),
+      held_(pairs_.bodies().size(), Vec3::Zero()) {
+    const std::vector<std::size_t> places = places_of(scene.bodies.size(), order);
     for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
     for (std::uint32_t i = 0; i < at_points_.size(); ++i)
         if (!at_points_[i].empty()) pushed_.push_back(i);
 }
 
-Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
+void ForceField::hold_pairs(const std::vector<Body>& bodies, double from, double to) {
+    if (pairs_.empty()) return;
+    std::fill(held_.begin(), held_.end(), Vec3::Zero());
+    pairs_.add_mean(points_of(pairs_, bodies), from, to, held_);
+}
+
+double ForceField::potential(const std::vector<Body>& bodies) const {
+    double sum = pairs_.empty() ? 0.0 : pairs_.potential(points_of(pairs_, bodies));
+    if (place_.empty()) return sum;
+    for (const Body& body : bodies)
+        if (body.dynamic()) sum += place_.potential({body.mass, body.position, body.velocity});
+    return sum;
+}
+
+Vec3 ForceField::held(std::size_t index) const {
+    const auto members = pairs_.bodies();
+    const auto found = std::lower_bound(members.begin(), members.end(), std::uint32_t(index));
+    if (found == members.end() || *found != index) return Vec3::Zero();
+    return held_[std::size_t(found - members.begin())];
+}
+
+Wrench ForceField::weather(const Body& body, const Vec3& velocity) const {
     Wrench sum;
     sum.force = body.mass * body.fall(gravity_);
     if (wind_) {
@@ -40,6 +79,13 @@ Wrench ForceField::fields(const Body& body, const Vec3& velocity) const {
     return sum;
 }
 
+Wrench ForceField::fields(std::size_t index, const Body& body, double from, double to) const {
+    Wrench sum = weather(body, body.velocity);
+    if (!place_.empty()) sum.force += place_.mean({body.mass, body.position, body.velocity}, from, to);
+    if (!pairs_.empty()) sum.force += held(index);
+    return sum;
+}
+
 template <class Choose>
 void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation,
                             const Choose& choose) const {
@@ -47,21 +93,29 @@ void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, co
         if (choose(f)) add(sum, f, body, rotation);
 }
 
-Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation,
-                      double time) const {
-    Wrench sum = fields(body, velocity);
+Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity,
+                      const Mat3& rotation, double time) const {
+    Wrench sum = alone(index, body, position, velocity, rotation, time);
+    if (!pairs_.empty()) sum.force += held(index);
+    return sum;
+}
+
+Wrench ForceField::alone(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity,
+                         const Mat3& rotation, double time) const {
+    Wrench sum = weather(body, velocity);
+    if (!place_.empty()) sum.force += place_.at({body.mass, position, velocity}, time);
     add_points(sum, index, body, rotation, [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
     return sum;
 }
 
 Wrench ForceField::throughout(std::size_t index, const Body& body, double from, double to) const {
-    Wrench sum = fields(body);
+    Wrench sum = fields(index, body, from, to);
     add_points(sum, index, body, body.rotation, [&](const ForceDescription& f) { return covers(f, from, to); });
     return sum;
 }
 
 Wrench ForceField::endless(std::size_t index, const Body& body, double from, double to) const {
-    Wrench sum = fields(body);
+    Wrench sum = fields(index, body, from, to);
     add_points(sum, index, body, body.rotation,
                [&](const ForceDescription& f) { return covers(f, from, to) && std::isinf(f.end); });
     return sum;
@@ -114,12 +168,14 @@ double ForceField::next_change(std::size_t index, double time) const {
     for (const ForceDescription& f : at_points_[index])
         for (const double change : {f.start, f.end})
             if (change > time) next = std::min(next, change);
+    if (!place_.empty()) next = std::min(next, place_.next_change(time));
+    if (!pairs_.empty()) next = std::min(next, pairs_.next_change(time));
     return next;
 }
 
 bool ForceField::constant(std::size_t index, double from, double to) const {
-    return !wind_ && std::none_of(at_points_[index].begin(), at_points_[index].end(),
-                                  [&](const ForceDescription& f) { return f.start < to && f.end > from; });
+    return plain(index) && std::none_of(at_points_[index].begin(), at_points_[index].end(),
+                                        [&](const ForceDescription& f) { return f.start < to && f.end > from; });
 }
 
 bool ForceField::torque_free(std::size_t index, double time) const {

@@ -1,8 +1,10 @@
-// External forces and torques on a body (notes section 3): gravity, wind, and forces at points.
+// External forces and torques on a body (notes section 3): gravity, wind, fields, forces between bodies, and forces at
+// points.
 #pragma once
 
 #include "scene/description/description.h"
 #include "sim/dynamics/body.h"
+#include "sim/fields/pair_forces.h"
 #include "sim/math/wrench.h"
 
 #include <cstdint>
@@ -13,19 +15,32 @@ namespace tumble {
 
 class ForceField {
 public:
-    /// `order`: the scene index of each body; without it, the scene's order.
-    explicit ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order = {});
+    /// `order`: the scene index of each body; without it, the scene's order. `origin`: m, world, of the coordinates.
+    explicit ForceField(const SceneDescription& scene, std::span<const std::uint32_t> order = {},
+                        const Vec3& origin = Vec3::Zero());
+
+    const PairForces& pairs() const { return pairs_; }
+    /// Takes the forces between the bodies at their present places as those of the step [from, to).
+    void hold_pairs(const std::vector<Body>& bodies, double from, double to);
+    bool has_potential() const { return !place_.empty() || !pairs_.empty(); }
+    /// J, in fields and in forces between bodies.
+    double potential(const std::vector<Body>& bodies) const;
 
     /// The sum of all forces on the body at time t (s), for its present state.
     Wrench at(std::size_t index, const Body& body, double time) const {
-        return at(index, body, body.velocity, body.rotation, time);
+        return at(index, body, body.position, body.velocity, body.rotation, time);
     }
-    /// The same for another velocity (m/s) and rotation: reads only constant properties of the body.
-    Wrench at(std::size_t index, const Body& body, const Vec3& velocity, const Mat3& rotation, double time) const;
+    /// The same for another place (m), velocity (m/s) and rotation: reads only constant properties of the body. Forces
+    /// between bodies are those held.
+    Wrench at(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity, const Mat3& rotation,
+              double time) const;
+    /// The same without forces between bodies.
+    Wrench alone(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity, const Mat3& rotation,
+                 double time) const;
 
-    /// Gravity and wind, for the body's present state.
-    Wrench fields(const Body& body) const { return fields(body, body.velocity); }
-    /// Gravity, wind and the forces at points that act throughout [from, to), for the body's present state.
+    /// Gravity, wind and fields in [from, to), for the body's present state.
+    Wrench fields(std::size_t index, const Body& body, double from, double to) const;
+    /// The same and the forces at points that act throughout [from, to), for the body's present state.
     Wrench throughout(std::size_t index, const Body& body, double from, double to) const;
     /// The same without forces that end at some time: for the part of a step that a clamped body loses.
     Wrench endless(std::size_t index, const Body& body, double from, double to) const;
@@ -35,11 +50,13 @@ public:
     /// The impulse within [from, to) of the forces at points that end at some time, brief or not: such a force has a
     /// total impulse.
     Impulse ending(std::size_t index, const Body& body, double from, double to) const;
-    /// Gravity and wind alone: for spans in which the forces at points have been applied already.
+    /// Without forces at points: for spans in which the forces at points have been applied already.
     ForceField without_points() const;
 
     /// True if a point force on the body begins or ends within [from, to): such a body must be awake.
     bool changes(std::size_t index, double from, double to) const;
+    /// True if a field begins or ends within [from, to): then all bodies must be awake.
+    bool fields_change(double from, double to) const { return !place_.empty() && place_.changes(from, to); }
     /// The first time after `time` at which a point force on the body begins or ends; infinity when there is none.
     double next_change(std::size_t index, double time) const;
     /// True if only gravity acts on the body throughout [from, to): its motion is then known in closed form.
@@ -48,13 +65,17 @@ public:
     bool torque_free(std::size_t index, double time) const;
     /// Rate of deceleration by drag: |dF/dv| / m per m/s of the speed relative to the air, 1/m.
     double drag_rate(const Body& body) const;
+    /// Fastest rate at which fields change the motion at a time, 1/s.
+    double field_rate(const Body& body, const Vec3& position, const Vec3& velocity, double time) const {
+        return place_.empty() ? 0.0 : place_.rate({body.mass, position, velocity}, time);
+    }
     /// The air's velocity, m/s.
     Vec3 wind() const { return wind_ ? wind_->velocity : Vec3(Vec3::Zero()); }
 
     const Vec3& gravity() const { return gravity_; }  // m/s^2
 
     /// True if nothing but gravity ever acts on the body; true if forces at points ever act on any body.
-    bool only_gravity(std::size_t index) const { return !wind_ && at_points_[index].empty(); }
+    bool only_gravity(std::size_t index) const { return plain(index) && at_points_[index].empty(); }
     bool ever_changes() const { return !pushed_.empty(); }
     /// Bodies with forces at points, ascending.
     std::span<const std::uint32_t> pushed() const { return pushed_; }
@@ -64,12 +85,19 @@ private:
     void add_points(Wrench& sum, std::size_t index, const Body& body, const Mat3& rotation, const Choose& choose) const;
     template <class Choose>
     Impulse impulse(std::size_t index, const Body& body, double from, double to, const Choose& choose) const;
-    Wrench fields(const Body& body, const Vec3& velocity) const;
+    bool plain(std::size_t index) const {
+        return !wind_ && place_.empty() && (pairs_.empty() || !pairs_.has(std::uint32_t(index)));
+    }
+    Wrench weather(const Body& body, const Vec3& velocity) const;
+    Vec3 held(std::size_t index) const;
 
     Vec3 gravity_;
     std::optional<WindDescription> wind_;
     std::vector<std::vector<ForceDescription>> at_points_;  // by body
     std::vector<std::uint32_t> pushed_;
+    PlaceForces place_;
+    PairForces pairs_;
+    std::vector<Vec3> held_;  // N, in the order of PairForces::bodies()
 };
 
 }  // namespace tumble

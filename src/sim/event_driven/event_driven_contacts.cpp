@@ -242,7 +242,7 @@ void EventDrivenMotion::give_rest_of_step(std::uint32_t k, std::vector<Body>& bo
     const double from = clock_.seconds(now), to = clock_.seconds(now.step + 1);
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     const bool pushed = events_[k].pushed;
-    const Wrench wrench = pushed ? forces.fields(body) : forces.throughout(k, body, from, to);
+    const Wrench wrench = pushed ? forces.fields(k, body, from, to) : forces.throughout(k, body, from, to);
     const Impulse brief_impulse = pushed ? Impulse{} : forces.brief(k, body, from, to);
     advance_momenta(body, wrench.force, wrench.torque, rest);
     advance_momenta(body, brief_impulse);

@@ -58,6 +58,7 @@ public:
     void add_external(std::uint32_t index, const Impulse& impulse, const Vec3& place, const BodyVelocity& mean);
     /// Between these calls nothing but external forces changes the body's momenta: their change is the forces' impulse.
     /// `end_flight` may be called repeatedly. `driven`: by forces other than gravity, whose work is then added.
+    void add_work(std::uint32_t index, double work) { accounts_[index].work += work; }  // J, of external forces
     void start_flight(std::uint32_t index, const Body& body);
     void end_flight(std::uint32_t index, const Body& body, bool driven);
     /// The same for the momentum (kg m/s) at a position (m), of a body under gravity alone.

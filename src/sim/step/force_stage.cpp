@@ -25,11 +25,17 @@ Vec3 place_of_forces(std::uint32_t i, const StepContext& step) {
 }  // namespace
 
 ForceStage::ForceStage(const SceneDescription& scene, const BodySet& set)
-    : field_(scene, set.scene_index),
+    : field_(scene, set.scene_index, set.origin),
       effects_(set.bodies.size()),
       ending_(field_.ever_changes() ? set.bodies.size() : 0) {}
 
+// Forces between bodies change with the motion of the others.
 void ForceStage::wake(const StepContext& step) const {
+    for (const std::uint32_t i : field_.pairs().bodies())
+        if (step.set.bodies[i].asleep) step.sleep.wake(i, step.set.bodies);
+    if (field_.fields_change(step.start(), step.end()))
+        for (std::uint32_t i = 0; i < step.set.bodies.size(); ++i)
+            if (step.set.bodies[i].asleep) step.sleep.wake(i, step.set.bodies);
     for (const std::uint32_t i : field_.pushed())
         if (step.set.bodies[i].asleep && field_.changes(i, step.start(), step.end()))
             step.sleep.wake(i, step.set.bodies);
@@ -38,6 +44,7 @@ void ForceStage::wake(const StepContext& step) const {
 void ForceStage::apply(const StepContext& step, OutOfDate derived) {
     const double now = step.start(), next = step.end(), h = step.h;
     BodySet& set = step.set;
+    field_.hold_pairs(set.bodies, now, next);
     step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
         Body& body = set.bodies[i];
         if (body.flying) return;

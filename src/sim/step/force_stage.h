@@ -3,6 +3,7 @@
 #pragma once
 
 #include "sim/dynamics/forces.h"
+#include "sim/dynamics/integrators/rigid_state.h"
 #include "sim/step/body_set.h"
 
 #include <vector>
@@ -36,6 +37,10 @@ public:
     void accept(std::uint32_t body, const BodySet& set);
     /// Sets the body back to its momenta before the forces: the start of an integrator of higher order.
     void set_back(std::uint32_t i, Body& body) const;
+    /// The same as a state.
+    RigidState start_of(std::uint32_t i, const Body& body) const {
+        return {body.position, body.orientation, effects_[i].before.momentum, effects_[i].before.angular_momentum};
+    }
 
     /// True if contact has added anything to the effect of the step's forces.
     bool touched(std::uint32_t i, const Body& body) const {

@@ -9,6 +9,8 @@
 #include "sim/step/joined_motion.h"
 #include "sim/threads/thread_pool.h"
 
+#include <algorithm>
+
 namespace tumble {
 namespace {
 
@@ -23,6 +25,25 @@ bool turns_freely(std::uint32_t i, const StepContext& step) {
     const Body& body = step.set.bodies[i];
     return body.dynamic() && !body.jointed && body.integrator != IntegratorKind::explicit_euler &&
            !step.forces.touched(i, body) && (!body.gyration.isZero(0.0) || turns_too_far(body, step.h));
+}
+
+BodyVelocity mean_of(const BodyVelocity& a, const BodyVelocity& b) {
+    return {0.5 * (a.velocity + b.velocity), 0.5 * (a.angular_velocity + b.angular_velocity)};
+}
+
+double energy_of(const Body& body, const StepContext& step) {
+    return body.kinetic_energy() - body.mass * body.fall(step.settings.gravity).dot(body.position);
+}
+
+// Energy (J) at the start of a flight, with the work that the log has for the step: that of the force at its start.
+double energy_less_logged(std::uint32_t i, Body& body, const StepContext& step) {
+    const BodyVelocity kicked{body.velocity, body.angular_velocity};
+    body.derive();
+    const BodyVelocity mean = mean_of(kicked, {body.velocity, body.angular_velocity});
+    Wrench wrench = step.forces.field().throughout(i, body, step.start(), step.end());
+    wrench.force -= body.mass * body.fall(step.settings.gravity);
+    return energy_of(body, step) +
+           step.h * (wrench.force.dot(mean.velocity) + wrench.torque.dot(mean.angular_velocity));
 }
 
 }  // namespace
@@ -59,10 +80,37 @@ void SteppedMotion::advance(const StepContext& step, ContactDetection& detection
     const auto& limits = motions_.limits(
         step, detection, [&]() -> const auto& { return detection.find_pairs(step); },
         [&](std::uint32_t i) { return turns_freely(i, step); });
+    if (!step.forces.field().pairs().empty()) fly_pairs(limits, step);
     step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
         move(i, limits[i], step);
         step.check.examine(i, set.bodies);
     });
+}
+
+// Bodies with forces between each other fly together. The flight of one that CCD stops is shorter.
+void SteppedMotion::fly_pairs(const std::vector<CcdFraction>& limits, const StepContext& step) {
+    const PairForces& pairs = step.forces.field().pairs();
+    const auto index = pairs.bodies();
+    members_.assign(index.size(), {});
+    flights_.resize(1);
+    bool any = false;
+    for (std::size_t k = 0; k < index.size(); ++k) {
+        const Body& body = step.set.bodies[index[k]];
+        members_[k].flies = body.dynamic() && !body.asleep && !body.jointed && advances_whole_state(body.integrator) &&
+                            !step.forces.touched(index[k], body);
+        if (!members_[k].flies) continue;
+        members_[k].start = step.forces.start_of(index[k], body);
+        any = true;
+    }
+    if (!any) return;
+    flights_[0].advance(step.set.bodies, members_, step.forces.field(), step.start(), step.end());
+    for (std::size_t k = 0; k < index.size(); ++k) {
+        const double share = limits[index[k]].share;
+        if (!members_[k].flies || share == 1.0) continue;
+        PairFlight shorter;
+        shorter.advance(step.set.bodies, members_, step.forces.field(), step.start(), step.start() + share * step.h);
+        flights_[0].stop(k, shorter.end(k));
+    }
 }
 
 void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepContext& step) {
@@ -76,8 +124,14 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
     if (body.flew) {
         if (step.log) step.log->start_flight(i, body);
         forces.set_back(i, body);
+        const bool books = step.log && forces.field().has_potential() && !forces.field().only_gravity(i);
+        const double before = books ? energy_less_logged(i, body, step) : 0.0;
         const double end = step.start() + share * h;
-        if (body.integrator == IntegratorKind::exact)
+        const PairForces& pairs = forces.field().pairs();
+        if (const auto found = std::ranges::lower_bound(pairs.bodies(), i);
+            found != pairs.bodies().end() && *found == i)
+            set_state(body, flights_[0].end(std::size_t(found - pairs.bodies().begin())));
+        else if (body.integrator == IntegratorKind::exact)
             free_flights_.advance(i, body, forces.field(), step.index, share);
         else
             advance_one_step(body, body.integrator, forces.field(), i, step.start(), end);
@@ -85,6 +139,7 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         // The forces of the step are logged as of its start: the flight's end gives the difference.
         if (step.log) {
             step.log->end_flight(i, body, false);
+            if (books) step.log->add_work(i, energy_of(body, step) - before);
             if (share < 1.0) step.log->add_gravity(i, body, (1.0 - share) * h, body.position);
         }
     } else {

@@ -2,6 +2,7 @@
 // through each other. A body without contact is moved by its integrator.
 #pragma once
 
+#include "sim/dynamics/integrators/pair_flight.h"
 #include "sim/event_driven/free_flights.h"
 #include "sim/step/clamped_motions.h"
 #include "sim/step/motion_stage.h"
@@ -27,16 +28,20 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [motions, free_flights] = self;
+        auto& [motions, free_flights, members, flights] = self;
         archive.keep(motions, free_flights);
+        archive.scratch(members, flights);
     }
 
 private:
     BodyVelocity motion(std::uint32_t i, const Body& body, const StepContext& step) const;
+    void fly_pairs(const std::vector<CcdFraction>& limits, const StepContext& step);
     void move(std::uint32_t i, const CcdFraction& limit, const StepContext& step);
 
     ClampedMotions motions_;
     FreeFlights free_flights_;  // of bodies with integrator = "exact"
+    std::vector<PairFlight::Member> members_;
+    std::vector<PairFlight> flights_;  // of bodies with forces between each other: to the ends of their motions
 };
 
 }  // namespace tumble

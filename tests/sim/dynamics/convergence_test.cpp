@@ -39,7 +39,7 @@ struct Problem {
         p.force = Vec3(-1.0, 3.0, 2.0);
         return p;
     }
-    Wrench operator()(const Vec3& velocity, const Mat3& rotation) const {
+    Wrench operator()(const Vec3&, const Vec3& velocity, const Mat3& rotation) const {
         const Vec3 u = wind - velocity, f = rotation * force;
         return {mass * gravity + drag * u.norm() * u + f, (rotation * point).cross(f)};
     }
@@ -85,7 +85,7 @@ Method euler(bool symplectic, RotationForm form) {
         set_state(body, state);
         for (int i = 0; i < steps; ++i) {
             const Vec3 v = body.velocity, omega = body.angular_velocity;
-            const Wrench wrench = p(v, body.rotation);
+            const Wrench wrench = p(body.position, v, body.rotation);
             advance_momenta(body, wrench.force, wrench.torque, h);
             body.derive();
             advance_pose(body, symplectic ? body.velocity : v, symplectic ? body.angular_velocity : omega, h, form);

@@ -67,7 +67,7 @@ Vec nearest(std::vector<Vec>& points) {
         std::vector<Vec> chosen;
         for (std::size_t i = 0; i < n; ++i)
             if ((subset >> i & 1) != 0) chosen.push_back(points[i]);
-        // Of p0 + E x the nearest to the origin: E^T E x = -E^T p0.
+        // The point p0 + E x that is nearest to the origin: E^T E x = -E^T p0.
         const auto m = Eigen::Index(chosen.size() - 1);
         Eigen::Matrix<Real, 3, Eigen::Dynamic> edges(3, m);
         for (Eigen::Index i = 0; i < m; ++i) edges.col(i) = chosen[std::size_t(i + 1)] - chosen[0];

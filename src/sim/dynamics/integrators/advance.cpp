@@ -37,8 +37,8 @@ void for_each_span(const Body& body, const ForceField& forces, std::size_t index
         const double end = std::min(to, forces.next_change(index, from));
         // A force that acts at the part's middle acts throughout; at the part's ends, rounding of times would decide.
         const double middle = 0.5 * (from + end);
-        const auto law = [&](const Vec3& velocity, const Mat3& rotation) {
-            return forces.at(index, body, velocity, rotation, middle);
+        const auto law = [&](const Vec3& position, const Vec3& velocity, const Mat3& rotation) {
+            return forces.at(index, body, position, velocity, rotation, middle);
         };
         part(from, end, law);
         from = end;
@@ -62,7 +62,7 @@ double rate_of(const RigidState& s, const RigidMass& mass, const ForceLaw& law, 
                double span) {
     const Vec3 velocity = mass.inverse_mass * s.momentum;
     const Mat3 rotation = s.orientation.toRotationMatrix();
-    const Wrench wrench = law(velocity, rotation);
+    const Wrench wrench = law(s.position, velocity, rotation);
     double rate = 0.0;
     if (drag.rate > 0.0) {
         // The rate of dv/dt = a - k |u| u, k half the drag rate, is k |u|; where the speed still builds up, sqrt(k a).
@@ -114,7 +114,7 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
         const FreeRotation rotation(mass.principal_inertia, mass.principal_axes, state.orientation,
                                     state.angular_momentum);
         if (forces.constant(index, start, end)) {
-            const Vec3 force = ForceLaw(law)(Vec3::Zero(), Mat3::Identity()).force;
+            const Vec3 force = ForceLaw(law)(state.position, Vec3::Zero(), Mat3::Identity()).force;
             state.position += span * mass.inverse_mass * (state.momentum + 0.5 * span * force);
             state.momentum += span * force;
         } else {
@@ -130,7 +130,9 @@ RigidState advance_exactly(const Body& body, const ForceField& forces, std::size
                                     "than {} steps: the forces on it are too large for its mass",
                                     safe_text(body.name), start, end, most_substeps));
                 }
-                const double rate = rate_of(state, moved, ForceLaw(law), turns, drag, span);
+                const double rate =
+                    rate_of(state, moved, ForceLaw(law), turns, drag, span) +
+                    forces.field_rate(body, state.position, mass.inverse_mass * state.momentum, 0.5 * (start + end));
                 // Divides the rest into equal steps at the present rate; the next step decides anew.
                 const double rest = span - done, count = std::ceil(rest * rate / extrapolation_phase);
                 extrapolation_step(state, moved, ForceLaw(law), count > 1.0 ? rest / count : rest);

@@ -46,7 +46,7 @@ StateVector rate_of_change(const StateVector& y, const RigidMass& mass, const Fo
     const Mat3 rotation = rotation_of(q);
     const Vec3 velocity = mass.inverse_mass * y.segment<3>(7);
     const Vec3 omega = rotation * (mass.inverse_inertia * (rotation.transpose() * y.tail<3>()));
-    const Wrench wrench = forces(velocity, rotation);
+    const Wrench wrench = forces(y.head<3>(), velocity, rotation);
     StateVector rate;
     rate.head<3>() = velocity;
     rate.segment<4>(3) = 0.5 * (Quat(0.0, omega.x(), omega.y(), omega.z()) * q).coeffs();

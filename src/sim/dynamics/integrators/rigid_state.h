@@ -33,22 +33,25 @@ void set_state(Body& body, const RigidState& state);
 /// The rotation matrix of a quaternion of any length: the stages of a step leave the unit sphere a little.
 Mat3 rotation_of(const Quat& q);
 
-/// Force and torque on a body for a velocity and a rotation: Wrench(velocity, rotation) of any callable, which must
-/// outlive it.
+/// Force and torque on a body for a place, a velocity and a rotation: Wrench(position, velocity, rotation) of any
+/// callable, which must outlive it.
 /// Independent of time: a span of time over which forces begin or end is stepped in parts.
 class ForceLaw {
 public:
     template <class Callable>
     explicit ForceLaw(const Callable& law)
-        : law_(&law), call_([](const void* object, const Vec3& velocity, const Mat3& rotation) -> Wrench {
-              return (*static_cast<const Callable*>(object))(velocity, rotation);
+        : law_(&law),
+          call_([](const void* object, const Vec3& position, const Vec3& velocity, const Mat3& rotation) -> Wrench {
+              return (*static_cast<const Callable*>(object))(position, velocity, rotation);
           }) {}
 
-    Wrench operator()(const Vec3& velocity, const Mat3& rotation) const { return call_(law_, velocity, rotation); }
+    Wrench operator()(const Vec3& position, const Vec3& velocity, const Mat3& rotation) const {
+        return call_(law_, position, velocity, rotation);
+    }
 
 private:
     const void* law_;
-    Wrench (*call_)(const void*, const Vec3&, const Mat3&);
+    Wrench (*call_)(const void*, const Vec3&, const Vec3&, const Mat3&);
 };
 
 // The state as a point of R^13 and its rate of change: the interface of general methods for dy/dt = f(y).

@@ -8,8 +8,8 @@ namespace {
 // P and L over h with x and q held, by the midpoint rule: forces that depend on the velocity keep the second order.
 void kick(RigidState& s, const RigidMass& mass, const ForceLaw& forces, double h) {
     const Mat3 rotation = rotation_of(s.orientation);
-    const Vec3 half_way = s.momentum + 0.5 * h * forces(mass.inverse_mass * s.momentum, rotation).force;
-    const Wrench wrench = forces(mass.inverse_mass * half_way, rotation);
+    const Vec3 half_way = s.momentum + 0.5 * h * forces(s.position, mass.inverse_mass * s.momentum, rotation).force;
+    const Wrench wrench = forces(s.position, mass.inverse_mass * half_way, rotation);
     s.momentum += h * wrench.force;
     s.angular_momentum += h * wrench.torque;
 }

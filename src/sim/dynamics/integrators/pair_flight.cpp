@@ -1,0 +1,204 @@
+#include "sim/dynamics/integrators/pair_flight.h"
+
+#include "core/error.h"
+#include "sim/dynamics/integrators/extrapolation.h"
+#include "sim/dynamics/integrators/runge_kutta_4.h"
+#include "sim/dynamics/integrators/splitting.h"
+#include "sim/math/free_rotation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+/// As of one body (advance.cpp): phase, rad, of one step of the tenth-order extrapolation; most steps in a span.
+constexpr double pair_phase = 0.2;
+constexpr int most_pair_steps = 200000;
+
+constexpr Eigen::Index numbers = 13;  // of a state
+
+}  // namespace
+
+// Those that do not fly, at a time.
+void PairFlight::place_others(double time) {
+    const auto index = forces_->pairs().bodies();
+    for (std::size_t k = 0; k < members_.size(); ++k) {
+        if (members_[k].flies) continue;
+        const Body& body = (*bodies_)[index[k]];
+        points_[k] = {body.dynamic() ? body.mass : infinity, body.position + (time - start_) * body.velocity,
+                      body.velocity};
+    }
+}
+
+// The points of the present states, and the forces between them.
+void PairFlight::gather() {
+    for (const std::size_t k : flying_)
+        points_[k] = {points_[k].mass, states_[k].position, masses_[k].inverse_mass * states_[k].momentum};
+    std::fill(pulls_.begin(), pulls_.end(), Vec3::Zero());
+    forces_->pairs().add(points_, middle_, pulls_);
+}
+
+// The rate of change of all states that fly, and of the time, the last number.
+Eigen::VectorXd PairFlight::rates(const Eigen::VectorXd& y) {
+    const auto index = forces_->pairs().bodies();
+    for (std::size_t n = 0; n < flying_.size(); ++n) {
+        const auto state = y.segment<numbers>(numbers * Eigen::Index(n));
+        MassPoint& point = points_[flying_[n]];
+        point.position = state.head<3>();
+        point.velocity = masses_[flying_[n]].inverse_mass * state.segment<3>(7);
+    }
+    place_others(y[y.size() - 1]);
+    std::fill(pulls_.begin(), pulls_.end(), Vec3::Zero());
+    forces_->pairs().add(points_, middle_, pulls_);
+    Eigen::VectorXd rate(y.size());
+    for (std::size_t n = 0; n < flying_.size(); ++n) {
+        const std::size_t k = flying_[n];
+        const auto law = [&](const Vec3& position, const Vec3& velocity, const Mat3& rotation) {
+            Wrench wrench = forces_->alone(index[k], (*bodies_)[index[k]], position, velocity, rotation, middle_);
+            wrench.force += pulls_[k];
+            return wrench;
+        };
+        const Eigen::Index at = numbers * Eigen::Index(n);
+        rate.segment<numbers>(at) = rate_of_change(StateVector(y.segment<numbers>(at)), masses_[k], ForceLaw(law));
+    }
+    rate[y.size() - 1] = 1.0;
+    return rate;
+}
+
+void PairFlight::step(const Span& span, bool exact) {
+    Eigen::VectorXd y(numbers * Eigen::Index(flying_.size()) + 1);
+    for (std::size_t n = 0; n < flying_.size(); ++n)
+        y.segment<numbers>(numbers * Eigen::Index(n)) = vector_of(states_[flying_[n]]);
+    y[y.size() - 1] = span.from;
+    const double h = span.to - span.from;
+    const auto rate = [&](const Eigen::VectorXd& at) { return rates(at); };
+    if (exact) {
+        using namespace extrapolation;
+        constexpr std::array<double, columns> weight = weights(columns);
+        const Eigen::VectorXd first = rate(y);
+        Eigen::VectorXd change = Eigen::VectorXd::Zero(y.size());
+        for (std::size_t k = 0; k < columns; ++k) change += weight[k] * midpoint_change(y, first, h, counts[k], rate);
+        y += change;
+    } else {
+        y = runge_kutta_4(y, h, rate);
+    }
+    for (std::size_t n = 0; n < flying_.size(); ++n)
+        states_[flying_[n]] = state_of(StateVector(y.segment<numbers>(numbers * Eigen::Index(n))));
+}
+
+// As splitting_step(): the midpoint rule for forces that depend on velocities.
+void PairFlight::kick(double h, double time) {
+    const auto index = forces_->pairs().bodies();
+    place_others(time);
+    gather();
+    const std::vector<RigidState> before = states_;
+    for (const double share : {0.5, 1.0}) {
+        for (const std::size_t k : flying_) {
+            const RigidState& s = states_[k];
+            Wrench wrench = forces_->alone(index[k], (*bodies_)[index[k]], s.position,
+                                           masses_[k].inverse_mass * s.momentum, rotation_of(s.orientation), middle_);
+            wrench.force += pulls_[k];
+            RigidState& next = states_[k];
+            next.momentum = before[k].momentum + share * h * wrench.force;
+            if (share == 1.0) next.angular_momentum += h * wrench.torque;
+        }
+        if (share < 1.0) gather();
+    }
+}
+
+void PairFlight::split(const Span& span) {
+    const double h = span.to - span.from;
+    kick(0.5 * h, span.from);
+    for (const std::size_t k : flying_) free_drift(states_[k], masses_[k], h);
+    kick(0.5 * h, span.to);
+}
+
+// Fastest rate at which the motion of the present states changes, 1/s.
+double PairFlight::rate() const {
+    const auto index = forces_->pairs().bodies();
+    double fastest = forces_->pairs().rate(points_, middle_);
+    for (const std::size_t k : flying_) {
+        const Body& body = (*bodies_)[index[k]];
+        double own = forces_->field_rate(body, points_[k].position, points_[k].velocity, middle_) +
+                     forces_->drag_rate(body) * (points_[k].velocity - forces_->wind()).norm();
+        const double most = 1.0 / masses_[k].principal_inertia.minCoeff();
+        if (turns_) own += states_[k].angular_momentum.norm() * most;
+        fastest = std::max(fastest, own);
+    }
+    return fastest;
+}
+
+void PairFlight::exact(const Span& span) {
+    double now = span.from;
+    for (int step_count = 0; now < span.to; ++step_count) {
+        if (step_count == most_pair_steps)
+            throw RunError(
+                fmt::format("the motion of bodies with forces between each other from t = {:.6g} s to "
+                            "{:.6g} s needs more than {} steps: give them a softening, or less strength",
+                            span.from, span.to, most_pair_steps));
+        place_others(now);
+        gather();
+        const double rest = span.to - now, count = std::ceil(rest * rate() / pair_phase);
+        const double end = count > 1.0 ? now + rest / count : span.to;
+        step({now, end, span.middle}, true);
+        if (!(end > now)) break;
+        now = end;
+    }
+}
+
+void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member> members, const ForceField& forces,
+                         double from, double to) {
+    bodies_ = &bodies;
+    forces_ = &forces;
+    members_ = members;
+    start_ = from;
+    states_.resize(members.size());
+    masses_.resize(members.size());
+    points_.assign(members.size(), {});
+    pulls_.assign(members.size(), Vec3::Zero());
+    flying_.clear();
+    bool exactly = false, by_parts = true;
+    const auto index = forces.pairs().bodies();
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        if (!members[k].flies) continue;
+        const Body& body = bodies[index[k]];
+        flying_.push_back(k);
+        states_[k] = members[k].start;
+        masses_[k] = mass_of(body);
+        points_[k].mass = body.mass;
+        exactly = exactly || body.integrator == IntegratorKind::exact;
+        by_parts = by_parts && body.integrator == IntegratorKind::splitting;
+    }
+    for (double now = from; now < to;) {
+        double end = to;
+        turns_ = false;
+        for (const std::size_t k : flying_) end = std::min(end, forces.next_change(index[k], now));
+        middle_ = 0.5 * (now + end);
+        for (const std::size_t k : flying_) turns_ = turns_ || !forces.torque_free(index[k], middle_);
+        const Span span{now, end, middle_};
+        if (exactly) {
+            // Without torques the rotations are in closed form.
+            const std::vector<RigidState> before = states_;
+            if (!turns_)
+                for (const std::size_t k : flying_) states_[k].angular_momentum.setZero();
+            exact(span);
+            for (const std::size_t k : flying_) {
+                if (turns_) continue;
+                states_[k].angular_momentum = before[k].angular_momentum;
+                states_[k].orientation = FreeRotation(masses_[k].principal_inertia, masses_[k].principal_axes,
+                                                      before[k].orientation, before[k].angular_momentum)
+                                             .at(end - now);
+            }
+        } else if (by_parts) {
+            split(span);
+        } else {
+            step(span, false);
+        }
+        now = end;
+    }
+}
+
+}  // namespace tumble

@@ -1,0 +1,112 @@
+#include "sim/fields/place_forces.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tumble {
+namespace {
+
+// The length of r with the softening, m.
+double smoothed(const Vec3& r, double softening) { return std::sqrt(r.squaredNorm() + softening * softening); }
+
+Vec3 force_of(const FieldDescription& f, const MassPoint& body) {
+    const Vec3 r = body.position - f.center;
+    switch (f.type) {
+        case FieldKind::uniform:
+            return body.mass * f.acceleration;
+        case FieldKind::point: {
+            const double d = smoothed(r, f.softening);
+            if (!(d > 0.0)) return Vec3::Zero();
+            return -body.mass * f.strength / (d * d * d) * r;
+        }
+        case FieldKind::vortex: {
+            const Vec3 around = f.axis.cross(r);
+            const double d = smoothed(around, f.softening);
+            if (!(d > 0.0)) return Vec3::Zero();
+            return body.mass * f.strength / (d * d) * around;
+        }
+        case FieldKind::drag: {
+            const Vec3 u = f.velocity - body.velocity;
+            return (f.linear + f.quadratic * u.norm()) * u;
+        }
+    }
+    return Vec3::Zero();
+}
+
+// How fast a body circles or passes the center, or loses its speed, 1/s.
+double rate_of(const FieldDescription& f, const MassPoint& body) {
+    const Vec3 r = body.position - f.center;
+    if (f.type == FieldKind::drag)
+        return (f.linear + 2.0 * f.quadratic * (f.velocity - body.velocity).norm()) / body.mass;
+    if (f.type == FieldKind::uniform) return 0.0;
+    const double d = smoothed(f.type == FieldKind::vortex ? Vec3(f.axis.cross(r)) : r, f.softening);
+    if (!(d > 0.0)) return 0.0;
+    const double power = f.type == FieldKind::point ? d * d * d : d * d;
+    return std::sqrt(std::abs(f.strength) / power) + body.velocity.norm() / d;
+}
+
+bool lasts(const FieldDescription& f) {
+    return f.region.kind == RegionKind::all && f.start <= 0.0 && f.end == infinity;
+}
+
+}  // namespace
+
+PlaceForces::PlaceForces(const std::vector<FieldDescription>& fields, const Vec3& origin) : fields_(fields) {
+    for (FieldDescription& f : fields_) {
+        f.center -= origin;
+        f.region.center -= origin;
+    }
+}
+
+Vec3 PlaceForces::at(const MassPoint& body, double time) const {
+    Vec3 sum = Vec3::Zero();
+    for (const FieldDescription& f : fields_)
+        if (time >= f.start && time < f.end && f.region.contains(body.position)) sum += force_of(f, body);
+    return sum;
+}
+
+Vec3 PlaceForces::mean(const MassPoint& body, double from, double to) const {
+    Vec3 sum = Vec3::Zero();
+    for (const FieldDescription& f : fields_) {
+        const double acts = std::min(to, f.end) - std::max(from, f.start);
+        if (!(acts > 0.0) || !f.region.contains(body.position)) continue;
+        sum += (f.start <= from && f.end >= to ? 1.0 : acts / (to - from)) * force_of(f, body);
+    }
+    return sum;
+}
+
+double PlaceForces::rate(const MassPoint& body, double time) const {
+    double fastest = 0.0;
+    for (const FieldDescription& f : fields_)
+        if (time >= f.start && time < f.end && f.region.contains(body.position))
+            fastest = std::max(fastest, rate_of(f, body));
+    return fastest;
+}
+
+bool PlaceForces::changes(double from, double to) const {
+    return std::any_of(fields_.begin(), fields_.end(), [&](const FieldDescription& f) {
+        return (f.start >= from && f.start < to) || (f.end >= from && f.end < to);
+    });
+}
+
+double PlaceForces::next_change(double time) const {
+    double next = infinity;
+    for (const FieldDescription& f : fields_)
+        for (const double change : {f.start, f.end})
+            if (change > time) next = std::min(next, change);
+    return next;
+}
+
+double PlaceForces::potential(const MassPoint& body) const {
+    double sum = 0.0;
+    for (const FieldDescription& f : fields_) {
+        if (!lasts(f)) continue;
+        if (f.type == FieldKind::uniform) sum -= body.mass * f.acceleration.dot(body.position - f.center);
+        if (f.type != FieldKind::point) continue;
+        const double d = smoothed(body.position - f.center, f.softening);
+        if (d > 0.0) sum -= body.mass * f.strength / d;
+    }
+    return sum;
+}
+
+}  // namespace tumble
