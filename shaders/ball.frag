@@ -21,7 +21,7 @@ vec2 octahedral(vec3 n) {
 }
 
 void main() {
-    vec3 direction = normalize(v_local);
+    vec3 direction = normalize(v_local), normal = direction;
     float open = textureLod(occlusion_atlas, v_tile.xy + octahedral(direction) * v_tile.zw, 0.0).r;
     vec3 diffuse = v_diffuse;
 #ifdef PATTERNED
@@ -39,7 +39,18 @@ void main() {
 #ifdef IMAGE
     vec2 footprint = footprint_on_ball(direction, max(abs(dFdx(direction)), abs(dFdy(direction))), v_second.xy) * v_image;
     vec3 texel = texel_at(mesh_texture, place_on_ball(direction, v_second.xy), log2(max(max(footprint.x, footprint.y), 1e-6)));
+#ifdef WITH_MAPS
+    vec2 images = footprint / v_image;
+    read_maps(place_on_ball(direction, v_second.xy), log2(max(max(images.x, images.y), 1e-9)));
+#ifdef NORMAL_MAP
+    vec3 right = vec3(direction.z, 0.0, -direction.x) * inversesqrt(max(dot(direction.xz, direction.xz), 1e-12));
+    normal = bent_normal(right, cross(direction, right), direction);
+#endif
+#endif
     diffuse = colored(v_color * texel);
 #endif
-    pixel = body_pixel(v_local, direction, diffuse, paint, open, vec2(0.0));
+    pixel = body_pixel(v_local, normal, diffuse, paint, open, vec2(0.0));
+#ifdef TRANSLUCENT
+    pixel_share = vec4(hidden_share(v_glow.w));
+#endif
 }

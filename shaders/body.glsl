@@ -38,8 +38,26 @@ flat in vec2 v_image;               // size of the texture, texels
 #endif
 
 #include "lighting.glsl"
+#ifdef LAMPS
+#include "lights.glsl"
+#endif
+#ifdef GLOWING
+flat in vec4 v_glow;                // emission, linear; opacity
+#endif
+#ifdef TRANSLUCENT
+float mirror_share;                 // set by body_pixel()
+float hidden_share(float opacity) { return mix(opacity, 1.0, mirror_share); }
+layout(location = 0, index = 1) out vec4 pixel_share;   // alpha: share of the background that it hides
+#endif
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP)
+#define MAPPED
+#endif
+#if defined(MAPPED) || defined(EMISSION_MAP)
+#define WITH_MAPS
+#include "surface_maps.glsl"
+#endif
 #include "pattern.glsl"
-#if defined(COLORED) || defined(PAINTED)
+#if defined(COLORED) || defined(PAINTED) || defined(MAPPED)
 #include "material.glsl"
 #endif
 #ifdef TWO_COLORS
@@ -55,10 +73,15 @@ vec3 paint_f0, paint_emission = vec3(0.0);
 #endif
 
 #ifdef COLORED
+#ifdef SURFACE_MAP
+#define METALLIC map_metallic
+#else
+#define METALLIC v_second.w
+#endif
 // The diffuse color of a pixel, with its reflectance beside.
 vec3 colored(vec3 color) {
-    paint_f0 = surface_f0(color, v_second.w);
-    return surface_diffuse(color, v_second.w);
+    paint_f0 = surface_f0(color, METALLIC);
+    return surface_diffuse(color, METALLIC);
 }
 #endif
 
@@ -92,16 +115,33 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
 #else
     surface.f0 = v_f0;
 #endif
+#ifdef MAPPED
+    surface.rough = surface_roughness(map_roughness);
+    surface.veil = surface_veil(map_roughness, map_metallic);
+    open *= map_open;
+#else
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
+#endif
 #ifdef FILTERED
-    surface.lobe = bevel_lobe(v_rough.x, normal, normalize(to_eye + v_to_light), spread, clamp(surface.n_l, 0.0, 1.0),
+    surface.lobe = bevel_lobe(surface.rough.x, normal, normalize(to_eye + v_to_light), spread, clamp(surface.n_l, 0.0, 1.0),
                               clamp(surface.n_v, 1e-3, 1.0));
 #endif
     surface.open = open;
+#ifdef TRANSLUCENT
+    // A smooth surface seen at a low angle mirrors, and shows little of the background.
+    float grazing = 1.0 - clamp(surface.n_v, 0.0, 1.0), smoothness = 1.0 - surface.rough.x;
+    mirror_share = grazing * grazing * grazing * grazing * grazing * smoothness * smoothness;
+#endif
     vec3 light = shade(surface) * paint;
+#ifdef LAMPS
+    light += light_of_lamps(place, normal, to_eye, surface) * paint;
+#endif
 #ifdef PAINTED
     light += paint_emission;
+#endif
+#ifdef GLOWING
+    light += v_glow.rgb;
 #endif
     return vec4(displayed(mix(light, v_air, air)), v_rough.w);
 }

@@ -13,6 +13,17 @@
 uniform sampler2D occlusion_atlas;
 #endif
 
+#ifdef LAMP_LIGHT
+#include "lights_place.glsl"
+#endif
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP) || defined(EMISSION_MAP)
+#define WITH_MAPS
+#include "surface_maps_place.glsl"
+#endif
+#ifdef GLOWING
+flat out vec4 v_glow;               // emission, linear; opacity
+#endif
+
 out vec3 v_air;                     // light of the sky behind the body
 #ifdef SUNLIT
 flat out vec3 v_to_light;
@@ -75,6 +86,9 @@ out vec2 v_uv;
 flat out vec2 v_image;              // size of the texture, texels
 flat out vec3 v_emission;
 flat out vec2 v_surface;            // metallic; least alpha
+#ifdef TRANSLUCENT
+flat out float v_opacity;
+#endif
 #endif
 #ifdef CHARTED
 out vec2 v_texel;                   // place in the AO atlas
@@ -121,6 +135,15 @@ void main() {
     v_image = vec2(textureSize(mesh_texture, 0));
     v_emission = mesh_emission;
     v_surface = vec2(metallic, mesh_surface.z);
+#ifdef TRANSLUCENT
+    v_opacity = mesh_surface.w;
+#endif
+#endif
+#ifdef WITH_MAPS
+    place_maps(roughness, metallic);
+#endif
+#ifdef GLOWING
+    v_glow = instance_glow;
 #endif
     v_diffuse = surface_diffuse(instance_color.rgb, metallic);
     v_f0 = surface_f0(instance_color.rgb, metallic);
@@ -148,6 +171,10 @@ void main() {
     eye = vec3(dot(eye, unit_a), dot(eye, unit_b), dot(eye, outward));
     v_up = vec3(dot(v_up, unit_a), dot(v_up, unit_b), dot(v_up, outward));
     light = vec3(dot(light, unit_a), dot(light, unit_b), dot(light, outward));
+#ifdef LAMP_LIGHT
+    place_lamps(eye, mat3(rotate(instance_orientation, unit_a), rotate(instance_orientation, unit_b),
+                          rotate(instance_orientation, outward)));
+#endif
     vec2 half_size = vec2(dot(size, unit_a), dot(size, unit_b));
     v_on_face = vec2(dot(local, unit_a), dot(local, unit_b));
     // A tile has the center of a texel at each corner of its face. It is a thousandth smaller, so that rounding never
@@ -175,6 +202,10 @@ void main() {
     vec3 lift = rotate(instance_orientation, outward);
 #else
     v_local = local;
+#ifdef LAMP_LIGHT
+    place_lamps(eye, mat3(rotate(instance_orientation, vec3(1.0, 0.0, 0.0)), rotate(instance_orientation, vec3(0.0, 1.0, 0.0)),
+                          rotate(instance_orientation, vec3(0.0, 0.0, 1.0))));
+#endif
 #endif
 #ifdef BALL
     float half_span = max(0.5 * instance_tile.x - 0.501, 0.0);   // a thousandth less, as for boxes

@@ -65,8 +65,18 @@ void main() {
     vec2 along_x = dFdx(v_on_face), along_y = dFdy(v_on_face);
     float level = texture_level((along_x.x * v_image_axes.xy + along_x.y * v_image_axes.zw) * v_image,
                                 (along_y.x * v_image_axes.xy + along_y.y * v_image_axes.zw) * v_image);
+#ifdef WITH_MAPS
+    vec2 right = vec2(v_image_axes.x, v_image_axes.z), down = vec2(v_image_axes.y, v_image_axes.w);
+    read_maps(place, vec2(dot(along_x, right), dot(along_x, down)), vec2(dot(along_y, right), dot(along_y, down)));
+#ifdef NORMAL_MAP
+    normal = bent_normal(vec3(normalize(right), 0.0), vec3(-normalize(down), 0.0), normal);
+#endif
+#endif
     diffuse = colored(v_color * texel_at(mesh_texture, place, level));
 #endif
     float open = textureLod(occlusion_atlas, v_tile.xy + on_face * v_tile.zw, 0.0).r;
     pixel = body_pixel(vec3(on_face, 0.0), normal, diffuse, paint, open, spread);
+#ifdef TRANSLUCENT
+    pixel_share = vec4(hidden_share(v_glow.w));
+#endif
 }

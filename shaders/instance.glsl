@@ -17,8 +17,10 @@ layout(location = 10) in vec2 mesh_texel;             // or place of its texel, 
 // Colors of the mesh's file (struct VertexPaint of scene/description/painted_mesh.h).
 layout(location = 11) in vec2 mesh_uv;
 layout(location = 12) in vec3 mesh_color;            // linear
-layout(location = 13) in vec3 mesh_surface;          // roughness, metallic (below 0: the body's); least alpha
+// roughness, metallic (below 0: the body's); alpha below which is a hole (below 0: alpha multiplies the opacity); opacity
+layout(location = 13) in vec4 mesh_surface;
 layout(location = 14) in vec3 mesh_emission;
+layout(location = 15) in vec4 instance_glow;         // emission, linear; w: opacity
 
 #include "rotate.glsl"
 

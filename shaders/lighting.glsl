@@ -2,6 +2,14 @@
 // shader, llvmpipe reads a uniform lane by lane, with forty instructions each. Constants come as flat outputs of the
 // vertex shader instead, and directions only as the cosines that lighting needs.
 #include "light_constants.glsl"
+#ifdef LAMP_LIGHT
+#ifndef LAMP_VALUE                  // or uniform, in pages
+#define LAMP_VALUE flat in
+#endif
+LAMP_VALUE vec3 v_sun;              // received by a surface facing the sun
+#else
+#define v_sun sun_light
+#endif
 #include "sky.glsl"
 #ifdef SHADOWED
 #include "shadow.glsl"
@@ -96,7 +104,7 @@ vec3 shade(Surface s) {
 #else
     float lobe = min(specular_lobe(s.rough.x, n_h, n_l, n_v), brightest_highlight);
 #endif
-    light += (s.diffuse + fresnel * lobe) * (sun_light * sun);
+    light += (s.diffuse + fresnel * lobe) * (v_sun * sun);
 #endif
 
     vec2 environment = environment_scale(s.rough.x, n_v);

@@ -8,6 +8,9 @@ in vec2 v_uv;
 flat in vec2 v_image;               // size of the texture, texels
 flat in vec3 v_emission;
 flat in vec2 v_surface;             // metallic; least alpha
+#ifdef TRANSLUCENT
+flat in float v_opacity;
+#endif
 
 // The texture at the mip map whose texels have about the size of the pixel: linear light and alpha.
 vec4 painted() {
@@ -35,9 +38,20 @@ void main() {
     vec4 texel = painted();
     if (texel.a < v_surface.y) discard;
     vec3 color = v_paint * texel.rgb;
-    diffuse = surface_diffuse(color, v_surface.x);
-    paint_f0 = surface_f0(color, v_surface.x);
+    float metallic = v_surface.x;
     paint_emission = v_emission;
+#ifdef WITH_MAPS
+    read_maps(v_uv, dFdx(v_uv), dFdy(v_uv));
+    metallic = map_metallic;
+#ifdef NORMAL_MAP
+    normal = bent_normal(v_local, v_uv, normal);
+#endif
+#ifdef EMISSION_MAP
+    paint_emission *= map_emission;
+#endif
+#endif
+    diffuse = surface_diffuse(color, metallic);
+    paint_f0 = surface_f0(color, metallic);
 #endif
 #ifdef TWO_COLORS
     float share = body_share(TWO_COLORS, v_local / v_cells.w, fwidth(v_local) / v_cells.w, normal, vec3(1.0));
@@ -57,4 +71,12 @@ void main() {
 #endif
     open = gl_FrontFacing ? open : 1.0;           // occluders near the outer side do not apply to the inner side
     pixel = body_pixel(v_local, normal, diffuse, paint, open, vec2(0.0));
+#ifdef TRANSLUCENT
+    float share = v_glow.w;
+#ifdef PAINTED
+    share *= v_opacity * (v_surface.y < 0.0 ? texel.a : 1.0);
+    if (share < 0.004) discard;     // less than a level
+#endif
+    pixel_share = vec4(hidden_share(share));
+#endif
 }

@@ -3,6 +3,20 @@
 // the AO radius of bodies; SHADOWED where shadows may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect.
 #define SUNLIT
 #include "lighting.glsl"
+#ifdef LAMPS
+#include "lights.glsl"
+#endif
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP)
+#define MAPPED
+#include "surface_maps.glsl"
+#endif
+#ifdef GLOWING
+flat in vec4 v_glow;
+#endif
+#if defined(NORMAL_MAP) || defined(LAMPS)
+flat in vec4 v_frame;           // see plane.vert
+flat in float v_cell;
+#endif
 #include "pattern.glsl"
 
 flat in vec3 v_fall;            // see plane.vert
@@ -123,17 +137,48 @@ void main() {
 #else
     vec3 color = v_color * texel_at(mesh_texture, vec2(cells.x, -cells.y), texture_level(dFdx(cells) * v_image, dFdy(cells) * v_image));
 #endif
-    surface.diffuse = surface_diffuse(color, v_second.w);
-    surface.f0 = surface_f0(color, v_second.w);
+#ifdef MAPPED
+    read_maps(vec2(cells.x, -cells.y), dFdx(cells), dFdy(cells));
+    float metallic = map_metallic;
+#else
+    float metallic = v_second.w;
 #endif
+    surface.diffuse = surface_diffuse(color, metallic);
+    surface.f0 = surface_f0(color, metallic);
+#endif
+    surface.open = sky_visibility(cells, far);
+#ifdef MAPPED
+    surface.rough = surface_roughness(map_roughness);
+    surface.veil = surface_veil(map_roughness, map_metallic);
+    surface.open *= map_open;
+#else
     surface.rough = v_rough.xy;
     surface.veil = v_rough.z;
-    surface.open = sky_visibility(cells, far);
+#endif
+#if defined(NORMAL_MAP) || defined(LAMPS)
+    // In the axes of the plane.
+    vec3 normal = vec3(0.0, 0.0, 1.0);
+    vec3 to_eye = vec3(-v_cell * here(v_along_u), -v_cell * here(v_along_v), fall) * per_length;
+#endif
+#ifdef NORMAL_MAP
+    normal = map_normal;
+    surface.n_v = dot(normal, to_eye);
+    surface.n_l = dot(normal, vec3(v_frame.xy, v_facing.x));
+    surface.up = dot(normal, vec3(v_frame.zw, v_facing.y));
+#endif
     surface.sun = 1.0;
 #ifdef SHADOWED
     surface.sun = sun_of_plane(far);
 #endif
     float share = fog_share(squared * far * far, v_facing.z);
-    vec3 light = shade(surface) * (1.0 - share) + share * sky(-surface.eye_up, -surface.l_v);
+    vec3 shaded = shade(surface);
+#ifdef LAMPS
+    vec2 along = v_cell * far * vec2(here(v_along_u), here(v_along_v));
+    shaded += light_of_lamps(vec3(along, 0.0), normal, to_eye, surface);
+#endif
+#ifdef GLOWING
+    shaded += v_glow.rgb;
+#endif
+    vec3 light = shaded * (1.0 - share) + share * sky(-surface.eye_up, -surface.l_v);
     pixel = vec4(dithered(displayed(light)), v_facing.w);
 }

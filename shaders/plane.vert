@@ -25,6 +25,20 @@ uniform vec4 other_planes[OTHER_PLANES];   // unit normal and the eye's height a
 uniform float other_ao_radius;                 // m
 #endif
 
+#ifdef LAMP_LIGHT
+#include "lights_place.glsl"
+#endif
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP)
+#include "surface_maps_place.glsl"
+#endif
+#ifdef GLOWING
+uniform vec4 plane_glow;        // linear
+flat out vec4 v_glow;
+#endif
+#if defined(NORMAL_MAP) || defined(LAMPS)
+flat out vec4 v_frame;          // the sun and up along the plane's axes
+flat out float v_cell;          // m, of the plane's coordinates
+#endif
 flat out vec3 v_fall;           // of the view ray, which is 1 along the camera's axis: slope towards the plane,
 flat out vec3 v_along_u;        // displacement along the plane's axes,
 flat out vec3 v_along_v;
@@ -87,6 +101,23 @@ void main() {
 #endif
 #ifdef IMAGE
     v_image = vec2(textureSize(mesh_texture, 0));
+#endif
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP)
+    place_maps(plane_color.w, plane_material.x);
+#endif
+#ifdef GLOWING
+    v_glow = plane_glow;
+#endif
+#if defined(NORMAL_MAP) || defined(LAMP_LIGHT)
+    float per_cell = inversesqrt(dot(plane_u.xyz, plane_u.xyz));
+    vec3 u = plane_u.xyz * per_cell, v = plane_v.xyz * per_cell;
+#endif
+#if defined(NORMAL_MAP) || defined(LAMPS)
+    v_frame = vec4(dot(u, to_light.xyz), dot(v, to_light.xyz), u.y, v.y);
+    v_cell = per_cell;
+#endif
+#ifdef LAMP_LIGHT
+    place_lamps(vec3(0.0, 0.0, plane_normal.w), mat3(u, v, plane_normal.xyz));
 #endif
     v_rough = vec3(surface_roughness(plane_color.w), surface_veil(plane_color.w, plane_material.x));
 #ifdef OCCLUDED

@@ -3,6 +3,15 @@
 #include "instance.glsl"
 
 uniform int far_map;
+#ifdef SIEVED
+flat out float v_shade;
+#ifdef PAINTED
+uniform sampler2D mesh_texture;
+out vec2 v_uv;
+flat out vec2 v_image;
+flat out float v_hole;
+#endif
+#endif
 
 void main() {
     vec3 p = placed(mesh_position * instance_scale.xyz);
@@ -10,4 +19,13 @@ void main() {
                    dot(shadow_z.xyz, p) + shadow_z.w);
     if (far_map != 0) at.xy = at.xy * shadow_far.x + shadow_far.yz;
     gl_Position = vec4(2.0 * at - 1.0, 1.0);
+#ifdef SIEVED
+    v_shade = instance_glow.w;
+#ifdef PAINTED
+    v_shade *= mesh_surface.w;
+    v_uv = mesh_uv;
+    v_image = vec2(textureSize(mesh_texture, 0));
+    v_hole = mesh_surface.z;
+#endif
+#endif
 }

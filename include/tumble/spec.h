@@ -216,7 +216,11 @@ struct Material {
     std::optional<std::string> texture = {};    // PNG or JPEG file, relative to SceneSpec::folder
     std::optional<double> texture_scale = {};   // m that the image covers once
     std::optional<TextureFilter> texture_filter = {};
-    std::optional<SoundMaterial> sound = {};  // of the body with --sound; wood where not given
+    std::optional<std::string> normal_map = {};     // image file: bumps
+    std::optional<std::string> roughness_map = {};  // image file, multiplies the roughness
+    std::optional<double> opacity = {};             // 0 to 1
+    std::optional<Color> emission = {};             // own light
+    std::optional<SoundMaterial> sound = {};        // of the body with --sound; wood where not given
 };
 
 /// A pose of a kinematic body's origin.

@@ -23,11 +23,17 @@ double stated(float value, double of_body) { return value == MeshMaterial::of_bo
 
 Json color_json(const std::array<float, 3>& color) { return {double(color[0]), double(color[1]), double(color[2])}; }
 
-Image picture_of(const Texture& texture) {
+/// `coded`: the texels are square roots of light.
+Image picture_of(const Texture& texture, bool coded) {
     Image image(texture.levels[0].width, texture.levels[0].height);
     for (int y = 0; y < image.height; ++y)
         for (int x = 0; x < image.width; ++x) {
             const std::array<float, 4> texel = texture.texel(0, x, y);
+            const auto& bytes = texture.levels[0].texels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+            if (!coded) {
+                std::copy(bytes.begin(), bytes.end(), image.at(x, y));
+                continue;
+            }
             for (std::size_t c = 0; c < 3; ++c)
                 image.at(x, y)[c] = std::uint8_t(std::lround(255.0 * linear_to_srgb(double(texel[c]))));
             image.at(x, y)[3] = std::uint8_t(std::lround(255.0 * double(texel[3])));
@@ -70,7 +76,8 @@ Json PaintedMeshes::primitive(const MeshAsset& asset, const MeshPaint& paint, st
     constexpr auto vertices = GlbBuffer::Use::vertices;
     Json attributes{{"POSITION", buffer_.add(positions, 3, vertices, true)},
                     {"NORMAL", buffer_.add(normals, 3, vertices, false)}};
-    if (paint.materials[material].texture) attributes["TEXCOORD_0"] = buffer_.add(places, 2, vertices, false);
+    const MeshMaterial& look = paint.materials[material];
+    if (look.texture || look.maps.bits() != 0) attributes["TEXCOORD_0"] = buffer_.add(places, 2, vertices, false);
     const bool colored = std::ranges::any_of(colors, [](float channel) { return channel != 1.0f; });
     if (colored) attributes["COLOR_0"] = buffer_.add(colors, 3, vertices, false);
     return {{"attributes", std::move(attributes)}, {"indices", buffer_.add(indices)}};
@@ -80,18 +87,41 @@ Json PaintedMeshes::material(const MeshMaterial& material, const Appearance& loo
     Json surface{{"baseColorFactor", color_json(material.color)},
                  {"metallicFactor", stated(material.metallic, look.metallic)},
                  {"roughnessFactor", stated(material.roughness, look.roughness)}};
-    surface["baseColorFactor"].push_back(1.0);
-    if (material.texture) surface["baseColorTexture"] = {{"index", texture(material)}};
+    surface["baseColorFactor"].push_back(double(material.opacity) * look.opacity);
+    if (material.texture)
+        surface["baseColorTexture"] = {{"index", texture(*material.texture, Content::color, material)}};
+    const SurfaceMaps& maps = material.maps;
+    const auto map = [&](const SurfaceMaps::Map& image) {
+        return Json{{"index", texture(*image, Content::numbers, material)}};
+    };
+    if (maps.surface) surface["metallicRoughnessTexture"] = map(maps.surface);
     Json json{{"pbrMetallicRoughness", std::move(surface)}};
-    if (material.emission != std::array<float, 3>{}) json["emissiveFactor"] = color_json(material.emission);
-    if (material.has_holes()) {
+    if (maps.surface) json["occlusionTexture"] = map(maps.surface);
+    if (maps.normal) json["normalTexture"] = map(maps.normal);
+    std::array<double, 3> light = to_linear(look.emission);
+    for (std::size_t c = 0; c < 3; ++c) light[c] += double(material.emission[c]);
+    add_emission(light, json);
+    if (maps.emission) json["emissiveTexture"] = {{"index", texture(*maps.emission, Content::color, material)}};
+    if (look.opacity < 1.0 || material.translucent()) {
+        json["alphaMode"] = "BLEND";
+    } else if (material.has_holes()) {
         json["alphaMode"] = "MASK";
         json["alphaCutoff"] = double(material.cutoff);
     }
     return json;
 }
 
-std::size_t PaintedMeshes::texture(const MeshMaterial& material) {
+void PaintedMeshes::add_emission(const std::array<double, 3>& light, Json& material) {
+    const double most = *std::ranges::max_element(light);
+    if (!(most > 0.0)) return;
+    const double strength = std::max(most, 1.0);
+    material["emissiveFactor"] = {light[0] / strength, light[1] / strength, light[2] / strength};
+    if (strength == 1.0) return;
+    bright_ = true;
+    material["extensions"]["KHR_materials_emissive_strength"] = {{"emissiveStrength", strength}};
+}
+
+std::size_t PaintedMeshes::texture(const Texture& of, Content content, const MeshMaterial& material) {
     const auto [sampler, new_sampler] =
         sampler_of_.try_emplace({material.wrap_u, material.wrap_v, material.nearest}, samplers_.size());
     if (new_sampler)
@@ -99,17 +129,18 @@ std::size_t PaintedMeshes::texture(const MeshMaterial& material) {
                              {"minFilter", material.nearest ? nearest_mip_linear : linear_mip_linear},
                              {"wrapS", wrap_number(material.wrap_u)},
                              {"wrapT", wrap_number(material.wrap_v)}});
-    const auto [entry, is_new] = texture_of_.try_emplace({image(*material.texture), sampler->second}, textures_.size());
+    const auto [entry, is_new] = texture_of_.try_emplace({image(of, content), sampler->second}, textures_.size());
     if (is_new) textures_.push_back({{"source", entry->first.first}, {"sampler", entry->first.second}});
     return entry->second;
 }
 
-std::size_t PaintedMeshes::image(const Texture& texture) {
+std::size_t PaintedMeshes::image(const Texture& texture, Content content) {
     const auto [entry, is_new] = image_of_.try_emplace(&texture, images_.size());
     if (is_new) {
         PngEncoder encoder(texture.least_alpha < 255 ? PngAlpha::kept : PngAlpha::dropped);
         images_.push_back(
-            {{"bufferView", buffer_.add_bytes(encoder.encode(picture_of(texture)))}, {"mimeType", "image/png"}});
+            {{"bufferView", buffer_.add_bytes(encoder.encode(picture_of(texture, content == Content::color)))},
+             {"mimeType", "image/png"}});
     }
     return entry->second;
 }

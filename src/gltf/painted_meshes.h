@@ -19,16 +19,24 @@ public:
     /// state. Materials are appended to `materials`.
     Json primitives(const MeshAsset& asset, const MeshPaint& paint, const Appearance& look, Json& materials);
 
+    /// True if a material is brighter than white, which takes an extension.
+    bool bright() const { return bright_; }
+    /// The emission of a material, which is of linear light.
+    void add_emission(const std::array<double, 3>& light, Json& material);
+
     /// Adds textures, samplers and images to the file's root, if there are any.
     void finish(Json& root) const;
 
 private:
     Json primitive(const MeshAsset& asset, const MeshPaint& paint, std::uint32_t material);
     Json material(const MeshMaterial& material, const Appearance& look);
-    std::size_t texture(const MeshMaterial& material);
-    std::size_t image(const Texture& texture);
+    /// The index of the texture of one of the images of a material.
+    enum class Content { color, numbers };
+    std::size_t texture(const Texture& image, Content content, const MeshMaterial& material);
+    std::size_t image(const Texture& texture, Content content);
 
     GlbBuffer& buffer_;
+    bool bright_ = false;
     Json textures_ = Json::array(), samplers_ = Json::array(), images_ = Json::array();
     std::map<const Texture*, std::size_t> image_of_;  // only looked up: their order has no effect
     std::map<std::tuple<TextureWrap, TextureWrap, bool>, std::size_t> sampler_of_;

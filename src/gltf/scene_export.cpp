@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -43,9 +44,9 @@ private:
         std::size_t mesh;
         Vec3 scale;
     };
-    using MaterialKey = std::tuple<int, int, int, double, double>;
-    using TexturedKey =
-        std::tuple<std::tuple<const Texture*, std::size_t, double, double, double, double>, MaterialKey, TextureFilter>;
+    using MaterialKey = std::tuple<int, int, int, double, double, double, std::array<double, 3>>;
+    using TexturedKey = std::tuple<std::tuple<const Texture*, std::size_t, double, double, double, double>,
+                                   std::array<const Texture*, 2>, MaterialKey, TextureFilter>;
 
     void add_body(std::size_t index);
     Json shape_node(const BodyDescription& body, const Shape& shape, const Appearance& look, const Vec3& place,
@@ -54,6 +55,9 @@ private:
     Placed unit(std::optional<Geometry>& geometry, Triangles (*make)(), const Appearance& look, const Vec3& scale);
     std::size_t mesh(const Geometry& geometry, const Appearance& look);
     std::size_t material(const Appearance& look);
+    static MaterialKey key_of(Color color, const Appearance& look) {
+        return {color.r, color.g, color.b, look.roughness, look.metallic, look.opacity, to_linear(look.emission)};
+    }
     Geometry add_triangles(const Triangles& triangles);
     Geometry asset(const MeshAsset& asset);
     Placed textured(const Shape& shape, const Triangles& unit, const Vec3& scale, const Appearance& look);
@@ -61,6 +65,7 @@ private:
     Triangles patch(const BodyDescription& body, const PlaneShape& plane);
     void add_camera();
     void add_light();
+    void add_lamps();
     std::size_t add_node(Json node);
     void set_pose(Json& node, const PoseKeys& keys) const;
     void animate(std::size_t node, const PoseKeys& keys);
@@ -71,6 +76,7 @@ private:
     const GltfExport& source_;
     const SceneDescription& scene_;
     GlbBuffer buffer_;
+    Json lights_ = Json::array();
     Json nodes_ = Json::array(), meshes_ = Json::array(), materials_ = Json::array();
     Json samplers_ = Json::array(), channels_ = Json::array(), top_ = Json::array();
     std::optional<Geometry> box_, sphere_;
@@ -78,8 +84,8 @@ private:
     std::map<std::pair<std::size_t, std::size_t>, std::size_t> mesh_of_;  // by positions and material
     std::map<MaterialKey, std::size_t> material_of_;
     PaintedMeshes painted_meshes_{buffer_};
-    std::map<std::tuple<const MeshAsset*, double, double>, std::size_t> painted_of_;  // only looked up
-    std::map<TexturedKey, std::size_t> textured_of_;                                  // only looked up
+    std::map<std::pair<const MeshAsset*, MaterialKey>, std::size_t> painted_of_;  // only looked up
+    std::map<TexturedKey, std::size_t> textured_of_;                              // only looked up
 };
 
 std::size_t SceneWriter::add_node(Json node) {
@@ -140,15 +146,15 @@ SceneWriter::Placed SceneWriter::placed(const BodyDescription& body, const Shape
         const BodyDescription& body;
         const Appearance& look;
         Placed operator()(const BoxShape& box) {
-            if (look.texture) return writer.textured(box, unit_box(), box.size, look);
+            if (look.has_image()) return writer.textured(box, unit_box(), box.size, look);
             return writer.unit(writer.box_, unit_box, look, box.size);
         }
         Placed operator()(const SphereShape& ball) {
-            if (look.texture) return writer.textured(ball, unit_sphere(), Vec3::Constant(ball.radius), look);
+            if (look.has_image()) return writer.textured(ball, unit_sphere(), Vec3::Constant(ball.radius), look);
             return writer.unit(writer.sphere_, unit_sphere, look, Vec3::Constant(ball.radius));
         }
         Placed operator()(const PlaneShape& plane) {
-            if (look.texture) return writer.textured(plane, writer.patch(body, plane), Vec3::Ones(), look);
+            if (look.has_image()) return writer.textured(plane, writer.patch(body, plane), Vec3::Ones(), look);
             return {writer.mesh(writer.add_triangles(writer.patch(body, plane)), look), Vec3::Ones()};
         }
         Placed operator()(const MeshShape& shape) {
@@ -185,14 +191,16 @@ std::size_t SceneWriter::mesh(const Geometry& geometry, const Appearance& look) 
 
 std::size_t SceneWriter::material(const Appearance& look) {
     const Color mean = mean_color(look);
-    const MaterialKey key{mean.r, mean.g, mean.b, look.roughness, look.metallic};
+    const MaterialKey key = key_of(mean, look);
     const auto [place, is_new] = material_of_.try_emplace(key, materials_.size());
     if (is_new) {
         const std::array<double, 3> color = to_linear(mean);
-        materials_.push_back({{"pbrMetallicRoughness",
-                               {{"baseColorFactor", {color[0], color[1], color[2], 1.0}},
-                                {"metallicFactor", look.metallic},
-                                {"roughnessFactor", look.roughness}}}});
+        Json& made = materials_.emplace_back(Json{{"pbrMetallicRoughness",
+                                                   {{"baseColorFactor", {color[0], color[1], color[2], look.opacity}},
+                                                    {"metallicFactor", look.metallic},
+                                                    {"roughnessFactor", look.roughness}}}});
+        painted_meshes_.add_emission(to_linear(look.emission), made);
+        if (look.opacity < 1.0) made["alphaMode"] = "BLEND";
     }
     return place->second;
 }
@@ -215,7 +223,7 @@ SceneWriter::Geometry SceneWriter::asset(const MeshAsset& asset) {
 }
 
 std::size_t SceneWriter::painted(const MeshAsset& asset, const MeshPaint& paint, const Appearance& look) {
-    const auto [entry, is_new] = painted_of_.try_emplace({&asset, look.roughness, look.metallic}, meshes_.size());
+    const auto [entry, is_new] = painted_of_.try_emplace({&asset, key_of(look.color, look)}, meshes_.size());
     if (is_new) meshes_.push_back({{"primitives", painted_meshes_.primitives(asset, paint, look, materials_)}});
     return entry->second;
 }
@@ -224,7 +232,8 @@ std::size_t SceneWriter::painted(const MeshAsset& asset, const MeshPaint& paint,
 SceneWriter::Placed SceneWriter::textured(const Shape& shape, const Triangles& unit, const Vec3& scale,
                                           const Appearance& look) {
     const TexturedKey key{{look.texture.get(), shape.index(), scale.x(), scale.y(), scale.z(), look.texture_scale},
-                          {look.color.r, look.color.g, look.color.b, look.roughness, look.metallic},
+                          {look.normal_map.get(), look.roughness_map.get()},
+                          key_of(look.color, look),
                           look.texture_filter};
     const bool shared = !endless(shape);  // planes differ by their direction too
     if (const auto known = textured_of_.find(key); shared && known != textured_of_.end())
@@ -262,10 +271,31 @@ void SceneWriter::add_camera() {
 }
 
 void SceneWriter::add_light() {
+    if (!scene_.lamps.empty()) return add_lamps();
     const Quat rotation = rotation_between(-Vec3::UnitZ(), scene_.light.direction);
+    lights_.push_back({{"type", "directional"}, {"intensity", light_intensity}});
     top_.push_back(add_node({{"name", "light"},
                              {"rotation", quaternion_json(rotation.coeffs())},
                              {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}}));
+}
+
+/// Points and spots of intensity 1 light a surface at 1 m as a sun of intensity 1 does.
+void SceneWriter::add_lamps() {
+    for (const LampDescription& lamp : scene_.lamps) {
+        const std::array<double, 3> color = to_linear(lamp.color);
+        constexpr const char* types[] = {"directional", "point", "spot"};
+        Json light{{"type", types[int(lamp.type)]},
+                   {"color", {color[0], color[1], color[2]}},
+                   {"intensity", light_intensity * lamp.intensity}};
+        if (lamp.type == LightType::spot) light["spot"] = {{"outerConeAngle", 0.5 * lamp.angle * pi / 180.0}};
+        Json node{{"name", "light " + std::to_string(lights_.size())},
+                  {"extensions", {{"KHR_lights_punctual", {{"light", lights_.size()}}}}}};
+        if (lamp.type != LightType::point)
+            node["rotation"] = quaternion_json(rotation_between(-Vec3::UnitZ(), lamp.direction).coeffs());
+        if (lamp.type != LightType::sun) node["translation"] = vector_json(lamp.position);
+        lights_.push_back(std::move(light));
+        top_.push_back(add_node(std::move(node)));
+    }
 }
 
 void SceneWriter::animate(std::size_t node, const PoseKeys& keys) {
@@ -309,9 +339,7 @@ Json SceneWriter::root() const {
                   {"errors",
                    "m and rad, of the keys (single precision) against the simulation at momentsPerSecond moments"}}}}},
               {"extensionsUsed", {"KHR_lights_punctual"}},
-              {"extensions",
-               {{"KHR_lights_punctual",
-                 {{"lights", Json::array({{{"type", "directional"}, {"intensity", light_intensity}}})}}}}},
+              {"extensions", {{"KHR_lights_punctual", {{"lights", lights_}}}}},
               {"scene", 0},
               {"scenes", Json::array({scene})},
               {"nodes", nodes_},
@@ -324,6 +352,7 @@ Json SceneWriter::root() const {
         root["meshes"] = meshes_;
         root["materials"] = materials_;
         painted_meshes_.finish(root);
+        if (painted_meshes_.bright()) root["extensionsUsed"].push_back("KHR_materials_emissive_strength");
     }
     if (!channels_.empty())
         root["animations"] = Json::array({{{"name", "motion"}, {"samplers", samplers_}, {"channels", channels_}}});

@@ -51,7 +51,7 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
             {"settings", settings_json(run)},
             {"bodies", make_bodies(run, meshes)},
             {"cords", make_cords(run)},
-            {"light", {{"direction", vector_json(run.scene.light.direction)}, {"shadows", run.scene.light.shadows}}},
+            {"light", make_light(run)},
             {"camera", make_camera(run, arrays)},
             {"motion", std::move(motion.json)},
             {"energy", make_energy_data(run, arrays)},

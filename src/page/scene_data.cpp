@@ -1,7 +1,9 @@
 #include "page/scene_data.h"
 
+#include "core/deterministic_math.h"
 #include "overlay/overlay_builder.h"
 #include "page/prediction.h"
+#include "scene/description/lamps.h"
 #include "scene/description/looks.h"
 #include "scene/description/painted_mesh.h"
 #include "scene/fields/body_fields.h"
@@ -108,14 +110,23 @@ Json image_json(const Texture& texture, bool with_alpha, ArrayStore& arrays) {
 
 /// The texture and its wrapping. Null without one.
 Json texture_json(const MeshMaterial& material, ArrayStore& arrays) {
-    if (!material.texture) return nullptr;
-    Json json = image_json(*material.texture, material.has_holes(), arrays);
+    if (!material.texture && material.maps.bits() == 0 && !material.translucent()) return nullptr;
+    const bool with_alpha = material.has_holes() || material.blends;
+    const Texture white{{{1, 1, {{255, 255, 255, 255}}}}, 255};
+    Json json = image_json(material.texture ? *material.texture : white, with_alpha, arrays);
     const auto name = [](TextureWrap wrap) {
         return wrap == TextureWrap::repeat ? "repeat" : wrap == TextureWrap::mirror ? "mirror" : "clamp";
     };
     json["wrap"] = {name(material.wrap_u), name(material.wrap_v)};
     json["nearest"] = material.nearest;
     json["cutoff"] = material.has_holes() ? material.cutoff : 0.0f;
+    const auto add = [&](const char* key, const SurfaceMaps::Map& map) {
+        if (map) json[key] = image_json(*map, false, arrays);
+    };
+    add("normal_map", material.maps.normal);
+    add("surface_map", material.maps.surface);
+    add("emission_map", material.maps.emission);
+    if (material.translucent()) json["opacity"] = material.opacity;
     return json;
 }
 
@@ -226,6 +237,14 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
             one["texture"] = {{"image", meshes.index_of(*look.texture)},
                               {"scale", look.texture_scale},
                               {"nearest", look.texture_filter == TextureFilter::nearest}};
+        if (look.normal_map) one["normal_map"] = meshes.index_of(*look.normal_map);
+        if (look.roughness_map) one["roughness_map"] = meshes.index_of(*look.roughness_map);
+        if (!look.texture && look.has_image())
+            one["texture"] = {{"image", nullptr},
+                              {"scale", look.texture_scale},
+                              {"nearest", look.texture_filter == TextureFilter::nearest}};
+        if (look.opacity < 1.0) one["opacity"] = look.opacity;
+        if (look.emission != Color{0, 0, 0}) one["emission"] = to_string(look.emission);
         one["mass"] = dynamic ? report.mass : 0.0;
         one["inertia"] = inertia_json(dynamic ? report.inertia : Mat3(Mat3::Zero()));
         one["center_of_mass"] = vector_json(report.center_of_mass);
@@ -233,6 +252,27 @@ Json make_bodies(const PageRun& run, MeshTable& meshes) {
         one["friction"] = surface_json(body.friction_in_pair());
     }
     return bodies;
+}
+
+Json make_light(const PageRun& run) {
+    const SceneDescription& scene = run.scene;
+    Json json{{"direction", vector_json(scene.light.direction)}, {"shadows", scene.light.shadows}};
+    if (scene.lamps.empty()) return json;
+    const auto light_json = [](const std::array<double, 3>& light) { return Json{light[0], light[1], light[2]}; };
+    const auto sun = main_sun(scene.lamps);
+    json["color"] = light_json(sun ? strength_of(scene.lamps[*sun]) : std::array<double, 3>{});
+    json["others"] = Json::array();
+    for (std::size_t i = 0; i < scene.lamps.size(); ++i) {
+        const LampDescription& lamp = scene.lamps[i];
+        if (i == sun) continue;
+        json["others"].push_back(
+            {{"kind", int(lamp.type)},
+             {"place", vector_json(lamp.type == LightType::sun ? Vec3(-lamp.direction) : lamp.position)},
+             {"light", light_json(strength_of(lamp))},
+             {"axis", vector_json(lamp.direction)},
+             {"cosine", sincos(0.5 * lamp.angle * pi / 180.0).cos}});
+    }
+    return json;
 }
 
 Json make_cords(const PageRun& run) {

@@ -27,6 +27,7 @@ private:
 };
 
 ArrayStore::Json make_bodies(const PageRun& run, MeshTable& meshes);
+ArrayStore::Json make_light(const PageRun& run);
 ArrayStore::Json make_cords(const PageRun& run);
 ArrayStore::Json make_camera(const PageRun& run, ArrayStore& arrays);
 ArrayStore::Json make_overlays(const PageRun& run);

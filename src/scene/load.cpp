@@ -69,7 +69,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.file = file.string();
     root.read("title", scene.title);
     read_run_settings(root, overrides, scene.simulation, scene.output);
-    scene.light = read_light(root);
+    read_lights(root, scene);
     scene.wind = read_wind(root);
     scene.contact = read_contact(root);
     MeshCache meshes(imports, std::move(supplied));

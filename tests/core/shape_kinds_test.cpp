@@ -47,6 +47,7 @@ const std::map<std::string, std::string> known = {
     // Compounds are taken apart; the data of meshes is shared.
     {"app/cli/run_notes.cpp", "meshes: the source of their mass"},
     {"overlay/overlay_painter.cpp", "parts of compounds"},
+    {"render/aov/visibility_buffer.cpp", "meshes: holes of their textures"},
     {"render/aov/shape_instance.cpp", "parts of compounds; copies share their mesh"},
     {"render/scene/compound_expansion.cpp", "parts of compounds"},
     {"scene/keys/instances.cpp", "makes a compound of one sphere"},

@@ -26,7 +26,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         TUMBLE_CHECK_EQ(texture->levels.back().texels.size(), std::size_t(1));
         for (const auto& texel : texture->levels.front().texels)
             TUMBLE_CHECK_EQ(texel[3] >= texture->least_alpha, true);
-        for (const float mean : tumble::mean_of_image(bytes, "")) TUMBLE_CHECK_EQ(mean >= 0.0f && mean <= 1.0f, true);
+        const auto map = tumble::make_map(bytes, "", texels);
+        TUMBLE_CHECK_EQ(map->levels.size(), texture->levels.size());
+        TUMBLE_CHECK_EQ(tumble::normals_of_heights(*map, 1.0f)->levels.size(), map->levels.size());
     } catch (const tumble::MeshError&) {
     }
     return 0;

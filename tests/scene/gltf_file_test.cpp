@@ -1,5 +1,7 @@
 // glTF files: supported content, errors, and the other files that they may open.
 #include "mesh_files.h"
+#include "support/tiny_png.h"
+
 #include "scene/mesh/mesh_loader.h"
 
 #include <draco/compression/encode.h>
@@ -366,6 +368,50 @@ TEST_F(Gltf, AMeshThatDracoCompressedIsTheSameMesh) {
     EXPECT_NEAR(made.closedness.signed_volume, 1.0 / 6.0, 1e-12);
     document.views = R"([{"buffer":0,"byteLength":20}])";
     EXPECT_TRUE(error_of(document).starts_with("has a mesh that Draco cannot read: "));
+}
+
+TEST_F(Gltf, MaterialsHaveTheMapsOfTheirImages) {
+    write("tiny.png", tiny_png());  // red, green; blue, white
+    Document document;
+    document.primitives = R"([{"attributes":{"POSITION":0,"TEXCOORD_0":0},"indices":1,"material":0}])";
+    const auto material = [&](const std::string& emission) {
+        document.more = R"(,"images":[{"uri":"tiny.png"}],"textures":[{"source":0}],"materials":[{
+            "pbrMetallicRoughness":{"roughnessFactor":0.5,"metallicRoughnessTexture":{"index":0},
+                                    "baseColorFactor":[1,1,1,0.25]},
+            "normalTexture":{"index":0},"occlusionTexture":{"index":0,"strength":0.5},
+            "emissiveFactor":[1,0.5,0],"alphaMode":"BLEND","emissiveTexture":)" +
+                        emission + "}]";
+        return loaded(document).asset->paint;
+    };
+    using Texel = std::array<std::uint8_t, 4>;
+    const auto paint = material(R"({"index":0})");
+    const MeshMaterial& one = paint->materials[0];
+    EXPECT_EQ(one.maps.surface->levels[0].texels[0], (Texel{255, 0, 0, 255}));
+    EXPECT_EQ(one.maps.surface->levels[0].texels[1], (Texel{128, 255, 0, 255}));  // half of the occlusion
+    EXPECT_EQ(one.maps.normal->levels[0].texels[2], (Texel{0, 0, 255, 255}));
+    EXPECT_EQ(one.maps.emission->levels[0].texels[1], (Texel{0, 255, 0, 255}));
+    EXPECT_EQ(one.emission, (std::array{1.0f, 0.5f, 0.0f}));
+    EXPECT_EQ(one.roughness, 0.5f);
+    EXPECT_EQ(one.opacity, 0.25f);
+    EXPECT_TRUE(one.translucent());
+
+    const auto elsewhere = material(R"({"index":0,"texCoord":1})");
+    EXPECT_EQ(elsewhere->materials[0].maps.emission, nullptr);
+    EXPECT_EQ(elsewhere->materials[0].emission, (std::array{0.0f, 0.0f, 0.0f}));
+    EXPECT_EQ(elsewhere->missing_images.size(), 1u);
+}
+
+TEST_F(Gltf, ObjMaterialsHaveBumpsAndOpacity) {
+    write("tiny.png", tiny_png());
+    write("a.mtl", "newmtl glass\nKd 1 1 1\nd 0.5\nmap_Bump -bm 0.5 tiny.png\nmap_Ke tiny.png\n");
+    const LoadedMesh mesh = load_mesh(write("a.obj",
+                                            "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nusemtl glass\n"
+                                            "f 1/1 3/1 2/1\nf 1/1 2/1 4/1\nf 1/1 4/1 3/1\nf 2/1 3/1 4/1\n"));
+    const MeshMaterial& glass = mesh.asset->paint->materials[0];
+    EXPECT_EQ(glass.opacity, 0.5f);
+    EXPECT_NE(glass.maps.normal, nullptr);
+    EXPECT_NE(glass.maps.emission, nullptr);
+    EXPECT_EQ(glass.emission, (std::array{1.0f, 1.0f, 1.0f}));
 }
 
 TEST_F(Gltf, SkinsAndMorphTargetsAreInTheirRestPose) {

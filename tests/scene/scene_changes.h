@@ -12,8 +12,11 @@ struct Change {
     bool motion;  // it changes the motion too
 };
 
-/// The key of a texture: an image of the repository.
-inline std::string texture_line() { return "texture = \"" TUMBLE_SOURCE_DIR "/tests/fuzz/corpus/texture/rgb.png\"\n"; }
+/// A key of an image, of the repository.
+inline std::string image_line(const std::string& key) {
+    return key + " = \"" TUMBLE_SOURCE_DIR "/tests/fuzz/corpus/texture/rgb.png\"\n";
+}
+inline std::string texture_line() { return image_line("texture"); }
 
 /// Lines of a scene with bodies "ball", "table" and "cloud.0" to "cloud.2", and a change of each key of
 /// joints.

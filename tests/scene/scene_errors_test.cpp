@@ -229,6 +229,12 @@ TEST(SceneErrors, OfMaterials) {
         {"format = 1\n[materials.wood]\ntexture = @\"\"", "texture must not be empty"},
         {"format = 1\n[materials.wood]\ntexture = @\"missing.png\"", "texture \"missing.png\" does not exist"},
         {"format = 1\n[materials.wood]\ntexture = @\".\"", "texture \".\" "},
+        {"format = 1\n[materials.wood]\nnormal_map = @\"missing.png\"", "normal_map \"missing.png\" does not exist"},
+        {"format = 1\n[materials.wood]\nroughness_map = @\"/dev/null\"", "roughness_map \"/dev/null\" "},
+        {"format = 1\n[materials.wood]\nnormal_map = @\"" TUMBLE_SOURCE_DIR "/web/test/surfaces/gloss.png\"",
+         "is gray: a normal map has directions as colors"},
+        {"format = 1\n[materials.wood]\nopacity = @1.5", "opacity must be from 0 to 1 (given 1.5)"},
+        {"format = 1\n[materials.wood]\nemission = @\"red\"", "emission must be a color"},
         {"format = 1\n[materials.wood]\ntexture_filter = @\"cubic\"",
          "texture_filter must be one of \"linear\", \"nearest\""},
         {"format = 1\n[materials.wood]\npattern = @\"wood\"\ntexture = \"wood.png\"",
@@ -238,6 +244,22 @@ TEST(SceneErrors, OfMaterials) {
         {body("material = @\"wod\""), "material \"wod\" is not among the materials (did you mean \"wood\"?)"},
         {body("material = @\"rubber\""), "material \"rubber\" is not among the materials (known: \"steel\", \"wood\")"},
         {body("material = @3"), "material must be a string (given 3)"},
+    });
+}
+
+TEST(SceneErrors, OfLights) {
+    expect_errors({
+        {"format = 1\n[[light]]\ntype = @\"lamp\"", "type must be one of \"sun\", \"point\", \"spot\""},
+        {"format = 1\n@[[light]]\ntype = \"point\"", "position"},
+        {"format = 1\n[[light]]\nposition = @[0, 1, 0]", "position has no effect on a sun light"},
+        {"format = 1\n[[light]]\nangle = @30", "angle has no effect on a sun light"},
+        {"format = 1\n[[light]]\nintensity = @-1", "intensity must be from 0 to 1000000 (given -1)"},
+        {"format = 1\n[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nshadows = @true",
+         "shadows is only for suns: a spot light has no shadows"},
+        {"format = 1\n[[light]]\nshadows = true\n[[light]]\nshadows = @true",
+         "shadows is on for a light already: each shadow map would cost 6 ms"},
+        {"format = 1\n[[light]]\n[[light]]\n[[light]]\n[[light]]\n@[[light]]", "a scene has 4 lights at most"},
+        {"format = 1\n[light]\n@intensity = 2", "unknown key \"intensity\""},
     });
 }
 

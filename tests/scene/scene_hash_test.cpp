@@ -23,6 +23,9 @@ namespace fs = std::filesystem;
 const fs::path source = TUMBLE_SOURCE_DIR;
 const std::string scene_path = (source / "assets/scenes/scene.toml").string();
 
+const std::string one_light = "[light]\ndirection = [0, -2, 1]\nshadows = false\n";
+std::string one_light_as(const std::string& keys) { return "[[light]]\n" + keys + "\n"; }
+
 const std::string own_lines = R"(
 format = 1
 title = "Everything"
@@ -228,6 +231,13 @@ const std::vector<std::vector<Change>> own_tables = {
      {"vertical_fov", "[camera]", "vertical_fov = 21", "vertical_fov = 22", false}},
     {{"direction", "[light]", "direction = [0, -2, 1]", "direction = [0, -2, 2]", false},
      {"shadows", "[light]", "shadows = false", "shadows = true", false}},
+    {{"type", "", one_light, one_light_as("type = \"point\"\nposition = [0, 1, 0]"), false},
+     {"direction", "", one_light, one_light_as("direction = [0, -2, 1]"), false},
+     {"position", "", one_light, one_light_as("type = \"point\"\nposition = [0, 2, 0]"), false},
+     {"color", "", one_light, one_light_as("color = \"#ff8040\""), false},
+     {"intensity", "", one_light, one_light_as("intensity = 2"), false},
+     {"angle", "", one_light, one_light_as("type = \"spot\"\nposition = [0, 2, 0]\nangle = 20"), false},
+     {"shadows", "", one_light, one_light_as("shadows = false"), false}},
     {{"velocity", "[wind]", "velocity = [3, 0, -1]", "velocity = [3, 0, 1]", true},
      {"density", "[wind]", "density = 1.1", "density = 1.2", true},
      {"drag", "[wind]", "drag = 0.8", "drag = 0.9", true}},
@@ -248,6 +258,10 @@ const std::vector<std::vector<Change>> own_tables = {
      {"texture_scale", "[materials", "pattern = \"checker\"", texture_line() + "texture_scale = 2\n", false},
      {"texture_filter", "[materials", "pattern = \"checker\"", texture_line() + "texture_filter = \"nearest\"\n",
       false},
+     {"normal_map", "[materials", "pattern = \"checker\"", image_line("normal_map"), false},
+     {"roughness_map", "[materials", "pattern = \"checker\"", image_line("roughness_map"), false},
+     {"opacity", "[materials", "pattern = ", "opacity = 0.3\npattern = ", false},
+     {"emission", "[materials", "pattern = ", "emission = \"#102030\"\npattern = ", false},
      {"sound", "[materials", "pattern = ", "sound = \"metal\"\npattern = ", true}},
     {{"name", "", "name = \"stone\"", "name = \"rock\"", true},
      {"type", "", "name = \"crate\"", "name = \"crate\"\ntype = \"fixed\"", true},
@@ -273,6 +287,10 @@ const std::vector<std::vector<Change>> own_tables = {
      {"texture", "", "pattern = \"grid\"", texture_line(), false},
      {"texture_scale", "", "pattern = \"grid\"", texture_line() + "texture_scale = 3\n", false},
      {"texture_filter", "", "pattern = \"grid\"", texture_line() + "texture_filter = \"nearest\"\n", false},
+     {"normal_map", "", "pattern = \"grid\"", image_line("normal_map"), false},
+     {"roughness_map", "", "pattern = \"grid\"", image_line("roughness_map"), false},
+     {"opacity", "", "mass = 3", "mass = 3\nopacity = 0.3", false},
+     {"emission", "", "mass = 3", "mass = 3\nemission = \"#102030\"", false},
      {"mass", "", "mass = 3", "mass = 4", true},
      {"visible", "", "visible = false", "visible = true", false},
      {"position", "name = \"ball\"", "position = [1, 2, 3]", "position = [1, 2, 4]", true},
@@ -460,6 +478,22 @@ TEST(SceneHash, EveryKeyOfTheFormatChangesIt) {
             EXPECT_NE(scene_hash(other), scene_hash(before));
             EXPECT_EQ(motion_hash(other) != motion_hash(before), change.motion);
         }
+}
+
+TEST(SceneHash, HasEachValueOfALight) {
+    std::set<std::string> hashes;
+    const std::vector<std::string> lights = {"",
+                                             "direction = [0, -2, 1]",
+                                             "color = \"#ff8040\"",
+                                             "intensity = 2",
+                                             "shadows = false",
+                                             "type = \"point\"\nposition = [0, 1, 0]",
+                                             "type = \"point\"\nposition = [0, 2, 0]",
+                                             "type = \"spot\"\nposition = [0, 2, 0]",
+                                             "type = \"spot\"\nposition = [0, 2, 0]\nangle = 20"};
+    for (const std::string& light : lights) hashes.insert(scene_hash(parse("format = 1\n[[light]]\n" + light)));
+    hashes.insert(scene_hash(parse("format = 1\n")));
+    EXPECT_EQ(hashes.size(), lights.size() + 1);
 }
 
 TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {

@@ -59,6 +59,7 @@ const pictures: Record<string, Shown> = {
     scene: "bouncing_balls.toml", time: 1, overlays: "velocity,impulses,ghosts,islands,normals", set: ['materials.ball.pattern="checker"'],
   },
   textures: { scene: "dice.toml", time: 0.4, overlays: "none" },
+  surfaces: { scene: "../../web/test/surfaces/scene.toml", time: 0, overlays: "none" },
   patterns: { scene: "marbles.toml", time: 0.4, overlays: "none" },
 };
 for (const [name, shown] of Object.entries(pictures)) test(`${name}: ${shown.scene}, ${shown.overlays}`, (t) => compare(t, name, shown));

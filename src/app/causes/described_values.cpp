@@ -113,6 +113,14 @@ std::string cords_text(const SceneDescription& scene) {
     return fmt::format("{} {}", scene.cords.size(), digest_text(all));
 }
 
+std::string lamps_text(const SceneDescription& scene) {
+    std::string all;
+    for (const LampDescription& l : scene.lamps)
+        all += fmt::format("{} {} {} {} {} {} {};", name_of(l.type), text_of(l.direction), text_of(l.position),
+                           to_string(l.color), l.intensity, l.angle, l.shadows);
+    return fmt::format("{} {}", scene.lamps.size(), digest_text(all));
+}
+
 std::string shown_text(const OverlayDescription& overlay) {
     std::vector<std::string_view> names;
     for (const OverlayName& one : overlay_names)
@@ -177,6 +185,13 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
         kind.look["texture"] =
             fmt::format("#{:016x} {} {}", fnv_hash(std::as_bytes(std::span(look.texture->levels.front().texels))),
                         look.texture_scale, name_of(look.texture_filter));
+    for (const auto& [key, map] : {std::pair("normal_map", look.normal_map), {"roughness_map", look.roughness_map}})
+        if (map)
+            kind.look[key] =
+                fmt::format("#{:016x} {} {}", fnv_hash(std::as_bytes(std::span(map->levels.front().texels))),
+                            look.texture_scale, name_of(look.texture_filter));
+    if (look.opacity != 1.0) kind.look["opacity"] = fmt::format("{}", look.opacity);
+    if (look.emission != Color{0, 0, 0}) kind.look["emission"] = to_string(look.emission);
     kind.round = std::holds_alternative<SphereShape>(body.shape) && (own_look || plain) && !look.texture;
     return kind;
 }
@@ -186,6 +201,7 @@ ValueMap values_of(const SceneDescription& scene) {
     add_simulation(scene.simulation, values);
     if (scene.contact != PairRules{}) add_fields(scene.contact, values);
     add_fields(scene.light, values, "light.");
+    if (!scene.lamps.empty()) values["lights"] = lamps_text(scene);
     if (scene.wind)
         values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) values["forces"] = forces_text(scene);

@@ -1,6 +1,7 @@
 #include "render/aov/mesh_depths.h"
 
 #include "render/aov/pinhole_camera.h"
+#include "scene/description/texel_of.h"
 
 namespace tumble {
 namespace {
@@ -34,6 +35,17 @@ struct Row {
     double at(double x) const { return across * x + rest; }
 };
 
+/// True where the texture has a hole. `shares`: of the corners, in any unit.
+bool is_hole(const MeshPaint& paint, std::size_t triangle, const std::array<double, 3>& shares) {
+    const MeshMaterial& material = paint.materials[paint.material_of_triangle[triangle]];
+    if (!material.has_holes()) return false;
+    const double sum = shares[0] + shares[1] + shares[2];
+    std::array<float, 2> uv{};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t k = 0; k < 2; ++k) uv[k] += float(shares[i] / sum) * paint.corners[3 * triangle + i].uv[k];
+    return nearest_texel(material, uv)[3] < material.cutoff;
+}
+
 }  // namespace
 
 void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const PinholeCamera& camera,
@@ -54,6 +66,7 @@ void find_triangles(const MeshTriangles& mesh, std::uint32_t surface, const Pinh
                 const double depth = triangle.height / fall.at(x);  // edge-on, the sign depends on rounding
                 const std::size_t pixel = map.at(column, row);
                 if (!(depth > 0.0 && depth < map.depth[pixel])) continue;
+                if (mesh.holes && is_hole(*mesh.holes, t / 3, {a.at(x), b.at(x), c.at(x)})) continue;
                 map.depth[pixel] = depth;
                 map.surface[pixel] = surface;
                 map.triangle[pixel] = std::uint32_t(t / 3);

@@ -4,6 +4,7 @@
 
 #include "core/vector.h"
 #include "render/aov/visibility_buffer.h"
+#include "scene/description/mesh_paint.h"
 
 #include <array>
 #include <cstdint>
@@ -15,6 +16,7 @@ struct MeshTriangles {
     std::span<const Vec3> vertices;          // camera frame, m
     std::span<const std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
     bool closed;                             // back faces are not visible
+    const MeshPaint* holes = nullptr;        // of its textures; null: none
 };
 
 /// Stores the triangles that are nearer than the values in the buffer. `ray_x`: of each column.

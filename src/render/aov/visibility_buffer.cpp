@@ -59,7 +59,11 @@ void VisibilityBufferRenderer::add_rows(std::span<const Vec3> hull, const Depths
 
 void VisibilityBufferRenderer::add_triangles(std::span<const Vec3> vertices, std::span<const std::uint32_t> indices) {
     if (vertices.empty() || pixel_bounds(vertices, *camera_).empty()) return;
-    find_triangles({vertices, indices, parts_[surface_].closed}, std::uint32_t(surface_), *camera_, ray_x_, map_);
+    const auto* mesh = std::get_if<MeshShape>(&parts_[surface_].shape);
+    const MeshPaint* paint = mesh != nullptr ? mesh->paint() : nullptr;
+    const MeshPaint* holes = paint != nullptr && paint->has_holes() ? paint : nullptr;
+    const bool closed = parts_[surface_].closed && holes == nullptr;  // the inside is visible through holes
+    find_triangles({vertices, indices, closed, holes}, std::uint32_t(surface_), *camera_, ray_x_, map_);
 }
 
 void VisibilityBufferRenderer::cast_cord(const CordPlace& place, double radius) {

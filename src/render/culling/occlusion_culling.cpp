@@ -190,13 +190,14 @@ Visibility find_visible(const FrameContext& frame) {
                                        scene.bodies[c.body].half_size)
                          : box_corners(bounds.center, view_axes, Vec3::Constant(bounds.radius));
     };
+    const auto covers = [&](const Candidate& c) { return is_box(c) && !scene.bodies[c.body].translucent(); };
     const auto is_small = [&](const Candidate& c) {
         const double distance = double(c.distance) - scene.bodies[c.body].bound_radius;
         return by_pixel && distance > 0.0 &&
                2.0 * scene.bodies[c.body].bound_radius < small * distance * view.pixel_size();
     };
     for (const Candidate& candidate : candidates) {  // nearest first: a hidden candidate need not cover other bodies
-        if (!is_box(candidate) || is_small(candidate)) continue;
+        if (!covers(candidate) || is_small(candidate)) continue;
         const CoarseDepthBuffer::Corners corners = corners_of(candidate);
         if (!result.cover.hides(corners)) result.cover.add(corners);
     }
@@ -208,7 +209,7 @@ Visibility find_visible(const FrameContext& frame) {
         const bool small_one = is_small(candidate) && project(corners, view, seen);
         if (is_box(candidate)) {
             std::uint8_t& faces = result.faces[candidate.body];
-            if (!small_one)
+            if (!small_one || !covers(candidate))
                 faces = visible_faces(corners, result.cover);
             else if (!pixels->hides(seen.x0, seen.y0, seen.x1, seen.y1, seen.nearest))
                 faces = add_faces(corners, seen, view, *pixels);

@@ -9,6 +9,7 @@
 // (type of the pointer, name without "gl")
 #define TUMBLE_GL_FUNCTIONS(X)                                                       \
     X(PFNGLACTIVETEXTUREPROC, ActiveTexture)                                         \
+    X(PFNGLBLENDFUNCSEPARATEPROC, BlendFuncSeparate)                                 \
     X(PFNGLATTACHSHADERPROC, AttachShader)                                           \
     X(PFNGLBINDBUFFERPROC, BindBuffer)                                               \
     X(PFNGLBINDBUFFERBASEPROC, BindBufferBase)                                       \

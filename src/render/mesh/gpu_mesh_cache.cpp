@@ -62,18 +62,20 @@ void GpuMeshCache::make_painted(std::size_t mesh, const MeshPaint& paint, const 
     const auto texels = picked(plain.texels, painted.source);
     std::vector<TextureRange> ranges;
     for (const PaintedMesh::Range& range : painted.ranges)
-        ranges.push_back({textures_.name_of(*range.material), range.first, range.count});
+        ranges.push_back({textures_.names_of(*range.material, paint.map_bits()), range.material->translucent(),
+                          range.first, range.count});
     meshes_[mesh].emplace(*gl_,
                           MeshData{vertices, painted.indices, samples, texels, plain.closed, painted.paint, ranges});
 }
 
 void GpuMeshCache::upload(const DrawList& list, MeshLods& details) {
-    for (const std::vector<Batch>* batches : {&list.visible, &list.casters})
+    for (const std::vector<Batch>* batches : {&list.visible, &list.translucent, &list.casters})
         for (const Batch& batch : *batches)
             if (!meshes_[batch.mesh]) make(batch.mesh, details);
-    for (const Batch& batch : list.visible)
-        if (const MeshMaterial& image = scene_->looks[batch.look].image; image.texture)
-            look_textures_[batch.look] = textures_.name_of(image);
+    for (const std::vector<Batch>* batches : {&list.visible, &list.translucent})
+        for (const Batch& batch : *batches)
+            if (const SurfaceLook& look = scene_->looks[batch.look]; look.has_image())
+                look_textures_[batch.look] = textures_.names_of(look.image, look.image.maps.bits());
     const std::span<const Instance> instances(list.instances);
     gl_->BindBuffer(GL_ARRAY_BUFFER, instances_.name());
     gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(instances.size_bytes()), instances.data(), GL_STREAM_DRAW);
@@ -86,22 +88,19 @@ void GpuMeshCache::draw(const Batch& batch) const {
     } else {
         gl_->Disable(GL_CULL_FACE);
     }
-    mesh.draw(instances_.name(), batch.first, batch.count);
+    mesh.draw(instances_.name(), batch.first, batch.count, batch.part);
 }
 
 void GpuMeshCache::draw_in_view(const Batch& batch) const {
     const MeshBuffer& mesh = *meshes_[batch.mesh];
-    if (look_textures_[batch.look] != 0) {
-        gl_->ActiveTexture(GL_TEXTURE0 + paint_unit);
-        gl_->BindTexture(GL_TEXTURE_2D, look_textures_[batch.look]);
-    }
+    look_textures_[batch.look].bind(*gl_);
     gl_->Enable(GL_CULL_FACE);
-    mesh.draw(instances_.name(), batch.first, batch.count);
+    mesh.draw(instances_.name(), batch.first, batch.count, batch.part);
     if (mesh.closed()) return;
     gl_->CullFace(GL_FRONT);
     gl_->Enable(GL_POLYGON_OFFSET_FILL);
     gl_->PolygonOffset(1.0f, 8.0f);  // slope of the depth per pixel, plus eight steps of the depth buffer
-    mesh.draw(instances_.name(), batch.first, batch.count);
+    mesh.draw(instances_.name(), batch.first, batch.count, batch.part);
     gl_->Disable(GL_POLYGON_OFFSET_FILL);
     gl_->CullFace(GL_BACK);
 }

@@ -32,7 +32,7 @@ private:
     const GlFunctions* gl_;
     const RenderScene* scene_;
     TextureCache textures_;
-    std::vector<GLuint> look_textures_;  // by RenderScene::looks; 0: none, or not yet used
+    std::vector<TextureNames> look_textures_;  // by RenderScene::looks; 0: none, or not yet used
     std::vector<std::optional<MeshBuffer>> meshes_;
     GlObject instances_;
 };

@@ -6,12 +6,15 @@ namespace tumble {
 namespace {
 
 // Attribute locations as in shaders/instance.glsl.
-constexpr GLuint first_instance_attribute = 2, instance_attributes = sizeof(Instance) / sizeof(glm::vec4);
+constexpr GLuint first_instance_attribute = 2, instance_attributes = 7;
+constexpr GLuint glow_attribute = 15;  // the last of the instance
 constexpr GLuint sample_attribute = first_instance_attribute + instance_attributes;
 constexpr GLuint texel_attribute = sample_attribute + 1;
 constexpr GLuint paint_attribute = texel_attribute + 1;  // and those after it
 
-constexpr GLuint no_texture = 0;
+constexpr GLuint attribute_of(GLuint i) {
+    return i < instance_attributes ? first_instance_attribute + i : glow_attribute;
+}
 
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
@@ -60,32 +63,30 @@ MeshBuffer::MeshBuffer(const GlFunctions& gl, const MeshData& data)
         };
         add(0, 2, offsetof(VertexPaint, uv));
         add(1, 3, offsetof(VertexPaint, color));
-        add(2, 3, offsetof(VertexPaint, surface));
+        add(2, 4, offsetof(VertexPaint, surface));
         add(3, 3, offsetof(VertexPaint, emission));
     }
-    if (ranges_.empty()) ranges_.push_back({no_texture, 0, data.indices.size()});
-    for (GLuint i = 0; i < instance_attributes; ++i) {
-        gl.EnableVertexAttribArray(first_instance_attribute + i);
-        gl.VertexAttribDivisor(first_instance_attribute + i, 1);
+    if (ranges_.empty()) ranges_.push_back({{}, false, 0, data.indices.size()});
+    for (GLuint i = 0; i <= instance_attributes; ++i) {
+        gl.EnableVertexAttribArray(attribute_of(i));
+        gl.VertexAttribDivisor(attribute_of(i), 1);
     }
     gl.BindVertexArray(0);
 }
 
-void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count) const {
+void MeshBuffer::draw(GLuint instances, std::size_t first, std::size_t count, MeshPart part) const {
     gl_->BindVertexArray(array_.name());
     // Set once, because Mesa recompiles a vertex shader for an array with changing pointers.
     if (instances != instances_) {
         gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
-        for (GLuint i = 0; i < instance_attributes; ++i)
-            gl_->VertexAttribPointer(first_instance_attribute + i, 4, GL_FLOAT, GL_FALSE, sizeof(Instance),
+        for (GLuint i = 0; i <= instance_attributes; ++i)
+            gl_->VertexAttribPointer(attribute_of(i), 4, GL_FLOAT, GL_FALSE, sizeof(Instance),
                                      offset(i * sizeof(glm::vec4)));
         instances_ = instances;
     }
     for (const TextureRange& range : ranges_) {
-        if (range.texture != no_texture) {
-            gl_->ActiveTexture(GL_TEXTURE0 + paint_unit);
-            gl_->BindTexture(GL_TEXTURE_2D, range.texture);
-        }
+        if (part != MeshPart::whole && range.translucent != (part == MeshPart::translucent)) continue;
+        range.textures.bind(*gl_);
         gl_->DrawElementsInstancedBaseInstance(GL_TRIANGLES, GLsizei(range.count), GL_UNSIGNED_INT,
                                                offset(range.first * sizeof(std::uint32_t)), GLsizei(count),
                                                GLuint(first));

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/gl/gl_object.h"
+#include "render/mesh/texture_cache.h"
 #include "scene/description/description.h"
 #include "scene/description/painted_mesh.h"
 
@@ -16,7 +17,7 @@
 
 namespace tumble {
 
-/// One drawn body (or one face of a box); seven vec4 attributes, as in shaders/instance.glsl.
+/// One drawn body (or one face of a box); eight vec4 attributes, as in shaders/instance.glsl.
 struct Instance {
     glm::vec3 position;     // of the body's origin, m, relative to the eye
     float bevel;            // m
@@ -33,17 +34,19 @@ struct Instance {
     float near_shadows;       // 1: uses the near shadow map, 0: the far one
     // Second color of a pattern, linear; of a texture images around and along a ball; w: m that an image covers, or 0.
     glm::vec4 paint;
+    glm::vec4 glow{0.0f, 0.0f, 0.0f, 1.0f};  // emission, linear; w: opacity
 };
-static_assert(sizeof(Instance) == 7 * sizeof(glm::vec4));
+static_assert(sizeof(Instance) == 8 * sizeof(glm::vec4));
 
 /// Consecutive indices that are drawn with a texture.
 struct TextureRange {
-    GLuint texture;
+    TextureNames textures;
+    bool translucent;
     std::size_t first, count;
 };
 
-/// Texture unit of the textures of meshes.
-inline constexpr GLuint paint_unit = 2;
+/// Part of a mesh's triangles, by their material.
+enum class MeshPart : std::uint8_t { whole, opaque, translucent };
 
 struct MeshData {
     std::span<const MeshAsset::Vertex> vertices;
@@ -63,7 +66,7 @@ public:
     bool closed() const { return closed_; }
 
     /// Draws `count` instances from the buffer `instances`, starting at index `first`.
-    void draw(GLuint instances, std::size_t first, std::size_t count) const;
+    void draw(GLuint instances, std::size_t first, std::size_t count, MeshPart part = MeshPart::whole) const;
 
 private:
     const GlFunctions* gl_;

@@ -1,5 +1,6 @@
 #include "render/passes/body_pass.h"
 
+#include "render/passes/lamp_uniforms.h"
 #include "render/shadow/shadow_map.h"
 
 #include <fmt/format.h>
@@ -19,25 +20,55 @@ std::vector<std::string> shadow_defines(const ShadowFilter& filter) {
 
 std::vector<std::string> look_defines(const SurfaceLook& look) {
     if (look.pattern == Pattern::panel) return {};
-    if (look.image.texture) return {"PLAIN", "IMAGE"};
+    if (look.has_image()) return {"PLAIN", "IMAGE"};
     if (look.pattern == Pattern::plain) return {"PLAIN"};
     return {"PLAIN", fmt::format("TWO_COLORS {}", int(look.pattern))};
+}
+
+std::vector<std::string> feature_defines(unsigned features) {
+    std::vector<std::string> all;
+    const auto add = [&](unsigned bit, const char* define) {
+        if ((features & bit) != 0) all.emplace_back(define);
+    };
+    add(SurfaceMaps::with_normal, "NORMAL_MAP");
+    add(SurfaceMaps::with_surface, "SURFACE_MAP");
+    add(SurfaceMaps::with_emission, "EMISSION_MAP");
+    add(surface_feature::glowing | surface_feature::translucent, "GLOWING");
+    add(surface_feature::translucent, "TRANSLUCENT");
+    return all;
+}
+
+unsigned features_of(const RenderBody& proxy, const RenderScene& scene) {
+    unsigned features = scene.looks[proxy.look].image.maps.bits();
+    if (proxy.kind == DrawKind::mesh && scene.meshes[proxy.mesh].paint)
+        features |= scene.meshes[proxy.mesh].paint->map_bits();
+    if (proxy.glows()) features |= surface_feature::glowing;
+    if (proxy.translucent()) features |= surface_feature::translucent;
+    return features;
 }
 
 void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
+    program.set_block("Lamps", lamp_block);
     program.set_sampler("mesh_texture", GLint(paint_unit));
+    constexpr std::array names{"normal_map", "surface_map", "emission_map"};
+    for (std::size_t i = 0; i < names.size(); ++i) program.set_sampler(names[i], GLint(map_units[i]));
 }
 
 BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
                    const ShadowFilter& filter)
-    : device_(&device), shaders_(shaders), shadows_(scene.light.shadows), filter_(filter), looks_(scene.looks) {
+    : device_(&device),
+      shaders_(shaders),
+      shadows_(scene.light.shadows),
+      filter_(filter),
+      looks_(scene.looks),
+      lamp_defines_(lamp_defines(scene)) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& proxy : scene.bodies)
-        if (proxy.solid())
+        if (proxy.solid() && features_of(proxy, scene) == 0)
             for (const bool lit : {true, false})
                 program({proxy.kind, proxy.pattern != Pattern::panel, lit, false,
                          proxy.kind == DrawKind::mesh && proxy.lightmap >= 0,
@@ -49,7 +80,8 @@ BodyPass::Variant BodyPass::variant_of(const Batch& batch) {
     const DrawKind kind = batch.mesh == face_mesh      ? DrawKind::box
                           : batch.mesh < cylinder_mesh ? DrawKind::ball
                                                        : DrawKind::mesh;
-    return {kind, batch.patterned, batch.lit, batch.spans_cascades, batch.charted, batch.painted, batch.look};
+    return {kind,          batch.patterned, batch.lit,  batch.spans_cascades,
+            batch.charted, batch.painted,   batch.look, batch.features};
 }
 
 std::size_t BodyPass::index_of(const Variant& variant) const {
@@ -58,14 +90,15 @@ std::size_t BodyPass::index_of(const Variant& variant) const {
                                   ? 2
                                   : 3 + (variant.charted ? 1 : 0) + (variant.painted ? 2 : 0);
     const SurfaceLook& look = looks_[variant.look];
-    const std::size_t shader = variant.look == 0    ? (variant.patterned ? 1 : 0)
-                               : look.image.texture ? look_shaders - 1
-                                                    : 1 + std::size_t(look.pattern);
+    const std::size_t shader = variant.look == 0  ? (variant.patterned ? 1 : 0)
+                               : look.has_image() ? look_shaders - 1
+                                                  : 1 + std::size_t(look.pattern);
     return 2 * (look_shaders * which + shader) + (variant.spans_cascades ? 1 : 0);
 }
 
 const ShaderProgram& BodyPass::program(const Variant& variant) {
-    const ShaderProgram*& made = programs_[index_of(variant)];
+    const ShaderProgram*& made =
+        variant.features == 0 ? programs_[index_of(variant)] : with_features_[{index_of(variant), variant.features}];
     if (made != nullptr) return *made;
     ShaderFiles files = {"body.vert", "mesh.frag", {"MESH"}};
     if (variant.kind == DrawKind::box) files = {"body.vert", "box.frag", {"BOX"}};
@@ -81,9 +114,21 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     if (variant.charted) files.defines.emplace_back("CHARTED");
     if (variant.painted) files.defines.emplace_back("PAINTED");
     for (const std::string& define : look_defines(looks_[variant.look])) files.defines.push_back(define);
+    for (const std::string& define : feature_defines(variant.features)) files.defines.push_back(define);
+    files.defines.insert(files.defines.end(), lamp_defines_.begin(), lamp_defines_.end());
     made = &device_->program(shaders_, files);
     connect(*made);
     return *made;
+}
+
+// The share goes to the color alone: the alpha is an id of the surface.
+void BodyPass::draw_over(const GpuMeshCache& meshes, const std::vector<Batch>& batches) {
+    if (batches.empty()) return;
+    const GlFunctions& gl = device_->gl();
+    gl.Enable(GL_BLEND);
+    gl.BlendFuncSeparate(GL_SRC1_ALPHA, GL_ONE_MINUS_SRC1_ALPHA, GL_ONE, GL_ZERO);
+    draw(meshes, batches);
+    gl.Disable(GL_BLEND);
 }
 
 void BodyPass::draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches) {
@@ -98,8 +143,9 @@ std::vector<std::function<void()>> BodyPass::compilations(const GpuMeshCache& me
     std::vector<std::function<void()>> all;
     for (std::size_t i = 0; i < programs_.size(); ++i)
         all.emplace_back([this, &meshes, &batches, i] {
-            const auto first = std::find_if(batches.begin(), batches.end(),
-                                            [&](const Batch& b) { return index_of(variant_of(b)) == i; });
+            const auto first = std::find_if(batches.begin(), batches.end(), [&](const Batch& b) {
+                return b.features == 0 && index_of(variant_of(b)) == i;
+            });
             if (first == batches.end()) return;
             program(variant_of(*first)).use();
             Batch one = *first;

@@ -8,13 +8,15 @@
 #include <array>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tumble {
 
 /// Uniform block and texture units of all draws.
-inline constexpr GLuint frame_block = 0;
+inline constexpr GLuint frame_block = 0, lamp_block = 2;
 inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1;
 
 /// Preprocessor definitions for shaders with shadow lookups.
@@ -27,6 +29,9 @@ void connect(const ShaderProgram& program);
 inline constexpr std::size_t look_shaders = 11;
 /// Preprocessor definitions of a look.
 std::vector<std::string> look_defines(const SurfaceLook& look);
+/// The same of bits of surface_feature and SurfaceMaps, and those of a body.
+std::vector<std::string> feature_defines(unsigned features);
+unsigned features_of(const RenderBody& proxy, const RenderScene& scene);
 
 class BodyPass {
 public:
@@ -35,6 +40,8 @@ public:
              const ShadowFilter& filter);
 
     void draw(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
+    /// The same of translucent batches, over the surfaces that are drawn already.
+    void draw_over(const GpuMeshCache& meshes, const std::vector<Batch>& batches);
 
     /// One draw of one instance per shader, if there is an instance, which makes the driver compile the shader. The
     /// caller must prevent it from changing the frame.
@@ -45,6 +52,7 @@ private:
         DrawKind kind;
         bool patterned, lit, spans_cascades, charted, painted;
         std::size_t look;  // index into RenderScene::looks
+        unsigned features = 0;
     };
     static Variant variant_of(const Batch& batch);
     std::size_t index_of(const Variant& variant) const;
@@ -57,7 +65,9 @@ private:
     bool metal_boxes_ = false;  // highlights on their bevels flicker without filtering
     // By kind, light, look and cascade span; null: not yet used.
     std::array<const ShaderProgram*, 14 * look_shaders> programs_{};
+    std::map<std::pair<std::size_t, unsigned>, const ShaderProgram*> with_features_;  // by index and features
     std::vector<SurfaceLook> looks_;
+    std::vector<std::string> lamp_defines_;
 };
 
 }  // namespace tumble

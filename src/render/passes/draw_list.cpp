@@ -3,9 +3,11 @@
 #include "core/vector.h"
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
+#include "render/passes/body_pass.h"
 #include "render/scene/cord_ends.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <tuple>
 
@@ -37,6 +39,8 @@ struct Item {
     bool patterned = false, lit = true, spans_cascades = false;
     bool charted = false, painted = false;  // given by the mesh
     std::uint32_t look = 0;
+    unsigned features = 0;
+    MeshPart part = MeshPart::whole;
 };
 
 Item item_of(std::size_t index, std::size_t mesh) {
@@ -112,6 +116,8 @@ std::size_t caster_mesh(const RenderBody& proxy, const RenderScene& scene, const
     if (proxy.kind == DrawKind::ball)
         return scene.bodies.size() < large_scene ? mesh_of(proxy, scene, ball, view)
                                                  : ball_mesh_for(ball.radius, outline_error * texel);
+    const MeshPaint* paint = scene.meshes[proxy.mesh].paint;
+    if (paint && (paint->has_holes() || paint->translucent())) return scene_mesh(proxy.mesh, 0);
     return scene_mesh(proxy.mesh, level_for(proxy, scene, most_detail_error * texel));
 }
 
@@ -126,9 +132,10 @@ std::vector<Batch> append_batches(std::vector<Item>& items, std::vector<Instance
     for (const Item& item : items) {
         if (batches.empty() || batches.back().mesh != item.mesh || batches.back().patterned != item.patterned ||
             batches.back().lit != item.lit || batches.back().spans_cascades != item.spans_cascades ||
-            batches.back().look != item.look)
+            batches.back().look != item.look || batches.back().features != item.features ||
+            batches.back().part != item.part)
             batches.push_back({item.mesh, item.patterned, item.lit, item.spans_cascades, item.charted, item.painted,
-                               item.look, instances.size(), 0});
+                               item.look, item.features, item.part, instances.size(), 0});
         instances.push_back(make(item));
         ++batches.back().count;
     }
@@ -147,7 +154,13 @@ public:
             const std::size_t mesh = proxy.kind == DrawKind::box
                                          ? half_box_mesh
                                          : caster_mesh(proxy, frame_.scene, ball, frame_.camera, frame_.cascades);
-            casters_.push_back(ordered(item_of(i, mesh), ball.center.norm(), false));
+            Item item = item_of(i, mesh);
+            const MeshPaint* paint = proxy.kind == DrawKind::mesh ? frame_.scene.meshes[proxy.mesh].paint : nullptr;
+            if (proxy.translucent() || (paint && (paint->has_holes() || paint->translucent()))) {
+                item.features = surface_feature::sieved;
+                item.painted = paint != nullptr;
+            }
+            casters_.push_back(ordered(item, ball.center.norm(), false));
         }
         if (!drawn) return;
         if (proxy.kind == DrawKind::box)
@@ -170,8 +183,9 @@ public:
             return item.cord ? cord_instance(item.index) : body_instance(item);
         };
         DrawList list;
-        list.instances.reserve(drawn_.size() + casters_.size());
+        list.instances.reserve(drawn_.size() + translucent_.size() + casters_.size());
         list.visible = append_batches(drawn_, list.instances, instance);
+        list.translucent = append_batches(translucent_, list.instances, instance);
         list.casters = append_batches(casters_, list.instances, instance);
         return list;
     }
@@ -192,7 +206,23 @@ private:
             item.charted = frame_.scene.meshes[proxy.mesh].charts.has_value();
             item.painted = frame_.scene.meshes[proxy.mesh].paint != nullptr;
         }
-        drawn_.push_back(ordered(item, bounds.center.norm(), true));
+        item.features = features_of(proxy, frame_.scene);
+        const MeshPaint* paint = item.painted ? frame_.scene.meshes[proxy.mesh].paint : nullptr;
+        if (paint && paint->translucent() && !proxy.translucent()) {
+            item.part = MeshPart::translucent;
+            item.features |= surface_feature::translucent;
+            add_drawn(item, bounds.center.norm());
+            item.part = MeshPart::opaque;
+            item.features &= ~surface_feature::translucent;
+        }
+        add_drawn(item, bounds.center.norm());
+    }
+
+    void add_drawn(Item item, double distance) {
+        item = ordered(item, distance, true);
+        if ((item.features & surface_feature::translucent) == 0) return drawn_.push_back(item);
+        item.order = ~std::uint64_t(std::bit_cast<std::uint32_t>(float(distance)));  // the farthest first
+        translucent_.push_back(item);
     }
 
     // Visible faces of a box: lit ones are separate from unlit ones.
@@ -202,12 +232,13 @@ private:
         Item item = item_of(i, face_mesh);
         item.patterned = frame_.scene.bodies[i].pattern != Pattern::panel;
         item.look = std::uint32_t(frame_.scene.bodies[i].look);
+        item.features = features_of(frame_.scene.bodies[i], frame_.scene);
         for (int face = 0; face < 6; ++face) {
             if ((visible_.faces[i] >> face & 1) == 0) continue;
             item.face = std::uint8_t(face);
             item.lit = there[face / 2] * (face % 2 == 0 ? -1.0 : 1.0) < 0.0;
             item.spans_cascades = item.lit && spans_cascades(bounds);
-            drawn_.push_back(ordered(item, bounds.center.norm(), true));
+            add_drawn(item, bounds.center.norm());
         }
     }
 
@@ -228,6 +259,7 @@ private:
         made.metallic = proxy.metallic;
         made.pattern = pattern_number(proxy.pattern);
         made.paint = proxy.paint;
+        made.glow = proxy.glow;
         made.atlas_place = glm::vec2(float(place.x), float(place.y));
         made.tile_size = float(place.size);
         made.face = open_mesh ? 1.0f : float(item.face);
@@ -258,7 +290,7 @@ private:
     const OcclusionAtlas& atlas_;
     Vec3 light_;  // unit, direction in which the light travels
     std::vector<PlacedCord> cords_;
-    std::vector<Item> drawn_, casters_;
+    std::vector<Item> drawn_, translucent_, casters_;
 };
 
 }  // namespace

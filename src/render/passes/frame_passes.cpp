@@ -2,6 +2,7 @@
 
 #include "render/gl/shader_compile_schedule.h"
 #include "render/passes/frame_uniforms.h"
+#include "render/passes/lamp_uniforms.h"
 
 #include <functional>
 #include <limits>
@@ -15,6 +16,7 @@ FramePasses::FramePasses(GlDevice& device, const RenderScene& scene, const Shado
       scene_(&scene),
       framebuffer_(*gl_, options.width, options.height, options.samples),
       uniforms_(*gl_, GlKind::buffer),
+      lamp_uniforms_(*gl_, GlKind::buffer),
       meshes_(*gl_, scene),
       occlusion_texture_(*gl_),
       shadow_map_(device, options.shaders, frame_block),
@@ -37,6 +39,11 @@ void FramePasses::upload(const FrameContext& frame, const DrawList& list, const 
     gl_->BindBuffer(GL_UNIFORM_BUFFER, uniforms_.name());
     gl_->BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, frame_block, uniforms_.name());
+    if (scene_->lamps.empty()) return;
+    const LampUniforms lamps = make_lamp_uniforms(*scene_, frame.camera);
+    gl_->BindBuffer(GL_UNIFORM_BUFFER, lamp_uniforms_.name());
+    gl_->BufferData(GL_UNIFORM_BUFFER, sizeof lamps, &lamps, GL_STREAM_DRAW);
+    gl_->BindBufferBase(GL_UNIFORM_BUFFER, lamp_block, lamp_uniforms_.name());
 }
 
 // Draws with all output masked. The slowest shaders come first: see ShaderCompileSchedule.
@@ -105,6 +112,9 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
     if (frame.camera_moved)
         planes_.draw_background(frame);  // last, so that pixels of bodies and their shadows are skipped
     timer.ends(Pass::background);
+
+    bodies_.draw_over(meshes_, list.translucent);
+    timer.ends(Pass::bodies);
 }
 
 // Camera::clip_from_relative(): the depth in the buffer is 1 - near / distance.

@@ -58,7 +58,7 @@ private:
     const GlFunctions* gl_;
     const RenderScene* scene_;
     Framebuffer framebuffer_;
-    GlObject uniforms_;
+    GlObject uniforms_, lamp_uniforms_;
     GpuMeshCache meshes_;
     OcclusionTexture occlusion_texture_;
     ShadowMap shadow_map_;

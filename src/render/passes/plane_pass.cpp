@@ -3,6 +3,7 @@
 #include "render/antialiasing/surface_ids.h"
 #include "render/gl/glm_conversion.h"
 #include "render/passes/body_pass.h"
+#include "render/passes/lamp_uniforms.h"
 #include "render/scene/plane_patch.h"
 
 #include <fmt/format.h>
@@ -17,17 +18,20 @@ namespace {
 constexpr double corner_ao_radius = 2.0;
 
 constexpr int most_other_planes = 6;  // of a box-shaped room, and one more
+constexpr int most_with_lamps = 3;    // whose values take as many outputs of the vertex shader
 
 int other_planes(const RenderScene& scene) {
     const auto planes = std::count_if(scene.bodies.begin(), scene.bodies.end(),
                                       [](const RenderBody& proxy) { return proxy.kind == DrawKind::plane; });
-    return int(std::clamp<std::ptrdiff_t>(planes - 1, 0, most_other_planes));
+    return int(std::clamp<std::ptrdiff_t>(planes - 1, 0, scene.lamps.empty() ? most_other_planes : most_with_lamps));
 }
 
-std::vector<std::string> defines(Pattern pattern, const SurfaceLook& look, int others) {
+std::vector<std::string> defines(Pattern pattern, const SurfaceLook& look, int others,
+                                 const std::vector<std::string>& more) {
     std::vector<std::string> all = look_defines(look);
     if (pattern == Pattern::grid) all.emplace_back("GRID");
     if (pattern == Pattern::checker) all.emplace_back("CHECKER");
+    for (const std::string& define : more) all.push_back(define);
     if (others > 0) all.push_back(fmt::format("OTHER_PLANES {}", others));
     return all;
 }
@@ -48,8 +52,9 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
       filter_(filter),
       other_planes_(other_planes(scene)),
       sky_(device.program(shaders, {"sky.vert", "sky.frag", {}})),
-      planes_(3 + scene.looks.size()),
+      planes_(2 * (3 + scene.looks.size())),
       looks_(scene.looks),
+      lamp_defines_(lamp_defines(scene)),
       textures_(*gl_),
       array_(*gl_, GlKind::vertex_array),
       corners_(*gl_, GlKind::buffer) {
@@ -68,12 +73,16 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
 
 /// Those without a look of the scene come first, by their pattern.
 std::size_t PlanePass::index_of(const RenderBody& proxy) {
-    return proxy.look == 0 ? std::size_t(proxy.pattern) : 2 + proxy.look;
+    return 2 * (proxy.look == 0 ? std::size_t(proxy.pattern) : 2 + proxy.look) + (proxy.glows() ? 1 : 0);
 }
 
 const ShaderProgram* PlanePass::make(const RenderBody& proxy, const std::vector<std::string>& more) const {
+    std::vector<std::string> own =
+        feature_defines(looks_[proxy.look].image.maps.bits() | (proxy.glows() ? surface_feature::glowing : 0u));
+    own.insert(own.end(), lamp_defines_.begin(), lamp_defines_.end());
     const ShaderProgram& made = device_->program(
-        shaders_, {"plane.vert", "plane.frag", with(defines(proxy.pattern, looks_[proxy.look], other_planes_), more)});
+        shaders_,
+        {"plane.vert", "plane.frag", with(defines(proxy.pattern, looks_[proxy.look], other_planes_, own), more)});
     connect(made);
     return &made;
 }
@@ -156,11 +165,10 @@ void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& pla
     program.set("plane_material", glm::vec4(proxy.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
     if (proxy.look != 0) {
         program.set("plane_paint", proxy.paint);
-        if (const MeshMaterial& image = looks_[proxy.look].image; image.texture) {
-            gl_->ActiveTexture(GL_TEXTURE0 + paint_unit);
-            textures_.name_of(image);  // binds it
-        }
+        if (const SurfaceLook& look = looks_[proxy.look]; look.has_image())
+            textures_.names_of(look.image, look.image.maps.bits()).bind(*gl_);
     }
+    if (proxy.glows()) program.set("plane_glow", proxy.glow);
     if (other_planes_ == 0) return;
     std::vector<glm::vec4> others;  // planes outside the view are placed far below, where they have no effect
     for (const PlanePatch& other : frame.planes)

@@ -3,6 +3,7 @@
 #include "core/error.h"
 #include "render/scene/large_receivers.h"
 #include "render/shapes/drawn_shape.h"
+#include "scene/description/lamps.h"
 #include "scene/description/looks.h"
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ std::size_t look_index(const SurfaceLook& look, std::vector<SurfaceLook>& looks)
     const auto same = [&](const SurfaceLook& other) {
         const MeshMaterial &a = look.image, &b = other.image;
         return look.pattern == other.pattern && a.texture == b.texture && a.wrap_u == b.wrap_u &&
-               a.wrap_v == b.wrap_v && a.nearest == b.nearest;
+               a.wrap_v == b.wrap_v && a.nearest == b.nearest && a.maps == b.maps;
     };
     const auto known = std::find_if(looks.begin(), looks.end(), same);
     if (known != looks.end()) return std::size_t(known - looks.begin());
@@ -42,9 +43,9 @@ void set_look(const BodyDescription& body, RenderBody& proxy, RenderScene& scene
     const Appearance& look = body.appearance;
     const bool drawn_plain = proxy.kind == DrawKind::box || proxy.kind == DrawKind::ball;
     if (look.pattern_scale > 0.0) proxy.pattern_cell = look.pattern_scale;
-    if (look.texture && proxy.kind == DrawKind::mesh) {
+    if (look.has_image() && proxy.kind == DrawKind::mesh) {
         if (!std::holds_alternative<MeshShape>(body.shape)) paint_mesh_of(body, proxy, scene);
-    } else if (look.texture) {
+    } else if (look.has_image()) {
         SurfaceLook image{Pattern::plain, texture_material(body.shape, look)};
         proxy.look = look_index(image, scene.looks);
         const auto [around, along] = images_around(body.shape, look.texture_scale);
@@ -66,6 +67,7 @@ void set_look(const BodyDescription& body, RenderBody& proxy, RenderScene& scene
 RenderScene describe_bodies(const SceneDescription& description) {
     RenderScene scene;
     scene.light = description.light;
+    scene.lamps = description.lamps;
     scene.sun_up = sun_is_up(description);
     scene.cords = description.cords;
     for (const BodyDescription& body : description.bodies) {
@@ -77,6 +79,9 @@ RenderScene describe_bodies(const SceneDescription& description) {
             proxy.color = {float(linear[0]), float(linear[1]), float(linear[2])};
             proxy.roughness = float(body.appearance.roughness);
             proxy.metallic = float(body.appearance.metallic);
+            const std::array<double, 3> glow = to_linear(body.appearance.emission);
+            proxy.glow = {float(glow[0]), float(glow[1]), float(glow[2]), float(body.appearance.opacity)};
+            if (proxy.kind == DrawKind::plane) proxy.glow.w = 1.0f;  // bodies and shadows on it are drawn before
             set_look(body, proxy, scene);
         }
         if (proxy.kind == DrawKind::plane) scene.planes.push_back(scene.bodies.size());
@@ -99,6 +104,7 @@ RenderScene describe_bodies(const SceneDescription& description) {
 bool sun_is_up(const SceneDescription& description) {
     // cosine of 60 degrees: a steeper plane is a wall, as for the default camera
     constexpr double steepest_ground = 0.5;
+    if (!description.lamps.empty() && !main_sun(description.lamps)) return false;
     for (const BodyDescription& body : description.bodies) {
         const auto* plane = std::get_if<PlaneShape>(&body.shape);
         if (plane == nullptr || body.type != BodyType::fixed) continue;

@@ -13,6 +13,7 @@ namespace tumble {
 
 struct RenderScene {
     LightDescription light;
+    std::vector<LampDescription> lamps;             // empty: the light alone
     bool sun_up = true;                             // false disables sunlight, see sun_is_up()
     std::vector<RenderBody> bodies;                 // in scene order
     std::vector<RenderMesh> meshes;                 // without repetition, in order of first use

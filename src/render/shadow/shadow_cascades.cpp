@@ -184,7 +184,15 @@ CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderSc
     const double softest =
         texels * std::min(least_texel_of_ao_radius * scene.typical_ao_radius, softest_pixels * pixel);
     size_ = std::max({near_margin * std::max(x.size(), y.size()), softest, least, finest_pixels * pixel * texels});
-    if (size_ < filtered_by_pixel * pixel * texels) filter_ = pixel_filter;
+    // The map has only a part of the texels of a translucent caster (shaders/shadow.frag).
+    const bool sieved = std::ranges::any_of(scene.bodies, &RenderBody::translucent) ||
+                        std::ranges::any_of(scene.meshes, [](const RenderMesh& mesh) {
+                            return mesh.paint != nullptr && mesh.paint->translucent();
+                        });
+    if (sieved)
+        size_ = std::max(size_, filtered_by_pixel * pixel * texels);
+    else if (size_ < filtered_by_pixel * pixel * texels)
+        filter_ = pixel_filter;
     low_x_ = 0.5 * (x.low + x.high) - 0.5 * size_;
     low_y_ = 0.5 * (y.low + y.high) - 0.5 * size_;
     middle_z_ = 0.5 * (z.low + z.high);

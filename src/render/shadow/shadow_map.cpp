@@ -15,6 +15,9 @@ constexpr int farthest_strip_rows =
 ShadowMap::ShadowMap(GlDevice& device, const std::filesystem::path& shaders, GLuint frame_block)
     : gl_(&device.gl()),
       program_(device.program(shaders, {"shadow.vert", "", {}})),
+      device_(&device),
+      shaders_(shaders),
+      frame_block_(frame_block),
       texture_(*gl_, GlKind::texture),
       framebuffer_(*gl_, GlKind::framebuffer),
       empty_texture_(*gl_, GlKind::texture),
@@ -53,6 +56,17 @@ void ShadowMap::compile(const GpuMeshCache& meshes, const std::vector<Batch>& ca
     meshes.draw(one);
 }
 
+const ShadowMap::Sieves& ShadowMap::sieves() const {
+    if (sieves_) return *sieves_;
+    const auto make = [&](std::vector<std::string> defines) {
+        const ShaderProgram& made = device_->program(shaders_, {"shadow.vert", "shadow.frag", std::move(defines)});
+        made.set_block("Frame", frame_block_);
+        made.set_sampler("mesh_texture", GLint(paint_unit));
+        return &made;
+    };
+    return sieves_.emplace(Sieves{make({"SIEVED"}), make({"SIEVED", "PAINTED"})});
+}
+
 // llvmpipe clears a part of a target by drawing it, at six times the cost of a copy.
 void ShadowMap::empty(const std::vector<Rectangle>& parts) const {
     gl_->BindFramebuffer(GL_READ_FRAMEBUFFER, empty_framebuffer_.name());
@@ -72,12 +86,20 @@ void ShadowMap::draw(const GpuMeshCache& meshes, const std::vector<Batch>& caste
     empty(parts);
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
     gl_->Enable(GL_SCISSOR_TEST);
-    program_.use();
     for (int far = 0; far <= (with_far ? 1 : 0); ++far) {
         gl_->Viewport(far * shadow_map_texels, 0, shadow_map_texels, shadow_map_texels);
         gl_->Scissor(far * shadow_map_texels, 0, shadow_map_texels, shadow_map_texels);
-        gl_->Uniform1i(program_.uniform("far_map"), far);
-        for (const Batch& batch : casters) meshes.draw(batch);
+        const ShaderProgram* used = nullptr;
+        for (const Batch& batch : casters) {
+            const bool sieved = (batch.features & surface_feature::sieved) != 0;
+            const ShaderProgram* program = !sieved ? &program_ : batch.painted ? sieves().painted : sieves().plain;
+            if (program != used) {
+                program->use();
+                gl_->Uniform1i(program->uniform("far_map"), far);
+                used = program;
+            }
+            meshes.draw(batch);
+        }
     }
     gl_->Disable(GL_SCISSOR_TEST);
 }

@@ -8,6 +8,7 @@
 #include "render/shadow/shadow_cascades.h"
 
 #include <filesystem>
+#include <optional>
 
 namespace tumble {
 
@@ -31,6 +32,15 @@ private:
 
     const GlFunctions* gl_;
     const ShaderProgram& program_;
+    struct Sieves {
+        const ShaderProgram *plain, *painted;
+    };
+    const Sieves& sieves() const;
+
+    GlDevice* device_;
+    std::filesystem::path shaders_;
+    GLuint frame_block_;
+    mutable std::optional<Sieves> sieves_;  // of casters that light passes in part; made at their first use
     GlObject texture_, framebuffer_;
     GlObject empty_texture_,
         empty_framebuffer_;  // a strip of farthest depths, copied over the parts of a map to redraw

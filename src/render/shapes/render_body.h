@@ -32,16 +32,19 @@ struct RenderBody {
     PlaneShape plane;                  // planes only
     glm::vec3 color{1.0f};             // linear light
     float roughness = 0.6f, metallic = 0.0f;
-    Pattern pattern = Pattern::panel;  // or a grid or a checker that darkens; others are looks
-    std::size_t look = 0;              // index into RenderScene::looks
-    glm::vec4 paint{0.0f};             // Instance::paint
-    bool large_receiver = false;       // a large receiver, see large_receivers.h
-    bool fixed = false;                // never moves
-    bool without_occlusion = false;    // without AO: too large for its number of texels, which would give wrong values
-    std::ptrdiff_t lightmap = -1;      // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
+    Pattern pattern = Pattern::panel;        // or a grid or a checker that darkens; others are looks
+    std::size_t look = 0;                    // index into RenderScene::looks
+    glm::vec4 paint{0.0f};                   // Instance::paint
+    glm::vec4 glow{0.0f, 0.0f, 0.0f, 1.0f};  // Instance::glow
+    bool large_receiver = false;             // a large receiver, see large_receivers.h
+    bool fixed = false;                      // never moves
+    bool without_occlusion = false;  // without AO: too large for its number of texels, which would give wrong values
+    std::ptrdiff_t lightmap = -1;    // index into RenderScene::lightmaps; -1: none. A mesh with a lightmap has charts
 
     /// False for planes, which have no bounds and no inside, and for bodies that are not drawn.
     bool solid() const { return kind != DrawKind::hidden && kind != DrawKind::plane; }
+    bool translucent() const { return glow.w < 1.0f; }
+    bool glows() const { return glow.x > 0.0f || glow.y > 0.0f || glow.z > 0.0f; }
 };
 
 /// A box inside a mesh, which stands for it as an occluder; body frame.
@@ -59,7 +62,9 @@ struct VertexSample {
 /// A pattern of two colors, a plain surface, or an image: surfaces with shaders of their own.
 struct SurfaceLook {
     Pattern pattern = Pattern::panel;
-    MeshMaterial image = {};  // without a texture: a pattern
+    MeshMaterial image = {};  // without a texture and maps: a pattern
+
+    bool has_image() const { return image.texture || image.maps.bits() != 0; }
 };
 
 struct RenderMesh {

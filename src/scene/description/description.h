@@ -140,6 +140,20 @@ struct LightDescription {
     bool shadows = true;
 };
 
+enum class LightType { sun, point, spot };
+
+/// One of several lights.
+struct LampDescription {
+    static constexpr Color daylight{0xff, 0xf7, 0xe9};
+    LightType type = LightType::sun;
+    Vec3 direction{-0.4, -1.0, -0.3};  // unit; of a sun or spot
+    Vec3 position = Vec3::Zero();      // m, of a point or spot
+    Color color = daylight;
+    double intensity = 1.0;  // 1: the light of [light]; of a point or spot at a distance of 1 m
+    double angle = 45.0;     // degrees, of the whole cone of a spot
+    bool shadows = false;    // of one sun
+};
+
 /// A uniform wind and the moving air: F = 1/2 density drag A |w - v| (w - v) at the center of mass, where A is the
 /// body's mean projected area (a quarter of its hull's surface, Cauchy 1832). Without a wind table there is no air.
 struct WindDescription {
@@ -254,6 +268,11 @@ struct Appearance {
     std::shared_ptr<const Texture> texture;  // null: none. A mesh has its own in its paint
     double texture_scale = 0.0;              // m that the image covers; 0: a face, or the way around
     TextureFilter texture_filter = TextureFilter::linear;
+    std::shared_ptr<const Texture> normal_map, roughness_map;  // SurfaceMaps: normal, and surface
+    double opacity = 1.0;                                      // below 1 the background shows through; not of planes
+    Color emission{0, 0, 0};                                   // own light, in addition to that of lights
+
+    bool has_image() const { return texture || normal_map || roughness_map; }
 };
 
 /// A pose of a kinematic body's origin at a time.
@@ -341,8 +360,9 @@ struct SceneDescription {
     std::string title;
     SimulationSettings simulation;
     OutputSettings output;
-    CameraDescription camera;  // the file's, or the default camera
-    LightDescription light;
+    CameraDescription camera;            // the file's, or the default camera
+    LightDescription light;              // with several lights, the sun that has shadows, or else the first one
+    std::vector<LampDescription> lamps;  // [[light]]; empty: the light alone
     std::optional<WindDescription> wind;
     PairRules contact;
     std::vector<ForceDescription> forces;

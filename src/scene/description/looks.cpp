@@ -180,6 +180,7 @@ MeshMaterial texture_material(const Shape& shape, const Appearance& look) {
     material.wrap_u = wraps.u;
     material.wrap_v = wraps.v;
     material.nearest = look.texture_filter == TextureFilter::nearest;
+    material.maps = {look.normal_map, look.roughness_map, nullptr};
     return material;
 }
 

@@ -3,6 +3,7 @@
 
 #include "core/color.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <memory>
@@ -29,6 +30,21 @@ struct Texture {
 /// Continuation of a texture beyond its edges.
 enum class TextureWrap : std::uint8_t { repeat, mirror, clamp };
 
+/// Images in addition to that of the color, at the same places. Their texels hold numbers, not square roots.
+struct SurfaceMaps {
+    using Map = std::shared_ptr<const Texture>;
+    Map normal;    // red rightward, green upward, blue outward, 128 is 0; a mean that is short stands for a rough place
+    Map surface;   // red: share of the sky light; green and blue: factors of roughness and metallic
+    Map emission;  // a color, multiplies the emission
+
+    static constexpr unsigned with_normal = 1, with_surface = 2, with_emission = 4;
+    /// Bits of the maps that there are.
+    unsigned bits() const {
+        return (normal ? with_normal : 0u) | (surface ? with_surface : 0u) | (emission ? with_emission : 0u);
+    }
+    bool operator==(const SurfaceMaps&) const = default;
+};
+
 struct MeshMaterial {
     static constexpr float of_body = -1.0f;  // a property that the file does not state
 
@@ -39,7 +55,11 @@ struct MeshMaterial {
     std::shared_ptr<const Texture> texture;  // multiplies the color; null: none
     TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
     bool nearest = false;  // texels are drawn as squares
+    SurfaceMaps maps;
+    float opacity = 1.0f;
+    bool blends = false;  // the alpha of the texture multiplies the opacity
 
+    bool translucent() const { return opacity < 1.0f || (blends && texture && texture->least_alpha < 255); }
     bool has_holes() const { return texture && float(texture->least_alpha) < 255.0f * cutoff; }
 };
 
@@ -54,6 +74,15 @@ struct MeshPaint {
     std::vector<Corner> corners;              // three for each triangle
     Color mean;                               // for drawings with one color
     std::vector<std::string> missing_images;  // names of images that could not be read
+
+    /// SurfaceMaps::bits() of all materials together.
+    unsigned map_bits() const {
+        unsigned bits = 0;
+        for (const MeshMaterial& material : materials) bits |= material.maps.bits();
+        return bits;
+    }
+    bool translucent() const { return std::ranges::any_of(materials, &MeshMaterial::translucent); }
+    bool has_holes() const { return std::ranges::any_of(materials, &MeshMaterial::has_holes); }
 };
 
 /// The color of a material at a place: of the nearest texel of the image, with the color of the vertices.

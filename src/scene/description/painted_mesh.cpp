@@ -9,7 +9,8 @@ namespace tumble {
 namespace {
 
 bool same_texture(const MeshMaterial& a, const MeshMaterial& b) {
-    return a.texture == b.texture && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.nearest == b.nearest;
+    return a.texture == b.texture && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.nearest == b.nearest &&
+           a.maps == b.maps && a.translucent() == b.translucent() && a.blends == b.blends;
 }
 
 /// For each material the first one with its texture.
@@ -23,10 +24,14 @@ std::vector<std::size_t> first_with_texture(const std::vector<MeshMaterial>& mat
     return first;
 }
 
+float hole_of(const MeshMaterial& material) {
+    return material.has_holes() ? material.cutoff : material.blends ? -1.0f : 0.0f;
+}
+
 VertexPaint paint_of(const MeshMaterial& material, const MeshPaint::Corner& corner) {
     VertexPaint paint{corner.uv,
                       material.color,
-                      {material.roughness, material.metallic, material.has_holes() ? material.cutoff : 0.0f},
+                      {material.roughness, material.metallic, hole_of(material), material.opacity},
                       material.emission};
     for (std::size_t c = 0; c < 3; ++c) paint.color[c] *= corner.color[c];
     return paint;

@@ -13,8 +13,10 @@ namespace tumble {
 /// Attributes of a vertex in addition to MeshAsset::Vertex, as in shaders/body.vert.
 struct VertexPaint {
     std::array<float, 2> uv;
-    std::array<float, 3> color;     // linear light, without the texture
-    std::array<float, 3> surface;   // roughness, metallic (below 0: the body's values), alpha below which is a hole
+    std::array<float, 3> color;  // linear light, without the texture
+    // Roughness and metallic (below 0: the body's values); alpha below which is a hole (below 0: alpha multiplies the
+    // opacity); opacity.
+    std::array<float, 4> surface;
     std::array<float, 3> emission;  // linear light
 };
 

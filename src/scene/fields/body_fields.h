@@ -27,6 +27,9 @@ struct Material {
     std::shared_ptr<const Texture> texture;  // null: none
     std::optional<double> texture_scale;     // m
     std::optional<TextureFilter> texture_filter;
+    std::shared_ptr<const Texture> normal_map, roughness_map;  // null: none
+    std::optional<double> opacity;
+    std::optional<Color> emission;
     std::optional<SoundMaterial> sound;
 };
 
@@ -52,7 +55,8 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
           {"s: a spin about the contact's normal is braked by the torque s·N, in addition to that of the contact's "
            "area. Default and value of a pair as for the friction",
            "0"});
-    field(self.roughness, "roughness", limits::fraction, {"0: mirror, 1: matte", "0.6"});
+    field(self.roughness, "roughness", limits::fraction,
+          {"0: mirror, 1: matte; it multiplies a roughness_map", "0.6, with a roughness_map 1"});
     field(self.metallic, "metallic", limits::fraction, {"1: metal", "0"});
     field(self.pattern, "pattern", ByType(),
           {"see [patterns and textures](#patterns-and-textures)", "`\"panel\"`, planes `\"grid\"`"});
@@ -63,6 +67,18 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
     field(self.texture_scale, "texture_scale", limits::size,
           {"length that the image covers once", "a face of a box, the way around a sphere, 1 m of a plane"});
     field(self.texture_filter, "texture_filter", ByType(), {"magnified texels: blended, or squares", "`\"linear\"`"});
+    field(self.normal_map, "normal_map", ByCode(),
+          {"PNG or JPEG file with directions of the surface, of OpenGL's kind (green upward): bumps that light shows",
+           "none",
+           {},
+           "string"});
+    field(self.roughness_map, "roughness_map", ByCode(),
+          {"PNG or JPEG file whose gray value, as it is, multiplies the roughness", "none", {}, "string"});
+    field(self.opacity, "opacity", limits::fraction,
+          {"share of the background that the body hides, see [opacity and emission](#opacity-and-emission); planes are "
+           "opaque",
+           "1"});
+    field(self.emission, "emission", ByType(), {"own light, which no shadow dims", "`\"#000000\"`, none"});
     field(self.sound, "sound", ByType(),
           {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`"});
 }
@@ -77,6 +93,11 @@ void visit_fields(Of<Appearance>, Visitor& field, Self& self) {
     field.since(self.pattern_color.has_value(), self.pattern_color);  // other scenes keep their hash
     field.since(self.pattern_scale != 0.0, self.pattern_scale);
     field.since(self.texture != nullptr, self.texture, self.texture_scale, self.texture_filter);
+    field.since(!self.texture && self.has_image(), self.texture_scale, self.texture_filter);
+    field.since(self.normal_map != nullptr, std::string_view("normal_map"), self.normal_map);
+    field.since(self.roughness_map != nullptr, std::string_view("roughness_map"), self.roughness_map);
+    field.since(self.opacity != 1.0, std::string_view("opacity"), self.opacity);
+    field.since(self.emission != Color{0, 0, 0}, std::string_view("emission"), self.emission);
 }
 
 /// A body of the interface has its visibility itself, that of a description in its appearance.

@@ -97,6 +97,9 @@ template <>
 inline constexpr auto choices<TextureFilter> =
     std::to_array<Choice<TextureFilter>>({{"linear", TextureFilter::linear}, {"nearest", TextureFilter::nearest}});
 template <>
+inline constexpr auto choices<LightType> =
+    std::to_array<Choice<LightType>>({{"sun", LightType::sun}, {"point", LightType::point}, {"spot", LightType::spot}});
+template <>
 inline constexpr auto choices<SoundMaterial> = std::to_array<Choice<SoundMaterial>>({{"wood", SoundMaterial::wood},
                                                                                      {"metal", SoundMaterial::metal},
                                                                                      {"glass", SoundMaterial::glass},

@@ -61,6 +61,21 @@ void visit_fields(Of<LightDescription>, Visitor& field, Self& self) {
 }
 
 template <class Visitor, class Self>
+void visit_fields(Of<LampDescription>, Visitor& field, Self& self) {
+    field(self.type, "type", ByType(),
+          {"`\"sun\"`: everywhere from one direction; `\"point\"`: to all sides, by the inverse square of the "
+           "distance; `\"spot\"`: such a light within a cone"});
+    field(self.direction, "direction", Direction(), {"the direction in which the light of a sun or spot travels"});
+    field(self.position, "position", limits::coordinate, {"of a point or spot", "required for these"});
+    field(self.color, "color", ByType());
+    field(self.intensity, "intensity", limits::light,
+          {"1 is the light of `[light]`; of a point or spot at a distance of 1 m"});
+    field(self.angle, "angle", limits::cone_angle, {"degrees, of the whole cone of a spot; its rim is soft"});
+    field(self.shadows, "shadows", ByType(),
+          {"only one light, a sun, may cast shadows", "`true` for the first sun, if no other light says so"});
+}
+
+template <class Visitor, class Self>
 void visit_fields(Of<WindDescription>, Visitor& field, Self& self) {
     field(self.velocity, "velocity", limits::velocity);
     field(self.density, "density", limits::air_density);

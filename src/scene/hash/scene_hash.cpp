@@ -87,7 +87,7 @@ public:
     explicit DescriptionHash(Content content) : all_(content == Content::all) {}
 
     void add_scene(const SceneDescription& scene) {
-        const auto& [file, title, simulation, output, camera, light, wind, contact, forces, fields, pair_forces, bodies,
+        const auto& [file, title, simulation, output, camera, light, lamps, wind, contact, forces, fields, pair_forces, bodies,
                      joints, cords, overlay, speed] = scene;
         add_value(simulation);
         add_value(output);
@@ -100,6 +100,7 @@ public:
         if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
+        if (!lamps.empty()) add_value(lamps);  // as joints
         add_shown_file(scene);
         if (!speed.empty()) add_value(speed);  // other scenes keep their hash
     }
@@ -198,11 +199,16 @@ private:
     }
     void add_value(const std::shared_ptr<const Texture>& texture) { add_shared(texture); }
     void add_value(const MeshMaterial& material) {
-        const auto& [color, roughness, metallic, emission, cutoff, texture, wrap_u, wrap_v, nearest] = material;
+        const auto& [color, roughness, metallic, emission, cutoff, texture, wrap_u, wrap_v, nearest, maps, opacity,
+                     blends] = material;
         add_bytes(std::as_bytes(std::span(color)));
         add_bytes(std::as_bytes(std::span(emission)));
         add_all(double(roughness), double(metallic), double(cutoff), wrap_u, wrap_v, nearest, texture != nullptr);
         if (texture) add_shared(texture);
+        if (maps.bits() != 0) add(maps.bits());  // other scenes keep their hash
+        for (const SurfaceMaps::Map& map : {maps.normal, maps.surface, maps.emission})
+            if (map) add_shared(map);
+        if (material.translucent()) add_all(std::string_view("opacity"), double(opacity), blends);
     }
     void add_value(const MeshPaint& paint) {
         const auto& [materials, material_of_triangle, corners, mean, missing] =
@@ -273,7 +279,7 @@ std::string scene_hash(const SceneDescription& scene) { return hash_of(scene, Co
 std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, Content::motion); }
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
-    const auto& [file, title, simulation, output, camera, light, wind, contact, forces, fields, pair_forces, bodies,
+    const auto& [file, title, simulation, output, camera, light, lamps, wind, contact, forces, fields, pair_forces, bodies,
                  joints, cords, overlay, speed] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
@@ -287,6 +293,7 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
                                                            {"wind", part(wind)},
                                                            {"forces", part(forces)},
                                                            {"bodies", part(bodies)}};
+    if (!lamps.empty()) parts.emplace_back("lights", part(lamps));             // as in the hash
     if (contact != PairRules{}) parts.emplace_back("contact", part(contact));  // as in the hash
     if (!fields.empty()) parts.emplace_back("fields", part(fields));
     if (!pair_forces.empty()) parts.emplace_back("pair forces", part(pair_forces));

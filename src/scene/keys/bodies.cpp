@@ -108,7 +108,7 @@ void BodyNames::take(const std::string& name, const SourcePosition& origin) {
 BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequest& shape,
                                 const BodySources& sources) {
     Material material = read_material(table, shape.shape, sources);
-    if (material.color || material.texture || table.has("colors"))
+    if (material.color || material.texture || material.normal_map || material.roughness_map || table.has("colors"))
         shape.shape = without_paint(shape.shape);
     else
         material.color = mean_paint(shape.shape);

@@ -227,7 +227,8 @@ void read_chains(const TomlTable& root, const BodySources& sources, std::vector<
                            "joint",         "ends",          "material", "color",         "colors",
                            "roughness",     "metallic",      "pattern",  "visible",       "density",
                            "mass",          "restitution",   "friction", "velocity",      "integrator",
-                           "pattern_color", "pattern_scale", "texture",  "texture_scale", "texture_filter"});
+                           "pattern_color", "pattern_scale", "texture",  "texture_scale", "texture_filter",
+                           "normal_map",    "roughness_map", "opacity",  "emission"});
         const ChainTable chain = read_chain(table, index);
         check_number_of_bodies(std::int64_t(bodies.size() + chain.links), table.require("links").origin());
         ShapeRequest shape = read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);

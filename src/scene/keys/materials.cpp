@@ -3,6 +3,7 @@
 #include "core/safe_text.h"
 #include "scene/description/looks.h"
 #include "scene/keys/read_fields.h"
+#include "scene/mesh/curved_mesh.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/toml/limits.h"
 
@@ -43,7 +44,9 @@ MeshShape with_texture(const MeshShape& mesh, const Appearance& look) {
 Shape textured(const Shape& shape, const Appearance& look) {
     if (const auto* mesh = std::get_if<MeshShape>(&shape)) return with_texture(*mesh, look);
     if (const auto* curved = std::get_if<CurvedShape>(&shape)) {
-        auto asset = std::make_shared<MeshAsset>(*curved->drawn);
+        constexpr int rows = 32;
+        const bool tapers = curved->kind == CurvedKind::cone && curved->radius != curved->top_radius;
+        auto asset = std::make_shared<MeshAsset>(tapers ? *curved_mesh(*curved, rows) : *curved->drawn);
         asset->paint = texture_paint(shape, look, asset->vertices, asset->indices);
         CurvedShape made = *curved;
         made.drawn = std::move(asset);
@@ -64,6 +67,11 @@ Shape textured(const Shape& shape, const Appearance& look) {
 
 Material overridden(const Material& material, const Material& over) {
     const auto either = [](const auto& mine, const auto& theirs) { return theirs ? theirs : mine; };
+    const bool images = over.texture || over.normal_map || over.roughness_map;
+    // A pattern replaces images.
+    const auto image = [&](const auto& mine, const auto& theirs) {
+        return over.pattern ? theirs : either(mine, theirs);
+    };
     return {either(material.color, over.color),
             either(material.density, over.density),
             either(material.restitution, over.restitution),
@@ -72,33 +80,43 @@ Material overridden(const Material& material, const Material& over) {
             either(material.spinning_friction, over.spinning_friction),
             either(material.roughness, over.roughness),
             either(material.metallic, over.metallic),
-            over.texture ? over.pattern : either(material.pattern, over.pattern),
+            images ? over.pattern : either(material.pattern, over.pattern),
             either(material.pattern_color, over.pattern_color),
             either(material.pattern_scale, over.pattern_scale),
-            over.pattern ? over.texture : either(material.texture, over.texture),
+            image(material.texture, over.texture),
             either(material.texture_scale, over.texture_scale),
             either(material.texture_filter, over.texture_filter),
+            image(material.normal_map, over.normal_map),
+            image(material.roughness_map, over.roughness_map),
+            either(material.opacity, over.opacity),
+            either(material.emission, over.emission),
             either(material.sound, over.sound)};
 }
 
 void read_material_keys(const TomlTable& table, const TextureSource& textures, Material& material) {
     read_fields(table, material);
-    const auto value = table.find("texture");
-    if (!value) return;
-    for (const char* key : {"pattern", "pattern_color", "pattern_scale"})
-        if (const auto other = table.find(key))
-            other->origin().fail("and texture exclude each other: give one of them");
-    const std::string name = value->text();
-    if (name.empty()) value->fail("must not be empty");
-    if (name.find('\0') != std::string::npos) value->fail("must not hold a zero byte");
-    const std::filesystem::path file = (textures.folder / std::filesystem::path(name)).lexically_normal();
-    try {
-        material.texture = textures.files.load(file);
-    } catch (const MeshError& error) {
-        throw InputError(value->origin().where,
-                         fmt::format("texture \"{}\" {} (looked at {})", safe_text(name, path_text_bytes), error.what(),
-                                     safe_path(file)));
-    }
+    const auto read = [&](const char* key, std::shared_ptr<const Texture>& image, const auto& load) {
+        const auto value = table.find(key);
+        if (!value) return;
+        for (const char* pattern : {"pattern", "pattern_color", "pattern_scale"})
+            if (const auto other = table.find(pattern))
+                other->origin().fail(fmt::format("and {} exclude each other: give one of them", key));
+        const std::string name = value->text();
+        if (name.empty()) value->fail("must not be empty");
+        if (name.find('\0') != std::string::npos) value->fail("must not hold a zero byte");
+        const std::filesystem::path file = (textures.folder / std::filesystem::path(name)).lexically_normal();
+        try {
+            image = load(file);
+        } catch (const MeshError& error) {
+            throw InputError(value->origin().where,
+                             fmt::format("{} \"{}\" {} (looked at {})", key, safe_text(name, path_text_bytes),
+                                         error.what(), safe_path(file)));
+        }
+    };
+    TextureFiles& files = textures.files;
+    read("texture", material.texture, [&](const auto& file) { return files.load(file); });
+    read("normal_map", material.normal_map, [&](const auto& file) { return files.load_normals(file); });
+    read("roughness_map", material.roughness_map, [&](const auto& file) { return files.load_roughness(file); });
 }
 
 Materials read_materials(const TomlTable& root, const TextureSource& textures) {
@@ -128,18 +146,21 @@ void apply_material(const Material& material, BodyDescription& body) {
     look.color = material.color.value_or(material.texture ? Color{255, 255, 255}
                                          : is_plane       ? default_plane_color
                                                           : default_color);
-    look.pattern = material.pattern.value_or(material.texture ? Pattern::plain
-                                             : is_plane       ? Pattern::grid
-                                                              : Pattern::panel);
+    const bool has_image = material.texture || material.normal_map || material.roughness_map;
+    look.pattern = material.pattern.value_or(has_image ? Pattern::plain : is_plane ? Pattern::grid : Pattern::panel);
     if (look.pattern == Pattern::plain && !has_panels(body.shape)) look.pattern = Pattern::panel;
-    look.roughness = material.roughness.value_or(look.roughness);
+    look.roughness = material.roughness.value_or(material.roughness_map ? 1.0 : look.roughness);
     look.metallic = material.metallic.value_or(look.metallic);
     look.pattern_color = material.pattern_color;
     look.pattern_scale = material.pattern_scale.value_or(0.0);
     look.texture = material.texture;
     look.texture_scale = material.texture_scale.value_or(0.0);
     look.texture_filter = material.texture_filter.value_or(look.texture_filter);
-    if (look.texture) body.shape = textured(body.shape, look);
+    look.normal_map = material.normal_map;
+    look.roughness_map = material.roughness_map;
+    look.opacity = material.opacity.value_or(1.0);
+    look.emission = material.emission.value_or(look.emission);
+    if (has_image) body.shape = textured(body.shape, look);
     body.density = material.density.value_or(body.density);
     body.restitution = material.restitution;
     body.sound = material.sound.value_or(body.sound);

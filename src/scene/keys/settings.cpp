@@ -1,6 +1,7 @@
 #include "scene/keys/settings.h"
 
 #include "core/frame_rate.h"
+#include "scene/description/lamps.h"
 #include "scene/fields/settings_fields.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -169,6 +171,25 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
                         blame_fps ? fps_text(fps) : number_text(duration)));
 }
 
+LampDescription read_lamp(const TomlTable& table) {
+    LampDescription lamp = read_all_fields<LampDescription>(table);
+    const bool sun = lamp.type == LightType::sun, spot = lamp.type == LightType::spot;
+    const auto refuse = [&](const char* key, const char* instead) {
+        if (const auto value = table.find(key))
+            value->origin().fail(fmt::format("has no effect on a {} light: {}", name_of(lamp.type), instead));
+    };
+    if (sun) refuse("position", "give its direction alone, or type = \"point\"");
+    if (!spot) refuse("angle", "drop it, or give type = \"spot\"");
+    if (!sun && !spot) refuse("direction", "drop it, or give type = \"spot\"");
+    if (!sun) table.require("position");
+    if (!sun && lamp.shadows)
+        table.find("shadows")->fail(
+            fmt::format("is only for suns: a {} light has no shadows; drop the key, and give shadows to a sun",
+                        name_of(lamp.type)));
+    lamp.direction.normalize();
+    return lamp;
+}
+
 }  // namespace
 
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
@@ -187,9 +208,32 @@ void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, S
     check_frame_count(time, simulation.duration, output.fps);
 }
 
-LightDescription read_light(const TomlTable& root) {
-    const auto table = root.find_table("light");
-    return table ? read_all_fields<LightDescription>(*table) : LightDescription{};
+void read_lights(const TomlTable& root, SceneDescription& scene) {
+    const auto given = root.find("light");
+    if (!given) return;
+    if (!given->is_array()) {
+        scene.light = read_all_fields<LightDescription>(*root.find_table("light"));
+        return;
+    }
+    std::optional<std::size_t> with_shadows, first_sun;
+    for (TomlTable& table : given->tables("; write [[light]] for each")) {
+        table.set_title("[[light]]");
+        scene.lamps.push_back(read_lamp(table));
+        const std::size_t at = scene.lamps.size() - 1;
+        if (std::int64_t(at) == limits::lamps)
+            table.origin().fail(fmt::format("is one too many: a scene has {} lights at most", limits::lamps));
+        if (scene.lamps[at].type == LightType::sun && !first_sun && !table.has("shadows")) first_sun = at;
+        if (!scene.lamps[at].shadows) continue;
+        if (with_shadows)
+            table.find("shadows")->fail(
+                "is on for a light already: each shadow map would cost 6 ms of a frame of 1280 x 720, and there is "
+                "one; "
+                "give shadows = false here or there");
+        with_shadows = at;
+    }
+    if (!with_shadows && first_sun) scene.lamps[*(with_shadows = first_sun)].shadows = true;
+    if (const auto sun = main_sun(scene.lamps)) scene.light.direction = scene.lamps[*sun].direction;
+    scene.light.shadows = with_shadows.has_value();
 }
 
 PairRules read_contact(const TomlTable& root) {

@@ -14,7 +14,8 @@ namespace tumble {
 void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, SimulationSettings& simulation,
                        OutputSettings& output);
 
-LightDescription read_light(const TomlTable& root);
+/// [light], or all of [[light]] with the one that has shadows as the light.
+void read_lights(const TomlTable& root, SceneDescription& scene);
 std::optional<WindDescription> read_wind(const TomlTable& root);
 PairRules read_contact(const TomlTable& root);
 

@@ -22,7 +22,7 @@ struct Ring {
     bool joined = false;     // by triangles with the ring below
 };
 
-std::vector<Ring> rings_of(const CurvedShape& shape) {
+std::vector<Ring> rings_of(const CurvedShape& shape, int rows) {
     const double half = 0.5 * shape.height;
     std::vector<Ring> rings;
     const auto add_quarter = [&](double radius, double center, bool upper, bool joined) {
@@ -47,10 +47,12 @@ std::vector<Ring> rings_of(const CurvedShape& shape) {
         case CurvedKind::cone: {
             const double low = shape.radius, high = shape.top_radius, slant = hypotenuse(shape.height, low - high);
             const double outward = shape.height / slant, upward = (low - high) / slant;
-            rings = {{0.0, -half, 0.0, -1.0},
-                     {low, -half, 0.0, -1.0, true},
-                     {low, -half, outward, upward},
-                     {high, half, outward, upward, true}};
+            rings = {{0.0, -half, 0.0, -1.0}, {low, -half, 0.0, -1.0, true}, {low, -half, outward, upward}};
+            for (int row = 1; row < rows; ++row) {
+                const double share = double(row) / rows;
+                rings.push_back({low + share * (high - low), -half + share * shape.height, outward, upward, true});
+            }
+            rings.push_back({high, half, outward, upward, true});
             if (high > 0.0) rings.insert(rings.end(), {{high, half, 0.0, 1.0}, {0.0, half, 0.0, 1.0, true}});
             break;
         }
@@ -60,13 +62,13 @@ std::vector<Ring> rings_of(const CurvedShape& shape) {
 
 }  // namespace
 
-std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape) {
+std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape, int rows) {
     const bool ellipsoid = shape.kind == CurvedKind::ellipsoid;
     const Vec3 scale = ellipsoid ? shape.radii : Vec3(Vec3::Ones());
     const int sides = ellipsoid || shape.kind == CurvedKind::capsule ? round_sides : flat_sides;
     auto asset = std::make_shared<MeshAsset>();
     std::vector<std::uint32_t> welded;  // by vertex for drawing: its index in the mesh
-    const std::vector<Ring> rings = rings_of(shape);
+    const std::vector<Ring> rings = rings_of(shape, rows);
     for (std::size_t k = 0; k < rings.size(); ++k) {
         const Ring& ring = rings[k];
         const bool pole = ring.radius == 0.0;

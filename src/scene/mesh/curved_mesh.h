@@ -8,6 +8,7 @@
 namespace tumble {
 
 /// Smooth, with sharp rims; the largest error is 0.05 % of a radius for round sides, 0.1 % for balls and ellipsoids.
-std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape);
+/// `rows`: of triangles along the side of a cone. A texture bends within each.
+std::shared_ptr<const MeshAsset> curved_mesh(const CurvedShape& shape, int rows = 1);
 
 }  // namespace tumble

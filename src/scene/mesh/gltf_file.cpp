@@ -152,8 +152,8 @@ private:
         std::vector<std::array<float, 2>> uvs;
         if (primitive.material == MeshFile::no_material) return uvs;
         const GltfMaterial& material = materials_[primitive.material];
-        if (!material.look.texture || material.uv_set >= primitive.uv_sets.size()) return uvs;
-        for (const auto& uv : attribute(primitive.uv_sets[material.uv_set], positions))
+        if (!material.has_images() || material.place->uv_set >= primitive.uv_sets.size()) return uvs;
+        for (const auto& uv : attribute(primitive.uv_sets[material.place->uv_set], positions))
             uvs.push_back(material.placed(uv[0], uv[1]));
         return uvs;
     }

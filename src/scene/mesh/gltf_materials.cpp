@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace tumble {
 namespace {
@@ -29,6 +30,20 @@ std::string text_of(const Json& object, const char* name) {
 const Json* find_inner(const Json& object, const char* outer, const char* name) {
     const Json* value = find_member(object, outer);
     return value ? find_member(*value, name) : nullptr;
+}
+
+GltfPlace place_of(const Json& info) {
+    GltfPlace place;
+    place.uv_set = find_whole(info, "texCoord").value_or(0);
+    const Json* moved = find_inner(info, "extensions", "KHR_texture_transform");
+    if (!moved) return place;
+    place.uv_set = find_whole(*moved, "texCoord").value_or(place.uv_set);
+    const auto offset = find_floats(*moved, "offset", 2), scale = find_floats(*moved, "scale", 2);
+    const SinCos turn = sincos(double(number_of(*moved, "rotation", 0.0f)));
+    const float sx = scale ? (*scale)[0] : 1.0f, sy = scale ? (*scale)[1] : 1.0f;
+    place.rows = {float(turn.cos) * sx,  float(turn.sin) * sy, offset ? (*offset)[0] : 0.0f,
+                  float(-turn.sin) * sx, float(turn.cos) * sy, offset ? (*offset)[1] : 0.0f};
+    return place;
 }
 
 }  // namespace
@@ -63,19 +78,70 @@ void GltfMaterials::read_sampler(const Json& texture, MeshMaterial& look) const 
     look.wrap_v = wrap("wrapT");
 }
 
-void GltfMaterials::read_texture(const Json& info, GltfMaterial& material) {
-    const Json& texture = require_item(document_, "textures", require_whole(info, "index"));
-    material.uv_set = find_whole(info, "texCoord").value_or(0);
-    if (const auto image = image_of(texture)) material.look.texture = images_.texture(image->first, image->second);
-    read_sampler(texture, material.look);
-    const Json* moved = find_inner(info, "extensions", "KHR_texture_transform");
-    if (!moved) return;
-    material.uv_set = find_whole(*moved, "texCoord").value_or(material.uv_set);
-    const auto offset = find_floats(*moved, "offset", 2), scale = find_floats(*moved, "scale", 2);
-    const SinCos turn = sincos(double(number_of(*moved, "rotation", 0.0f)));
-    const float sx = scale ? (*scale)[0] : 1.0f, sy = scale ? (*scale)[1] : 1.0f;
-    material.place = {float(turn.cos) * sx,  float(turn.sin) * sy, offset ? (*offset)[0] : 0.0f,
-                      float(-turn.sin) * sx, float(turn.cos) * sy, offset ? (*offset)[1] : 0.0f};
+std::shared_ptr<const Texture> GltfMaterials::read_image(const Json& owner, const char* name, Content content,
+                                                         GltfMaterial& material) {
+    const Json* info = find_member(owner, name);
+    if (!info) return nullptr;
+    const Json& texture = require_item(document_, "textures", require_whole(*info, "index"));
+    const GltfPlace place = place_of(*info);
+    if (material.place && *material.place != place) {
+        images_.add_missing(fmt::format("a \"{}\" with places of its own", name));
+        return nullptr;
+    }
+    const auto image = image_of(texture);
+    if (!image) return nullptr;
+    if (!material.place) read_sampler(texture, material.look);
+    material.place = place;
+    return content == Content::color ? images_.texture(image->first, image->second)
+                                     : images_.map(image->first, image->second);
+}
+
+/// Occlusion and roughness are of one map, mostly of one image.
+void GltfMaterials::read_maps(const Json& item, const Json& surface, GltfMaterial& material) {
+    MeshMaterial& look = material.look;
+    const auto rough = read_image(surface, "metallicRoughnessTexture", Content::numbers, material);
+    const auto open = read_image(item, "occlusionTexture", Content::numbers, material);
+    const float strength = open ? share_of(item["occlusionTexture"], "strength", 1.0f) : 0.0f;
+    const auto texel_of = [](const Texture& map, int x, int y, const Texture::Level& in) {
+        const Texture::Level& image = map.levels.front();
+        const int column = int(std::int64_t(x) * image.width / in.width);
+        const int row = int(std::int64_t(y) * image.height / in.height);
+        return image.texels[std::size_t(row) * std::size_t(image.width) + std::size_t(column)];
+    };
+    if (rough || open) {
+        const bool by_rough = rough && (!open || rough->levels.size() >= open->levels.size());
+        const Texture& larger = by_rough ? *rough : *open;
+        look.maps.surface = changed_map(larger, [&](int x, int y, std::array<std::uint8_t, 4>& texel) {
+            const float loss = open ? strength * float(255 - texel_of(*open, x, y, larger.levels.front())[0]) : 0.0f;
+            texel = rough ? texel_of(*rough, x, y, larger.levels.front()) : std::array<std::uint8_t, 4>{0, 255, 255, 0};
+            texel[0] = std::uint8_t(std::lround(255.0f - loss));
+            texel[3] = 255;
+        });
+    }
+    look.maps.normal = read_image(item, "normalTexture", Content::numbers, material);
+    const float scale = look.maps.normal ? number_of(item["normalTexture"], "scale", 1.0f) : 1.0f;
+    if (scale != 1.0f)
+        look.maps.normal = changed_map(*look.maps.normal, [&](int, int, std::array<std::uint8_t, 4>& texel) {
+            std::array<float, 3> n;
+            for (std::size_t c = 0; c < 3; ++c) n[c] = (float(texel[c]) - 128.0f) / 127.0f * (c < 2 ? scale : 1.0f);
+            const float length = std::max(std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]), 1e-6f);
+            for (std::size_t c = 0; c < 3; ++c)
+                texel[c] = std::uint8_t(std::lround(std::clamp(128.0f + 127.0f * n[c] / length, 0.0f, 255.0f)));
+        });
+}
+
+void GltfMaterials::read_emission(const Json& item, GltfMaterial& material) {
+    const auto light = find_floats(item, "emissiveFactor", 3);
+    if (!light) return;
+    MeshMaterial& look = material.look;
+    const Json* stronger = find_inner(item, "extensions", "KHR_materials_emissive_strength");
+    constexpr float brightest = 1000.0f;
+    const float strength =
+        stronger ? std::clamp(number_of(*stronger, "emissiveStrength", 1.0f), 0.0f, brightest) : 1.0f;
+    for (std::size_t c = 0; c < 3; ++c) look.emission[c] = strength * std::clamp((*light)[c], 0.0f, 1.0f);
+    if (look.emission == std::array<float, 3>{} || !find_member(item, "emissiveTexture")) return;
+    look.maps.emission = read_image(item, "emissiveTexture", Content::color, material);
+    if (!look.maps.emission) look.emission = {};
 }
 
 GltfMaterial GltfMaterials::read(std::uint64_t number) {
@@ -85,25 +151,21 @@ GltfMaterial GltfMaterials::read(std::uint64_t number) {
     const Json& surface = given ? *given : none;
     GltfMaterial material;
     MeshMaterial& look = material.look;
-    if (const auto color = find_floats(surface, "baseColorFactor", 4))
+    const auto color = find_floats(surface, "baseColorFactor", 4);
+    if (color)
         for (std::size_t c = 0; c < 3; ++c) look.color[c] = std::clamp((*color)[c], 0.0f, 1.0f);
     look.metallic = share_of(surface, "metallicFactor", 1.0f);
     look.roughness = share_of(surface, "roughnessFactor", 1.0f);
-    if (const Json* texture = find_member(surface, "baseColorTexture")) read_texture(*texture, material);
-    if (const Json* map = find_member(surface, "metallicRoughnessTexture"))
-        if (const auto image = image_of(require_item(document_, "textures", require_whole(*map, "index")));
-            image && is_texture_image(image->second)) {
-            const std::array<float, 4> mean = mean_of_image(image->second, image->first);
-            look.roughness *= mean[1];
-            look.metallic *= mean[2];
-        }
-    if (!find_member(item, "emissiveTexture"))
-        if (const auto light = find_floats(item, "emissiveFactor", 3))
-            for (std::size_t c = 0; c < 3; ++c) look.emission[c] = std::clamp((*light)[c], 0.0f, 1.0f);
+    look.texture = read_image(surface, "baseColorTexture", Content::color, material);
+    read_maps(item, surface, material);
+    read_emission(item, material);
     const std::string mode = text_of(item, "alphaMode");
     constexpr float hole = 0.5f;  // glTF's default
     if (mode == "MASK") look.cutoff = share_of(item, "alphaCutoff", hole);
-    if (mode == "BLEND") look.cutoff = hole;
+    if (mode == "BLEND") {
+        look.blends = true;
+        if (color) look.opacity = std::clamp((*color)[3], 0.0f, 1.0f);
+    }
     return material;
 }
 

@@ -52,26 +52,35 @@ std::optional<std::string> MeshImages::read(std::string_view name) {
     return bytes;
 }
 
-std::shared_ptr<const Texture> MeshImages::texture(std::string_view name) {
-    const std::string key = fmt::format("file {}", name);
+template <class Make>
+std::shared_ptr<const Texture> MeshImages::made(const std::string& key, const std::string& shown,
+                                                const std::optional<std::string_view>& bytes, const Make& make) {
     if (const auto known = textures_.find(key); known != textures_.end()) return known->second;
-    const std::optional<std::string> bytes = read(name);
-    std::shared_ptr<const Texture> made;
-    if (bytes && is_texture_image(*bytes))
-        made = make_texture(*bytes, readable(name, name_shown), texels_);
-    else if (bytes)
-        add_missing(readable(name, name_shown));
-    return textures_.emplace(key, std::move(made)).first->second;
+    std::optional<std::string> of_file;
+    if (!bytes) of_file = read(key.substr(key.find(' ') + 1));
+    const std::optional<std::string_view> image = of_file ? std::string_view(*of_file) : bytes;
+    std::shared_ptr<const Texture> texture;
+    if (image && is_texture_image(*image))
+        texture = make(*image, shown, texels_);
+    else if (image)
+        add_missing(shown);
+    return textures_.emplace(key, std::move(texture)).first->second;
+}
+
+std::shared_ptr<const Texture> MeshImages::texture(std::string_view name) {
+    return made(fmt::format("file {}", name), readable(name, name_shown), std::nullopt, make_texture);
 }
 
 std::shared_ptr<const Texture> MeshImages::texture(const std::string& name, std::string_view bytes) {
-    if (const auto known = textures_.find(name); known != textures_.end()) return known->second;
-    std::shared_ptr<const Texture> made;
-    if (is_texture_image(bytes))
-        made = make_texture(bytes, name, texels_);
-    else
-        add_missing(name);
-    return textures_.emplace(name, std::move(made)).first->second;
+    return made(name, name, bytes, make_texture);
+}
+
+std::shared_ptr<const Texture> MeshImages::map(std::string_view name) {
+    return made(fmt::format("map {}", name), readable(name, name_shown), std::nullopt, make_map);
+}
+
+std::shared_ptr<const Texture> MeshImages::map(const std::string& name, std::string_view bytes) {
+    return made(fmt::format("numbers of {}", name), name, bytes, make_map);
 }
 
 }  // namespace tumble

@@ -26,12 +26,19 @@ public:
     std::shared_ptr<const Texture> texture(std::string_view name);
     /// The texture of an image that the mesh file holds under this name.
     std::shared_ptr<const Texture> texture(const std::string& name, std::string_view bytes);
+    /// The same of images that hold numbers.
+    std::shared_ptr<const Texture> map(std::string_view name);
+    std::shared_ptr<const Texture> map(const std::string& name, std::string_view bytes);
     void add_missing(const std::string& name);
 
     const std::vector<std::filesystem::path>& files() const { return files_; }
     const std::vector<std::string>& missing() const { return missing_; }
 
 private:
+    template <class Make>
+    std::shared_ptr<const Texture> made(const std::string& key, const std::string& shown,
+                                        const std::optional<std::string_view>& bytes, const Make& make);
+
     std::filesystem::path folder_;
     std::vector<std::filesystem::path> files_;
     std::vector<std::string> missing_;

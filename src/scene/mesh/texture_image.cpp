@@ -131,6 +131,47 @@ void add_mip_maps(Texture& texture, const std::array<float, 256>& light) {
     }
 }
 
+/// Mip maps of numbers.
+void add_number_maps(Texture& map) {
+    std::vector<Linear> texels;
+    while (map.levels.back().width > 1 || map.levels.back().height > 1) {
+        const Texture::Level& larger = map.levels.back();
+        const int width = std::max(1, larger.width / 2), height = std::max(1, larger.height / 2);
+        const bool first = map.levels.size() == 1;
+        texels = halved(larger.width, larger.height, width, height, [&](int x, int y) -> Linear {
+            const std::size_t at = std::size_t(y) * std::size_t(larger.width) + std::size_t(x);
+            if (!first) return texels[at];
+            const auto& bytes = larger.texels[at];
+            return {float(bytes[0]), float(bytes[1]), float(bytes[2]), 255.0f};
+        });
+        Texture::Level level{width, height, {}};
+        for (const Linear& t : texels)
+            level.texels.push_back({code(t[0] / 255.0f), code(t[1] / 255.0f), code(t[2] / 255.0f), 255});
+        map.levels.push_back(std::move(level));
+    }
+}
+
+/// The image with its bytes as they are, without mip maps.
+Texture whole_image(std::string_view bytes, const std::string& name, std::int64_t& texels) {
+    Texture texture;
+    with_rows(bytes, name, [&](ImageRows& rows) {
+        Texture::Level image{rows.size().width, rows.size().height, {}};
+        texels += std::int64_t(image.width) * image.height;
+        if (texels > limits::texture_texels)
+            throw MeshError(about_image(name, fmt::format("too much: the limit of all images together is {} megapixels",
+                                                          limits::texture_texels >> 20)));
+        for (int y = 0; y < image.height; ++y) {
+            const std::span<const std::uint8_t> row = rows.next();
+            for (std::size_t at = 0; at + 3 < row.size(); at += 4) {
+                image.texels.push_back({row[at], row[at + 1], row[at + 2], row[at + 3]});
+                texture.least_alpha = std::min(texture.least_alpha, row[at + 3]);
+            }
+        }
+        texture.levels.push_back(std::move(image));
+    });
+    return texture;
+}
+
 }  // namespace
 
 bool is_texture_image(std::string_view bytes) { return is_jpeg(bytes) || bytes.starts_with("\x89PNG\r\n\x1a\n"); }
@@ -142,41 +183,53 @@ std::shared_ptr<const Texture> make_texture(std::string_view bytes, const std::s
         light[i] = float(srgb_to_linear(double(i) / 255.0));
         root[i] = code(std::sqrt(light[i]));
     }
-    auto texture = std::make_shared<Texture>();
-    with_rows(bytes, name, [&](ImageRows& rows) {
-        Texture::Level image{rows.size().width, rows.size().height, {}};
-        texels += std::int64_t(image.width) * image.height;
-        if (texels > limits::texture_texels)
-            throw MeshError(about_image(name, fmt::format("too much: the limit of all images together is {} megapixels",
-                                                          limits::texture_texels >> 20)));
-        for (int y = 0; y < image.height; ++y) {
-            const std::span<const std::uint8_t> row = rows.next();
-            for (std::size_t at = 0; at + 3 < row.size(); at += 4) {
-                image.texels.push_back({row[at], row[at + 1], row[at + 2], row[at + 3]});
-                texture->least_alpha = std::min(texture->least_alpha, row[at + 3]);
-            }
-        }
-        texture->levels.push_back(std::move(image));
-    });
+    auto texture = std::make_shared<Texture>(whole_image(bytes, name, texels));
     add_mip_maps(*texture, light);
     for (auto& texel : texture->levels.front().texels)
         texel = {root[texel[0]], root[texel[1]], root[texel[2]], texel[3]};
     return texture;
 }
 
-std::array<float, 4> mean_of_image(std::string_view bytes, const std::string& name) {
-    std::array<float, 4> mean{};
-    with_rows(bytes, name, [&](ImageRows& rows) {
-        std::array<std::uint64_t, 4> sum{};
-        const ImageSize size = rows.size();
-        for (int y = 0; y < size.height; ++y) {
-            const std::span<const std::uint8_t> row = rows.next();
-            for (std::size_t at = 0; at < row.size(); ++at) sum[at % 4] += row[at];
+std::shared_ptr<const Texture> make_map(std::string_view bytes, const std::string& name, std::int64_t& texels) {
+    return changed_map(whole_image(bytes, name, texels), [](int, int, auto&) {});
+}
+
+std::shared_ptr<const Texture> changed_map(const Texture& map,
+                                           const std::function<void(int, int, std::array<std::uint8_t, 4>&)>& change) {
+    auto made = std::make_shared<Texture>();
+    Texture::Level image = map.levels.front();
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x) {
+            auto& texel = image.texels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+            texel[3] = 255;
+            change(x, y, texel);
         }
-        for (std::size_t c = 0; c < 4; ++c)
-            mean[c] = float(double(sum[c]) / (255.0 * double(size.width) * double(size.height)));
+    made->levels.push_back(std::move(image));
+    add_number_maps(*made);
+    return made;
+}
+
+std::shared_ptr<const Texture> normals_of_heights(const Texture& heights, float strength) {
+    const Texture::Level& image = heights.levels.front();
+    const auto at = [&](int x, int y) {
+        const int column = (x + image.width) % image.width, row = (y + image.height) % image.height;
+        return float(image.texels[std::size_t(row) * std::size_t(image.width) + std::size_t(column)][0]) / 255.0f;
+    };
+    return changed_map(heights, [&](int x, int y, std::array<std::uint8_t, 4>& texel) {
+        const float across = 0.5f * strength * (at(x - 1, y) - at(x + 1, y));
+        const float up = 0.5f * strength * (at(x, y + 1) - at(x, y - 1));
+        const float length = std::sqrt(across * across + up * up + 1.0f);
+        const auto channel = [&](float v) { return std::uint8_t(std::lround(128.0f + 127.0f * v / length)); };
+        texel = {channel(across), channel(up), channel(1.0f), 255};
     });
-    return mean;
+}
+
+bool is_gray(const Texture& map) {
+    constexpr int rounding = 3;  // of JPEG
+    const auto gray = [](const auto& texel) {
+        return std::max({texel[0], texel[1], texel[2]}) - std::min({texel[0], texel[1], texel[2]}) <= rounding;
+    };
+    return std::ranges::all_of(map.levels.front().texels, gray);
 }
 
 }  // namespace tumble

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -19,7 +20,19 @@ bool is_texture_image(std::string_view bytes);
 /// the image in a mesh file; without a name the image is the file.
 std::shared_ptr<const Texture> make_texture(std::string_view bytes, const std::string& name, std::int64_t& texels);
 
-/// The mean of the bytes of each channel, from 0 to 1, of an image that holds numbers. Throws as make_texture().
-std::array<float, 4> mean_of_image(std::string_view bytes, const std::string& name);
+/// The texture of an image that holds numbers: its bytes as they are, opaque; mip maps are their means. Throws as
+/// make_texture().
+std::shared_ptr<const Texture> make_map(std::string_view bytes, const std::string& name, std::int64_t& texels);
+
+/// The same with other texels in the image; `change`(x, y, texel) changes one.
+std::shared_ptr<const Texture> changed_map(
+    const Texture& map, const std::function<void(int x, int y, std::array<std::uint8_t, 4>& texel)>& change);
+
+/// A map whose first two channels are slopes instead of heights: of a gray image, which is higher where it is brighter.
+/// `strength`: height of white over black, in texels.
+std::shared_ptr<const Texture> normals_of_heights(const Texture& heights, float strength);
+
+/// True for an image whose texels are gray.
+bool is_gray(const Texture& map);
 
 }  // namespace tumble

@@ -103,7 +103,12 @@ inline constexpr Range inertia{0.0, 1e30, "kg m^2", true};
 inline constexpr Range inertia_product{-1e30, 1e30, "kg m^2"};
 inline constexpr double inertia_tolerance = 1e-9;  // of the largest moment: rounding of the triangle inequality
 inline constexpr std::int64_t layers = 63;         // of a scene: bits of a word, one of them for bodies without a layer
-inline constexpr Range fraction{0.0, 1.0, ""};     // roughness, metallic
+inline constexpr Range fraction{0.0, 1.0, ""};     // roughness, metallic, opacity
+
+// -- Light
+inline constexpr std::int64_t lamps = 4;     // each has its values at every vertex, of which OpenGL has few
+inline constexpr Range light{0.0, 1e6, ""};  // a point of 1e6 is as bright as the sun at a distance of 1 km
+inline constexpr Range cone_angle{1.0, 170.0, "degrees"};
 
 // -- Overlays
 inline constexpr Range arrow_scale{0.0, 1e15, "m per SI unit",

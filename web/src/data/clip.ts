@@ -69,7 +69,7 @@ export interface Scene {
   meshes: Mesh[];
   /** Images that bodies name by index. */
   textures: Texels[];
-  light: { direction: Vec3; shadows: boolean };
+  light: Light;
   /** Whether the camera moves by itself: keyframes, an orbit or a followed body. */
   camera_moves: boolean;
   camera(time: number): Camera;
@@ -110,11 +110,27 @@ export interface Texels {
   texels: Uint8Array;
 }
 
+/** The sun, and what several lights have in addition. */
+export interface Light {
+  direction: Vec3;
+  shadows: boolean;
+  /** Of the sun, linear; only with several lights. */
+  color?: Vec3;
+  /** See shaders/lights.glsl; in the world, with the kind and the cosine of half the cone's angle. */
+  others?: { kind: number; place: Vec3; light: Vec3; axis: Vec3; cosine: number }[];
+}
+
 export interface MeshTexture extends Texels {
   wrap: TextureHeader["wrap"];
   nearest: boolean;
   /** Texels with less alpha are holes. */
   cutoff: number;
+  /** See shaders/surface_maps.glsl; texels are numbers, of the emission square roots. */
+  normal_map?: Texels;
+  surface_map?: Texels;
+  emission_map?: Texels;
+  /** Only of translucent materials, whose alpha multiplies it. */
+  opacity?: number;
 }
 
 /** In the body's frame, from the body's origin. */
@@ -140,7 +156,13 @@ export interface Body {
   /** m, of a cell; by default by the size of the shape. */
   pattern_scale?: number;
   /** Index of an image; the length in m that it covers, or 0 for a face or the way around; squares in place of blended texels. */
-  texture?: { image: number; scale: number; nearest: boolean };
+  texture?: { image: number | null; scale: number; nearest: boolean };
+  /** Indices of images at the same places. */
+  normal_map?: number;
+  roughness_map?: number;
+  /** Below 1. */
+  opacity?: number;
+  emission?: ColorText;
   visible: boolean;
   /** kg; 0 of bodies that are not dynamic: their inverse mass is zero. */
   mass: number;

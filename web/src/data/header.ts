@@ -1,6 +1,6 @@
 // The JSON header of the clip data, as src/page writes it.
 import type { ArrayReference, PredictedReference } from "./container.ts";
-import type { Body, Cord, Camera, EnergyTable, JointMarks, OverlaySettings, RunSettings, Vec3 } from "./clip.ts";
+import type { Body, Cord, Camera, EnergyTable, JointMarks, OverlaySettings, RunSettings, Vec3, Light } from "./clip.ts";
 
 export interface ClipHeader {
   format: number;
@@ -24,7 +24,7 @@ export interface RunHeader {
   settings: RunSettings;
   bodies: Body[];
   cords: Cord[];
-  light: { direction: Vec3; shadows: boolean };
+  light: Light;
   camera: Camera & { quantum?: number; frames?: PredictedReference[] };
   motion: MotionHeader;
   energy: Record<keyof EnergyTable, ArrayReference>;
@@ -73,6 +73,11 @@ export interface TextureHeader extends TexelsHeader {
   wrap: ["repeat" | "mirror" | "clamp", "repeat" | "mirror" | "clamp"];
   nearest: boolean;
   cutoff: number;
+  normal_map?: TexelsHeader;
+  surface_map?: TexelsHeader;
+  emission_map?: TexelsHeader;
+  /** Only of translucent materials. */
+  opacity?: number;
 }
 
 /** Values have columns: rotation w, x, y, z, position, velocity, angular velocity. */

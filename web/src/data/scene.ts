@@ -39,8 +39,12 @@ export function read_texels({ width, height, channels }: TexelsHeader, reader: R
 }
 
 function read_texture(header: TextureHeader, reader: Reader): MeshTexture {
-  const { wrap, nearest, cutoff } = header;
-  return { ...read_texels(header, reader), wrap, nearest, cutoff };
+  const { wrap, nearest, cutoff, opacity } = header;
+  const map = (texels: TexelsHeader | undefined) => texels && read_texels(texels, reader);
+  return {
+    ...read_texels(header, reader), wrap, nearest, cutoff, opacity, normal_map: map(header.normal_map),
+    surface_map: map(header.surface_map), emission_map: map(header.emission_map),
+  };
 }
 
 function read_paint(header: PaintHeader, reader: Reader): MeshPaint {

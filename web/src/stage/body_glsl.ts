@@ -1,6 +1,6 @@
 // Programs of bodies: boxes, balls and meshes with a pose and a material for each instance (see body_batch.ts).
 import { style_glsl } from "./overlay_style.ts";
-import { frame_glsl, light_glsl } from "./shading_glsl.ts";
+import { frame_glsl, light_glsl, maps_vertex_glsl } from "./shading_glsl.ts";
 
 const instance_glsl = /* glsl */ `
 in vec4 i_place;      // m; w: cell of the pattern, m
@@ -15,6 +15,7 @@ in vec4 i_second;     // second color of a pattern, linear; of an image how ofte
 export const body_vertex_glsl = /* glsl */ `
 ${frame_glsl}
 ${instance_glsl}
+${maps_vertex_glsl}
 out vec3 v_local, v_world;
 out vec3 v_normal;              // body frame
 #ifdef PAINTED
@@ -53,6 +54,9 @@ void main() {
   v_color.w = p_surface.x < 0.0 ? v_color.w : p_surface.x;
   v_material.x = p_surface.y < 0.0 ? v_material.x : p_surface.y;
 #endif
+#ifdef WITH_MAPS
+  place_maps(v_color.w, v_material.x);
+#endif
   gl_Position = projectionMatrix * viewMatrix * vec4(v_world, 1.0);
 }
 `;
@@ -86,6 +90,9 @@ bool darkens() { return v_material.y > 0.5 && v_material.y < 2.5; }
 void main() {
   vec3 color = v_color.rgb;
   float paint = 1.0;
+#ifdef LAMPS
+  surface_place = v_world;
+#endif
 #if defined(BOX)
   vec3 local = clamp(v_local, -v_size.xyz, v_size.xyz), inner = v_size.xyz - v_size.w;
   vec3 normal = normalize(local - clamp(local, -inner, inner));
@@ -93,8 +100,16 @@ void main() {
   color = mix(color, v_second, body_share(TWO_COLORS, local / v_cell, fwidth(v_local) / v_cell, normalize(v_normal), v_size.xyz));
 #elif defined(IMAGE)
   vec2 images = images_on_face(v_size.xyz, v_normal, u_image_scale) / (2.0 * abs(seen_from_outside(v_size.xyz, v_normal)));
-  vec3 root = texture(u_image, 0.5 + seen_from_outside(local, v_normal) * images).rgb;
+  vec2 place = 0.5 + seen_from_outside(local, v_normal) * images;
+  vec3 root = texture(u_image, place).rgb;
   color *= root * root;
+#ifdef WITH_MAPS
+  vec2 smooth_place = seen_from_outside(v_local, v_normal) * images;
+  read_maps(place, dFdx(smooth_place), dFdy(smooth_place));
+#ifdef NORMAL_MAP
+  normal = bent_normal(v_local, smooth_place, normal);
+#endif
+#endif
 #else
   if (darkens()) {
     paint = triplanar_paint(vec2(v_material.y, v_cell), local, v_normal);
@@ -115,6 +130,14 @@ void main() {
 #elif defined(IMAGE)
   vec2 footprint = footprint_on_ball(normal, max(abs(dFdx(normal)), abs(dFdy(normal))), v_second.xy) * vec2(textureSize(u_image, 0));
   color *= texel_at(u_image, place_on_ball(normal, v_second.xy), log2(max(max(footprint.x, footprint.y), 1e-6)));
+#ifdef WITH_MAPS
+  footprint /= vec2(textureSize(u_image, 0));
+  read_maps(place_on_ball(normal, v_second.xy), log2(max(max(footprint.x, footprint.y), 1e-9)));
+#ifdef NORMAL_MAP
+  vec3 right = vec3(normal.z, 0.0, -normal.x) * inversesqrt(max(dot(normal.xz, normal.xz), 1e-12));
+  normal = bent_normal(right, cross(normal, right), normal);
+#endif
+#endif
 #else
   if (darkens()) {
     paint = triplanar_paint(vec2(v_material.y, v_cell), v_local, normal);
@@ -136,6 +159,12 @@ void main() {
 #endif
   vec3 normal = normalize(v_normal);
   normal = gl_FrontFacing ? normal : -normal;
+#if defined(PAINTED) && defined(WITH_MAPS)
+  read_maps(v_uv, dFdx(v_uv), dFdy(v_uv));
+#ifdef NORMAL_MAP
+  normal = bent_normal(v_local, v_uv, normal);
+#endif
+#endif
 #if defined(TWO_COLORS)
   color = mix(color, v_second, body_share(TWO_COLORS, v_local / v_cell, fwidth(v_local) / v_cell, normal, vec3(1.0)));
 #else
@@ -154,28 +183,55 @@ void main() {
   pixel = vec4(shown * v_material.z, v_material.z);
 #else
   float sun = sun_visible(v_world, normal);
+#ifdef WITH_MAPS
+  vec3 light = paint * shade(normal, to_eye, color, map_roughness, map_metallic, map_open, sun);
+#else
   vec3 light = paint * shade(normal, to_eye, color, v_color.w, v_material.x, 1.0, sun);
+#endif
 #ifdef PAINTED
+#ifdef EMISSION_MAP
+  light += v_emission * map_emission;
+#else
   light += v_emission;
+#endif
+#endif
+#ifdef GLOWING
+  light += u_glow;
 #endif
   light = in_fog(light, to_eye, squared);
   pixel = vec4(mix(displayed(light), v_tint.rgb, v_tint.w), 1.0);
+#ifdef TRANSLUCENT
+  float share = u_opacity;
+#if defined(PAINTED) && !defined(HOLES)
+  share *= texel.a;
+#endif
+  pixel *= share;
+#endif
 #endif
 }
 `;
 
 export const depth_vertex_glsl = /* glsl */ `
 ${frame_glsl}
-in vec4 i_place, i_rotation, i_size;
+in vec4 i_place, i_rotation, i_size, i_material;
+flat out float v_shade;         // opacity
 void main() {
+  v_shade = i_material.z;
   vec3 world = i_place.xyz + rotate(i_rotation, position * i_size.xyz);
   gl_Position = projectionMatrix * viewMatrix * vec4(world, 1.0);
 }
 `;
 
+// As shaders/shadow.frag: a part of the texels casts the shadow of a translucent body.
 export const depth_fragment_glsl = /* glsl */ `
+flat in float v_shade;
 layout(location = 0) out highp vec4 pixel;
-void main() { pixel = vec4(0.0); }
+void main() {
+  ivec2 at = ivec2(gl_FragCoord.xy) % 3;
+  const int ranks[9] = int[9](0, 5, 7, 3, 8, 2, 6, 1, 4);
+  if (float(ranks[at.y * 3 + at.x]) + 0.5 > v_shade * 9.0) discard;
+  pixel = vec4(0.0);
+}
 `;
 
 // The back of the body, moved outward by some pixels on the screen: what shows beside the body is its outline.

@@ -24,15 +24,25 @@ export interface Part {
   second?: Vec3;
 }
 
-/** Index of the pattern; the image with its scale and filter. */
-export type Look = { colors: number } | { image: number; scale: number; nearest: boolean };
+/** Index of the pattern; or images, null for none, with scale and filter; opacity and own light, linear. */
+export interface Look {
+  colors?: number;
+  images?: { image: number | null; scale: number; nearest: boolean; normal_map?: number; roughness_map?: number };
+  opacity?: number;
+  emission?: Vec3;
+}
 
 // As Pattern of src/scene/description/description.h.
 export const patterns = ["panel", "grid", "checker", "plain", "stripes", "dots", "noise", "wood", "marble"];
 
 export function look_of(body: Body): Look | undefined {
-  if (body.texture) return body.texture;
-  return body.pattern_color ? { colors: patterns.indexOf(body.pattern) } : undefined;
+  const { texture, normal_map, roughness_map, opacity, emission } = body;
+  const look: Look = {};
+  if (texture) look.images = { ...texture, normal_map, roughness_map };
+  else if (body.pattern_color) look.colors = patterns.indexOf(body.pattern);
+  if (opacity !== undefined) look.opacity = opacity;
+  if (emission) look.emission = to_linear(from_text(emission));
+  return Object.keys(look).length > 0 ? look : undefined;
 }
 
 /** As images_on_ball() of src/scene/description/looks.cpp. */
@@ -87,7 +97,9 @@ function add_shape(scene: Scene, body: Body, shape: Shape, position: Vec3, rotat
   } else if (shape.type === "mesh") {
     const { low, high } = mesh_box(scene.meshes[shape.mesh]);
     const half = Math.min(...high.map((value, i) => (value - low[i]) / 2).filter((value) => value > 0));
-    if (body.texture) common.look = undefined;  // it is in the paint of the mesh
+    // The images are in the paint of the mesh.
+    if (body.texture && common.look)
+      common.look = body.opacity || body.emission ? { ...common.look, images: undefined } : undefined;
     to.push({ ...common, geometry: `mesh${shape.mesh}`, size: [1, 1, 1], bevel: 0, pattern_cell: cell(half) });
   }
 }

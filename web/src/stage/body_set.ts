@@ -52,7 +52,7 @@ export class BodySet {
       ...part,
       origin: add(origin, rotate(rotation, part.position)),
       rotation: multiply(rotation, part.rotation),
-      opacity,
+      opacity: opacity * (part.look?.opacity ?? 1),
       tint: tint.color,
       tint_share: tint.share,
     };

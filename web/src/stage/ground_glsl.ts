@@ -1,14 +1,19 @@
 // Programs of planes, and of the sky behind everything.
-import { frame_glsl, light_glsl } from "./shading_glsl.ts";
+import { frame_glsl, light_glsl, maps_vertex_glsl } from "./shading_glsl.ts";
 
 export const plane_vertex_glsl = /* glsl */ `
 ${frame_glsl}
 uniform vec3 u_center;          // a point of the plane near the eye, m
 uniform vec3 u_axis_u, u_axis_v;
 uniform float u_reach;          // half of the drawn part, m
+uniform vec4 u_material;        // roughness, metallic
+${maps_vertex_glsl}
 out vec3 v_world;
 void main() {
   v_world = u_center + u_reach * (position.x * u_axis_u + position.y * u_axis_v);
+#ifdef WITH_MAPS
+  place_maps(u_material.x, u_material.y);
+#endif
   gl_Position = projectionMatrix * viewMatrix * vec4(v_world, 1.0);
 }
 `;
@@ -25,6 +30,9 @@ uniform float u_dim;            // factor on its light: a dark page has a dark g
 in vec3 v_world;
 layout(location = 0) out highp vec4 pixel;
 void main() {
+#ifdef LAMPS
+  surface_place = v_world;
+#endif
   vec3 from_origin = v_world - u_origin;
   vec2 cells = vec2(dot(from_origin, u_axis_u), dot(from_origin, u_axis_v)) / u_material.w;
   vec2 width = max(abs(dFdx(cells)), abs(dFdy(cells)));
@@ -44,7 +52,19 @@ void main() {
   float squared = dot(to_eye, to_eye);
   to_eye *= inversesqrt(squared);
   float sun = sun_visible(v_world, u_normal);
-  vec3 light = u_dim * shade(u_normal, to_eye, color * paint, u_material.x, u_material.y, 1.0, sun);
+  vec3 normal = u_normal;
+#ifdef WITH_MAPS
+  read_maps(vec2(cells.x, -cells.y), dFdx(cells), dFdy(cells));
+#ifdef NORMAL_MAP
+  normal = bent_normal(u_axis_u, u_axis_v, u_normal);
+#endif
+  vec3 light = u_dim * shade(normal, to_eye, color * paint, map_roughness, map_metallic, map_open, sun);
+#else
+  vec3 light = u_dim * shade(normal, to_eye, color * paint, u_material.x, u_material.y, 1.0, sun);
+#endif
+#ifdef GLOWING
+  light += u_glow;
+#endif
   light = in_fog(light, to_eye, squared);
   pixel = vec4(dithered(displayed(light)), 1.0);
 }

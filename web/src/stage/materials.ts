@@ -1,6 +1,6 @@
 // The materials of a stage, and the values that all of them share. The values are set before each view is drawn.
 import * as THREE from "three";
-import type { MeshPaint, MeshTexture, Texels } from "../data/clip.ts";
+import type { Light, MeshPaint, MeshTexture, Texels, Vec3 } from "../data/clip.ts";
 import type { Look } from "./body_parts.ts";
 import { bytes } from "./color.ts";
 import {
@@ -11,20 +11,52 @@ import { occlusion_fragment_glsl, occlusion_vertex_glsl } from "./occlusion_glsl
 import { theme_of, type Theme } from "./theme.ts";
 
 export type BodyKind = "box" | "ball" | "mesh";
+/** As limits::lamps of src/scene/toml/limits.h. */
+const most_lights = 4;
+const light_defines = {
+  LAMP_LIGHT: "", LAMP_VALUE: "uniform", LAMPS: String(most_lights), SPOTS: "", LAMP_KINDS: "u_lamp_kinds",
+};
+/** sun_light of shaders/light_constants.glsl. */
+const daylight: Vec3 = [0.8, 0.745, 0.655];
 const wrapping = { repeat: THREE.RepeatWrapping, mirror: THREE.MirroredRepeatWrapping, clamp: THREE.ClampToEdgeWrapping };
 
-/** A white texel without a texture. */
-function image_of(texture: MeshTexture | null): THREE.DataTexture {
-  if (texture) return filled(texture, texture.wrap, texture.nearest);
-  const white = new THREE.DataTexture(new Uint8Array([255, 255, 255, 255]), 1, 1);
-  white.needsUpdate = true;
-  return white;
+const white: Texels = { width: 1, height: 1, texels: new Uint8Array([255, 255, 255, 255]) };
+
+/** Uniforms and definitions of the images of a material. */
+function add_images(material: THREE.ShaderMaterial, texture: MeshTexture | null): void {
+  const { wrap, nearest } = texture ?? { wrap: ["clamp", "clamp"] as MeshTexture["wrap"], nearest: false };
+  material.uniforms.u_image = { value: filled(texture ?? white, wrap, nearest) };
+  material.uniforms.u_cutoff = { value: texture?.cutoff ?? 0 };
+  for (const name of ["normal_map", "surface_map", "emission_map"] as const) {
+    const map = texture?.[name];
+    if (!map) continue;
+    material.defines[name.toUpperCase()] = "";
+    material.uniforms[name] = { value: filled(map, wrap, nearest) };
+  }
+  if (texture?.opacity !== undefined) make_translucent(material, texture.opacity);
 }
 
-/** The image of a look as texture_wraps() of src/scene/description/looks.cpp continues it beyond its edges. */
-export function image_of_look(image: Texels, kind: BodyKind | "plane", scale: number, nearest: boolean): THREE.DataTexture {
-  const around = kind === "plane" || scale > 0;
-  return filled(image, [around || kind === "ball" ? "repeat" : "clamp", around ? "repeat" : "clamp"], nearest);
+function make_translucent(material: THREE.ShaderMaterial, opacity: number): void {
+  material.defines.TRANSLUCENT = "";
+  material.uniforms.u_opacity = { value: opacity * (material.uniforms.u_opacity?.value ?? 1) };
+  Object.assign(material, { ...translucent, depthWrite: true });
+}
+
+/** Images of a look as texture_wraps() of src/scene/description/looks.cpp continues them beyond their edges. */
+export function uniforms_of_look(look: Look | undefined, kind: BodyKind | "plane", textures: Texels[]): Uniforms {
+  const uniforms: Uniforms = {};
+  const { images } = look ?? {};
+  if (look?.emission) uniforms.u_glow = { value: new THREE.Vector3(...look.emission) };
+  if (look?.opacity !== undefined) uniforms.u_opacity = { value: look.opacity };
+  if (!images) return uniforms;
+  const around = kind === "plane" || images.scale > 0;
+  const wrap: MeshTexture["wrap"] = [around || kind === "ball" ? "repeat" : "clamp", around ? "repeat" : "clamp"];
+  const texture = (texels: Texels) => ({ value: filled(texels, wrap, images.nearest) });
+  uniforms.u_image = texture(images.image === null ? white : textures[images.image]);
+  uniforms.u_image_scale = { value: images.scale };
+  if (images.normal_map !== undefined) uniforms.normal_map = texture(textures[images.normal_map]);
+  if (images.roughness_map !== undefined) uniforms.surface_map = texture(textures[images.roughness_map]);
+  return uniforms;
 }
 
 function filled(texels: Texels, wrap: MeshTexture["wrap"], nearest: boolean): THREE.DataTexture {
@@ -55,17 +87,45 @@ export class Materials {
     u_ray_center: { value: new THREE.Vector3() },
     u_ray_right: { value: new THREE.Vector3() },
     u_ray_up: { value: new THREE.Vector3() },
+    v_sun: { value: new THREE.Vector3() },
+    v_lamp_place: { value: Array.from({ length: most_lights }, () => new THREE.Vector3()) },
+    v_lamp_light: { value: Array.from({ length: most_lights }, () => new THREE.Vector3()) },
+    v_lamp_axis: { value: Array.from({ length: most_lights }, () => new THREE.Vector4()) },
+    u_lamp_kinds: { value: 0 },
   };
-  readonly solid = this.for_kinds((kind) => this.body(kind, false));
-  readonly ghost = this.for_kinds((kind) => this.body(kind, true));
-  readonly outline = this.for_kinds((kind) =>
-    this.make(outline_vertex_glsl, outline_fragment_glsl, { defines: defines_of(kind), side: THREE.BackSide }),
-  );
-  readonly depth = this.make(depth_vertex_glsl, depth_fragment_glsl, { side: THREE.DoubleSide });
-  readonly sky = this.make(sky_vertex_glsl, sky_fragment_glsl, { depthWrite: false });
+  readonly solid: Record<BodyKind, THREE.ShaderMaterial>;
+  readonly ghost: Record<BodyKind, THREE.ShaderMaterial>;
+  readonly outline: Record<BodyKind, THREE.ShaderMaterial>;
+  readonly depth: THREE.ShaderMaterial;
+  readonly sky: THREE.ShaderMaterial;
 
   private readonly painted_of = new Map<MeshPaint, Map<string, THREE.ShaderMaterial[]>>();
   private readonly looks = new Map<string, THREE.ShaderMaterial>();
+
+  /** `several_lights`: in one of the scenes. */
+  constructor(private readonly several_lights = false) {
+    this.solid = this.for_kinds((kind) => this.body(kind, false));
+    this.ghost = this.for_kinds((kind) => this.body(kind, true));
+    this.outline = this.for_kinds((kind) =>
+    this.make(outline_vertex_glsl, outline_fragment_glsl, { defines: defines_of(kind), side: THREE.BackSide }),
+    );
+    this.depth = this.make(depth_vertex_glsl, depth_fragment_glsl, { side: THREE.DoubleSide });
+    this.sky = this.make(sky_vertex_glsl, sky_fragment_glsl, { depthWrite: false });
+  }
+
+  /** Of a scene; without several lights in another one, it has the sun of light_constants.glsl. */
+  set_lights({ color = daylight, others = [] }: Light): void {
+    const { v_sun, v_lamp_place, v_lamp_light, v_lamp_axis, u_lamp_kinds } = this.frame;
+    v_sun.value.set(...color);
+    for (const light of v_lamp_light.value) light.set(0, 0, 0);
+    u_lamp_kinds.value = 0;
+    others.forEach(({ kind, place, light, axis, cosine }, i) => {
+      v_lamp_place.value[i].set(...place);
+      v_lamp_light.value[i].set(...light);
+      v_lamp_axis.value[i].set(...axis, cosine);
+      u_lamp_kinds.value |= kind << (2 * i);
+    });
+  }
 
   plane(uniforms: Uniforms, look: Look | undefined): THREE.ShaderMaterial {
     const material = this.make(plane_vertex_glsl, plane_fragment_glsl, { defines: defines_of_look(look) });
@@ -83,8 +143,9 @@ export class Materials {
       materials = paint.groups.map(({ texture }) => {
         const defines = { PAINTED: "", ...(texture && texture.cutoff > 0 ? { HOLES: "" } : {}), ...defines_of_look(look) };
         const material = this.make(body_vertex_glsl, body_fragment_glsl, { defines, side: THREE.DoubleSide });
-        material.uniforms.u_image = { value: image_of(texture) };
-        material.uniforms.u_cutoff = { value: texture?.cutoff ?? 0 };
+        add_images(material, texture);
+        if (look?.emission) material.uniforms.u_glow = { value: new THREE.Vector3(...look.emission) };
+        if (look?.opacity !== undefined) make_translucent(material, look.opacity);
         return material;
       });
       of_paint.set(key, materials);
@@ -98,10 +159,8 @@ export class Materials {
     if (!material) {
       material = this.make(body_vertex_glsl, body_fragment_glsl,
         { defines: { ...defines_of(kind), ...defines_of_look(look) }, side: sides_of(kind) });
-      if ("image" in look) {
-        material.uniforms.u_image = { value: image_of_look(textures[look.image], kind, look.scale, look.nearest) };
-        material.uniforms.u_image_scale = { value: look.scale };
-      }
+      Object.assign(material.uniforms, uniforms_of_look(look, kind, textures));
+      if (look.opacity !== undefined) Object.assign(material, { ...translucent, depthWrite: true });
       this.looks.set(key, material);
     }
     return material;
@@ -126,14 +185,8 @@ export class Materials {
   dispose(): void {
     for (const list of [this.solid, this.ghost, this.outline]) for (const material of Object.values(list)) material.dispose();
     for (const materials of [...this.painted_of.values()].flatMap((of_paint) => [...of_paint.values()]))
-      for (const material of materials) {
-        material.uniforms.u_image.value.dispose();
-        material.dispose();
-      }
-    for (const material of this.looks.values()) {
-      material.uniforms.u_image?.value.dispose();
-      material.dispose();
-    }
+      for (const material of materials) dispose_with_images(material);
+    for (const material of this.looks.values()) dispose_with_images(material);
     this.depth.dispose();
     this.sky.dispose();
   }
@@ -146,14 +199,20 @@ export class Materials {
   }
 
   private make(vertexShader: string, fragmentShader: string, more: THREE.ShaderMaterialParameters): THREE.ShaderMaterial {
+    const defines = { ...more.defines, ...(this.several_lights ? light_defines : {}) };
     return new THREE.ShaderMaterial({
-      glslVersion: THREE.GLSL3, uniforms: { ...this.frame }, vertexShader, fragmentShader, ...more,
+      glslVersion: THREE.GLSL3, uniforms: { ...this.frame }, vertexShader, fragmentShader, ...more, defines,
     });
   }
 
   private for_kinds<T>(make: (kind: BodyKind) => T): Record<BodyKind, T> {
     return { box: make("box"), ball: make("ball"), mesh: make("mesh") };
   }
+}
+
+function dispose_with_images(material: THREE.ShaderMaterial): void {
+  for (const name of ["u_image", "normal_map", "surface_map", "emission_map"]) material.uniforms[name]?.value.dispose();
+  material.dispose();
 }
 
 /** Colors multiplied by their opacity are blended over the picture. */
@@ -166,8 +225,16 @@ export const translucent = {
   blendDst: THREE.OneMinusSrcAlphaFactor,
 } as const;
 
-const defines_of_look = (look: Look | undefined): Record<string, string> =>
-  !look ? {} : "image" in look ? { IMAGE: "" } : { TWO_COLORS: String(look.colors) };
+function defines_of_look(look: Look | undefined): Record<string, string> {
+  const defines: Record<string, string> = {};
+  if (look?.colors !== undefined) defines.TWO_COLORS = String(look.colors);
+  if (look?.images) defines.IMAGE = "";
+  if (look?.images?.normal_map !== undefined) defines.NORMAL_MAP = "";
+  if (look?.images?.roughness_map !== undefined) defines.SURFACE_MAP = "";
+  if (look?.emission) defines.GLOWING = "";
+  if (look?.opacity !== undefined) defines.TRANSLUCENT = "";
+  return defines;
+}
 const defines_of = (kind: BodyKind): Record<string, string> => ({ [kind.toUpperCase()]: "" });
 // The inside of an open mesh is visible.
 const sides_of = (kind: BodyKind) => (kind === "mesh" ? THREE.DoubleSide : THREE.FrontSide);

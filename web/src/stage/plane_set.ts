@@ -3,7 +3,7 @@ import * as THREE from "three";
 import type { Motion, Pose, Scene, Vec3 } from "../data/clip.ts";
 import { look_of, patterns } from "./body_parts.ts";
 import { from_text, to_linear } from "./color.ts";
-import { image_of_look, type Materials } from "./materials.ts";
+import { uniforms_of_look, type Materials } from "./materials.ts";
 import { add, cross, dot, normalized, rotate, scaled, subtract } from "./math.ts";
 
 /** Half of the square, in distances at which fog is half of the light: fog is 0.9998 of it there. */
@@ -43,6 +43,8 @@ export class PlaneSet {
     scene.bodies.forEach((body, index) => {
       if (body.shape.type !== "plane" || !body.visible) return;
       const { texture, pattern_color, pattern_scale } = body;
+      const look = look_of(body);
+      if (look) delete look.opacity;
       const size = texture ? texture.scale || 1 : pattern_scale ?? cell;
       const material = materials.plane({
         u_center: { value: new THREE.Vector3() },
@@ -54,8 +56,8 @@ export class PlaneSet {
         u_color: { value: new THREE.Vector3(...to_linear(from_text(body.color))) },
         u_material: { value: new THREE.Vector4(body.roughness, body.metallic, patterns.indexOf(body.pattern), size) },
         u_second: { value: new THREE.Vector3(...to_linear(from_text(pattern_color ?? body.color))) },
-        ...(texture && { u_image: { value: image_of_look(scene.textures[texture.image], "plane", texture.scale, texture.nearest) } }),
-      }, look_of(body));
+        ...uniforms_of_look(look, "plane", scene.textures),
+      }, look);
       const mesh = new THREE.Mesh(this.square, material);
       mesh.frustumCulled = false;
       mesh.renderOrder = 1;

@@ -102,6 +102,7 @@ export class RunView {
     const { materials, uniforms, camera } = this;
     const { frame } = materials;
     frame.u_to_light.value.set(...this.size.to_light);
+    materials.set_lights(this.run.scene.light);
     frame.u_fog.value = 1 / this.size.fog_distance ** 2;
     frame.u_pixel_size.value = (2 * Math.tan((camera.fov * Math.PI) / 360)) / view.height;
     frame.u_outline.value.set((2 * outline_width * view.unit) / view.width, (2 * outline_width * view.unit) / view.height);

@@ -2,11 +2,14 @@
 // shows what a clip shows. Light is linear and relative: 1 on a white surface is paper white.
 import light_constants from "../../../shaders/light_constants.glsl";
 import lighting from "../../../shaders/lighting.glsl";
+import lights from "../../../shaders/lights.glsl";
 import material from "../../../shaders/material.glsl";
 import pattern from "../../../shaders/pattern.glsl";
 import rotation from "../../../shaders/rotate.glsl";
 import sky from "../../../shaders/sky.glsl";
 import solid_pattern from "../../../shaders/solid_pattern.glsl";
+import surface_maps from "../../../shaders/surface_maps.glsl";
+import surface_maps_place from "../../../shaders/surface_maps_place.glsl";
 import texture_place from "../../../shaders/texture_place.glsl";
 
 export const frame_glsl = /* glsl */ `
@@ -23,17 +26,39 @@ ${rotation}
 ${light_constants}
 `;
 
+export const maps_vertex_glsl = /* glsl */ `
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP) || defined(EMISSION_MAP)
+#define WITH_MAPS
+${surface_maps_place}
+#endif
+`;
+
 export const light_glsl = /* glsl */ `
 #define SUNLIT
 ${sky}
 ${material}
 ${lighting}
+#ifdef LAMPS
+uniform int u_lamp_kinds;
+${lights}
+vec3 surface_place;             // m, set by main()
+#endif
 ${pattern}
 #ifdef TWO_COLORS
 ${solid_pattern}
 #endif
 #ifdef IMAGE
 ${texture_place}
+#endif
+#if defined(NORMAL_MAP) || defined(SURFACE_MAP) || defined(EMISSION_MAP)
+#define WITH_MAPS
+${surface_maps}
+#endif
+#ifdef GLOWING
+uniform vec3 u_glow;            // linear
+#endif
+#ifdef TRANSLUCENT
+uniform float u_opacity;
 #endif
 
 vec3 background(vec3 way) { return u_sky * sky(way.y, dot(way, u_to_light)); }
@@ -75,6 +100,10 @@ vec3 shade(vec3 normal, vec3 to_eye, vec3 color, float roughness, float metallic
   surface.veil = surface_veil(roughness, metallic);
   surface.open = open;
   surface.sun = sun;
+#ifdef LAMPS
+  return shade(surface) + light_of_lamps(surface_place, normal, to_eye, surface);
+#else
   return shade(surface);
+#endif
 }
 `;

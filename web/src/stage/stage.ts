@@ -23,7 +23,7 @@ const hidden_size = { width: 640, height: 360 };
 
 export class Stage {
   private readonly renderer: THREE.WebGLRenderer;
-  private readonly materials = new Materials();
+  private readonly materials: Materials;
   private readonly uniforms = new ScreenUniforms();
   private readonly rig = new CameraRig();
   private readonly labels: Labels;
@@ -49,6 +49,7 @@ export class Stage {
     private readonly clip: Clip,
     theme: Theme,
   ) {
+    this.materials = new Materials(clip.runs.some(({ scene }) => scene.light.color !== undefined));
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: false, powerPreference: "low-power" });
     this.renderer.autoClear = false;
     this.most_ratio = draws_in_software(this.renderer.getContext()) ? 1 : most_pixel_ratio;

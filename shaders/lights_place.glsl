@@ -1,0 +1,29 @@
+// Vertex counterpart of lights.glsl. World axes, relative to the eye (render/passes/lamp_uniforms.h).
+layout(std140) uniform Lamps {
+    vec4 sun_color;             // irradiance over pi of the sun of lighting.glsl
+    vec4 lamp_place[4];         // m, of a point or spot; of a sun the unit vector to it; w: its kind
+    vec4 lamp_light[4];
+    vec4 lamp_axis[4];          // of a spot: direction in which it shines; w: cosine of half its angle
+};
+flat out vec3 v_sun;
+#ifdef LAMPS
+flat out vec3 v_lamp_place[LAMPS];
+flat out vec3 v_lamp_light[LAMPS];
+#ifdef SPOTS
+flat out vec4 v_lamp_axis[LAMPS];
+#endif
+#endif
+
+// `eye`: position of the eye in the axes of the surface; `rows`: these axes.
+void place_lamps(vec3 eye, mat3 axes) {
+    v_sun = sun_color.rgb;
+#ifdef LAMPS
+    for (int i = 0; i < LAMPS; ++i) {
+        v_lamp_place[i] = lamp_place[i].xyz * axes + (lamp_place[i].w > 0.0 ? eye : vec3(0.0));
+        v_lamp_light[i] = lamp_light[i].rgb;
+#ifdef SPOTS
+        v_lamp_axis[i] = vec4(lamp_axis[i].xyz * axes, lamp_axis[i].w);
+#endif
+    }
+#endif
+}
