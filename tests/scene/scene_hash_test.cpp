@@ -169,6 +169,22 @@ plot_place = "beside"
 text = "Hello"
 start = 0.2
 end = 0.3
+[cameras.side]
+eye = [9, 1, 1]
+target = [0, 1, 1]
+[cameras.other]
+eye = [9, 9, 1]
+target = [0, 1, 1]
+[[shot]]
+camera = "side"
+from = 0.5
+to = 1.5
+move = 0.25
+[[speed]]
+time = 0.5
+factor = 0.5
+hold = 0.125
+easing = "linear"
 )";
 
 std::string base() { return own_lines + joint_lines; }
@@ -200,7 +216,10 @@ const std::vector<std::vector<Change>> own_tables = {
      {"template", "[template.door]", "size = [1, 2, 0.1]", "size = [1, 2, 0.2]", true},
      {"instance", "", "[[instance]]", "[[instance]]\ntemplate = \"door\"\nname = \"third\"\n[[instance]]", true},
      {"overlay", "[overlay]", "start = 0.1", "", false},
-     {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false}},
+     {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false},
+     {"cameras", "[cameras.side]", "eye = [9, 1, 1]", "eye = [9, 1, 2]", false},
+     {"shot", "", "[[shot]]\ncamera = \"side\"\nfrom = 0.5\nto = 1.5\nmove = 0.25\n", "", false},
+     {"speed", "", "[[speed]]\ntime = 0.5\nfactor = 0.5\nhold = 0.125\neasing = \"linear\"\n", "", false}},
     {{"duration", "[simulation]", "duration = 2", "duration = 2.5", true},
      {"steps_per_frame", "[simulation]", "steps_per_frame = 8", "steps_per_frame = 9", true},
      {"step", "[simulation]", "steps_per_frame = 8", "step = 0.00333333333333333", true},
@@ -224,11 +243,16 @@ const std::vector<std::vector<Change>> own_tables = {
      {"keyframes", "[camera]", "{ time = 0, eye = [1, 1, 1] }, ", "", false},
      {"interpolation", "[camera]", "linear", "smooth", false},
      {"orbit", "[camera]", "orbit = 3", "orbit = -3", false},
-     {"follow", "[camera]", "follow = \"ball\"", "follow = \"table\"", false}},
+     {"follow", "[camera]", "follow = \"ball\"", "follow = \"table\"", false},
+     {"fit", "[camera]", "target = [4, 5, 6]", "fit = \"start\"", false}},
     {{"time", "[camera]", "{ time = 1,", "{ time = 2,", false},
      {"eye", "[camera]", "eye = [1, 1, 1]", "eye = [1, 1, 2]", false},
      {"target", "[camera]", "target = [0, 0, 1]", "target = [0, 0, 2]", false},
      {"vertical_fov", "[camera]", "vertical_fov = 21", "vertical_fov = 22", false}},
+    {{"camera", "[[shot]]", "side", "other", false},
+     {"from", "[[shot]]", "from = 0.5", "from = 0.75", false},
+     {"to", "[[shot]]", "to = 1.5", "to = 1.75", false},
+     {"move", "[[shot]]", "move = 0.25", "move = 0.5", false}},
     {{"direction", "[light]", "direction = [0, -2, 1]", "direction = [0, -2, 2]", false},
      {"shadows", "[light]", "shadows = false", "shadows = true", false}},
     {{"type", "", one_light, one_light_as("type = \"point\"\nposition = [0, 1, 0]"), false},
@@ -374,6 +398,11 @@ const std::vector<std::vector<Change>> own_tables = {
      {"anchor", "[[cord]]", "[0, 5, 0]", "[0, 6, 0]", false},
      {"radius", "[[cord]]", "0.02", "0.03", false},
      {"color", "[[cord]]", "#010203", "#010204", false}},
+    {{"time", "[[speed]]", "time = 0.5", "time = 0.75", false},
+     {"after", "[[speed]]", "time = 0.5", "time = \"impact:ball,floor\"\nafter = 0.125", false},
+     {"factor", "[[speed]]", "factor = 0.5", "factor = 0.25", false},
+     {"hold", "[[speed]]", "hold = 0.125", "hold = 0.25", false},
+     {"easing", "[[speed]]", "linear", "step", false}},
     {{"show", "[overlay]", "\"contacts\"", "\"contacts\", \"mode\"", false},
      {"bodies", "[overlay]", "\"floor\"", "\"table\"", false},
      {"start", "[overlay]", "start = 0.1", "start = 0.2", false},
