@@ -37,6 +37,12 @@ flat in vec2 v_image;               // size of the texture, texels
 #include "texture_place.glsl"
 #endif
 
+#ifdef ENVIRONMENT
+flat in vec3 v_east, v_south;   // axes x and z of the world
+flat in vec3 v_around[9];       // see light_around()
+flat in vec3 v_sun_share;
+#endif
+
 #include "lighting.glsl"
 #ifdef LAMPS
 #include "lights.glsl"
@@ -132,6 +138,16 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
     // A smooth surface seen at a low angle mirrors, and shows little of the background.
     float grazing = 1.0 - clamp(surface.n_v, 0.0, 1.0), smoothness = 1.0 - surface.rough.x;
     mirror_share = grazing * grazing * grazing * grazing * grazing * smoothness * smoothness;
+#endif
+#ifdef ENVIRONMENT
+    vec3 outward = vec3(dot(normal, v_east), surface.up, dot(normal, v_south));
+    vec3 back = vec3(dot(to_eye, v_east), surface.eye_up, dot(to_eye, v_south));
+    surface.around = light_around(outward, v_around);
+    // Rough paint mirrors so little that the light around is as good.
+    surface.mirrored = surface.around;
+    if (surface.rough.x < 0.5 || max(surface.f0.r, max(surface.f0.g, surface.f0.b)) > 0.1)
+        surface.mirrored = light_mirrored(2.0 * surface.n_v * outward - back, surface.rough.x);
+    surface.sun_share = v_sun_share;
 #endif
     vec3 light = shade(surface) * paint;
 #ifdef LAMPS

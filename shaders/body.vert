@@ -7,6 +7,10 @@
 #include "light_constants.glsl"
 #include "sky.glsl"
 #include "material.glsl"
+#if defined(ENVIRONMENT) || defined(BACKGROUND)
+#include "environment_block.glsl"
+#include "environment.glsl"
+#endif
 #include "shadow_place.glsl"
 
 #if defined(MESH) && !defined(CHARTED)
@@ -37,6 +41,11 @@ out vec4 v_shadow;                  // place in the shadow maps
 #endif
 #endif
 flat out vec4 v_eye;                // see body.glsl
+#ifdef ENVIRONMENT
+flat out vec3 v_east, v_south;
+flat out vec3 v_around[9];
+flat out vec3 v_sun_share;
+#endif
 flat out vec3 v_up;
 flat out vec3 v_diffuse;
 flat out vec3 v_f0;
@@ -124,7 +133,11 @@ void main() {
 
     float squared = dot(position, position);
     vec3 direction = position * inversesqrt(max(squared, 1e-30));
+#ifdef BACKGROUND
+    v_air = background(direction, background_low, background_high);
+#else
     v_air = sky(direction.y, dot(direction, to_light.xyz));
+#endif
 
     float roughness = instance_color.w, metallic = instance_material.x;
 #ifdef PAINTED
@@ -166,6 +179,16 @@ void main() {
     vec3 eye = rotate_back(instance_orientation, -instance_position.xyz);
     v_up = rotate_back(instance_orientation, vec3(0.0, 1.0, 0.0));
     vec3 light = rotate_back(instance_orientation, to_light.xyz);
+#ifdef ENVIRONMENT
+    v_east = rotate_back(instance_orientation, vec3(1.0, 0.0, 0.0));
+    v_south = rotate_back(instance_orientation, vec3(0.0, 0.0, 1.0));
+    for (int i = 0; i < 9; ++i) v_around[i] = around[i].rgb;
+    v_sun_share = sun_share.rgb;
+#ifdef BOX
+    v_east = vec3(dot(v_east, unit_a), dot(v_east, unit_b), dot(v_east, outward));
+    v_south = vec3(dot(v_south, unit_a), dot(v_south, unit_b), dot(v_south, outward));
+#endif
+#endif
 #ifdef BOX
     eye -= outward * abs(dot(outward, size));   // from the center of the face
     eye = vec3(dot(eye, unit_a), dot(eye, unit_b), dot(eye, outward));

@@ -11,6 +11,9 @@ LAMP_VALUE vec3 v_sun;              // received by a surface facing the sun
 #define v_sun sun_light
 #endif
 #include "sky.glsl"
+#if defined(ENVIRONMENT) || defined(BACKGROUND)
+#include "environment.glsl"
+#endif
 #ifdef SHADOWED
 #include "shadow.glsl"
 #endif
@@ -29,6 +32,11 @@ struct Surface {
     float sun;          // share of sunlight that is not in shadow
 #ifdef FILTERED
     float lobe;         // see bevel_lobe()
+#endif
+#ifdef ENVIRONMENT
+    vec3 around;        // see light_around()
+    vec3 mirrored;      // see light_mirrored()
+    vec3 sun_share;     // factor on the light of the sun
 #endif
 };
 
@@ -70,12 +78,21 @@ vec2 environment_scale(float roughness, float n_v) {
 }
 
 vec3 displayed(vec3 light) {
+#ifdef EXPOSURE
+    light *= EXPOSURE;
+#endif
+#ifdef LINEAR_TONE
+    // IEC 61966-2-1 (1999)
+    light = clamp(light, 0.0, 1.0);
+    return mix(light * 12.92, 1.055 * pow(light, vec3(1.0 / 2.4)) - 0.055, step(0.0031308, light));
+#else
     // Minimax fit in s = sqrt(light), to 0.8 levels of 255, of two steps at once: IEC 61966-2-1 (1999), the sRGB
     // transfer curve, of light itself up to 0.62 and of a shoulder above it, 1 - 0.38 exp(-(light - 0.62) / 0.38), that
     // never reaches white. One root and one quotient, no powers.
     vec3 s = sqrt(max(light, 0.0));
     vec3 rise = s * s * (21.217153 + s * (-35.617540 + s * 32.353397));
     return rise / (1.0 + s * (7.989843 + s * (8.709465 + s * (-30.195670 + s * 31.746583))));
+#endif
 }
 
 // For gradients so flat that a step of one level (1/255) is visible as a band: adds -0.5 to 0.5 levels as a function of
@@ -90,7 +107,16 @@ vec3 dithered(vec3 shown) {
 
 vec3 shade(Surface s) {
     float n_v = clamp(s.n_v, 1e-3, 1.0);
+    vec2 environment = environment_scale(s.rough.x, n_v);
+#ifdef ENVIRONMENT
+    // Fdez-Aguera 2019, A Multiple-Scattering Microfacet Model for Real-Time Image-based Lighting: further
+    // reflections return the loss of the first
+    vec3 share = s.f0 * environment.x + environment.y;
+    share *= 1.0 + s.f0 * (1.0 / (environment.x + environment.y) - 1.0);
+    vec3 light = (s.diffuse * (1.0 - share) * s.around + share * s.mirrored) * s.open;
+#else
     vec3 light = s.diffuse * (mix(bounce_light, sky_light, 0.5 + 0.5 * s.up) * s.open);
+#endif
 #ifdef SUNLIT
     float n_l = clamp(s.n_l, 0.0, 1.0);
     float per_half = inversesqrt(max(2.0 + 2.0 * s.l_v, 1e-6));      // 1 / |sun + eye|
@@ -104,11 +130,16 @@ vec3 shade(Surface s) {
 #else
     float lobe = min(specular_lobe(s.rough.x, n_h, n_l, n_v), brightest_highlight);
 #endif
+#ifdef ENVIRONMENT
+    light += (s.diffuse + fresnel * lobe) * (v_sun * s.sun_share * sun);
+#else
     light += (s.diffuse + fresnel * lobe) * (v_sun * sun);
 #endif
+#endif
 
-    vec2 environment = environment_scale(s.rough.x, n_v);
+#ifndef ENVIRONMENT
     float mirrored_up = 2.0 * s.n_v * s.up - s.eye_up;
     light += blurred_sky(mirrored_up, s.rough) * (s.f0 * environment.x + environment.y) * (s.open * s.veil);
+#endif
     return light;
 }

@@ -1,6 +1,8 @@
 #version 410 core
 // An infinite plane. Defines: GRID, CHECKER or neither; PLAIN with TWO_COLORS of a pattern or with IMAGE; OCCLUDED within
-// the AO radius of bodies; SHADOWED where shadows may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect.
+// the AO radius of bodies; SHADOWED where shadows may be as well, with FAR_MAP if the far map is in use; OTHER_PLANES is the number of planes that it may intersect;
+// GROUND_SHADOW where only shadows are shown, over the background or, with TRANSPARENT 1 and 2, as a surface id with the
+// alpha beside or as alpha; REFLECTIVE with an image of the mirrored bodies.
 #define SUNLIT
 #include "lighting.glsl"
 #ifdef LAMPS
@@ -28,6 +30,18 @@ flat in vec4 v_length_x;
 flat in vec4 v_length_y;
 flat in vec4 v_facing;
 flat in vec3 v_diffuse;
+#if defined(ENVIRONMENT) || defined(BACKGROUND)
+flat in vec3 v_ray_x;
+flat in vec3 v_ray_z;
+#endif
+#ifdef ENVIRONMENT
+flat in vec3 v_normal;
+flat in vec3 v_around;
+flat in vec3 v_sun_share;
+#endif
+#ifdef BACKGROUND
+flat in vec4 v_low, v_high;
+#endif
 flat in vec4 v_f0;
 flat in vec3 v_rough;
 #ifdef PLAIN
@@ -61,6 +75,11 @@ flat in vec3 v_far_lift;
 #endif
 #ifdef OTHER_PLANES
 flat in vec4 v_others[OTHER_PLANES];
+#endif
+
+#ifdef REFLECTIVE
+uniform sampler2D reflection_image;     // straight alpha; from right to left
+flat in vec2 v_reflection;              // share seen from above; the last column
 #endif
 
 layout(location = 0) out vec4 pixel;
@@ -170,7 +189,39 @@ void main() {
 #ifdef SHADOWED
     surface.sun = sun_of_plane(far);
 #endif
+#if defined(ENVIRONMENT) || defined(BACKGROUND)
+    vec3 ray = vec3(here(v_ray_x), here(v_rise), here(v_ray_z)) * per_length;
+#endif
+#ifdef ENVIRONMENT
+    surface.around = v_around;
+    surface.mirrored = v_around;
+    if (surface.rough.x < 0.5 || max(surface.f0.r, max(surface.f0.g, surface.f0.b)) > 0.1)
+        surface.mirrored = light_mirrored(ray + 2.0 * surface.n_v * v_normal, surface.rough.x);
+    surface.sun_share = v_sun_share;
+#endif
+#ifdef BACKGROUND
+    float share = haze_share(squared * far * far, v_facing.z);
+    vec3 behind = background(ray, v_low, v_high);
+#else
     float share = fog_share(squared * far * far, v_facing.z);
+    vec3 behind = sky(-surface.eye_up, -surface.l_v);
+#endif
+#ifdef GROUND_SHADOW
+    // The light of matte ground with its shadows over that without them.
+    float around = 0.4, direct = 0.75 * max(surface.n_l, 0.0);
+#ifdef ENVIRONMENT
+    around = dot(v_around, vec3(1.0 / 3.0));
+    direct *= dot(v_sun_share, vec3(1.0 / 3.0));
+#endif
+    float seen = direct * (1.0 - occlusion_of_sun + occlusion_of_sun * surface.open) * surface.sun + around * surface.open;
+    float kept = mix(seen / (direct + around), 1.0, share);
+#ifdef TRANSPARENT
+    float alpha = 1.0 - sqrt(kept);     // of encoded colors
+    pixel = TRANSPARENT == 1 ? vec4(vec3(alpha), 1.0) : vec4(vec3(0.0), alpha);
+#else
+    pixel = vec4(dithered(displayed(behind * kept)), v_facing.w);
+#endif
+#else
     vec3 shaded = shade(surface);
 #ifdef LAMPS
     vec2 along = v_cell * far * vec2(here(v_along_u), here(v_along_v));
@@ -179,6 +230,14 @@ void main() {
 #ifdef GLOWING
     shaded += v_glow.rgb;
 #endif
-    vec3 light = shaded * (1.0 - share) + share * sky(-surface.eye_up, -surface.l_v);
-    pixel = vec4(dithered(displayed(light)), v_facing.w);
+    vec3 light = shaded * (1.0 - share) + share * behind;
+    vec3 shown = displayed(light);
+#ifdef REFLECTIVE
+    vec4 mirrored = texelFetch(reflection_image, ivec2(int(v_reflection.y) - int(gl_FragCoord.x), int(gl_FragCoord.y)), 0);
+    float grazing = 1.0 - surface.n_v, grazing2 = grazing * grazing;
+    float strength = mix(v_reflection.x, 1.0, 0.5 * grazing2 * grazing2 * grazing);
+    shown = mix(shown, mirrored.rgb, mirrored.a * strength * (1.0 - share));
+#endif
+    pixel = vec4(dithered(shown), v_facing.w);
+#endif
 }

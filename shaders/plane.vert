@@ -6,6 +6,21 @@
 #include "frame.glsl"
 #include "light_constants.glsl"
 #include "material.glsl"
+#if defined(ENVIRONMENT) || defined(BACKGROUND)
+#include "environment_block.glsl"
+#include "environment.glsl"
+
+flat out vec3 v_ray_x;          // coefficients of the view ray over the screen
+flat out vec3 v_ray_z;
+#endif
+#ifdef ENVIRONMENT
+flat out vec3 v_normal;
+flat out vec3 v_around;
+flat out vec3 v_sun_share;
+#endif
+#ifdef BACKGROUND
+flat out vec4 v_low, v_high;    // see background()
+#endif
 
 layout(location = 0) in vec3 clip_position;
 
@@ -13,7 +28,7 @@ uniform vec4 plane_normal;      // unit; w: the eye's height above the plane
 uniform vec4 plane_u;           // unit, in the plane, over the cell size; w: the eye's coordinate along it, in cells
 uniform vec4 plane_v;
 uniform vec4 plane_color;       // linear; w: roughness
-uniform vec4 plane_material;        // metallic, surface id as alpha
+uniform vec4 plane_material;        // metallic, surface id as alpha, reflection, last column of the frame
 uniform vec4 plane_paint;       // second color
 #ifdef OCCLUDED
 uniform vec4 tile_u;          // the same as plane_u, in texels of the plane's tile in the AO atlas
@@ -50,6 +65,9 @@ flat out vec4 v_facing;         // cosines of the plane to the sun and upward; f
 flat out vec3 v_diffuse;
 flat out vec4 v_f0;             // w: metallic
 flat out vec3 v_rough;          // surface_roughness(), surface_veil()
+#ifdef REFLECTIVE
+flat out vec2 v_reflection;     // see plane.frag
+#endif
 #ifdef PLAIN
 flat out vec3 v_color;          // linear
 flat out vec4 v_second;         // second color of a pattern; metallic
@@ -89,11 +107,29 @@ void main() {
     v_along_v = over_screen(plane_v.xyz);
     v_rise = vec3(ray_origin.y, ray_dx.y, ray_dy.y);
     v_sunward = over_screen(to_light.xyz);
+#if defined(ENVIRONMENT) || defined(BACKGROUND)
+    v_ray_x = over_screen(vec3(1.0, 0.0, 0.0));
+    v_ray_z = over_screen(vec3(0.0, 0.0, 1.0));
+#endif
+#ifdef ENVIRONMENT
+    vec3 c[9];
+    for (int i = 0; i < 9; ++i) c[i] = around[i].rgb;
+    v_normal = plane_normal.xyz;
+    v_around = light_around(plane_normal.xyz, c);
+    v_sun_share = sun_share.rgb;
+#endif
+#ifdef BACKGROUND
+    v_low = background_low;
+    v_high = background_high;
+#endif
     v_length_x = vec4(dot(ray_origin.xyz, ray_origin.xyz), 2.0 * dot(ray_origin.xyz, ray_dx.xyz),
                       dot(ray_dx.xyz, ray_dx.xyz), plane_normal.w);
     v_length_y = vec4(2.0 * dot(ray_origin.xyz, ray_dy.xyz), dot(ray_dy.xyz, ray_dy.xyz), plane_u.w, plane_v.w);
     v_facing = vec4(dot(plane_normal.xyz, to_light.xyz), plane_normal.y, fog_density, plane_material.y);
     v_diffuse = surface_diffuse(plane_color.rgb, plane_material.x);
+#ifdef REFLECTIVE
+    v_reflection = plane_material.zw;
+#endif
     v_f0 = vec4(surface_f0(plane_color.rgb, plane_material.x), plane_material.x);
 #ifdef PLAIN
     v_color = plane_color.rgb;

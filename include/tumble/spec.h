@@ -220,6 +220,7 @@ struct Material {
     std::optional<std::string> roughness_map = {};  // image file, multiplies the roughness
     std::optional<double> opacity = {};             // 0 to 1
     std::optional<Color> emission = {};             // own light
+    std::optional<double> reflection = {};          // of a plane: share of what it mirrors, 0 to 1
     std::optional<SoundMaterial> sound = {};        // of the body with --sound; wood where not given
 };
 

@@ -80,7 +80,7 @@ private:
         if (!m.color && !m.density && !m.restitution && !m.friction && !m.rolling_friction && !m.spinning_friction &&
             !m.roughness && !m.metallic && !m.pattern && !m.pattern_color && !m.pattern_scale && !m.texture &&
             !m.texture_scale && !m.texture_filter && !m.normal_map && !m.roughness_map && !m.opacity && !m.emission &&
-            !m.sound)
+            !m.reflection && !m.sound)
             return false;
         header(fmt::format("[materials.body{}]", body), fmt::format("bodies[{}].material", body));
         write_fields<tumble::Material>(*this, m);

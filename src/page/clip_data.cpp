@@ -1,6 +1,7 @@
 #include "page/clip_data.h"
 
 #include "core/check.h"
+#include "page/environment_data.h"
 #include "page/joint_marks.h"
 #include "page/motion_data.h"
 #include "page/scene_data.h"
@@ -46,24 +47,27 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
     MotionData motion = make_motion_data(run, clip.motion_budget, precise, arrays);
     errors.add(motion.errors);
     Json json{{"label", run.label},
-            {"fps", run.scene.output.fps},
-            {"frames", run.frames},
-            {"settings", settings_json(run)},
-            {"bodies", make_bodies(run, meshes)},
-            {"cords", make_cords(run)},
-            {"light", make_light(run)},
-            {"camera", make_camera(run, arrays)},
-            {"motion", std::move(motion.json)},
-            {"energy", make_energy_data(run, arrays)},
-            {"joints", make_joint_data(run, arrays)},
-            {"impacts", make_impact_data(run, precise, arrays)},
-            {"all_impacts", run.all_impacts},
-            {"contacts", make_contact_data(run, arrays)},
-            {"all_contacts", run.all_contacts},
-            {"loads", make_load_data(run, arrays)},
-            {"joint_marks", make_joint_marks(run, arrays)},
-            {"overlays", make_overlays(run)}};
+              {"fps", run.scene.output.fps},
+              {"frames", run.frames},
+              {"settings", settings_json(run)},
+              {"bodies", make_bodies(run, meshes)},
+              {"cords", make_cords(run)},
+              {"light", make_light(run)},
+              {"camera", make_camera(run, arrays)},
+              {"motion", std::move(motion.json)},
+              {"energy", make_energy_data(run, arrays)},
+              {"joints", make_joint_data(run, arrays)},
+              {"impacts", make_impact_data(run, precise, arrays)},
+              {"all_impacts", run.all_impacts},
+              {"contacts", make_contact_data(run, arrays)},
+              {"all_contacts", run.all_contacts},
+              {"loads", make_load_data(run, arrays)},
+              {"joint_marks", make_joint_marks(run, arrays)},
+              {"overlays", make_overlays(run)}};
     if (!run.pace.empty()) json["pace"] = run.pace;
+    if (run.scene.environment) json["environment"] = make_environment(*run.scene.environment, arrays);
+    if (run.scene.output.exposure) json["exposure"] = *run.scene.output.exposure;
+    if (run.scene.output.tone == ToneCurve::linear) json["tone"] = "linear";
     return json;
 }
 

@@ -12,6 +12,7 @@
 #include "render/passes/frame_passes.h"
 #include "render/render_scene_builder.h"
 #include "render/render_switches.h"
+#include "render/scene/plane_patch.h"
 
 #include <fmt/format.h>
 
@@ -57,14 +58,43 @@ PassOptions pass_options(const SceneDescription& description, const RenderSwitch
     return options;
 }
 
+RenderScene drawn_scene(const SceneDescription& description, const RenderSwitches& switches) {
+    RenderScene scene = make_render_scene(description);
+    if (switches.transparent && scene.environment && scene.environment->ground_shadow)
+        scene.shadow_alpha = is_analytic(description, switches) ? 1 : 2;
+    return scene;
+}
+
+/// Draws the bodies that the scene's mirror shows, for a renderer of the scene; null without one.
+std::unique_ptr<Renderer> mirror_renderer(const SceneDescription& scene, RenderSwitches switches, GlDevice& device) {
+    const auto mirror = mirror_of(scene);
+    if (!mirror || switches.transparent || switches.plain_background) return nullptr;
+    SceneDescription bodies = scene;
+    const BodyDescription& plane = scene.bodies[*mirror];
+    BodyState state;
+    state.origin = plane.position;
+    state.orientation = plane.rotation;
+    RenderBody proxy;
+    proxy.plane = std::get<PlaneShape>(plane.shape);
+    switches.mirror = plane_in_world(proxy, state);
+    switches.transparent = true;
+    switches.shift_x = -switches.shift_x;
+    switches.keep_depths = false;
+    switches.times = nullptr;
+    switches.device = &device;
+    switches.compile_schedule = nullptr;
+    if (bodies.environment) bodies.environment->ground_shadow = false;
+    return std::make_unique<Renderer>(bodies, switches);
+}
+
 }  // namespace
 
 struct Renderer::State {
     /// `description`: without compounds; only needed during the call.
     State(const SceneDescription& description, PartPoses parts, const RenderSwitches& options)
         : switches(options),
-          scene(make_render_scene(description)),
-          setup(description, scene, std::move(parts), {options.shift_x, options.shift_y}),
+          scene(drawn_scene(description, options)),
+          setup(description, scene, std::move(parts), {options.shift_x, options.shift_y}, options.mirror),
           ambient_occlusion(scene, setup.camera().eye()),
           damage_tracker({options.full_redraw, options.draw_hidden}),
           lods(scene),
@@ -103,10 +133,23 @@ struct Renderer::State {
     Image image;
     DepthImage depths;  // of the switch keep_depths
     std::vector<Rectangle> changed;
+    std::unique_ptr<Renderer> mirror;  // null: no plane reflects
+
+    /// Draws the mirrored bodies, and returns where their image changed, as the plane shows it.
+    std::vector<Rectangle> draw_mirrored(const Snapshot& snapshot) {
+        if (!mirror) return {};
+        const Image& mirrored = mirror->render(snapshot);
+        std::vector<Rectangle> rectangles = mirror->changed();
+        if (!rectangles.empty()) passes.set_reflection(mirrored);
+        for (Rectangle& r : rectangles) r.x = mirrored.width - r.x - r.width;
+        return rectangles;
+    }
 };
 
 Renderer::Renderer(const SceneDescription& scene, const RenderSwitches& switches)
-    : state_(std::make_unique<State>(expand_compounds(scene), PartPoses(scene), switches)) {}
+    : state_(std::make_unique<State>(expand_compounds(scene), PartPoses(scene), switches)) {
+    state_->mirror = mirror_renderer(scene, switches, state_->device);
+}
 
 Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options)
     : Renderer(scene, RenderSwitches{options}) {}
@@ -120,7 +163,8 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     s.changed.clear();
 
     FrameContext frame = s.setup.prepare(snapshot, s.passes.one_sample(), s.switches.full_redraw);
-    if (s.passes.plain_background()) frame.planes.clear();  // planes of the scene still occlude bodies
+    if (s.passes.plain_background() && s.scene.shadow_alpha == 0)
+        frame.planes.clear();  // planes of the scene still occlude bodies
     if (frame.unchanged) {
         s.setup.finish();
         return s.image;
@@ -130,7 +174,7 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     s.ambient_occlusion.update(frame, visible);
     std::optional<Visibility> everything;
     const Visibility& drawn = s.switches.draw_hidden ? everything.emplace(everything_visible(frame)) : visible;
-    Damage damage = s.damage_tracker.find(frame, drawn, s.ambient_occlusion);
+    Damage damage = s.damage_tracker.find(frame, drawn, s.ambient_occlusion, s.draw_mirrored(snapshot));
     const OcclusionAtlas& atlas = s.ambient_occlusion.atlas();
     DrawList list = make_draw_list(frame, drawn, atlas, damage.drawn, damage.casters);
     if (s.switches.transparent && !s.antialiasing.analytic())

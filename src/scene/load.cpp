@@ -3,6 +3,7 @@
 #include "scene/camera/camera.h"
 #include "scene/keys/bodies.h"
 #include "scene/keys/chains.h"
+#include "scene/keys/environment.h"
 #include "scene/keys/force_fields.h"
 #include "scene/keys/forces_and_cords.h"
 #include "scene/keys/instances.h"
@@ -60,23 +61,23 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format",   "title",    "simulation", "output",  "camera",    "cameras", "shot",
-                      "light",    "wind",     "contact",    "materials", "body",    "joint",   "chain",
-                      "template", "instance", "force",      "field",   "pair_force", "cord",   "overlay",
-                      "caption",  "speed"});
+    root.expect_keys({"format",     "title",    "simulation", "output", "camera",  "cameras",   "shot",     "light",
+                      "environment", "wind",    "contact",    "materials", "body", "joint",     "chain",    "template",
+                      "instance",   "force",    "field",      "pair_force", "cord", "overlay",  "caption",  "speed"});
 
     SceneDescription scene;
     scene.file = file.string();
     root.read("title", scene.title);
     read_run_settings(root, overrides, scene.simulation, scene.output);
     read_lights(root, scene);
+    FileList files;
+    scene.environment = read_environment(root, file.parent_path(), files);
     scene.wind = read_wind(root);
     scene.contact = read_contact(root);
     MeshCache meshes(imports, std::move(supplied));
     TextureFiles textures;
     const std::filesystem::path folder = file.parent_path();
     const Materials materials = read_materials(root, {folder, textures});
-    FileList files;
     const BodySources sources{materials, folder, scene.simulation, meshes, textures, files};
     scene.bodies = read_bodies(root, sources);
     const SceneTemplates templates = read_templates(root, sources);

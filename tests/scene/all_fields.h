@@ -20,6 +20,7 @@ void for_all_fields(auto&& use) {
     use.template operator()<CameraShot>("shot");
     use.template operator()<LightDescription>("light");
     use.template operator()<LampDescription>("one of several lights");
+    use.template operator()<EnvironmentDescription>("environment");
     use.template operator()<WindDescription>("wind");
     use.template operator()<PairRules>("contact");
     use.template operator()<Material>("material");

@@ -18,6 +18,9 @@ inline std::string image_line(const std::string& key) {
 }
 inline std::string texture_line() { return image_line("texture"); }
 
+/// The key of an environment: the same image.
+inline std::string image_line() { return "image = \"" TUMBLE_SOURCE_DIR "/tests/fuzz/corpus/texture/rgb.png\"\n"; }
+
 /// Lines of a scene with bodies "ball", "table" and "cloud.0" to "cloud.2", and a change of each key of
 /// joints.
 extern const std::string joint_lines;

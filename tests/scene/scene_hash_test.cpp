@@ -57,6 +57,12 @@ keyframes = [{ time = 0, eye = [1, 1, 1] }, { time = 1, target = [0, 0, 1], vert
 [light]
 direction = [0, -2, 1]
 shadows = false
+[environment]
+preset = "studio"
+background = ["#102030", "#405060"]
+rotation = 20
+intensity = 0.9
+blur = 0.3
 [wind]
 velocity = [3, 0, -1]
 density = 1.1
@@ -79,6 +85,7 @@ shape = { type = "sphere", radius = 1.5 }
 [[body]]
 name = "floor"
 type = "fixed"
+material = "steel"
 shape = { type = "plane", normal = [0, 3, 4], offset = 0.5 }
 [[body]]
 name = "ball"
@@ -196,6 +203,10 @@ const std::vector<std::vector<Change>> own_tables = {
      {"output", "[output]", "fps = 30", "fps = 60", true},
      {"camera", "[camera]", "eye = [1, 2, 3]", "eye = [1, 2, 4]", false},
      {"light", "[light]", "shadows = false", "", false},
+     {"environment", "",
+      "[environment]\npreset = \"studio\"\nbackground = [\"#102030\", \"#405060\"]\nrotation = 20\nintensity = 0.9\n"
+      "blur = 0.3\n",
+      "", false},
      {"wind", "", "[wind]\nvelocity = [3, 0, -1]\ndensity = 1.1\ndrag = 0.8\n", "", true},
      {"contact", "", "[contact]\nrestitution_rule = \"average\"\nfriction_rule = \"minimum\"\n", "", true},
      {"materials", "[materials", "density = 7800", "", true},
@@ -235,7 +246,9 @@ const std::vector<std::vector<Change>> own_tables = {
      {"seed", "[simulation]", "seed = 42", "seed = 43", true}},
     {{"size", "[output]", "size = [640, 360]", "size = [640, 361]", false},
      {"fps", "[output]", "fps = 30", "fps = 31", true},
-     {"samples", "[output]", "samples = 2", "samples = 4", false}},
+     {"samples", "[output]", "samples = 2", "samples = 4", false},
+     {"exposure", "[output]", "samples = 2", "samples = 2\nexposure = 0.5", false},
+     {"tone", "[output]", "samples = 2", "samples = 2\ntone = \"linear\"", false}},
     {{"eye", "[camera]", "eye = [1, 2, 3]", "eye = [1, 2, 3.5]", false},
      {"target", "[camera]", "target = [4, 5, 6]", "target = [4, 5, 7]", false},
      {"up", "[camera]", "up = [0, 0, 2]", "up = [0, 1, 2]", false},
@@ -262,6 +275,13 @@ const std::vector<std::vector<Change>> own_tables = {
      {"intensity", "", one_light, one_light_as("intensity = 2"), false},
      {"angle", "", one_light, one_light_as("type = \"spot\"\nposition = [0, 2, 0]\nangle = 20"), false},
      {"shadows", "", one_light, one_light_as("shadows = false"), false}},
+    {{"preset", "[environment]", "studio", "dusk", false},
+     {"image", "[environment]", "preset = \"studio\"\n", image_line(), false},
+     {"background", "[environment]", "#405060", "#405061", false},
+     {"rotation", "[environment]", "rotation = 20", "rotation = 21", false},
+     {"intensity", "[environment]", "intensity = 0.9", "intensity = 0.8", false},
+     {"blur", "[environment]", "blur = 0.3", "blur = 0.2", false},
+     {"ground_shadow", "[environment]", "blur = 0.3", "blur = 0.3\nground_shadow = true", false}},
     {{"velocity", "[wind]", "velocity = [3, 0, -1]", "velocity = [3, 0, 1]", true},
      {"density", "[wind]", "density = 1.1", "density = 1.2", true},
      {"drag", "[wind]", "drag = 0.8", "drag = 0.9", true}},
@@ -286,6 +306,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"roughness_map", "[materials", "pattern = \"checker\"", image_line("roughness_map"), false},
      {"opacity", "[materials", "pattern = ", "opacity = 0.3\npattern = ", false},
      {"emission", "[materials", "pattern = ", "emission = \"#102030\"\npattern = ", false},
+     {"reflection", "[materials", "pattern = ", "reflection = 0.2\npattern = ", false},
      {"sound", "[materials", "pattern = ", "sound = \"metal\"\npattern = ", true}},
     {{"name", "", "name = \"stone\"", "name = \"rock\"", true},
      {"type", "", "name = \"crate\"", "name = \"crate\"\ntype = \"fixed\"", true},
@@ -315,6 +336,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"roughness_map", "", "pattern = \"grid\"", image_line("roughness_map"), false},
      {"opacity", "", "mass = 3", "mass = 3\nopacity = 0.3", false},
      {"emission", "", "mass = 3", "mass = 3\nemission = \"#102030\"", false},
+     {"reflection", "name = \"floor\"", "type = \"fixed\"", "type = \"fixed\"\nreflection = 0.5", false},
      {"mass", "", "mass = 3", "mass = 4", true},
      {"visible", "", "visible = false", "visible = true", false},
      {"position", "name = \"ball\"", "position = [1, 2, 3]", "position = [1, 2, 4]", true},
@@ -415,7 +437,9 @@ const std::vector<std::vector<Change>> own_tables = {
      {"scale", "[overlay]", "force = 1,", "", false},
      {"color", "[overlay]", "#000001", "#000002", false},
      {"plot", "[overlay]", "[\"kinetic_energy\"]", "[]", false},
-     {"plot_place", "[overlay]", "beside", "below", false}},
+     {"plot_place", "[overlay]", "beside", "below", false},
+     {"fade_in", "[overlay]", "start = 0.1", "start = 0.1\nfade_in = 0.5", false},
+     {"fade_out", "[overlay]", "start = 0.1", "start = 0.1\nfade_out = 0.5", false}},
     {{"body", "trail_points", "table", "ball", false},
      {"point", "trail_points", "[0, 0, 3]", "[0, 0, 4]", false},
      {"color", "trail_points", "#ffd040", "#ffd041", false}},

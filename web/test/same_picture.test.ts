@@ -61,5 +61,10 @@ const pictures: Record<string, Shown> = {
   textures: { scene: "dice.toml", time: 0.4, overlays: "none" },
   surfaces: { scene: "../../web/test/surfaces/scene.toml", time: 0, overlays: "none" },
   patterns: { scene: "marbles.toml", time: 0.4, overlays: "none" },
+  environment: {
+    scene: "bouncing_balls.toml", time: 1, overlays: "none",
+    set: ['environment.preset="dusk"', "environment.rotation=40", "output.exposure=0.5", "materials.ball.metallic=1"],
+  },
+  background: { scene: "falling_boxes.toml", time: 1, overlays: "none", set: ['environment.background=["#f0d8b0", "#405080"]'] },
 };
 for (const [name, shown] of Object.entries(pictures)) test(`${name}: ${shown.scene}, ${shown.overlays}`, (t) => compare(t, name, shown));

@@ -202,6 +202,14 @@ ValueMap values_of(const SceneDescription& scene) {
     if (scene.contact != PairRules{}) add_fields(scene.contact, values);
     add_fields(scene.light, values, "light.");
     if (!scene.lamps.empty()) values["lights"] = lamps_text(scene);
+    if (const auto& environment = scene.environment) {
+        add_fields(*environment, values, "environment.");
+        values["environment.background"] = fmt::format("{} {} {}", int(environment->background),
+                                                       to_string(environment->low), to_string(environment->high));
+        if (environment->image)
+            values["environment.image"] =
+                fmt::format("#{:016x}", fnv_hash(std::as_bytes(std::span(environment->image->texels))));
+    }
     if (scene.wind)
         values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) values["forces"] = forces_text(scene);
@@ -220,6 +228,8 @@ ValueMap values_of(const Composition& composition) {
     values["size"] = fmt::format("{} x {}", composition.width, composition.height);
     values["samples"] = fmt::format("{}", first.output.samples);
     values["fps"] = fps_text(first.output.fps);
+    if (first.output.exposure) values["exposure"] = fmt::format("{}", *first.output.exposure);
+    if (first.output.tone) values["tone"] = name_of(*first.output.tone);
     const ClipText& text = composition.text;
     values["text.title"] = text.title;
     values["text.mode"] = text.mode;
@@ -236,6 +246,8 @@ ValueMap values_of(const Composition& composition) {
         for (const Panel& panel : plot.figure.panels) plots += panel.title + ";";
     }
     values["plot"] = plots;
+    if (const ClipFade& fade = composition.fade; !fade.empty())
+        values["fade"] = fmt::format("in {} out {} end {}", fade.in, fade.out, fade.last_time);
     return values;
 }
 

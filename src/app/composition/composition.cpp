@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace tumble {
 
 Composition::Composition(const SceneDescription& scene)
@@ -12,8 +15,16 @@ Composition::Composition(const SceneDescription& scene)
 
 bool Composition::changes(double from, double to) const {
     if (from == to) return false;
-    return !plots.empty() || (text.clock && clock_text_at(from) != clock_text_at(to)) ||
+    return !plots.empty() || fade.share_at(from) != fade.share_at(to) ||
+           (text.clock && clock_text_at(from) != clock_text_at(to)) ||
            captions_at(text.captions, from) != captions_at(text.captions, to);
+}
+
+int ClipFade::share_at(double time) const {
+    double share = 1.0;
+    if (in > 0.0) share = std::min(share, time / in);
+    if (out > 0.0) share = std::min(share, (last_time - time) / out);
+    return int(std::lround(256.0 * std::clamp(share, 0.0, 1.0)));
 }
 
 std::string clock_text_at(double time) { return fmt::format("t = {:.3f} s", time); }

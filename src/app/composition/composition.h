@@ -49,13 +49,23 @@ struct ClipPlot {
     Rectangle place;
 };
 
+/// From black at the start of the clip, and to black at its end.
+struct ClipFade {
+    double in = 0.0, out = 0.0;  // s; 0: none
+    double last_time = 0.0;      // s, of the last frame
+
+    bool empty() const { return in <= 0.0 && out <= 0.0; }
+    /// Share of the frame that is left at the time (s), in parts of 256.
+    int share_at(double time) const;
+};
+
 struct Composition {
     Composition() = default;
     /// One panel, which is the whole frame. The scene must outlive it.
     Composition(const SceneDescription& scene);  // NOLINT: a scene is the simplest composition
 
     /// True if each frame is the image of the only panel.
-    bool plain() const { return panels.size() == 1 && text.empty() && plots.empty(); }
+    bool plain() const { return panels.size() == 1 && text.empty() && plots.empty() && fade.empty(); }
     /// True if the text or the plot may differ between two times, s.
     bool changes(double from, double to) const;
 
@@ -64,6 +74,7 @@ struct Composition {
     std::vector<ClipLabel> labels;
     ClipText text;
     std::vector<ClipPlot> plots;
+    ClipFade fade;
     std::shared_ptr<const SceneDescription> aov_scene;  // the scene at the size of the AOVs
 };
 

@@ -45,7 +45,12 @@ void PlotLayer::add_stamps(std::vector<const Stamp*>& stamps) const {
 }
 
 FrameComposer::FrameComposer(const Composition& composition, bool transparent)
-    : background_(transparent ? 0 : 255), text_(composition), frame_(composition.width, composition.height) {
+    : background_(transparent ? 0 : 255),
+      text_(composition),
+      frame_(composition.width, composition.height),
+      transparent_(transparent),
+      fade_(composition.fade) {
+    if (!fade_.empty()) faded_ = frame_;
     for (const ClipPanel& panel : composition.panels) places_.push_back(panel.place);
     for (const ClipPlot& plot : composition.plots) plots_.emplace_back(plot);
 }
@@ -67,6 +72,21 @@ void FrameComposer::compose(std::span<const PanelImage> panels, double time) {
         restore(panels, region);
         for (const Stamp* stamp : stamps) stamp->blend(frame_, region);
     }
+    if (!fade_.empty()) fade(time);
+}
+
+/// Darkens the whole frame, or makes a transparent one more so.
+void FrameComposer::fade(double time) {
+    const int before = std::exchange(share_, fade_.share_at(time));
+    if (share_ != before) changed_.assign(1, {0, 0, frame_.width, frame_.height});
+    if (share_ == 256) return;
+    for (const Rectangle& region : changed_)
+        for (int y = region.y; y < region.y + region.height; ++y) {
+            const std::uint8_t* from = frame_.at(region.x, y);
+            std::uint8_t* to = faded_.at(region.x, y);
+            for (int i = 0; i < 4 * region.width; ++i)
+                to[i] = (i % 4 == 3) == transparent_ ? std::uint8_t((from[i] * share_ + 128) >> 8) : from[i];
+        }
 }
 
 /// The region without text and plot.

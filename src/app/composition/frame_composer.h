@@ -45,18 +45,23 @@ public:
     void compose(std::span<const PanelImage> panels, double time);
 
     /// The image of the last compose().
-    const Image& image() const { return frame_; }
+    const Image& image() const { return share_ < 256 ? faded_ : frame_; }
     /// The regions in which the image may differ from the previous one.
     const std::vector<Rectangle>& changed() const { return changed_; }
 
 private:
     void restore(std::span<const PanelImage> panels, const Rectangle& region);
+    void fade(double time);
 
     std::uint8_t background_;        // around panels, of all four channels
     std::vector<Rectangle> places_;  // of the panels
     TextLayer text_;
     std::vector<PlotLayer> plots_;
     Image frame_;
+    bool transparent_;
+    ClipFade fade_;
+    int share_ = 256;    // of the frame that is left, in parts of 256
+    Image faded_;        // empty where the clip does not fade
     bool first_ = true;  // no frame yet
     std::vector<Rectangle> changed_;
 };

@@ -70,6 +70,13 @@ ClipText text_of(std::span<const ClipScene> scenes, const CompositionOptions& op
     return text;
 }
 
+ClipFade fade_of(std::span<const ClipScene> scenes, double last_time) {
+    const auto fades = [](const SceneDescription& scene) { return scene.overlay.fade_in || scene.overlay.fade_out; };
+    const SceneDescription* scene = first_with(scenes, fades);
+    if (scene == nullptr) return {};
+    return {scene->overlay.fade_in.value_or(0.0), scene->overlay.fade_out.value_or(0.0), last_time};
+}
+
 double wider(double vertical_fov, double factor) {
     constexpr double degrees = std::numbers::pi / 180.0;
     const double half = std::atan(factor * std::tan(0.5 * vertical_fov * degrees)) / degrees;
@@ -125,6 +132,7 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
     composition.height = first.output.height;
     composition.aov_scene = scenes.front().scene;
     composition.text = text_of(scenes, options);
+    composition.fade = fade_of(scenes, options.last_time);
     ClipText& text = composition.text;
     LayoutRequest request{.width = composition.width,
                           .height = composition.height,

@@ -119,8 +119,12 @@ private:
         const auto blended = [&](int own, int other) {
             return std::uint8_t(own + (((other - own) * weight + 128) >> 8));
         };
-        for (int c = 0; c < 3; ++c) to[c] = blended(to[c], from[c]);
-        if (with_coverage) to[3] = blended(to[3], coverage_of(from[3]));
+        if (with_coverage) {
+            const auto other = covered_color(from);
+            for (std::size_t c = 0; c < 4; ++c) to[c] = blended(to[c], other[c]);
+        } else {
+            for (int c = 0; c < 3; ++c) to[c] = blended(to[c], from[c]);
+        }
     }
 
     // Color of the edge's own face, from a pixel beside these two; a narrow face does not show in every pixel.

@@ -35,8 +35,10 @@ void for_each_pixel(const std::vector<Rectangle>& rectangles, Image& frame, cons
 void copy_coverage(const Image& drawn, const std::vector<Rectangle>& rectangles, bool ids, Image& frame) {
     for_each_pixel(rectangles, frame, [&](int x, int y, std::uint8_t* to) {
         const std::uint8_t* const from = drawn.at(x, y);
-        std::copy_n(from, 3, to);
-        to[3] = ids ? coverage_of(from[3]) : from[3];
+        if (ids)
+            std::ranges::copy(covered_color(from), to);
+        else
+            std::copy_n(from, 4, to);
     });
 }
 

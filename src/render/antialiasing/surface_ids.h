@@ -2,6 +2,7 @@
 // seldom neighboring ones; an edge between two of the same id is not smoothed.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -12,8 +13,12 @@ inline constexpr int surface_id_count = 253;
 /// Id of the sky.
 inline constexpr std::uint8_t sky_id = 255;
 
-/// Coverage of a pixel that shows this id at its center, where only bodies are drawn.
-inline std::uint8_t coverage_of(std::uint8_t id) { return id == sky_id ? 0 : 255; }
+/// A pixel as drawn where only bodies and shadows on the ground are: red, green and blue times the coverage, which is
+/// all for a surface. Beside surfaces the color is the darkness of a shadow.
+inline std::array<std::uint8_t, 4> covered_color(const std::uint8_t* pixel) {
+    if (pixel[3] == sky_id) return {0, 0, 0, pixel[0]};
+    return {pixel[0], pixel[1], pixel[2], 255};
+}
 
 /// Id of a face of a drawn body (face 0 for shapes with one surface).
 inline std::uint8_t surface_id(std::size_t body, std::size_t face) {

@@ -20,9 +20,9 @@ constexpr int averaged = 2;
 struct Mean {
     std::array<double, 4> sum{};  // sRGB values and coverage, 0 to 255
     int count = 0;
-    void add(const std::uint8_t* pixel) {
-        for (std::size_t c = 0; c < 3; ++c) sum[c] += pixel[c];
-        sum[3] += coverage_of(pixel[3]);
+    void add(const std::uint8_t* pixel, std::size_t channels) {
+        const auto color = covered_color(pixel);
+        for (std::size_t c = 0; c < 4; ++c) sum[c] += channels == 4 ? color[c] : pixel[c];
         ++count;
     }
 };
@@ -68,7 +68,7 @@ public:
                 for (int step = 1; step <= search; ++step) {
                     const int across = n + side * step;
                     if (!in_picture(m, across) || rods[index(m, across)] != 0) continue;
-                    beside.add(at(m, across));
+                    beside.add(at(m, across), channels_);
                     break;
                 }
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
@@ -88,7 +88,7 @@ public:
             Mean own;
             for (int other = m - averaged; other <= m + averaged; ++other)
                 for (int across = n - 1; across <= n + 1; ++across)
-                    if (of_rod(other, across)) own.add(at(other, across));
+                    if (of_rod(other, across)) own.add(at(other, across), channels_);
             std::uint8_t* const to = &frame.pixels[4 * index(m, n)];
             for (std::size_t c = 0; c < channels_ && own.count > 0; ++c)
                 to[c] = std::uint8_t(std::lround(to[c] + (own.sum[c] / own.count - to[c]) * share));

@@ -90,7 +90,8 @@ bool too_near(const FrameContext& frame) {
 
 }  // namespace
 
-Damage DamageTracker::find(const FrameContext& frame, const Visibility& visible, const AmbientOcclusion& occlusion) {
+Damage DamageTracker::find(const FrameContext& frame, const Visibility& visible, const AmbientOcclusion& occlusion,
+                           const std::vector<Rectangle>& reflected) {
     Damage damage(frame);
     find_moved(frame, damage);
     // If many bodies move, computing the damage would cost more than a full redraw.
@@ -101,12 +102,15 @@ Damage DamageTracker::find(const FrameContext& frame, const Visibility& visible,
         damage.tiles.mark_all();
     else
         mark_tiles(frame, visible, occlusion.changes(), damage.tiles);
+    for (const Rectangle& rectangle : reflected) damage.tiles.mark(rectangle);
     damage.changed = damage.tiles.rectangles();
     if (previous_tiles_) damage.previous = previous_tiles_->rectangles_outside(damage.tiles);
     select(frame, damage);
     for (const PlanePatch& plane : frame.planes)
         damage.plane_regions.push_back(
-            find_dirty_regions(plane, frame, visible.cover, occlusion.atlas(), damage.tiles));
+            frame.scene.bodies[plane.body].reflection > 0.0f  // reflections may be anywhere
+                ? damage.changed
+                : find_dirty_regions(plane, frame, visible.cover, occlusion.atlas(), damage.tiles));
     previous_drawables_ = frame.drawables;
     previous_tiles_ = damage.tiles;
     previous_near_distance_ = frame.near_distance;

@@ -40,8 +40,10 @@ class DamageTracker {
 public:
     explicit DamageTracker(const DamageOptions& options = {}) : options_(options) {}
 
-    /// Compares with the frame of the previous call, and stores this one. `visible`: the drawn bodies.
-    Damage find(const FrameContext& frame, const Visibility& visible, const AmbientOcclusion& occlusion);
+    /// Compares with the frame of the previous call, and stores this one. `visible`: the drawn bodies. `reflected`:
+    /// where the image of mirrored bodies changed.
+    Damage find(const FrameContext& frame, const Visibility& visible, const AmbientOcclusion& occlusion,
+                const std::vector<Rectangle>& reflected = {});
 
 private:
     void find_moved(const FrameContext& frame, Damage& damage);

@@ -48,6 +48,15 @@ void DirtyTiles::mark_all() {
     count_ = grid_.columns * grid_.rows;
 }
 
+void DirtyTiles::mark(const Rectangle& rectangle) {
+    for (int row = rectangle.y / grid_.cell; row * grid_.cell < rectangle.y + rectangle.height; ++row)
+        for (int column = rectangle.x / grid_.cell; column * grid_.cell < rectangle.x + rectangle.width; ++column) {
+            char& marked = dirty_[std::size_t(row * grid_.columns + column)];
+            count_ += marked == 0 ? 1 : 0;
+            marked = 1;
+        }
+}
+
 void DirtyTiles::mark_hull(std::span<const Vec3> points, double around) {
     const ScreenArea place = screen_area_of(points, *view_);
     if (place == ScreenArea::behind || all()) return;

@@ -77,6 +77,9 @@ public:
     /// the screen, with a margin for rasterization and antialiasing. With a point beside the eye, all tiles are marked.
     void mark_hull(std::span<const Vec3> points, double around = 0.0);
 
+    /// Marks the tiles that the rectangle (in pixels of the frame) touches.
+    void mark(const Rectangle& rectangle);
+
     bool none() const { return count_ == 0; }
     bool all() const { return count_ == grid_.columns * grid_.rows; }
     bool at(int column, int row) const { return dirty_[std::size_t(row * grid_.columns + column)] != 0; }

@@ -10,25 +10,36 @@
 namespace tumble {
 namespace {
 
-Camera first_camera(const SceneDescription& description, const RenderScene& scene, const Eigen::Vector2d& shift) {
+CameraDescription mirrored(CameraDescription camera, const std::optional<PlaneShape>& mirror) {
+    if (!mirror) return camera;
+    const Vec3& n = mirror->normal;
+    camera.eye -= 2.0 * (n.dot(camera.eye) - mirror->offset) * n;
+    camera.target -= 2.0 * (n.dot(camera.target) - mirror->offset) * n;
+    camera.up -= 2.0 * n.dot(camera.up) * n;
+    return camera;
+}
+
+Camera first_camera(const SceneDescription& description, const RenderScene& scene, const Eigen::Vector2d& shift,
+                    const std::optional<PlaneShape>& mirror) {
     const double viewing = viewing_distance(description, scene);
-    return Camera(description.camera, description.output.width, description.output.height, shift)
+    return Camera(mirrored(description.camera, mirror), description.output.width, description.output.height, shift)
         .with_distances(viewing, fog_distance(description, scene, viewing));
 }
 
 }  // namespace
 
 FrameSetup::FrameSetup(const SceneDescription& description, const RenderScene& scene, PartPoses parts,
-                       const Eigen::Vector2d& shift)
+                       const Eigen::Vector2d& shift, const std::optional<PlaneShape>& mirror)
     : scene_(&scene),
       parts_(std::move(parts)),
       animation_(description.camera),
-      placed_(description.camera),
-      camera_(first_camera(description, scene, shift)),
+      mirror_(mirror),
+      placed_(mirrored(description.camera, mirror)),
+      camera_(first_camera(description, scene, shift, mirror)),
       cascades_(description, scene, camera_, shadow_map_texels) {}
 
 bool FrameSetup::move_camera(const Snapshot& whole) {
-    CameraDescription now = animation_.at(whole);
+    CameraDescription now = mirrored(animation_.at(whole), mirror_);
     if (same_place(now, placed_)) return false;
     placed_ = std::move(now);
     camera_ = camera_.from(placed_);

@@ -34,9 +34,9 @@ struct FrameContext {
 class FrameSetup {
 public:
     /// `description`: without compounds (see expand_compounds()); `scene`: made from it, must outlive this object.
-    /// `shift`: displacement of the frame, pixels.
+    /// `shift`: displacement of the frame, pixels. `mirror`: see RenderSwitches.
     FrameSetup(const SceneDescription& description, const RenderScene& scene, PartPoses parts = {},
-               const Eigen::Vector2d& shift = Eigen::Vector2d::Zero());
+               const Eigen::Vector2d& shift = Eigen::Vector2d::Zero(), const std::optional<PlaneShape>& mirror = {});
     FrameSetup(const FrameSetup&) = delete;
     FrameSetup& operator=(const FrameSetup&) = delete;
 
@@ -61,6 +61,7 @@ private:
     const RenderScene* scene_;
     PartPoses parts_;
     CameraAnimation animation_;
+    std::optional<PlaneShape> mirror_;
     CameraDescription placed_;  // the camera of the previous frame
     Camera camera_;
     CascadeFitter cascades_;

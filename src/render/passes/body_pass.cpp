@@ -1,5 +1,6 @@
 #include "render/passes/body_pass.h"
 
+#include "render/environment/environment_textures.h"
 #include "render/passes/lamp_uniforms.h"
 #include "render/shadow/shadow_map.h"
 
@@ -49,12 +50,16 @@ unsigned features_of(const RenderBody& proxy, const RenderScene& scene) {
 
 void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
+    program.set_block("Environment", environment_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
     program.set_block("Lamps", lamp_block);
     program.set_sampler("mesh_texture", GLint(paint_unit));
     constexpr std::array names{"normal_map", "surface_map", "emission_map"};
     for (std::size_t i = 0; i < names.size(); ++i) program.set_sampler(names[i], GLint(map_units[i]));
+    program.set_sampler("environment_map", GLint(mirror_unit));
+    program.set_sampler("background_image", GLint(background_unit));
+    program.set_sampler("reflection_image", GLint(reflection_unit));
 }
 
 BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const RenderScene& scene,
@@ -64,7 +69,8 @@ BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const
       shadows_(scene.light.shadows),
       filter_(filter),
       looks_(scene.looks),
-      lamp_defines_(lamp_defines(scene)) {
+      lamp_defines_(lamp_defines(scene)),
+      scene_defines_(scene_defines(scene)) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
     for (const RenderBody& proxy : scene.bodies)
@@ -116,6 +122,7 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     for (const std::string& define : look_defines(looks_[variant.look])) files.defines.push_back(define);
     for (const std::string& define : feature_defines(variant.features)) files.defines.push_back(define);
     files.defines.insert(files.defines.end(), lamp_defines_.begin(), lamp_defines_.end());
+    for (const std::string& define : scene_defines_) files.defines.push_back(define);
     made = &device_->program(shaders_, files);
     connect(*made);
     return *made;

@@ -20,6 +20,7 @@ FramePasses::FramePasses(GlDevice& device, const RenderScene& scene, const Shado
       meshes_(*gl_, scene),
       occlusion_texture_(*gl_),
       shadow_map_(device, options.shaders, frame_block),
+      environment_(*gl_, scene),
       bodies_(device, options.shaders, scene, filter),
       planes_(device, options.shaders, scene, filter),
       widen_rods_(options.widen_rods),
@@ -68,6 +69,16 @@ void FramePasses::bind_textures() const {
     gl_->BindTexture(GL_TEXTURE_2D, shadow_map_.texture());
 }
 
+void FramePasses::set_reflection(const Image& image) {
+    if (!reflection_) reflection_.emplace(*gl_, GlKind::texture);
+    gl_->BindTexture(GL_TEXTURE_2D, reflection_->name());
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
+    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, image.width, image.height, 0, GL_RGBA, GL_UNSIGNED_BYTE,
+                    image.pixels.data());
+}
+
 void FramePasses::draw_sky(const FrameContext& frame) const {
     if (plain_background_)
         framebuffer_.clear_color(*plain_background_);
@@ -99,6 +110,12 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
         shadow_map_.draw(meshes_, list.casters, damage.shadow_tiles.rectangles(), frame.cascades.has_far);
     timer.ends(Pass::shadow);
 
+    environment_.bind();
+    if (reflection_) {
+        gl_->ActiveTexture(GL_TEXTURE0 + reflection_unit);
+        gl_->BindTexture(GL_TEXTURE_2D, reflection_->name());
+        gl_->ActiveTexture(GL_TEXTURE0);
+    }
     begin_frame(frame, damage);
     timer.ends(Pass::background);
 

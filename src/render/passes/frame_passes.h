@@ -4,6 +4,7 @@
 #include "core/image.h"
 #include "render/ambient_occlusion/occlusion_texture.h"
 #include "render/damage/damage_tracker.h"
+#include "render/environment/environment_textures.h"
 #include "render/gl/framebuffer.h"
 #include "render/mesh/gpu_mesh_cache.h"
 #include "render/passes/body_pass.h"
@@ -43,6 +44,9 @@ public:
     void draw(const FrameContext& frame, const Damage& damage, const DrawList& list, const OcclusionAtlas& atlas,
               PassTimer& timer);
 
+    /// Mirrored bodies for the plane that shows them, from right to left, with straight alpha.
+    void set_reflection(const Image& image);
+
     /// Reads the rectangles as drawn: with surface ids in alpha.
     void read(const std::vector<Rectangle>& rectangles, Image& image) const;
 
@@ -62,6 +66,8 @@ private:
     GpuMeshCache meshes_;
     OcclusionTexture occlusion_texture_;
     ShadowMap shadow_map_;
+    EnvironmentTextures environment_;
+    std::optional<GlObject> reflection_;
     BodyPass bodies_;
     PlanePass planes_;
     bool widen_rods_;

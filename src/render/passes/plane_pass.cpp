@@ -1,6 +1,7 @@
 #include "render/passes/plane_pass.h"
 
 #include "render/antialiasing/surface_ids.h"
+#include "render/environment/environment_textures.h"
 #include "render/gl/glm_conversion.h"
 #include "render/passes/body_pass.h"
 #include "render/passes/lamp_uniforms.h"
@@ -51,10 +52,11 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
       shadows_(scene.light.shadows),
       filter_(filter),
       other_planes_(other_planes(scene)),
-      sky_(device.program(shaders, {"sky.vert", "sky.frag", {}})),
-      planes_(2 * (3 + scene.looks.size())),
+      sky_(device.program(shaders, {"sky.vert", "sky.frag", scene_defines(scene)})),
+      planes_(4 * (3 + scene.looks.size())),
       looks_(scene.looks),
       lamp_defines_(lamp_defines(scene)),
+      scene_defines_(scene_defines(scene)),
       textures_(*gl_),
       array_(*gl_, GlKind::vertex_array),
       corners_(*gl_, GlKind::buffer) {
@@ -62,7 +64,7 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
     for (const RenderBody& proxy : scene.bodies) {
         auto& programs = planes_[index_of(proxy)];
         if (proxy.kind != DrawKind::plane || programs) continue;
-        programs.emplace(Programs{make(proxy, {}), make(proxy, occluded()), nullptr});
+        programs.emplace(Programs{make(proxy, {}), make(proxy, occluded(proxy)), nullptr});
     }
     gl_->BindVertexArray(array_.name());
     gl_->BindBuffer(GL_ARRAY_BUFFER, corners_.name());
@@ -73,7 +75,8 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
 
 /// Those without a look of the scene come first, by their pattern.
 std::size_t PlanePass::index_of(const RenderBody& proxy) {
-    return 2 * (proxy.look == 0 ? std::size_t(proxy.pattern) : 2 + proxy.look) + (proxy.glows() ? 1 : 0);
+    return 4 * (proxy.look == 0 ? std::size_t(proxy.pattern) : 2 + proxy.look) + (proxy.glows() ? 2 : 0) +
+           (proxy.reflection > 0.0f ? 1 : 0);
 }
 
 const ShaderProgram* PlanePass::make(const RenderBody& proxy, const std::vector<std::string>& more) const {
@@ -81,14 +84,15 @@ const ShaderProgram* PlanePass::make(const RenderBody& proxy, const std::vector<
         feature_defines(looks_[proxy.look].image.maps.bits() | (proxy.glows() ? surface_feature::glowing : 0u));
     own.insert(own.end(), lamp_defines_.begin(), lamp_defines_.end());
     const ShaderProgram& made = device_->program(
-        shaders_,
-        {"plane.vert", "plane.frag", with(defines(proxy.pattern, looks_[proxy.look], other_planes_, own), more)});
+        shaders_, {"plane.vert", "plane.frag",
+                   with(with(defines(proxy.pattern, looks_[proxy.look], other_planes_, own), scene_defines_), more)});
     connect(made);
     return &made;
 }
 
-std::vector<std::string> PlanePass::occluded() const {
+std::vector<std::string> PlanePass::occluded(const RenderBody& proxy) const {
     std::vector<std::string> all = {"OCCLUDED"};
+    if (proxy.reflection > 0.0f) all.emplace_back("REFLECTIVE");
     return shadows_ ? with(with(all, {"SHADOWED"}), shadow_defines(filter_)) : all;
 }
 
@@ -141,7 +145,7 @@ void PlanePass::draw_regions(const FrameContext& frame, const std::vector<std::v
         const RenderBody& proxy = frame.scene.bodies[plane.body];
         Programs& programs = *planes_[index_of(proxy)];
         if (far_shadows && programs.occluded_far == nullptr)
-            programs.occluded_far = make(proxy, with(occluded(), {"FAR_MAP"}));
+            programs.occluded_far = make(proxy, with(occluded(proxy), {"FAR_MAP"}));
         const ShaderProgram& program = far_shadows ? *programs.occluded_far : *programs.occluded;
         upload_polygon(plane.corners);
         set_uniforms(program, plane, frame);
@@ -162,7 +166,8 @@ void PlanePass::set_uniforms(const ShaderProgram& program, const PlanePatch& pla
     program.set("plane_u", plane.u);
     program.set("plane_v", plane.v);
     program.set("plane_color", glm::vec4(proxy.color, proxy.roughness));
-    program.set("plane_material", glm::vec4(proxy.metallic, surface_alpha(plane.body, 0), 0.0f, 0.0f));
+    program.set("plane_material", glm::vec4(proxy.metallic, surface_alpha(plane.body, 0), proxy.reflection,
+                                            float(frame.camera.width() - 1)));
     if (proxy.look != 0) {
         program.set("plane_paint", proxy.paint);
         if (const SurfaceLook& look = looks_[proxy.look]; look.has_image())

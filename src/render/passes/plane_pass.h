@@ -43,7 +43,7 @@ private:
     };
     static std::size_t index_of(const RenderBody& proxy);
     const ShaderProgram* make(const RenderBody& proxy, const std::vector<std::string>& more) const;
-    std::vector<std::string> occluded() const;
+    std::vector<std::string> occluded(const RenderBody& proxy) const;
     void set_uniforms(const ShaderProgram& program, const PlanePatch& plane, const FrameContext& frame) const;
     void set_tile(const ShaderProgram& program, const PlanePatch& plane, const OcclusionAtlas& atlas,
                   const FrameContext& frame) const;
@@ -60,6 +60,7 @@ private:
     std::vector<std::optional<Programs>> planes_;  // by pattern and look, as far as the scene uses it
     std::vector<SurfaceLook> looks_;
     std::vector<std::string> lamp_defines_;
+    std::vector<std::string> scene_defines_;
     mutable TextureCache textures_;
     GlObject array_, corners_;
 };

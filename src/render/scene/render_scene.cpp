@@ -68,6 +68,9 @@ RenderScene describe_bodies(const SceneDescription& description) {
     RenderScene scene;
     scene.light = description.light;
     scene.lamps = description.lamps;
+    scene.environment = description.environment;
+    scene.exposure = description.output.exposure.value_or(0.0);
+    scene.tone = description.output.tone.value_or(ToneCurve::filmic);
     scene.sun_up = sun_is_up(description);
     scene.cords = description.cords;
     for (const BodyDescription& body : description.bodies) {
@@ -87,6 +90,8 @@ RenderScene describe_bodies(const SceneDescription& description) {
         if (proxy.kind == DrawKind::plane) scene.planes.push_back(scene.bodies.size());
         scene.bodies.push_back(proxy);
     }
+    if (const auto mirror = mirror_of(description))
+        scene.bodies[*mirror].reflection = float(description.bodies[*mirror].appearance.reflection);
     find_large_receivers(description, scene);
     std::vector<double> ao_radii;
     for (const RenderBody& proxy : scene.bodies)
@@ -112,6 +117,16 @@ bool sun_is_up(const SceneDescription& description) {
         if (normal.y() > steepest_ground && normal.dot(description.light.direction) >= 0.0) return false;
     }
     return true;
+}
+
+std::optional<std::size_t> mirror_of(const SceneDescription& description) {
+    for (std::size_t i = 0; i < description.bodies.size(); ++i) {
+        const BodyDescription& body = description.bodies[i];
+        if (endless(body.shape) && body.type == BodyType::fixed && body.appearance.visible &&
+            body.appearance.reflection > 0.0)
+            return i;
+    }
+    return std::nullopt;
 }
 
 BoundingBall bounding_ball(const RenderBody& proxy, const BodyState& state, const Camera& view) {

@@ -7,6 +7,7 @@
 #include "sim/snapshot/snapshot.h"
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -14,6 +15,10 @@ namespace tumble {
 struct RenderScene {
     LightDescription light;
     std::vector<LampDescription> lamps;             // empty: the light alone
+    std::optional<EnvironmentDescription> environment;
+    double exposure = 0.0;  // stops
+    ToneCurve tone = ToneCurve::filmic;
+    int shadow_alpha = 0;                           // of ground shadows, see TRANSPARENT of shaders/plane.frag
     bool sun_up = true;                             // false disables sunlight, see sun_is_up()
     std::vector<RenderBody> bodies;                 // in scene order
     std::vector<RenderMesh> meshes;                 // without repetition, in order of first use
@@ -37,6 +42,9 @@ RenderScene describe_bodies(const SceneDescription& description);
 /// False if the sun is below a fixed plane that bodies can rest on. Planes cast no shadows: a plane is the surface of a
 /// half-space, which would block either all sunlight or none.
 bool sun_is_up(const SceneDescription& description);
+
+/// The plane that mirrors bodies: the first fixed one that is visible and reflects. Its index, or none.
+std::optional<std::size_t> mirror_of(const SceneDescription& description);
 
 /// Bounding ball of a body, m, relative to the eye.
 struct BoundingBall {

@@ -32,6 +32,7 @@ struct RenderBody {
     PlaneShape plane;                  // planes only
     glm::vec3 color{1.0f};             // linear light
     float roughness = 0.6f, metallic = 0.0f;
+    float reflection = 0.0f;                 // of the plane that mirrors bodies
     Pattern pattern = Pattern::panel;        // or a grid or a checker that darkens; others are looks
     std::size_t look = 0;                    // index into RenderScene::looks
     glm::vec4 paint{0.0f};                   // Instance::paint

@@ -6,6 +6,7 @@
 #include "core/color.h"
 #include "core/triangle_mesh.h"
 #include "core/vector.h"
+#include "scene/description/environment.h"
 #include "scene/description/force_fields.h"
 #include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
@@ -87,6 +88,8 @@ struct OutputSettings {
     int width = 1280, height = 720;  // pixels
     double fps = 60.0;               // frames per second
     int samples = 4;                 // samples per pixel
+    std::optional<double> exposure;  // stops, a factor of two each on all light; empty: 0
+    std::optional<ToneCurve> tone;   // empty: filmic
 };
 
 struct CameraKeyframe {
@@ -271,6 +274,7 @@ struct Appearance {
     std::shared_ptr<const Texture> normal_map, roughness_map;  // SurfaceMaps: normal, and surface
     double opacity = 1.0;                                      // below 1 the background shows through; not of planes
     Color emission{0, 0, 0};                                   // own light, in addition to that of lights
+    double reflection = 0.0;                                   // of a plane: share of mirrored bodies in what it shows
 
     bool has_image() const { return texture || normal_map || roughness_map; }
 };
@@ -363,6 +367,7 @@ struct SceneDescription {
     CameraDescription camera;            // the file's, or the default camera
     LightDescription light;              // with several lights, the sun that has shadows, or else the first one
     std::vector<LampDescription> lamps;  // [[light]]; empty: the light alone
+    std::optional<EnvironmentDescription> environment;
     std::optional<WindDescription> wind;
     PairRules contact;
     std::vector<ForceDescription> forces;

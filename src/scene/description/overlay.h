@@ -103,6 +103,7 @@ struct OverlayDescription {
     std::string plot;  // quantities, separated by commas; empty: no plot
     PlotPlace plot_place = PlotPlace::inset;
     std::vector<Caption> captions;
+    std::optional<double> fade_in, fade_out;  // s of the clip, from black at its start and to black at its end
 };
 
 }  // namespace tumble

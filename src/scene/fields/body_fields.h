@@ -30,6 +30,7 @@ struct Material {
     std::shared_ptr<const Texture> normal_map, roughness_map;  // null: none
     std::optional<double> opacity;
     std::optional<Color> emission;
+    std::optional<double> reflection;
     std::optional<SoundMaterial> sound;
 };
 
@@ -79,6 +80,8 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
            "opaque",
            "1"});
     field(self.emission, "emission", ByType(), {"own light, which no shadow dims", "`\"#000000\"`, none"});
+    field(self.reflection, "reflection", limits::fraction,
+          {"of a plane: share of what it mirrors, as polished stone or still water", "0"});
     field(self.sound, "sound", ByType(),
           {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`"});
 }
@@ -98,6 +101,7 @@ void visit_fields(Of<Appearance>, Visitor& field, Self& self) {
     field.since(self.roughness_map != nullptr, std::string_view("roughness_map"), self.roughness_map);
     field.since(self.opacity != 1.0, std::string_view("opacity"), self.opacity);
     field.since(self.emission != Color{0, 0, 0}, std::string_view("emission"), self.emission);
+    field.since(self.reflection != 0.0, std::string_view("reflection"), self.reflection);
 }
 
 /// A body of the interface has its visibility itself, that of a description in its appearance.

@@ -100,6 +100,9 @@ template <>
 inline constexpr auto choices<LightType> =
     std::to_array<Choice<LightType>>({{"sun", LightType::sun}, {"point", LightType::point}, {"spot", LightType::spot}});
 template <>
+inline constexpr auto choices<ToneCurve> = std::to_array<Choice<ToneCurve>>({{"filmic", ToneCurve::filmic},
+                                                                             {"linear", ToneCurve::linear}});
+template <>
 inline constexpr auto choices<SoundMaterial> = std::to_array<Choice<SoundMaterial>>({{"wood", SoundMaterial::wood},
                                                                                      {"metal", SoundMaterial::metal},
                                                                                      {"glass", SoundMaterial::glass},

@@ -35,6 +35,10 @@ void visit_fields(Of<OverlayDescription>, Visitor& field, Self& self) {
            {},
            "array of strings"});
     field(self.plot_place, "plot_place", ByType());
+    field(self.fade_in, "fade_in", limits::time,
+          {.text = "the clip brightens from black for this long", .standard = "none", .later = true});
+    field(self.fade_out, "fade_out", limits::time,
+          {.text = "it darkens to black for this long at its end", .standard = "none", .later = true});
     field.inner(self.captions);
 }
 

@@ -1,4 +1,4 @@
-// Fields of [simulation], [output], [light], [wind] and [contact].
+// Fields of [simulation], [output], [light], [environment], [wind] and [contact].
 #pragma once
 
 #include "scene/fields/choices.h"
@@ -49,6 +49,17 @@ void visit_fields(Of<OutputSettings>, Visitor& field, Self& self) {
     field.shown(self.width, self.height);
     field(self.samples, "samples", ByCode(),
           {.text = "1: aliased edges; 2 or 4: antialiased edges", .type = "1, 2 or 4", .picture = true});
+    if constexpr (requires { self.exposure; }) {  // not in the C++ interface
+        field(self.exposure, "exposure", limits::exposure,
+              {.text = "1 makes all light twice as bright, -1 half", .standard = "0", .picture = true, .later = true});
+        field(
+            self.tone, "tone", ByType(),
+            {.text = "`\"filmic\"`: bright light approaches white; `\"linear\"`: it is cut off, and all below has its "
+                     "exact sRGB value",
+             .standard = "`\"filmic\"`",
+             .picture = true,
+             .later = true});
+    }
 }
 
 template <class Visitor, class Self>
@@ -73,6 +84,32 @@ void visit_fields(Of<LampDescription>, Visitor& field, Self& self) {
     field(self.angle, "angle", limits::cone_angle, {"degrees, of the whole cone of a spot; its rim is soft"});
     field(self.shadows, "shadows", ByType(),
           {"only one light, a sun, may cast shadows", "`true` for the first sun, if no other light says so"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<EnvironmentDescription>, Visitor& field, Self& self) {
+    field.key(
+        "preset",
+        {"light from all sides that needs no file: `\"studio\"`, `\"overcast\"` or `\"dusk\"`", "none", {}, "string"});
+    field.key("image",
+              {"the same from a file beside the scene: `.hdr`, PNG or JPEG, equirectangular, up to 4096 pixels "
+               "a side",
+               "none: the light of the sky",
+               {},
+               "string"});
+    field.key("background",
+              {"`\"sky\"`, `\"image\"` (of the preset or file), a color, or two colors: of the horizon and "
+               "straight up",
+               "`\"image\"` where there is one, or else `\"sky\"`",
+               {},
+               "string; or array of two colors"});
+    field.shown(self.background, self.low, self.high, self.image, self.sun);
+    field(self.rotation, "rotation", limits::angle,
+          {"of the image about the y axis, counter-clockwise seen from above"});
+    field(self.intensity, "intensity", limits::environment_light, {"factor on the light of the image"});
+    field(self.blur, "blur", limits::fraction, {"of the image as background; its light stays the same"});
+    field(self.ground_shadow, "ground_shadow", ByType(),
+          {"planes are not drawn, only the shadows on them, over the background or with `--transparent`"});
 }
 
 template <class Visitor, class Self>

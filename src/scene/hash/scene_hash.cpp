@@ -87,8 +87,8 @@ public:
     explicit DescriptionHash(Content content) : all_(content == Content::all) {}
 
     void add_scene(const SceneDescription& scene) {
-        const auto& [file, title, simulation, output, camera, light, lamps, wind, contact, forces, fields, pair_forces, bodies,
-                     joints, cords, overlay, speed] = scene;
+        const auto& [file, title, simulation, output, camera, light, lamps, environment, wind, contact, forces, fields,
+                     pair_forces, bodies, joints, cords, overlay, speed] = scene;
         add_value(simulation);
         add_value(output);
         add_value(wind);
@@ -101,6 +101,7 @@ public:
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
         if (!lamps.empty()) add_value(lamps);  // as joints
+        if (environment) add_value(*environment);  // as joints
         add_shown_file(scene);
         if (!speed.empty()) add_value(speed);  // other scenes keep their hash
     }
@@ -198,6 +199,15 @@ private:
         add_bytes(std::as_bytes(std::span(levels.front().texels)));
     }
     void add_value(const std::shared_ptr<const Texture>& texture) { add_shared(texture); }
+    void add_value(const EnvironmentImage& image) {
+        const auto& [width, height, texels] = image;
+        add_all(width, height);
+        add_bytes(std::as_bytes(std::span(texels)));
+    }
+    void add_value(const std::shared_ptr<const EnvironmentImage>& image) {
+        add(image != nullptr);
+        if (image) add_shared(image);
+    }
     void add_value(const MeshMaterial& material) {
         const auto& [color, roughness, metallic, emission, cutoff, texture, wrap_u, wrap_v, nearest, maps, opacity,
                      blends] = material;
@@ -279,8 +289,8 @@ std::string scene_hash(const SceneDescription& scene) { return hash_of(scene, Co
 std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, Content::motion); }
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
-    const auto& [file, title, simulation, output, camera, light, lamps, wind, contact, forces, fields, pair_forces, bodies,
-                 joints, cords, overlay, speed] = scene;
+    const auto& [file, title, simulation, output, camera, light, lamps, environment, wind, contact, forces, fields,
+                 pair_forces, bodies, joints, cords, overlay, speed] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
     of_any_duration.duration = 0.0;
@@ -294,6 +304,7 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
                                                            {"forces", part(forces)},
                                                            {"bodies", part(bodies)}};
     if (!lamps.empty()) parts.emplace_back("lights", part(lamps));             // as in the hash
+    if (environment) parts.emplace_back("environment", part(*environment));    // as in the hash
     if (contact != PairRules{}) parts.emplace_back("contact", part(contact));  // as in the hash
     if (!fields.empty()) parts.emplace_back("fields", part(fields));
     if (!pair_forces.empty()) parts.emplace_back("pair forces", part(pair_forces));

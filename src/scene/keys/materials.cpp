@@ -90,6 +90,7 @@ Material overridden(const Material& material, const Material& over) {
             image(material.roughness_map, over.roughness_map),
             either(material.opacity, over.opacity),
             either(material.emission, over.emission),
+            either(material.reflection, over.reflection),
             either(material.sound, over.sound)};
 }
 
@@ -160,6 +161,7 @@ void apply_material(const Material& material, BodyDescription& body) {
     look.roughness_map = material.roughness_map;
     look.opacity = material.opacity.value_or(1.0);
     look.emission = material.emission.value_or(look.emission);
+    look.reflection = is_plane ? material.reflection.value_or(0.0) : 0.0;
     if (has_image) body.shape = textured(body.shape, look);
     body.density = material.density.value_or(body.density);
     body.restitution = material.restitution;

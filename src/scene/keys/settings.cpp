@@ -76,6 +76,7 @@ void read_output(const TomlTable& table, OutputSettings& output, TimeRequest& ti
         check_samples(samples, value->origin());
         output.samples = static_cast<int>(samples);
     }
+    read_fields(table, output);
 }
 
 bool is_euler(IntegratorKind kind) {

@@ -18,6 +18,7 @@ inline constexpr std::int64_t mesh_bytes =
                 // the sum of all other files that contain a glTF's buffers
 inline constexpr std::int64_t texture_side = 8192;         // pixels: 256 MiB with the float values of its mip maps
 inline constexpr std::int64_t texture_texels = 128 << 20;  // of one mesh file: 680 MiB with mip maps
+inline constexpr std::int64_t environment_side = 4096;     // pixels: 100 MB of light, and 64 MB in the renderer
 inline constexpr std::int64_t json_values = 10'000'000;    // of a glTF file: 16 to 100 bytes of memory each
 inline constexpr std::int64_t mesh_triangles = 5'000'000;  // 32-bit indices and about a gigabyte when welded
 
@@ -108,7 +109,9 @@ inline constexpr Range fraction{0.0, 1.0, ""};     // roughness, metallic, opaci
 // -- Light
 inline constexpr std::int64_t lamps = 4;     // each has its values at every vertex, of which OpenGL has few
 inline constexpr Range light{0.0, 1e6, ""};  // a point of 1e6 is as bright as the sun at a distance of 1 km
+inline constexpr Range environment_light{0.0, 1e4, ""};  // factor on light: the sun has 1
 inline constexpr Range cone_angle{1.0, 170.0, "degrees"};
+inline constexpr Range exposure{-20.0, 20.0, "stops"};
 
 // -- Overlays
 inline constexpr Range arrow_scale{0.0, 1e15, "m per SI unit",

@@ -1,6 +1,6 @@
 // A clip as the player sees it: one or several runs of a scene, ready to be asked for any moment. SI units, world frame,
 // y up, unless said otherwise. `decode_clip()` makes it from the data of a page; the player knows nothing of its layout.
-import type { TextureHeader } from "./header.ts";
+import type { EnvironmentHeader, TextureHeader } from "./header.ts";
 import overlay_style from "../../../src/overlay/overlay_style.json";
 
 export type Vec3 = [number, number, number];
@@ -70,9 +70,26 @@ export interface Scene {
   /** Images that bodies name by index. */
   textures: Texels[];
   light: Light;
+  environment: Environment | null;
+  /** Stops. */
+  exposure: number;
+  tone: "filmic" | "linear";
   /** Whether the camera moves by itself: keyframes, an orbit or a followed body. */
   camera_moves: boolean;
   camera(time: number): Camera;
+}
+
+/** Light and background of an image or colors, linear. */
+export interface Environment extends Omit<EnvironmentHeader, "mirror" | "image"> {
+  mirror?: LightTexels;
+  image?: LightTexels;
+}
+
+export interface LightTexels {
+  width: number;
+  height: number;
+  /** Four numbers a texel, rows from the top. */
+  light: Float32Array;
 }
 
 export interface Camera {

@@ -25,6 +25,9 @@ export interface RunHeader {
   bodies: Body[];
   cords: Cord[];
   light: Light;
+  environment?: EnvironmentHeader;
+  exposure?: number;
+  tone?: "filmic" | "linear";
   camera: Camera & { quantum?: number; frames?: PredictedReference[] };
   motion: MotionHeader;
   energy: Record<keyof EnergyTable, ArrayReference>;
@@ -61,6 +64,27 @@ export interface PaintHeader {
   /** Roughness and metallic; below 0: the body's. */
   surface: PredictedReference[];
   groups: { first: number; count: number; texture: TextureHeader | null }[];
+}
+
+/** [environment]: colors are linear. */
+export interface EnvironmentHeader {
+  background: "sky" | "colors" | "image";
+  low: Vec3;
+  high: Vec3;
+  sun: Vec3;
+  /** Turn of the image about the y axis, in turns. */
+  shift: number;
+  ground_shadow: boolean;
+  /** Of an image: see light_around() and light_mirrored() of shaders/environment.glsl. */
+  around?: Vec3[];
+  mirror?: LightHeader;
+  image?: LightHeader;
+}
+
+/** Texels are square roots of the light over the most that there is, in so many steps. */
+export interface LightHeader extends TexelsHeader {
+  most: number;
+  steps: number;
 }
 
 export interface TexelsHeader {

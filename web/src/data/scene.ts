@@ -1,7 +1,7 @@
 // Bodies, cords, meshes, light and camera of a run (src/page/scene_data.h).
-import type { Camera, Mesh, MeshPaint, MeshTexture, Scene, Texels, Vec3 } from "./clip.ts";
+import type { Camera, Environment, LightTexels, Mesh, MeshPaint, MeshTexture, Scene, Texels, Vec3 } from "./clip.ts";
 import type { Container, PredictedReference } from "./container.ts";
-import type { MeshHeader, PaintHeader, RunHeader, TexelsHeader, TextureHeader } from "./header.ts";
+import type { EnvironmentHeader, LightHeader, MeshHeader, PaintHeader, RunHeader, TexelsHeader, TextureHeader } from "./header.ts";
 
 type Reader = Container<unknown>;
 
@@ -36,6 +36,24 @@ export function read_texels({ width, height, channels }: TexelsHeader, reader: R
   const texels = new Uint8Array(4 * width * height).fill(255);
   channels.forEach((part, c) => reader.predicted(part).forEach((value, i) => (texels[4 * i + c] = value)));
   return { width, height, texels };
+}
+
+function read_light(header: LightHeader, reader: Reader): LightTexels {
+  const { width, height, channels, most, steps } = header;
+  const light = new Float32Array(4 * width * height).fill(1);
+  channels.forEach((part, c) =>
+    reader.predicted(part).forEach((value, i) => (light[4 * i + c] = (value / steps) ** 2 * most)));
+  return { width, height, light };
+}
+
+function read_environment(header: EnvironmentHeader | undefined, reader: Reader): Environment | null {
+  if (!header) return null;
+  const { mirror, image, ...values } = header;
+  return {
+    ...values,
+    ...(mirror && { mirror: read_light(mirror, reader) }),
+    ...(image && { image: read_light(image, reader) }),
+  };
 }
 
 function read_texture(header: TextureHeader, reader: Reader): MeshTexture {
@@ -90,6 +108,9 @@ export function read_scene(run: RunHeader, reader: Reader, meshes: Mesh[], textu
     meshes,
     textures,
     light: run.light,
+    environment: read_environment(run.environment, reader),
+    exposure: run.exposure ?? 0,
+    tone: run.tone ?? "filmic",
     camera_moves: run.camera.frames !== undefined,
     camera: read_camera(run, reader),
   };

@@ -65,7 +65,7 @@ void main() {
 #ifdef GLOWING
   light += u_glow;
 #endif
-  light = in_fog(light, to_eye, squared);
+  light = in_haze(light, to_eye, squared);
   pixel = vec4(dithered(displayed(light)), 1.0);
 }
 `;
@@ -86,6 +86,6 @@ in vec3 v_ray;
 layout(location = 0) out highp vec4 pixel;
 void main() {
   vec3 ray = normalize(v_ray);
-  pixel = vec4(dithered(displayed(background(ray))), 1.0);
+  pixel = vec4(dithered(displayed(behind(ray))), 1.0);
 }
 `;

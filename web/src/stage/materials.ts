@@ -1,6 +1,6 @@
 // The materials of a stage, and the values that all of them share. The values are set before each view is drawn.
 import * as THREE from "three";
-import type { Light, MeshPaint, MeshTexture, Texels, Vec3 } from "../data/clip.ts";
+import type { Environment, Light, LightTexels, MeshPaint, MeshTexture, Scene, Texels, Vec3 } from "../data/clip.ts";
 import type { Look } from "./body_parts.ts";
 import { bytes } from "./color.ts";
 import {
@@ -69,7 +69,39 @@ function filled(texels: Texels, wrap: MeshTexture["wrap"], nearest: boolean): TH
   return image;
 }
 
+/** Light in half floats, which are wide enough for lamps and interpolated everywhere. */
+function light_texture({ width, height, light }: LightTexels): THREE.DataTexture {
+  const image = new THREE.DataTexture(Uint16Array.from(light, THREE.DataUtils.toHalfFloat), width, height, THREE.RGBAFormat, THREE.HalfFloatType);
+  image.wrapS = THREE.RepeatWrapping;
+  image.magFilter = image.minFilter = THREE.LinearFilter;
+  image.needsUpdate = true;
+  return image;
+}
+
 type Uniforms = Record<string, THREE.IUniform>;
+
+/** As scene_defines() of src/render/environment: all programs of a stage have them. */
+function defines_of_scene({ environment, exposure, tone }: Scene): Record<string, string> {
+  return {
+    ...(environment?.around && { ENVIRONMENT: "" }),
+    ...(environment && environment.background !== "sky" && { BACKGROUND: environment.background === "colors" ? "1" : "2" }),
+    ...(exposure !== 0 && { EXPOSURE: (2 ** exposure).toExponential() }),
+    ...(tone === "linear" && { LINEAR_TONE: "" }),
+  };
+}
+
+function uniforms_of(environment: Environment | null): Uniforms {
+  if (!environment) return {};
+  const { low, high, sun, shift, around, mirror, image } = environment;
+  return {
+    u_low: { value: new THREE.Vector4(...low, shift) },
+    u_high: { value: new THREE.Vector4(...high, 0) },
+    u_sun_share: { value: new THREE.Vector3(...sun) },
+    ...(around && { u_around: { value: around.map((factor) => new THREE.Vector3(...factor)) } }),
+    ...(mirror && { environment_map: { value: light_texture(mirror) } }),
+    ...(image && { background_image: { value: light_texture(image) } }),
+  };
+}
 
 export class Materials {
   readonly frame = {
@@ -99,15 +131,19 @@ export class Materials {
   readonly depth: THREE.ShaderMaterial;
   readonly sky: THREE.ShaderMaterial;
 
+  private readonly of_scene: Uniforms;
+  private readonly defines: Record<string, string>;
   private readonly painted_of = new Map<MeshPaint, Map<string, THREE.ShaderMaterial[]>>();
   private readonly looks = new Map<string, THREE.ShaderMaterial>();
 
-  /** `several_lights`: in one of the scenes. */
-  constructor(private readonly several_lights = false) {
+  /** `scene`: its environment and tone are those of the stage. `several_lights`: in one of the scenes. */
+  constructor(scene: Scene, private readonly several_lights = false) {
+    this.of_scene = uniforms_of(scene.environment);
+    this.defines = defines_of_scene(scene);
     this.solid = this.for_kinds((kind) => this.body(kind, false));
     this.ghost = this.for_kinds((kind) => this.body(kind, true));
     this.outline = this.for_kinds((kind) =>
-    this.make(outline_vertex_glsl, outline_fragment_glsl, { defines: defines_of(kind), side: THREE.BackSide }),
+      this.make(outline_vertex_glsl, outline_fragment_glsl, { defines: defines_of(kind), side: THREE.BackSide }),
     );
     this.depth = this.make(depth_vertex_glsl, depth_fragment_glsl, { side: THREE.DoubleSide });
     this.sky = this.make(sky_vertex_glsl, sky_fragment_glsl, { depthWrite: false });
@@ -189,6 +225,8 @@ export class Materials {
     for (const material of this.looks.values()) dispose_with_images(material);
     this.depth.dispose();
     this.sky.dispose();
+    this.of_scene.environment_map?.value.dispose();
+    this.of_scene.background_image?.value.dispose();
   }
 
   private body(kind: BodyKind, ghost: boolean): THREE.ShaderMaterial {
@@ -201,7 +239,8 @@ export class Materials {
   private make(vertexShader: string, fragmentShader: string, more: THREE.ShaderMaterialParameters): THREE.ShaderMaterial {
     const defines = { ...more.defines, ...(this.several_lights ? light_defines : {}) };
     return new THREE.ShaderMaterial({
-      glslVersion: THREE.GLSL3, uniforms: { ...this.frame }, vertexShader, fragmentShader, ...more, defines,
+      glslVersion: THREE.GLSL3, uniforms: { ...this.frame, ...this.of_scene }, vertexShader, fragmentShader, ...more,
+      defines: { ...this.defines, ...defines },
     });
   }
 

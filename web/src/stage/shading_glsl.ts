@@ -1,5 +1,6 @@
 // The light of the program's own renderer, in world axes: the files of shaders/ are those that the program compiles, so a page
 // shows what a clip shows. Light is linear and relative: 1 on a white surface is paper white.
+import environment from "../../../shaders/environment.glsl";
 import light_constants from "../../../shaders/light_constants.glsl";
 import lighting from "../../../shaders/lighting.glsl";
 import lights from "../../../shaders/lights.glsl";
@@ -15,6 +16,13 @@ import texture_place from "../../../shaders/texture_place.glsl";
 export const frame_glsl = /* glsl */ `
 uniform vec3 u_to_light;        // unit
 uniform vec3 u_sky;             // factor on the light of the background: a dark page has a dark sky
+#ifdef ENVIRONMENT
+uniform vec3 u_around[9];       // see light_around()
+uniform vec3 u_sun_share;
+#endif
+#ifdef BACKGROUND
+uniform vec4 u_low, u_high;     // see background() of environment.glsl
+#endif
 uniform float u_fog;            // 1 / squared distance at which fog is half of the light, 1/m^2
 uniform float u_pixel_size;     // at distance 1
 uniform mat4 u_shadow_matrix;   // world -> place in the shadow map, 0 to 1
@@ -36,6 +44,7 @@ ${surface_maps_place}
 export const light_glsl = /* glsl */ `
 #define SUNLIT
 ${sky}
+${environment}
 ${material}
 ${lighting}
 #ifdef LAMPS
@@ -61,11 +70,26 @@ uniform vec3 u_glow;            // linear
 uniform float u_opacity;
 #endif
 
-vec3 background(vec3 way) { return u_sky * sky(way.y, dot(way, u_to_light)); }
+vec3 behind(vec3 way) {
+#ifdef BACKGROUND
+  return background(way, u_low, u_high);
+#else
+  return u_sky * sky(way.y, dot(way, u_to_light));
+#endif
+}
 
 vec3 in_fog(vec3 light, vec3 to_eye, float squared) {
   float share = fog_share(squared, u_fog);
-  return share < 1e-3 ? light : mix(light, background(-to_eye), share);
+  return share < 1e-3 ? light : mix(light, behind(-to_eye), share);
+}
+
+// The same on a plane.
+vec3 in_haze(vec3 light, vec3 to_eye, float squared) {
+#ifdef BACKGROUND
+  return mix(light, behind(-to_eye), haze_share(squared, u_fog));
+#else
+  return in_fog(light, to_eye, squared);
+#endif
 }
 
 // Castano 2013, Shadow Mapping Summary: a 3x3 filter by four comparisons that the hardware interpolates.
@@ -100,6 +124,11 @@ vec3 shade(vec3 normal, vec3 to_eye, vec3 color, float roughness, float metallic
   surface.veil = surface_veil(roughness, metallic);
   surface.open = open;
   surface.sun = sun;
+#ifdef ENVIRONMENT
+  surface.around = light_around(normal, u_around);
+  surface.mirrored = light_mirrored(2.0 * surface.n_v * normal - to_eye, surface.rough.x);
+  surface.sun_share = u_sun_share;
+#endif
 #ifdef LAMPS
   return shade(surface) + light_of_lamps(surface_place, normal, to_eye, surface);
 #else

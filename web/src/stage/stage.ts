@@ -49,9 +49,9 @@ export class Stage {
     private readonly clip: Clip,
     theme: Theme,
   ) {
-    this.materials = new Materials(clip.runs.some(({ scene }) => scene.light.color !== undefined));
     this.renderer = new THREE.WebGLRenderer({ antialias: true, alpha: false, powerPreference: "low-power" });
     this.renderer.autoClear = false;
+    this.materials = new Materials(clip.runs[0].scene, clip.runs.some(({ scene }) => scene.light.color !== undefined));
     this.most_ratio = draws_in_software(this.renderer.getContext()) ? 1 : most_pixel_ratio;
     const canvas = this.canvas;
     Object.assign(canvas.style, { display: "block", width: "100%", height: "100%" });
