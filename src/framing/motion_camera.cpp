@@ -12,16 +12,16 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t most_poses = 60'000;    // of all bodies: 5 MB, and 10 ms to frame
-constexpr double least_way = 0.25;            // of a body's size: one that comes less far stands still,
-constexpr double least_cosine = 0.99;         // unless it turns: of half the angle, 16 degrees
-constexpr double far_alone = 20.0;            // of a body's size: 50 pixels of 1280 are left of it
-constexpr double far_from_others = 2.0;       // of the extent of all moving bodies at the start
-constexpr double rim = 0.25;                  // of the motion's extent, in which bodies that leave it are still framed
-constexpr std::size_t crowd = 50;             // bodies: of more, those that come farthest away may be left out,
-constexpr double of_crowd = 0.98;             // but not of this part,
-constexpr double far_from_crowd = 1.3;        // if they come this many times farther than the rest
-constexpr std::size_t visible_places = 24;    // that must not be hidden; more tell no more
+constexpr std::size_t most_poses = 60'000;  // of all bodies: 5 MB, and 10 ms to frame
+constexpr double least_way = 0.25;          // of a body's size: one that comes less far stands still,
+constexpr double least_cosine = 0.99;       // unless it turns: of half the angle, 16 degrees
+constexpr double far_alone = 20.0;          // of a body's size: 50 pixels of 1280 are left of it
+constexpr double far_from_others = 2.0;     // of the extent of all moving bodies at the start
+constexpr double rim = 0.25;                // of the motion's extent, in which bodies that leave it are still framed
+constexpr std::size_t crowd = 50;           // bodies: of more, those that come farthest away may be left out,
+constexpr double of_crowd = 0.98;           // but not of this part,
+constexpr double far_from_crowd = 1.3;      // if they come this many times farther than the rest
+constexpr std::size_t visible_places = 24;  // that must not be hidden; more tell no more
 
 }  // namespace
 
@@ -46,7 +46,8 @@ void MotionCamera::see(const Snapshot& snapshot) {
     const double frame = 0.5 / scene_->output.fps;  // tolerance of times
     if (bodies_.empty() || snapshot.time > scene_->camera.fitted_time + frame) return;
     if (seen_++ % every_ != 0) return;
-    if ((bodies_.front().poses.size() + 1) * bodies_.size() > most_poses && bodies_.front().poses.size() > 8) thin_out();
+    if ((bodies_.front().poses.size() + 1) * bodies_.size() > most_poses && bodies_.front().poses.size() > 8)
+        thin_out();
     for (Body& body : bodies_) {
         const BodyState& state = snapshot.bodies[body.index];
         body.poses.push_back({state.origin + state.orientation * body.center, state.orientation});
@@ -111,12 +112,10 @@ CameraDescription MotionCamera::camera() const {
     const auto outside = [](const Bounds& bounds, const Vec3& p) {
         return (p - p.cwiseMax(bounds.min).cwiseMin(bounds.max)).norm();
     };
-    const auto farthest = [&](const Body& body) {
-        return std::max(far_alone * body.size(), far_from_others * extent);
-    };
+    const auto farthest = [&](const Body& body) { return std::max(far_alone * body.size(), far_from_others * extent); };
     const auto leaves = [&](const Body& body) {
-        return std::ranges::any_of(
-            body.poses, [&](const Pose& pose) { return outside(start, pose.middle) > farthest(body); });
+        return std::ranges::any_of(body.poses,
+                                   [&](const Pose& pose) { return outside(start, pose.middle) > farthest(body); });
     };
     // The region of the bodies that stay; without one, each flies as far as it can be seen.
     Bounds stays;
@@ -139,7 +138,8 @@ CameraDescription MotionCamera::camera() const {
         const Pose* before = nullptr;
         const bool gone = leaves(*body);
         for (const Pose& pose : body->poses) {
-            if (gone && (all_leave ? outside(start, pose.middle) > farthest(*body) : outside(framed, pose.middle) > 0.0))
+            if (gone &&
+                (all_leave ? outside(start, pose.middle) > farthest(*body) : outside(framed, pose.middle) > 0.0))
                 break;
             add_corners(*body, pose);
             middles.push_back(pose.middle);

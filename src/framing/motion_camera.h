@@ -49,7 +49,7 @@ private:
     std::vector<const Body*> movers() const;
 
     const SceneDescription* scene_;
-    std::vector<Body> bodies_;  // that are not fixed
+    std::vector<Body> bodies_;           // that are not fixed
     std::int64_t every_ = 1, seen_ = 0;  // of the frames one in so many is kept
 };
 

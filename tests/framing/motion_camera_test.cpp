@@ -74,7 +74,8 @@ position = [-1, 0.6, 0]
 velocity = [10, 2, 0]
 restitution = 0.3
 friction = 0.5
-)"), 0.5);
+)"),
+                  0.5);
 }
 
 TEST(MotionCamera, FramesABoxThatSlides) {
@@ -90,9 +91,10 @@ friction = 0.4
 TEST(MotionCamera, FramesARowOfDominoes) {
     std::string text = "[simulation]\nduration = 3\n" + ground;
     for (int i = 0; i < 15; ++i)
-        text += fmt::format("[[body]]\nshape = {{ type = \"box\", size = [0.1, 1, 0.5] }}\nposition = [{}, 0.5, 0]\n"
-                            "angular_velocity = [0, 0, {}]\n",
-                            0.45 * i, i == 0 ? -2.0 : 0.0);
+        text += fmt::format(
+            "[[body]]\nshape = {{ type = \"box\", size = [0.1, 1, 0.5] }}\nposition = [{}, 0.5, 0]\n"
+            "angular_velocity = [0, 0, {}]\n",
+            0.45 * i, i == 0 ? -2.0 : 0.0);
     expect_framed(scene_of(text));
 }
 
@@ -101,8 +103,9 @@ TEST(MotionCamera, FramesBallsOnATable) {
     for (int i = 0; i < 15; ++i)
         text += fmt::format("[[body]]\nshape = {{ type = \"sphere\", radius = 0.03 }}\nposition = [{}, 0.03, {}]\n",
                             0.062 * (i % 5), 0.062 * (i / 5));
-    text += "[[body]]\nshape = { type = \"sphere\", radius = 0.03 }\nposition = [-0.8, 0.03, 0.05]\nvelocity = [1.5, 0, "
-            "0]\n";
+    text +=
+        "[[body]]\nshape = { type = \"sphere\", radius = 0.03 }\nposition = [-0.8, 0.03, 0.05]\nvelocity = [1.5, 0, "
+        "0]\n";
     const SceneDescription scene = scene_of(text);
     expect_framed(scene);
     const CameraDescription camera = simulated_motion(scene, 1).camera();
@@ -135,9 +138,10 @@ velocity = [1, 0, 0]
 TEST(MotionCamera, LeavesOutTheFewOfACrowdThatFlyFar) {
     std::string text = "[simulation]\nduration = 1\n" + ground;
     for (int i = 0; i < 100; ++i)
-        text += fmt::format("[[body]]\nshape = {{ type = \"box\", size = [0.1, 0.1, 0.1] }}\nposition = [{}, {}, 0]\n"
-                            "velocity = [0, 0, {}]\n",
-                            0.2 * (i % 10), 0.3 + 0.2 * (i / 10), i == 50 ? -30.0 : 0.0);
+        text += fmt::format(
+            "[[body]]\nshape = {{ type = \"box\", size = [0.1, 0.1, 0.1] }}\nposition = [{}, {}, 0]\n"
+            "velocity = [0, 0, {}]\n",
+            0.2 * (i % 10), 0.3 + 0.2 * (i / 10), i == 50 ? -30.0 : 0.0);
     const SceneDescription scene = scene_of(text);
     const CameraDescription camera = simulated_motion(scene, 1).camera();
     EXPECT_LT((camera.eye - camera.target).norm(), 8.0);
@@ -146,10 +150,10 @@ TEST(MotionCamera, LeavesOutTheFewOfACrowdThatFlyFar) {
 
 TEST(MotionCamera, LooksFromTheSideOfTheMotion) {
     const auto eye_of = [](const char* velocity) {
-        const SceneDescription scene =
-            scene_of("[simulation]\nduration = 1\ngravity = [0, 0, 0]\n[[body]]\nshape = { type = \"sphere\", radius = "
-                     "0.2 }\nvelocity = " +
-                     std::string(velocity) + "\n");
+        const SceneDescription scene = scene_of(
+            "[simulation]\nduration = 1\ngravity = [0, 0, 0]\n[[body]]\nshape = { type = \"sphere\", radius = "
+            "0.2 }\nvelocity = " +
+            std::string(velocity) + "\n");
         const CameraDescription camera = simulated_motion(scene, 1).camera();
         return Vec3((camera.eye - camera.target).normalized());
     };

@@ -335,8 +335,8 @@ TEST(Shots, CutAtTheirTimes) {
     SceneDescription scene = small_heap();
     scene.camera.shots = {shot_at(1.0, 1.0, 2.0), shot_at(2.0, 3.0, INFINITY)};
     const CameraAnimation animation(scene.camera);
-    for (const auto& [time, x] : {std::pair{0.0, 0.0}, {0.999, 0.0}, {1.0, 1.0}, {1.999, 1.0}, {2.0, 0.0}, {3.0, 2.0},
-                                  {100.0, 2.0}})
+    for (const auto& [time, x] :
+         {std::pair{0.0, 0.0}, {0.999, 0.0}, {1.0, 1.0}, {1.999, 1.0}, {2.0, 0.0}, {3.0, 2.0}, {100.0, 2.0}})
         EXPECT_EQ(animation.at(at_time(scene, time)).eye.x(), x) << time;
     EXPECT_TRUE(scene.camera.moves());
 }

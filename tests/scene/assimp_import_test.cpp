@@ -100,8 +100,9 @@ std::string three_mf(const std::string& model) {
         directory += "PK\1\2" + number(20, 2) + common + std::string(10, '\0') + number(archive.size(), 4) + name;
         archive += "PK\3\4" + common + name + content;
     }
-    const std::string end = "PK\5\6" + std::string(4, '\0') + number(std::size(files), 2) + number(std::size(files), 2) +
-                            number(directory.size(), 4) + number(archive.size(), 4) + number(0, 2);
+    const std::string end = "PK\5\6" + std::string(4, '\0') + number(std::size(files), 2) +
+                            number(std::size(files), 2) + number(directory.size(), 4) + number(archive.size(), 4) +
+                            number(0, 2);
     return archive + directory + end;
 }
 
@@ -110,7 +111,9 @@ std::string tetrahedra(const std::string& attributes, const std::string& of_tria
     return "<?xml version=\"1.0\" encoding=\"UTF-8\"?><model " + attributes +
            " xml:lang=\"en-US\" xmlns=\"http://schemas.microsoft.com/3dmanufacturing/core/2015/02\"><resources>"
            "<basematerials id=\"3\"><base name=\"red\" displaycolor=\"#FF0000\"/></basematerials>"
-           "<object id=\"1\" type=\"model\" " + of_triangles + "><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" "
+           "<object id=\"1\" type=\"model\" " +
+           of_triangles +
+           "><mesh><vertices><vertex x=\"0\" y=\"0\" z=\"0\"/><vertex x=\"1\" "
            "y=\"0\" z=\"0\"/><vertex x=\"0\" y=\"1\" z=\"0\"/><vertex x=\"0\" y=\"0\" z=\"1\"/></vertices><triangles>"
            "<triangle v1=\"0\" v2=\"2\" v3=\"1\"/><triangle v1=\"0\" v2=\"1\" v3=\"3\"/><triangle v1=\"0\" v2=\"3\" "
            "v3=\"2\"/><triangle v1=\"1\" v2=\"2\" v3=\"3\"/></triangles></mesh></object>"

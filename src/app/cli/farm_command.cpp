@@ -184,8 +184,8 @@ int run_status(const FarmCommand& command) {
 }
 
 // The options of `render` that decide the frames. `simulate` gets all of them but the options of drawing.
-constexpr std::array frame_options{"--size",  "--method",  "--set",     "--seed", "--fps",        "--duration",
-                                   "--speed", "--shutter", "--overlay", "--plot", "--plot-place", "--blur-samples",
+constexpr std::array frame_options{"--size",  "--method",  "--set",     "--seed", "--fps",         "--duration",
+                                   "--speed", "--shutter", "--overlay", "--plot", "--plot-place",  "--blur-samples",
                                    "--vary",  "--layout",  "--samples", "--gl",   "--transparent", "--camera"};
 constexpr std::array only_drawing{"--samples", "--gl", "--transparent"};
 // The options that `encode` gets.

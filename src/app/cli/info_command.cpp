@@ -138,11 +138,16 @@ ShapeText shape_text(const Shape& shape) {
 
 std::string vector_text(const Vec3& v) { return fmt::format("{:.4g} {:.4g} {:.4g}", v.x(), v.y(), v.z()); }
 
+std::string count_text(std::size_t count, const char* one, const char* several) {
+    return fmt::format("{} {}", count, count == 1 ? one : several);
+}
+
 std::string camera_motion(const SceneDescription& scene) {
     std::string text;
     if (!scene.camera.keyframes.empty()) text += fmt::format(", {} keyframes", scene.camera.keyframes.size());
     if (scene.camera.orbit != 0.0) text += fmt::format(", turning at {:.4g} degrees/s", scene.camera.orbit);
-    if (!scene.camera.shots.empty()) text += fmt::format(", {} shots by other cameras", scene.camera.shots.size());
+    if (!scene.camera.shots.empty())
+        text += fmt::format(", other cameras in {}", count_text(scene.camera.shots.size(), "shot", "shots"));
     if (scene.camera.follow) text += fmt::format(", following {}", safe_text(scene.bodies[*scene.camera.follow].name));
     return text;
 }
@@ -223,10 +228,6 @@ void print_bodies(const SceneDescription& scene, const World& world) {
     if (count < scene.bodies.size()) put("  ... and {} more\n", scene.bodies.size() - count);
     put("  hull: vertices of the convex shape that collides\n");
     print_size_hints(scene);
-}
-
-std::string count_text(std::size_t count, const char* one, const char* several) {
-    return fmt::format("{} {}", count, count == 1 ? one : several);
 }
 
 /// The way of all groups, or the number of groups for each.

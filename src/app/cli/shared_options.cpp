@@ -156,7 +156,8 @@ void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string
 
 void add_camera(CLI::App& command, SceneOverrides& overrides) {
     command
-        .add_option("--camera", overrides.camera, "One of [cameras] for the whole clip, in place of [camera] and [[shot]]")
+        .add_option("--camera", overrides.camera,
+                    "One of [cameras] for the whole clip, in place of [camera] and [[shot]]")
         ->type_name("NAME");
 }
 

@@ -65,7 +65,10 @@ struct RecordedPanel {
     RecordedPanel(RenderScenes& scenes, std::size_t index, const ClipRecording& recording)
         : world(scenes.world(index, recording.threads)),
           overlay(scenes.overlay(index)),
-          run({.world = &world, .end = scenes.ends[index], .overlay = overlay.get(), .steps = scenes.scenes[index].steps},
+          run({.world = &world,
+               .end = scenes.ends[index],
+               .overlay = overlay.get(),
+               .steps = scenes.scenes[index].steps},
               recording.shutter),
           poses(*scenes.composition.panels[index].scene),
           observers(scenes.observers(index)),

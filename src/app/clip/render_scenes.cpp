@@ -71,8 +71,8 @@ RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
     clip_frames = ends[longest];
     if (command.frames_range && command.start > 0.0)
         throw InputError("--frames-range: not together with --start; frames are numbered from the start of the clip");
-    frames = command.frames_range ? read_frame_set(*command.frames_range, clip_frames)
-                                  : frames_from(longest, command.start);
+    frames =
+        command.frames_range ? read_frame_set(*command.frames_range, clip_frames) : frames_from(longest, command.start);
     CompositionOptions options;
     options.arrangement = command.arrangement;
     options.last_time = time_of(longest, clip_frames - 1);
@@ -304,7 +304,7 @@ std::vector<double> RenderScenes::warped_sound(std::size_t index, std::int64_t l
     const ClipScene& one = scenes[index];
     const double from = time_of(index, frames.first()), to = time_of(index, last - 1);
     const std::vector<double> plain = sounds_[index].track.pressure({from, to - from + 1.0, 1.0});
-    const double samples = sound_rate / one.scene->output.fps;  // of the track in a frame
+    const double samples = sound_rate / one.scene->output.fps;                               // of the track in a frame
     const double step = shutter_.intervals / (one.timing.fps * one.timing.steps_per_frame);  // s
     std::vector<double> warped;
     double time = 0.0;  // s, from the first frame

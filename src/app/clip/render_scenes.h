@@ -6,8 +6,8 @@
 #include "app/composition/make_composition.h"
 #include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
-#include "app/survey/surveyed_frames.h"
 #include "app/survey/survey.h"
+#include "app/survey/surveyed_frames.h"
 #include "app/threads/interrupt.h"
 #include "framing/motion_camera.h"
 #include "overlay/overlay_builder.h"
@@ -75,7 +75,7 @@ public:
     /// Simulates the scenes once of which a plot, the scale of arrows, the sound or the camera needs it, and fills them
     /// in. Leaves no thread behind.
     void survey_clip(const SurveyWork& work, Interrupt& interrupt);
-    /// What survey_clip() has kept of a scene; empty where the scene is to be simulated.
+    /// The run of a scene that survey_clip() has kept; empty where the scene is to be simulated.
     SurveyedRun take_run(std::size_t index) { return std::move(kept_[index]); }
 
     // The same by another run of the simulation, and its result in a checkpoint.

@@ -22,7 +22,7 @@ struct PanelSource {
     World* world = nullptr;                       // its frames are the intervals of the shutter
     std::int64_t end = 0;                         // one after its last frame; later frames of the clip repeat that
     OverlayBuilder* overlay = nullptr;            // of the shapes over it, or null
-    SimulatedFrames* recorded = nullptr;              // instead of a world
+    SimulatedFrames* recorded = nullptr;          // instead of a world
     std::size_t bodies = 0;                       // of the scene
     std::vector<SurveyObserver*> observers = {};  // see every simulated frame
     std::span<const int> steps = {};              // of the world's intervals, by frame (frame_sequence.h)

@@ -18,8 +18,8 @@
 namespace tumble {
 namespace {
 
-constexpr std::size_t page = 4096;            // bytes: regions with different writers are on separate pages
-constexpr std::size_t numbers_of_body = 7;    // x, y, z; x, y, z, w
+constexpr std::size_t page = 4096;          // bytes: regions with different writers are on separate pages
+constexpr std::size_t numbers_of_body = 7;  // x, y, z; x, y, z, w
 
 // Bytes for the shapes of an overlay: a million arrows. Pages that are never written take no memory.
 constexpr std::size_t overlay_space = 128 << 20;

@@ -73,7 +73,7 @@ private:
     /// The poses of one scene: the number of samples, then the samples.
     struct PoseRegion {
         std::vector<std::size_t> followed;  // by cameras
-        std::size_t bodies, at;  // `at`: bytes from the start of the memory
+        std::size_t bodies, at;             // `at`: bytes from the start of the memory
         std::size_t size_of_sample() const;
     };
     PoseRegion add_region(const SceneDescription& scene, std::size_t samples);

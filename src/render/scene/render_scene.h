@@ -14,7 +14,7 @@ namespace tumble {
 
 struct RenderScene {
     LightDescription light;
-    std::vector<LampDescription> lamps;             // empty: the light alone
+    std::vector<LampDescription> lamps;  // empty: the light alone
     std::optional<EnvironmentDescription> environment;
     double exposure = 0.0;  // stops
     ToneCurve tone = ToneCurve::filmic;

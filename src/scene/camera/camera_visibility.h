@@ -8,9 +8,9 @@ namespace tumble {
 
 class CameraVisibility {
 public:
-    /// Of the rest positions of moving bodies.
+    /// The places are the rest positions of moving bodies.
     explicit CameraVisibility(const SceneDescription& scene);
-    /// Of these places, m.
+    /// `places`: m.
     CameraVisibility(const SceneDescription& scene, std::vector<Vec3> places);
 
     /// Share of the places that are visible from the eye; 1 if the test is skipped.

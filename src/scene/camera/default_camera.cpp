@@ -21,13 +21,13 @@ constexpr double azimuth = 28.0;    // degrees to the right of the front
 constexpr double elevation = 17.0;  // degrees above the horizon: the ground fills the lower two thirds
 constexpr std::array higher = {30.0, 45.0, 60.0, 75.0};  // degrees; tried where fixed bodies hide the bodies in them
 constexpr double enough = 0.6;                           // share of the rest positions that must be visible
-constexpr double used_fraction = 0.86;         // of the image's half width and height; the rest is a margin
-constexpr double used_by_motion = 0.8;         // the same where the motion is known, and needs no reserve
-constexpr double from_above = 35.0;            // degrees; of a motion that spreads over the ground
-constexpr double flat = 0.2;                   // such a motion's height, of the smaller of its two other sides
-constexpr double side_on = 0.6;                // part of the paths' length that the image shows at least
-constexpr double ground_near_motion = 2.0;     // as ground_factor; more than that of a wall would make bodies small
-constexpr double ground_factor = 8.0;  // a fixed body this many times larger than all moving bodies is ground
+constexpr double used_fraction = 0.86;                   // of the image's half width and height; the rest is a margin
+constexpr double used_by_motion = 0.8;                   // the same where the motion is known, and needs no reserve
+constexpr double from_above = 35.0;                      // degrees; of a motion that spreads over the ground
+constexpr double flat = 0.2;                // such a motion's height, of the smaller of its two other sides
+constexpr double side_on = 0.6;             // part of the paths' length that the image shows at least
+constexpr double ground_near_motion = 2.0;  // as ground_factor; more than that of a wall would make bodies small
+constexpr double ground_factor = 8.0;       // a fixed body this many times larger than all moving bodies is ground
 
 constexpr double least_distance = 0.2;  // of the scene's diagonal, between the eye and the nearest point
 constexpr int centering_passes =
@@ -134,9 +134,9 @@ std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
 
 /// Bodies beside the moving points: fixed ones, and those that stand.
 struct Surroundings {
-    double ground_factor;          // one that is this many times larger than the motion is ground
-    bool near_only = false;        // those that are not near the motion are left out
-    std::vector<char> stands = {}; // by body; empty: none
+    double ground_factor;           // one that is this many times larger than the motion is ground
+    bool near_only = false;         // those that are not near the motion are left out
+    std::vector<char> stands = {};  // by body; empty: none
 };
 
 /// The moving points and those of their surroundings; of the ground only the part near them.
@@ -256,9 +256,8 @@ CameraDescription default_camera(const SceneDescription& scene, const CameraDesc
         add_corners({Vec3(-2.0, 0.0, -2.0), Vec3(2.0, 2.0, 2.0)}, Vec3::Zero(), Quat::Identity(), points);
     }
     const Vec3 up = lens.up.normalized();
-    return unhidden(CameraVisibility(scene), elevation, [&](double above) {
-        return fitted(scene, lens, points, view_axes(up, above), used_fraction);
-    });
+    return unhidden(CameraVisibility(scene), elevation,
+                    [&](double above) { return fitted(scene, lens, points, view_axes(up, above), used_fraction); });
 }
 
 CameraDescription camera_of_motion(const SceneDescription& scene, const CameraDescription& lens,

@@ -62,8 +62,8 @@ Light dusk(const Vec3& d) {
     const double low = exponential(-4.5 * up), lower = exponential(-12.0 * up), west = toward * toward;
     Light sky = mixed(Light(0.085, 0.125, 0.29), Light(0.055, 0.085, 0.21), smooth(0.2, 1.0, up));
     sky += low * mixed(Light(0.13, 0.10, 0.19), Light(0.52, 0.22, 0.13), west);
-    sky += lower * west * west * Light(0.85, 0.42, 0.10);
-    sky += exponential(-30.0 * (1.0 - std::max(d.dot(sun), 0.0))) * Light(2.6, 1.4, 0.5);
+    sky += lower * west * west * Light(0.62, 0.29, 0.06);
+    sky += exponential(-30.0 * (1.0 - std::max(d.dot(sun), 0.0))) * Light(1.1, 0.62, 0.24);
     const Light ground = mixed(Light(0.055, 0.052, 0.072), Light(0.13, 0.08, 0.065), west);
     return mixed(sky, ground, smooth(0.0, 0.20, -d.y()));
 }

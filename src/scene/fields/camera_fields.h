@@ -45,10 +45,8 @@ void visit_fields(Of<CameraShot>, Visitor& field, Self& self) {
     field.key("camera", {"the name of one of `[cameras]`", "required", {}, "string"});
     field(self.start, "from", limits::time, {"the time of the scene from which the camera is used"});
     field(self.end, "to", ByCode(),
-          {"where it ends; then the next shot or `[camera]` follows",
-           "the next shot, or the end of the clip",
-           "above `from`, to 1e9",
-           "number, s"});
+          {"where it ends; then the next shot or `[camera]` follows", "the next shot, or the end of the clip",
+           "above `from`, to 1e9", "number, s"});
     field(self.move, "move", limits::time, {"in which the view goes over from the camera before; 0: a cut"});
     field.inner(self.camera);
 }

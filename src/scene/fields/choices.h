@@ -123,11 +123,12 @@ template <>
 inline constexpr auto choices<Interpolation> =
     std::to_array<Choice<Interpolation>>({{"smooth", Interpolation::smooth}, {"linear", Interpolation::linear}});
 template <>
-inline constexpr auto choices<CameraFit> =
-    std::to_array<Choice<CameraFit>>({{"motion", CameraFit::motion}, {"start", CameraFit::start}});
+inline constexpr auto choices<CameraFit> = std::to_array<Choice<CameraFit>>({{"motion", CameraFit::motion},
+                                                                             {"start", CameraFit::start}});
 template <>
-inline constexpr auto choices<SpeedEasing> = std::to_array<Choice<SpeedEasing>>(
-    {{"smooth", SpeedEasing::smooth}, {"linear", SpeedEasing::linear}, {"step", SpeedEasing::step}});
+inline constexpr auto choices<SpeedEasing> = std::to_array<Choice<SpeedEasing>>({{"smooth", SpeedEasing::smooth},
+                                                                                 {"linear", SpeedEasing::linear},
+                                                                                 {"step", SpeedEasing::step}});
 template <>
 inline constexpr auto choices<JointType> = std::to_array<Choice<JointType>>({{"fixed", JointType::fixed},
                                                                              {"hinge", JointType::hinge},

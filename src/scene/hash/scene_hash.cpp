@@ -100,7 +100,7 @@ public:
         if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
         if (!all_) return;
         add_all(title, camera, light, cords, overlay);
-        if (!lamps.empty()) add_value(lamps);  // as joints
+        if (!lamps.empty()) add_value(lamps);      // as joints
         if (environment) add_value(*environment);  // as joints
         add_shown_file(scene);
         if (!speed.empty()) add_value(speed);  // other scenes keep their hash

@@ -53,7 +53,8 @@ void read_speed(const TomlTable& root, SceneDescription& scene) {
             if (after) after->origin().fail("is for a time of an impact: give the time itself");
         }
         if (!key.impact && !scene.speed.empty() && !scene.speed.back().impact && key.time <= scene.speed.back().time)
-            time.fail(fmt::format("must come after the keyframe before, at {} s", number_text(scene.speed.back().time)));
+            time.fail(
+                fmt::format("must come after the keyframe before, at {} s", number_text(scene.speed.back().time)));
         scene.speed.push_back(key);
     }
 }

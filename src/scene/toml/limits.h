@@ -34,8 +34,8 @@ inline constexpr Range fps{1e-9, 1e6, "frames per second"};  // 1e6: the format'
 inline constexpr std::int64_t frames = 10'000'000;           // two days of film at 60 fps, 7 digits of frame number
 inline constexpr std::int64_t steps_per_frame = 1'000'000;
 inline constexpr Range step{0.0, 1e9, "s", true};
-inline constexpr double step_tolerance = 1e-9;  // s: tolerance for the division of a frame into steps (the format's)
-inline constexpr Range time{0.0, 1e9, "s"};     // of keyframes and forces
+inline constexpr double step_tolerance = 1e-9;     // s: tolerance for the division of a frame into steps (the format's)
+inline constexpr Range time{0.0, 1e9, "s"};        // of keyframes and forces
 inline constexpr Range clip_speed{1e-3, 1e3, ""};  // a thousandth to a thousandfold of the scene's own
 
 // -- Output
@@ -107,8 +107,8 @@ inline constexpr std::int64_t layers = 63;         // of a scene: bits of a word
 inline constexpr Range fraction{0.0, 1.0, ""};     // roughness, metallic, opacity
 
 // -- Light
-inline constexpr std::int64_t lamps = 4;     // each has its values at every vertex, of which OpenGL has few
-inline constexpr Range light{0.0, 1e6, ""};  // a point of 1e6 is as bright as the sun at a distance of 1 km
+inline constexpr std::int64_t lamps = 4;                 // each has its values at every vertex, of which OpenGL has few
+inline constexpr Range light{0.0, 1e6, ""};              // a point of 1e6 is as bright as the sun at a distance of 1 km
 inline constexpr Range environment_light{0.0, 1e4, ""};  // factor on light: the sun has 1
 inline constexpr Range cone_angle{1.0, 170.0, "degrees"};
 inline constexpr Range exposure{-20.0, 20.0, "stops"};

@@ -29,9 +29,8 @@ int division(const SceneDescription& scene, double speed, int intervals) {
         const auto is_whole = [&](double steps) {
             return rounded_if_nearly_whole(steps * divided) == std::round(steps * divided);
         };
-        return is_whole(usual) && std::ranges::all_of(scene.speed, [&](const SpeedKeyframe& key) {
-                   return is_whole(usual * key.factor);
-               });
+        return is_whole(usual) &&
+               std::ranges::all_of(scene.speed, [&](const SpeedKeyframe& key) { return is_whole(usual * key.factor); });
     };
     for (int divided = least; divided <= most_divisions * least; ++divided)
         if (whole(divided)) return divided;
@@ -62,8 +61,8 @@ double next_time(const std::vector<SpeedKeyframe>& keys, double speed, double fp
 
 FrameTiming timing_at_speeds(const SceneDescription& scene, double speed, const Shutter& shutter) {
     const int divided = division(scene, speed, shutter.intervals);
-    const double steps = std::max(
-        1.0, std::ceil(rounded_if_nearly_whole(scene.simulation.steps_per_frame * speed * divided / shutter.intervals)));
+    const double steps = std::max(1.0, std::ceil(rounded_if_nearly_whole(scene.simulation.steps_per_frame * speed *
+                                                                         divided / shutter.intervals)));
     if (steps > double(limits::steps_per_frame))
         throw InputError(fmt::format("[[speed]]: a frame takes more than {} steps", limits::steps_per_frame));
     return {scene.output.fps / speed * shutter.intervals, int(steps)};
@@ -127,12 +126,11 @@ std::vector<int> steps_of_frames(const SceneDescription& scene, const std::vecto
         const auto to = std::int64_t(std::llround(time / interval));
         if (time > start || !holds) steps.push_back(int(to - at));
         at = to;
-        if (holds) {
-            steps.insert(steps.end(), std::size_t(std::llround(held->hold * scene.output.fps)), 0);
-            held = std::find_if(held + 1, keys.end(), [](const SpeedKeyframe& key) { return key.hold > 0.0; });
-        }
-        if (steps.size() > std::size_t(limits::frames))
+        const double standing = holds ? std::round(held->hold * scene.output.fps) : 0.0;
+        if (double(steps.size()) + standing > double(limits::frames))
             throw InputError(fmt::format("[[speed]]: the clip has more than {} frames", limits::frames));
+        steps.insert(steps.end(), std::size_t(standing), 0);
+        if (holds) held = std::find_if(held + 1, keys.end(), [](const SpeedKeyframe& key) { return key.hold > 0.0; });
     }
     return steps;
 }

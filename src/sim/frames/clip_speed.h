@@ -12,7 +12,8 @@ namespace tumble {
 
 struct ClipSpeed {
     std::vector<SpeedKeyframe> keys;  // with times, in their order: no impacts
-    std::vector<std::string> missing;  // the bodies of impacts that do not happen, as "A and B"; their keys are left out
+    std::vector<std::string>
+        missing;  // the bodies of impacts that do not happen, as "A and B"; their keys are left out
 };
 
 /// The timing of a simulation that has the frames of such a clip on its steps: its frames are the intervals of the

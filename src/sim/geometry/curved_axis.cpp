@@ -313,16 +313,6 @@ const CurvedAxis& CurvedAxisSearch::find_best() {
 }
 
 Vec3 ConvexShape::support(const Vec3& d) const {
-    if (curved && !curved->ellipsoid) {  // as CurvedBody::support(), without turning the direction to the body and back
-        const Vec3 up = pose.rotation.col(1);
-        const double along = up.dot(d);
-        const Vec3 across = d - along * up;
-        const double out = across.norm();
-        const auto& [low, high] = curved->discs;
-        const CurvedBody::Disc& disc = along * (high.y - low.y) + out * (high.radius - low.radius) > 0.0 ? high : low;
-        const Vec3 rim = out > 0.0 ? Vec3(disc.radius / out * across) : Vec3(disc.radius * pose.rotation.col(0));
-        return pose.position + disc.y * up + rim;
-    }
     if (curved) return pose.to_world(curved->support(pose.rotation.transpose() * d));
     if (hull) return pose.to_world(hull->vertices[hull->support(pose.rotation.transpose() * d)]);
     std::size_t best = 0;

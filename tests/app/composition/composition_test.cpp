@@ -102,6 +102,43 @@ Image panel_at(int frame, int width, int height) {
     return image;
 }
 
+TEST(Fade, BrightensAtTheStartAndDarkensToTheLastFrame) {
+    const ClipFade fade{0.5, 1.0, 4.0};
+    EXPECT_EQ(fade.share_at(0.0), 0);
+    EXPECT_EQ(fade.share_at(0.25), 128);
+    for (const double time : {0.5, 1.7, 3.0}) EXPECT_EQ(fade.share_at(time), 256);
+    EXPECT_EQ(fade.share_at(3.75), 64);
+    EXPECT_EQ(fade.share_at(4.0), 0);
+    EXPECT_EQ(ClipFade{}.share_at(0.0), 256);
+}
+
+TEST(Fade, AFrameDoesNotDependOnTheOneBefore) {
+    SceneDescription scene;
+    scene.output.width = 64;
+    scene.output.height = 36;
+    Composition composition(scene);
+    composition.fade = {0.5, 0.5, 2.0};
+    EXPECT_FALSE(composition.plain());
+    EXPECT_TRUE(composition.changes(0.1, 0.2));
+    EXPECT_FALSE(composition.changes(0.9, 1.0));
+    for (const bool transparent : {false, true}) {
+        FrameComposer one(composition, transparent);
+        for (int frame = 0; frame <= 8; ++frame) {
+            const Image panel = panel_at(frame, 64, 36);
+            const std::vector<Rectangle> right{{32, 0, 32, 36}}, all{{0, 0, 64, 36}};
+            const PanelImage partly{panel, right}, wholly{panel, all};
+            one.compose({&partly, 1}, 0.25 * frame);
+            FrameComposer fresh(composition, transparent);
+            fresh.compose({&wholly, 1}, 0.25 * frame);
+            EXPECT_TRUE(one.image() == fresh.image()) << frame;
+            EXPECT_EQ(one.image() == panel, frame >= 2 && frame <= 6) << frame;
+            EXPECT_EQ(one.image().at(40, 20)[3], frame == 0 || frame == 8   ? (transparent ? 0 : 255)
+                                                 : frame == 1 || frame == 7 ? (transparent ? 128 : 255)
+                                                                            : 255);
+        }
+    }
+}
+
 Composition with_everything() {
     SceneDescription scene;
     scene.title = "A title";

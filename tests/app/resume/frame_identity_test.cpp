@@ -31,7 +31,9 @@ TEST(FrameIdentity, TheMarkDependsOnThePixelsOnly) {
     const std::string mark = mark_of(base);
     EXPECT_EQ(mark.size(), 64u);
     EXPECT_EQ(mark_of("# a comment\n" + base), mark);
-    EXPECT_EQ(mark_of(base + "[simulation]\nduration = 9\n"), mark);
+    const std::string camera = "[camera]\neye = [0, 1, 9]\ntarget = [0, 0, 0]\n";
+    EXPECT_EQ(mark_of(base + camera + "[simulation]\nduration = 9\n"), mark_of(base + camera));
+    EXPECT_NE(mark_of(base + "[simulation]\nduration = 9\n"), mark);  // the default camera shows the whole motion
     EXPECT_NE(mark_of(base + "[simulation]\nseed = 9\n"), mark);
     EXPECT_NE(mark_of(base + "[simulation]\nsteps_per_frame = 9\n"), mark);
     EXPECT_NE(mark_of(base + "[output]\nfps = 30\n"), mark);
