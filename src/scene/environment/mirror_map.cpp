@@ -163,7 +163,10 @@ std::vector<Sample> lobe_samples(float roughness) {
         const float density = a2 / (float(pi) * d * d) / 4.0f;
         const float solid_angle = 1.0f / (float(sample_count) * density);
         const float of_texel = 4.0f * float(pi) / float(source_side * source_side);
-        const float level = std::clamp(0.5f * std::log2(solid_angle / of_texel) + 1.5f, 0.0f, float(coarsest));
+        constexpr double per_halving =
+            0.72134752044448170;  // 1 / ln 4: a map of half the side has a quarter of the texels
+        const double level =
+            std::clamp(per_halving * logarithm(double(solid_angle / of_texel)) + 1.5, 0.0, double(coarsest));
         samples.push_back({light, light.z(), std::size_t(level)});
         sum += light.z();
     }
