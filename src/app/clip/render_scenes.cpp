@@ -167,8 +167,9 @@ std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
     if (!runs_.empty()) observers.push_back(&runs_[index]);
     if (composition.panels[index].overlay && needs_survey(scene.overlay)) observers.push_back(&scales_[index]);
     if (!sounds_.empty()) observers.push_back(&sounds_[index]);
-    // A clip that ends before the scene's own duration does not show the whole motion.
-    if (scene.camera.any_fits_motion() && scene.simulation.duration >= scene.camera.fitted_time)
+    // A shorter clip does not show the whole motion, and a longer one takes longer than the camera needs.
+    const double clip = scene.simulation.duration, needed = scene.camera.fitted_time;
+    if (scene.camera.any_fits_motion() && (clip == needed || (clip > needed && !observers.empty())))
         observers.push_back(&motions_[index]);
     return observers;
 }

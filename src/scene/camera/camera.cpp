@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -85,10 +86,12 @@ double duration_in_file(const TomlTable& root) {
     return duration;
 }
 
+constexpr double longest_fitted = 60.0;  // s; of a motion that lasts longer, the default camera shows this much
+
 /// A camera of the file; without its table the default one.
 CameraDescription read_one(const std::optional<TomlTable>& table, const SceneDescription& scene, double duration) {
     CameraDescription lens;
-    lens.fitted_time = duration;
+    lens.fitted_time = std::min(duration, longest_fitted);
     if (!table) return default_camera(scene, lens, duration);
 
     table->expect_keys(list_keys<CameraDescription>().keys);
