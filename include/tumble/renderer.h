@@ -27,9 +27,9 @@ struct RenderOptions {
 /// may take turns in one thread. Each call leaves its own OpenGL context current.
 class Renderer {
 public:
-    /// Opens the driver and compiles the shaders. Keeps the data of the scene alive. Where the motion decides the camera
-    /// (Camera::fit), simulates the scene once, for all renderers of it. Throws Error (run) where one of
-    /// both fails.
+    /// Opens the driver and compiles the shaders. Keeps the data of the scene alive. Where the motion decides the
+    /// camera (Camera::fit), simulates the scene once, for all renderers of it. Throws Error (run) where one of both
+    /// fails.
     explicit Renderer(const Scene& scene, const RenderOptions& options = {});
     ~Renderer();
     Renderer(Renderer&&) noexcept;

@@ -53,8 +53,8 @@ private:
     std::int64_t every_ = 1, seen_ = 0;  // of the frames one in so many is kept
 };
 
-/// The motion of a run of its own. `each` is called after each frame, and may throw to stop. Where the simulation fails,
-/// the motion until then.
+/// The motion of a run of its own. `each` is called after each frame, and may throw to stop. Where the simulation
+/// fails, the motion until then.
 MotionCamera simulated_motion(const SceneDescription& scene, int threads, const std::function<void()>& each = nullptr);
 
 /// The scene with its camera by a run of its own, where its motion decides the camera.

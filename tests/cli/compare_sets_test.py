@@ -215,7 +215,7 @@ class Clips(Sets):
         self.assertIn("missing: frame_000005.png\n", run.stdout)
 
     def test_clip_and_folder(self):
-        self.write("t.toml", "levels = 80\n")  # of a codec that loses detail
+        self.write("t.toml", "levels = 120\n")  # of a codec that loses detail
         self.check(0, "compare", "f", "a.mp4", "--tolerances", "t.toml")
         os.remove(self.folder / "f/frame_000003.png")
         self.assertIn("added: frame_000003.png\n", self.check(1, "compare", "f", "a.mp4", "--tolerances", "t.toml").stdout)

@@ -101,9 +101,12 @@ class Render(program.ProgramTest):
         self.assertEqual((self.folder / "a.mp4").read_bytes(), (self.folder / "b.mp4").read_bytes())
 
     def test_frame_n_shows_time_n(self):
-        # Frame 2 at 10 frames/s and frame 4 at 20 show the same moment, with the same fixed step.
-        self.check(0, "render", "scene.toml", "--frames", "a")
-        self.write("fast.toml", program.SCENE.replace("fps = 10", "fps = 20").replace("per_frame = 4", "per_frame = 2"))
+        # Frame 2 at 10 frames/s and frame 4 at 20 show the same moment, with the same fixed step. A camera by the motion
+        # would see other frames of it.
+        scene = program.SCENE + "[camera]\nfit = \"start\"\n"
+        self.write("slow.toml", scene)
+        self.check(0, "render", "slow.toml", "--frames", "a")
+        self.write("fast.toml", scene.replace("fps = 10", "fps = 20").replace("per_frame = 4", "per_frame = 2"))
         self.check(0, "render", "fast.toml", "--frames", "b")
         self.assertEqual(program.unmarked(self.folder / "a/frame_000002.png"),
                          program.unmarked(self.folder / "b/frame_000004.png"))

@@ -18,8 +18,8 @@ SceneDescription scene_of(const std::string& text) { return parse_scene("format 
 
 const std::string ground = "[[body]]\ntype = \"fixed\"\nshape = { type = \"plane\" }\n";
 
-/// Part of the frame's width and height that moving bodies cover over the whole clip, and the part of their corners that
-/// is inside of the frame.
+/// Part of the frame's width and height that moving bodies cover over the whole clip, and the part of their corners
+/// that is inside of the frame.
 struct Cover {
     double width = 0.0, height = 0.0, inside = 0.0;
 };

@@ -331,8 +331,17 @@ CameraShot shot_at(double x, double start, double end, double move = 0.0) {
     return shot;
 }
 
-TEST(Shots, CutAtTheirTimes) {
+/// The heap by a camera at (0, 1, 8), to (0, 1, 0), that stands still.
+SceneDescription seen_from_the_front() {
     SceneDescription scene = small_heap();
+    scene.camera = CameraDescription();
+    scene.camera.eye = {0.0, 1.0, 8.0};
+    scene.camera.target = {0.0, 1.0, 0.0};
+    return scene;
+}
+
+TEST(Shots, CutAtTheirTimes) {
+    SceneDescription scene = seen_from_the_front();
     scene.camera.shots = {shot_at(1.0, 1.0, 2.0), shot_at(2.0, 3.0, INFINITY)};
     const CameraAnimation animation(scene.camera);
     for (const auto& [time, x] :
@@ -342,7 +351,7 @@ TEST(Shots, CutAtTheirTimes) {
 }
 
 TEST(Shots, MoveFromTheViewBefore) {
-    SceneDescription scene = small_heap();
+    SceneDescription scene = seen_from_the_front();
     scene.camera.shots = {shot_at(1.0, 1.0, 2.0, 0.5), shot_at(3.0, 2.0, INFINITY, 0.5)};
     scene.camera.shots[1].camera.vertical_fov = 60.0;
     const CameraAnimation animation(scene.camera);
@@ -356,7 +365,7 @@ TEST(Shots, MoveFromTheViewBefore) {
 }
 
 TEST(Shots, FollowTheirOwnBodies) {
-    SceneDescription scene = small_heap();
+    SceneDescription scene = seen_from_the_front();
     scene.camera.shots = {shot_at(1.0, 1.0, INFINITY), shot_at(2.0, 2.0, INFINITY)};
     scene.camera.shots[0].camera.follow = 3;
     scene.camera.shots[1].camera.follow = 2;

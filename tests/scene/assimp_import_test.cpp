@@ -1,4 +1,5 @@
-// Mesh files of the formats that other libraries import in a child process: the same shapes, and no harm from malformed files.
+// Mesh files of the formats that other libraries import in a child process: the same shapes, and no harm from malformed
+// files.
 #include "mesh_files.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/mesh/mesh_loader.h"

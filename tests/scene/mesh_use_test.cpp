@@ -44,7 +44,8 @@ TEST_F(MeshUse, FilesAreFoundFromTheScenesFolder) {
     EXPECT_EQ(mesh, std::get<MeshShape>(scene.bodies[1].shape).asset);
 }
 
-// The tetrahedron's edge from 1 to 2 has a corner in its middle on one side only; a triangle without area closes the gap.
+// The tetrahedron's edge from 1 to 2 has a corner in its middle on one side only; a triangle without area closes the
+// gap.
 TEST_F(MeshUse, AMeshThatASliverClosesHasItsMass) {
     write("sliver.obj",
           "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0.5 0.5 0\nf 1 3 5\nf 1 5 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\nf 2 5 3\n");

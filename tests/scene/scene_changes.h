@@ -26,4 +26,7 @@ inline std::string image_line() { return "image = \"" TUMBLE_SOURCE_DIR "/tests/
 extern const std::string joint_lines;
 extern const std::vector<std::vector<Change>> joint_changes;
 
+/// Changes of the keys of pictures and clips (cameras, lights, overlays, speed) in scene_hash_test.cpp.
+extern const std::vector<std::vector<Change>> picture_changes;
+
 }  // namespace tumble

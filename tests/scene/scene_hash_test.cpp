@@ -23,9 +23,6 @@ namespace fs = std::filesystem;
 const fs::path source = TUMBLE_SOURCE_DIR;
 const std::string scene_path = (source / "assets/scenes/scene.toml").string();
 
-const std::string one_light = "[light]\ndirection = [0, -2, 1]\nshadows = false\n";
-std::string one_light_as(const std::string& keys) { return "[[light]]\n" + keys + "\n"; }
-
 const std::string own_lines = R"(
 format = 1
 title = "Everything"
@@ -249,39 +246,6 @@ const std::vector<std::vector<Change>> own_tables = {
      {"samples", "[output]", "samples = 2", "samples = 4", false},
      {"exposure", "[output]", "samples = 2", "samples = 2\nexposure = 0.5", false},
      {"tone", "[output]", "samples = 2", "samples = 2\ntone = \"linear\"", false}},
-    {{"eye", "[camera]", "eye = [1, 2, 3]", "eye = [1, 2, 3.5]", false},
-     {"target", "[camera]", "target = [4, 5, 6]", "target = [4, 5, 7]", false},
-     {"up", "[camera]", "up = [0, 0, 2]", "up = [0, 1, 2]", false},
-     {"vertical_fov", "[camera]", "55.5", "55.25", false},
-     {"keyframes", "[camera]", "{ time = 0, eye = [1, 1, 1] }, ", "", false},
-     {"interpolation", "[camera]", "linear", "smooth", false},
-     {"orbit", "[camera]", "orbit = 3", "orbit = -3", false},
-     {"follow", "[camera]", "follow = \"ball\"", "follow = \"table\"", false},
-     {"fit", "[camera]", "eye = [1, 2, 3]", "fit = \"start\"", false}},
-    {{"time", "[camera]", "{ time = 1,", "{ time = 2,", false},
-     {"eye", "[camera]", "eye = [1, 1, 1]", "eye = [1, 1, 2]", false},
-     {"target", "[camera]", "target = [0, 0, 1]", "target = [0, 0, 2]", false},
-     {"vertical_fov", "[camera]", "vertical_fov = 21", "vertical_fov = 22", false}},
-    {{"camera", "[[shot]]", "side", "other", false},
-     {"from", "[[shot]]", "from = 0.5", "from = 0.75", false},
-     {"to", "[[shot]]", "to = 1.5", "to = 1.75", false},
-     {"move", "[[shot]]", "move = 0.25", "move = 0.5", false}},
-    {{"direction", "[light]", "direction = [0, -2, 1]", "direction = [0, -2, 2]", false},
-     {"shadows", "[light]", "shadows = false", "shadows = true", false}},
-    {{"type", "", one_light, one_light_as("type = \"point\"\nposition = [0, 1, 0]"), false},
-     {"direction", "", one_light, one_light_as("direction = [0, -2, 1]"), false},
-     {"position", "", one_light, one_light_as("type = \"point\"\nposition = [0, 2, 0]"), false},
-     {"color", "", one_light, one_light_as("color = \"#ff8040\""), false},
-     {"intensity", "", one_light, one_light_as("intensity = 2"), false},
-     {"angle", "", one_light, one_light_as("type = \"spot\"\nposition = [0, 2, 0]\nangle = 20"), false},
-     {"shadows", "", one_light, one_light_as("shadows = false"), false}},
-    {{"preset", "[environment]", "studio", "dusk", false},
-     {"image", "[environment]", "preset = \"studio\"\n", image_line(), false},
-     {"background", "[environment]", "#405060", "#405061", false},
-     {"rotation", "[environment]", "rotation = 20", "rotation = 21", false},
-     {"intensity", "[environment]", "intensity = 0.9", "intensity = 0.8", false},
-     {"blur", "[environment]", "blur = 0.3", "blur = 0.2", false},
-     {"ground_shadow", "[environment]", "blur = 0.3", "blur = 0.3\nground_shadow = true", false}},
     {{"velocity", "[wind]", "velocity = [3, 0, -1]", "velocity = [3, 0, 1]", true},
      {"density", "[wind]", "density = 1.1", "density = 1.2", true},
      {"drag", "[wind]", "drag = 0.8", "drag = 0.9", true}},
@@ -419,71 +383,11 @@ const std::vector<std::vector<Change>> own_tables = {
      {"point", "[[cord]]", "0.5", "0.6", false},
      {"anchor", "[[cord]]", "[0, 5, 0]", "[0, 6, 0]", false},
      {"radius", "[[cord]]", "0.02", "0.03", false},
-     {"color", "[[cord]]", "#010203", "#010204", false}},
-    {{"time", "[[speed]]", "time = 0.5", "time = 0.75", false},
-     {"after", "[[speed]]", "time = 0.5", "time = \"impact:ball,floor\"\nafter = 0.125", false},
-     {"factor", "[[speed]]", "factor = 0.5", "factor = 0.25", false},
-     {"hold", "[[speed]]", "hold = 0.125", "hold = 0.25", false},
-     {"easing", "[[speed]]", "linear", "step", false}},
-    {{"show", "[overlay]", "\"contacts\"", "\"contacts\", \"mode\"", false},
-     {"bodies", "[overlay]", "\"floor\"", "\"table\"", false},
-     {"start", "[overlay]", "start = 0.1", "start = 0.2", false},
-     {"end", "[overlay]", "end = 1.9", "", false},
-     {"impulse_time", "[overlay]", "0.26", "0.27", false},
-     {"trail_time", "[overlay]", "trail_time = 4", "", false},
-     {"trail_points", "[overlay]", "{ body = \"table\", point = [0, 0, 3], color = \"#ffd040\" }", "", false},
-     {"ghost_every", "[overlay]", "11", "12", false},
-     {"legend", "[overlay]", "legend = false", "legend = true", false},
-     {"scale", "[overlay]", "force = 1,", "", false},
-     {"color", "[overlay]", "#000001", "#000002", false},
-     {"plot", "[overlay]", "[\"kinetic_energy\"]", "[]", false},
-     {"plot_place", "[overlay]", "beside", "below", false},
-     {"fade_in", "[overlay]", "start = 0.1", "start = 0.1\nfade_in = 0.5", false},
-     {"fade_out", "[overlay]", "start = 0.1", "start = 0.1\nfade_out = 0.5", false}},
-    {{"body", "trail_points", "table", "ball", false},
-     {"point", "trail_points", "[0, 0, 3]", "[0, 0, 4]", false},
-     {"color", "trail_points", "#ffd040", "#ffd041", false}},
-    {{"force", "[overlay]", "force = 1", "force = 9", false},
-     {"impulse", "[overlay]", "impulse = 2", "impulse = 9", false},
-     {"velocity", "[overlay]", "velocity = 3", "velocity = 9", false},
-     {"omega", "[overlay]", "omega = 4", "omega = 9", false},
-     {"momentum", "[overlay]", "momentum = 5", "momentum = 9", false},
-     {"angular-momentum", "[overlay]", "angular-momentum = 6", "angular-momentum = 9", false},
-     {"torque", "[overlay]", "torque = 7", "torque = 9", false}},
-    {{"text", "[[caption]]", "Hello", "Good bye", false},
-     {"start", "[[caption]]", "start = 0.2", "start = 0.25", false},
-     {"end", "[[caption]]", "end = 0.3", "", false}},
-    {{"type", "", "", "", true},  // ForcesOfFields, up to the pair force
-     {"acceleration", "", "", "", true},
-     {"center", "", "", "", true},
-     {"axis", "", "", "", true},
-     {"strength", "", "", "", true},
-     {"softening", "", "", "", true},
-     {"velocity", "", "", "", true},
-     {"linear", "", "", "", true},
-     {"quadratic", "", "", "", true},
-     {"region", "", "", "", true},
-     {"enabled", "", "", "", true}},
-    {{"box", "", "", "", true}, {"sphere", "", "", "", true}, {"center", "", "", "", true}},
-    {{"type", "", "", "", true},
-     {"bodies", "", "", "", true},
-     {"strength", "", "", "", true},
-     {"softening", "", "", "", true},
-     {"charges", "", "", "", true},
-     {"stiffness", "", "", "", true},
-     {"damping", "", "", "", true},
-     {"length", "", "", "", true},
-     {"enabled", "", "", "", true}},
-    {{"type", "", "", "", true},
-     {"memory", "", "", "", true},
-     {"scale", "", "", "", true},
-     {"mass_from", "", "", "", true},
-     {"thickness", "", "", "", true}},  // MeshesInMemory
-};
+     {"color", "[[cord]]", "#010203", "#010204", false}}};
 
 std::vector<std::vector<Change>> all_tables() {
     std::vector<std::vector<Change>> all = own_tables;
-    all.insert(all.end(), joint_changes.begin(), joint_changes.end());
+    for (const auto* more : {&picture_changes, &joint_changes}) all.insert(all.end(), more->begin(), more->end());
     return all;
 }
 

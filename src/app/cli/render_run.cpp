@@ -39,8 +39,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Bytes of frames that are simulated before the drawing: a minute of 1,000 bodies at 60 frames/s has 600 MB. Where there
-// are more, the motion is simulated twice.
+// Bytes of frames that are simulated before the drawing: a minute of 1,000 bodies at 60 frames/s has 600 MB. Where
+// there are more, the motion is simulated twice.
 constexpr std::size_t most_kept_bytes = std::size_t(256) << 20;
 
 /// The folder of the AOVs, if any are requested.

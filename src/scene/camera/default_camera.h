@@ -24,8 +24,8 @@ struct ShownMotion {
     std::vector<std::size_t> standing;  // bodies that are shown where they are near the motion, as fixed ones
 };
 
-/// The same for a motion that is known. The side is the one from which its direction is seen; a motion that spreads over
-/// the ground is seen from higher up.
+/// The same for a motion that is known. The side is the one from which its direction is seen; a motion that spreads
+/// over the ground is seen from higher up.
 CameraDescription camera_of_motion(const SceneDescription& scene, const CameraDescription& lens,
                                    const ShownMotion& motion);
 

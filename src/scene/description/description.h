@@ -349,8 +349,8 @@ struct FrameTiming {
 
 enum class SpeedEasing { smooth, linear, step };
 
-/// The speed of a clip, as seconds of the scene's motion in a second of the clip: the factor at the keyframe's time, and
-/// up to the next one by the easing. Before the first one it is 1.
+/// The speed of a clip, as seconds of the scene's motion in a second of the clip: the factor at the keyframe's time,
+/// and up to the next one by the easing. Before the first one it is 1.
 struct SpeedKeyframe {
     double time = 0.0;                                 // s; after the impact, if there is one
     std::optional<std::array<std::size_t, 2>> impact;  // bodies: their first impact is at time 0
