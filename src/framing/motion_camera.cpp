@@ -18,9 +18,9 @@ constexpr double least_cosine = 0.99;       // unless it turns: of half the angl
 constexpr double far_alone = 20.0;          // of a body's size: 50 pixels of 1280 are left of it
 constexpr double far_from_others = 2.0;     // of the extent of all moving bodies at the start
 constexpr double rim = 0.25;                // of the motion's extent, in which bodies that leave it are still framed
-constexpr std::size_t crowd = 50;           // bodies: of more, those that come farthest away may be left out,
-constexpr double of_crowd = 0.98;           // but not of this part,
-constexpr double far_from_crowd = 1.3;      // if they come this many times farther than the rest
+constexpr std::size_t crowd = 50;           // bodies; a larger number of them is a crowd
+constexpr double of_crowd = 0.98;           // this part of a crowd is always framed, the nearest to its middle
+constexpr double far_from_crowd = 1.3;      // a body of the rest is left out if it comes this many times farther
 constexpr std::size_t visible_places = 24;  // that must not be hidden; more tell no more
 
 }  // namespace
@@ -43,8 +43,8 @@ bool MotionCamera::Body::moves() const {
 }
 
 void MotionCamera::see(const Snapshot& snapshot) {
-    const double frame = 0.5 / scene_->output.fps;  // tolerance of times
-    if (bodies_.empty() || snapshot.time > scene_->camera.fitted_time + frame) return;
+    const double half_frame = 0.5 / scene_->output.fps;  // s
+    if (bodies_.empty() || snapshot.time > scene_->camera.fitted_time + half_frame) return;
     if (seen_++ % every_ != 0) return;
     if ((bodies_.front().poses.size() + 1) * bodies_.size() > most_poses && bodies_.front().poses.size() > 8)
         thin_out();
@@ -152,10 +152,9 @@ CameraDescription MotionCamera::camera() const {
     }
     const std::size_t places = std::min(middles.size(), visible_places);
     for (std::size_t i = 0; i < places; ++i) motion.places.push_back(middles[(i + 1) * middles.size() / places - 1]);
-    std::vector<char> shown(scene_->bodies.size(), 0);
-    for (const Body* body : moving) shown[body->index] = 1;
-    for (const Body& body : bodies_)
-        if (!shown[body.index]) motion.standing.push_back(body.index);
+    motion.stands.assign(scene_->bodies.size(), 0);
+    for (const Body& body : bodies_) motion.stands[body.index] = 1;
+    for (const Body* body : moving) motion.stands[body->index] = 0;
     CameraDescription placed = scene_->camera;
     const auto place = [&](CameraDescription& camera) {
         if (camera.fits_motion()) camera = with_own_place(camera_of_motion(*scene_, camera, motion), camera);

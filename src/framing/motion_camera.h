@@ -28,8 +28,8 @@ public:
 
     /// False if it has seen no frame, or there is nothing to see.
     bool seen() const { return seen_ > 0; }
-    /// The scene's camera, and those of its shots, at the places from which the motion is seen. Each keeps an eye or a
-    /// target of its own.
+    /// The scene's camera with its shots. Every camera that has no eye or no target of its own is placed so that the
+    /// motion fills the frame; a given eye or target is kept.
     CameraDescription camera() const;
 
 private:

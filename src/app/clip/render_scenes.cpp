@@ -111,7 +111,10 @@ FrameSet RenderScenes::frames_from(std::size_t scene, double start) const {
         const double fps = timing_at_speed(*scenes[scene].scene, speed_).fps;
         first = std::int64_t(std::min(std::ceil(rounded_if_nearly_whole(start * fps)), double(clip_frames)));
     } else {
-        while (first < clip_frames && time_of(scene, first) < start * (1.0 - 1e-12)) ++first;
+        const double step = time_of_step(scene);
+        std::int64_t steps = 0;
+        while (first < clip_frames && double(steps) * step < start * (1.0 - 1e-12))
+            steps += scenes[scene].steps[std::size_t(first++)];
     }
     if (first < clip_frames) return {first, clip_frames};
     throw InputError(fmt::format("--start: the scene's last frame is at {:g} s ({:g} was given)",
@@ -123,8 +126,10 @@ double RenderScenes::time_of(std::size_t scene, std::int64_t frame) const {
     if (one.steps.empty()) return double(frame) / timing_at_speed(*one.scene, speed_).fps;
     std::int64_t steps = 0;
     for (std::int64_t n = 0; n < frame; ++n) steps += one.steps[std::size_t(n)];
-    return double(steps * shutter_.intervals) / (one.timing.fps * one.timing.steps_per_frame);
+    return double(steps) * time_of_step(scene);
 }
+
+double RenderScenes::time_of_step(std::size_t scene) const { return shutter_.intervals * scenes[scene].timing.step(); }
 
 /// The plot of the first scene that has one, of all scenes.
 void RenderScenes::read_plot(const ClipRequest& command, CompositionOptions& options) {
@@ -305,8 +310,8 @@ std::vector<double> RenderScenes::warped_sound(std::size_t index, std::int64_t l
     const ClipScene& one = scenes[index];
     const double from = time_of(index, frames.first()), to = time_of(index, last - 1);
     const std::vector<double> plain = sounds_[index].track.pressure({from, to - from + 1.0, 1.0});
-    const double samples = sound_rate / one.scene->output.fps;                               // of the track in a frame
-    const double step = shutter_.intervals / (one.timing.fps * one.timing.steps_per_frame);  // s
+    const double samples = sound_rate / one.scene->output.fps;  // of the track in a frame
+    const double step = time_of_step(index);
     std::vector<double> warped;
     double time = 0.0;  // s, from the first frame
     std::int64_t frame = frames.first();

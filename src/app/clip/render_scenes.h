@@ -113,6 +113,8 @@ private:
     void load(const ClipRequest& command);
     /// s, scene time that a frame shows.
     double time_of(std::size_t scene, std::int64_t frame) const;
+    /// s, of a step in each interval of the shutter.
+    double time_of_step(std::size_t scene) const;
     FrameSet frames_from(std::size_t scene, double start) const;
     std::vector<double> warped_sound(std::size_t index, std::int64_t last) const;
     void fill_plots();
@@ -130,7 +132,7 @@ private:
     std::vector<ScaleObserver> scales_;
     std::vector<SoundObserver> sounds_;  // one for each scene if the clip has sound
     std::vector<CameraObserver> motions_;
-    std::vector<CameraDescription> cameras_;  // of the scenes; those that fit the motion are placed by the survey
+    std::vector<CameraDescription> cameras_;  // by scene; the survey places each camera that shows the motion
     std::vector<SurveyedRun> kept_;
 };
 

@@ -18,7 +18,7 @@ inline std::size_t scene_mesh(std::size_t mesh, std::size_t level) {
     return first_scene_mesh + mesh * mesh_levels + level;
 }
 
-/// Features of batches that take a shader of their own: bits after those of SurfaceMaps.
+/// Features that need another shader, as bits of one number with SurfaceMaps::bits(), which has the lowest three.
 namespace surface_feature {
 inline constexpr unsigned glowing = 8, translucent = 16;
 inline constexpr unsigned sieved = 32;  // of casters: with holes, or translucent

@@ -29,8 +29,9 @@ void connect(const ShaderProgram& program);
 inline constexpr std::size_t look_shaders = 11;
 /// Preprocessor definitions of a look.
 std::vector<std::string> look_defines(const SurfaceLook& look);
-/// The same of bits of surface_feature and SurfaceMaps, and those of a body.
+/// Preprocessor definitions of features: bits of surface_feature and SurfaceMaps.
 std::vector<std::string> feature_defines(unsigned features);
+/// The features of a body.
 unsigned features_of(const RenderBody& proxy, const RenderScene& scene);
 
 class BodyPass {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
@@ -132,11 +131,11 @@ std::vector<Vec3> moving_points(const SceneDescription& scene, double seconds) {
     return points;
 }
 
-/// Bodies beside the moving points: fixed ones, and those that stand.
+/// How the fixed and standing bodies around the moving points are framed.
 struct Surroundings {
-    double ground_factor;           // one that is this many times larger than the motion is ground
-    bool near_only = false;         // those that are not near the motion are left out
-    std::vector<char> stands = {};  // by body; empty: none
+    double ground_factor;           // a body this many times larger than the motion is ground
+    bool near_only = false;         // bodies that are not near the motion are left out
+    std::vector<char> stands = {};  // by body: it stands still; empty: none does
 };
 
 /// The moving points and those of their surroundings; of the ground only the part near them.
@@ -267,9 +266,7 @@ CameraDescription camera_of_motion(const SceneDescription& scene, const CameraDe
     Eigen::Index axis = 0;
     up.cwiseAbs().maxCoeff(&axis);
     const double height = height_of(bounds_of(motion.points), std::size_t(axis));
-    Surroundings beside{ground_near_motion, true, std::vector<char>(scene.bodies.size(), 0)};
-    for (const std::size_t body : motion.standing) beside.stands[body] = 1;
-    const std::vector<Vec3> points = with_surroundings(scene, motion.points, beside);
+    const std::vector<Vec3> points = with_surroundings(scene, motion.points, {ground_near_motion, true, motion.stands});
     return unhidden(CameraVisibility(scene, motion.places), height, [&](double above) {
         return fitted(scene, lens, points, view_axes(up, above, side), used_by_motion);
     });

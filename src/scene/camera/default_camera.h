@@ -18,10 +18,10 @@ CameraDescription default_camera(const SceneDescription& scene, const CameraDesc
 
 /// A motion to be shown, in the world frame.
 struct ShownMotion {
-    std::vector<Vec3> points;           // m: in the image
-    std::vector<Vec3> places;           // m: not to be hidden by fixed bodies
-    Mat3 paths = Mat3::Zero();          // m^2: sum of d d^T over all displacements d
-    std::vector<std::size_t> standing;  // bodies that are shown where they are near the motion, as fixed ones
+    std::vector<Vec3> points;   // m: in the image
+    std::vector<Vec3> places;   // m: not to be hidden by fixed bodies
+    Mat3 paths = Mat3::Zero();  // m^2: sum of d d^T over all displacements d
+    std::vector<char> stands;   // by body: it is framed where it is near the motion, as fixed bodies are
 };
 
 /// The same for a motion that is known. The side is the one from which its direction is seen; a motion that spreads

@@ -19,12 +19,16 @@ constexpr double least_steps = 4.0;  // of an interval: rounding moves a frame b
 constexpr int most_divisions = 4;    // of that division, in search of one for which no frame is rounded
 constexpr int speed_parts = 32;      // of a frame, to integrate the speed
 
-/// The lowest number by which to divide the scene's step.
+/// The number by which to divide the scene's step. Throws InputError where it is out of reach.
 int division(const SceneDescription& scene, double speed, int intervals) {
     const double usual = scene.simulation.steps_per_frame * speed / intervals;  // steps in an interval
     double slowest = usual;
     for (const SpeedKeyframe& key : scene.speed) slowest = std::min(slowest, usual * key.factor);
-    const int least = int(std::max(1.0, std::ceil(rounded_if_nearly_whole(least_steps / slowest))));
+    const double needed = std::max(1.0, std::ceil(rounded_if_nearly_whole(least_steps / slowest)));
+    if (needed > double(limits::steps_per_frame))
+        throw InputError(fmt::format("[[speed]]: the slowest frame divides a step into more than {} parts (given {:g})",
+                                     limits::steps_per_frame, needed));
+    const int least = int(needed);
     const auto whole = [&](int divided) {
         const auto is_whole = [&](double steps) {
             return rounded_if_nearly_whole(steps * divided) == std::round(steps * divided);
