@@ -21,6 +21,8 @@
 #include "sim/step/hit_stage.h"
 #include "sim/step/impact_stage.h"
 #include "sim/step/joined_motion.h"
+#include "sim/step/placed_bodies.h"
+#include "sim/step/rolling_motion.h"
 #include "sim/step/step_context.h"
 #include "sim/step/stepped_motion.h"
 #include "sim/threads/thread_pool.h"
@@ -53,6 +55,8 @@ struct World::State {
     BodySet set;
     JointSet joints;
     JoinedMotion joined;
+    RollingMotion rolling;
+    PlacedBodies placed;
     std::vector<std::uint32_t> woken;  // by joints, in this step
     ForceStage forces;
     ContactDetection detection;
@@ -106,13 +110,13 @@ struct World::State {
                 .h = clock.seconds(1),
                 .log = log.get(),
                 .joints = joints,
-                .joined = joined};
+                .placed = placed};
     }
 
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, joined, woken, forces, detection, impacts, hits, contact_solver,
+        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, impacts, hits, contact_solver,
                motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] = self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
@@ -121,7 +125,7 @@ struct World::State {
         if (forces.field().has_potential()) archive.keep(potential_at_start);
         archive.require([&] { return self.sleep.sound(self.set.bodies); });
         if (notes) archive.keep(*notes);
-        archive.scratch(woken, motion, log, totals, records, asleep, pool);
+        archive.scratch(rolling, placed, woken, motion, log, totals, records, asleep, pool);
     }
 
     void begin_frame();
@@ -151,7 +155,9 @@ void World::State::run_stages(const StepContext& step) {
     if (sleep.changes() + joints.changes() != changes) detection.out_of_date();
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
-    joined.decide(step, detection);    // joined bodies: their way in this step; those that touch nothing move
+    placed.clear(set.bodies);
+    joined.decide(step, detection);  // joined bodies: their way in this step; those that touch nothing move
+    if (settings.impacts == ImpactMode::exact) rolling.decide(step, detection);
     apply_forces(step);                // F and tau at t_n change P and L
     solve_contacts(step);              // non-penetration, friction and joints
     joints.end_step();
@@ -254,7 +260,8 @@ void World::State::solve_contacts(const StepContext& step) {
                                  joined.ways()};
     if (log) totals.assign(problem.manifolds.size(), {});
     contact_solver.solve(problem, detection.islands(), pool);
-    joined.give_momenta(step);
+    placed.give_momenta(set.bodies);
+    rolling.log_contacts(step, detection);
     if (log)
         for (std::size_t k = 0; k < detection.islands().size(); ++k)
             log->add_contacts(detection.islands().manifolds(k), problem, totals);

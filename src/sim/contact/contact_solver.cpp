@@ -166,6 +166,7 @@ void ContactSolver::choose(const ContactProblem& problem, const ContactIslands& 
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto bodies = islands.bodies(k);
         const auto manifolds = islands.manifolds(k);
+        if (islands.joints(k).empty() && problem.bodies[bodies[0]].placed) continue;  // it rolls
         const bool precise = effort_ == Effort::precisely && bodies.size() <= direct_most_bodies;
         if (!islands.joints(k).empty()) {
             const JointWay way = way_of(problem, islands, k);

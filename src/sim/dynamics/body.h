@@ -34,7 +34,7 @@ struct Body {
     bool flying = false;   // ballistic, impacts = "exact": on a trajectory in closed form, not stepped
     bool jointed = false;  // has a joint that holds: it moves with the bodies joined to it
     PairRules pair_rules;  // of the scene, at hand where two bodies meet
-    bool placed = false;   // moves with its joints to JoinedMotion::end() in this step
+    bool placed = false;   // moves to a known end in this step (PlacedBodies)
     bool flew = false;     // moved in the last step by an integrator of higher order than the two Euler methods
     double mass = 0.0, inverse_mass = 0.0;  // kg, 1/kg; the inverse is 0 for fixed and kinematic bodies (after eq. 20)
     double radius = 0.0;                    // m, about the center of mass; infinity for a half-space

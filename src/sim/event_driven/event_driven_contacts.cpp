@@ -51,7 +51,7 @@ void EventDrivenMotion::hold(std::uint32_t i, const BodyVelocity& motion, const 
         velocity += (1.0 - limit.share) * carrier.point_velocity(body.position - carrier.position);
     }
     start(i, Trajectory::uniform(body, velocity, limit.share * motion.angular_velocity), now, {now.step + 1, 0.0});
-    events_[i].spin = spin(body);
+    if (!body.placed) events_[i].spin = spin(body);  // a body that rolls has the momenta of its end
 }
 
 void EventDrivenMotion::begin_step(std::vector<Body>& bodies, const std::vector<BodyVelocity>& motions,
@@ -177,6 +177,29 @@ void EventDrivenMotion::switch_to_contact(std::vector<Body>& bodies, const Force
     if (!switched.empty() || joined) solve_rest(switched, bodies, forces, now);
 }
 
+// The rest of the step for a body that has landed, if it can roll.
+bool EventDrivenMotion::roll_rest(std::uint32_t k, std::vector<Body>& bodies, const ForceField& forces,
+                                  const EventTime& now) {
+    const double rest = clock_.between(now, {now.step + 1, 0.0});
+    std::vector<std::uint32_t> of_body;
+    for (std::uint32_t m = 0; m < contact_manifolds_.size(); ++m)
+        if (contact_manifolds_[m].a == k || contact_manifolds_[m].b == k) of_body.push_back(m);
+    auto rolled = roll_alone(k, bodies, contact_manifolds_, of_body, forces, settings_.gravity, rest);
+    if (!rolled) return false;
+    Body& body = bodies[k];
+    if (log_) {
+        log_->add_gravity(k, body, rest, body.position);
+        log_->add_rolled(*rolled, contact_manifolds_, bodies, rest);
+    }
+    body.momentum = rolled->end.momentum;
+    body.angular_momentum = rolled->end.angular_momentum;
+    body.derive_velocities();
+    events_[k].pushed = true;
+    rolled_.push_back(std::move(*rolled));
+    std::erase_if(contact_manifolds_, [&](const Manifold& m) { return m.a == k || m.b == k; });
+    return true;
+}
+
 // The rest of the step for bodies that have landed, and for struck bodies of stepped groups: their joints must close.
 void EventDrivenMotion::solve_rest(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies,
                                    const ForceField& forces, const EventTime& now) {
@@ -203,11 +226,16 @@ void EventDrivenMotion::solve_rest(const std::vector<std::uint32_t>& landed, std
                 if (!bodies[k].asleep) touched.push_back(k);
     }
     sort_unique(touched);
+    std::erase_if(touched, [&](std::uint32_t k) {
+        return std::ranges::find(landed, k) != landed.end() && roll_rest(k, bodies, forces, now);
+    });
     for (const std::uint32_t k : touched) {
         velocities_before_[k] = {bodies[k].velocity, bodies[k].angular_velocity};
         events_[k].spin = unknown;
     }
-    for (const std::uint32_t k : landed) give_rest_of_step(k, bodies, forces, now);
+    for (const std::uint32_t k : landed)
+        if (std::ranges::find(rolled_, k, &RolledContact::body) == rolled_.end())
+            give_rest_of_step(k, bodies, forces, now);
     const bool joints = !joined.empty();
     islands_.find(body_pairs(contact_manifolds_), bodies, touched,
                   joints ? std::span<const BodyPair>(groups_.joints().pairs()) : std::span<const BodyPair>());
@@ -274,6 +302,8 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
                        bodies[k].angular_velocity + bodies[k].push_angular_velocity};
         if (groups_.group(k) != GroupFlights::none) motions_[k].angular_velocity += gyration(bodies[k], rest);
     }
+    for (const RolledContact& rolled : rolled_)
+        motions_[rolled.body] = mean_velocity(bodies[rolled.body], rolled.end, rest);
     const TouchDepth depth = touch_depth(cluster_.manifolds(), bodies);
     const auto goes = [&](std::uint32_t k) { return std::binary_search(going.begin(), going.end(), k); };
     const std::vector<CcdFraction>* limits = nullptr;
@@ -340,6 +370,8 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
         hold(k, motions_[k], limit, bodies, now);
     }
     for (const std::uint32_t k : near) motions_[k] = {};
+    for (const RolledContact& rolled : rolled_) events_[rolled.body].spin = unknown;
+    rolled_.clear();
 }
 
 }  // namespace tumble

@@ -14,6 +14,7 @@
 #include "sim/contact/contact_solver.h"
 #include "sim/contact/model/contact.h"
 #include "sim/contact/model/sleep.h"
+#include "sim/contact/rolling/rolling_contact.h"
 #include "sim/dynamics/forces.h"
 #include "sim/event_driven/contact_transition.h"
 #include "sim/event_driven/event_queue.h"
@@ -95,8 +96,8 @@ public:
     static void visit(Archive& archive, Self& self) {
         auto& [settings, clock, h, events, balls, half_spaces, movers, neighbor_boxes, queue, search, groups, cluster,
                log, trace, totals, ccd_clamp, motions, islands, contact_solver, alone, contact_manifolds,
-               velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, supports, at_start] =
-            self;
+               velocities_before, impacts_in_frame, frame, until, taken_off, changed, was_asleep, rolled, supports,
+               at_start] = self;
         archive.rebuilt(settings, clock, h, half_spaces, movers, log, motions, islands, at_start);
         archive.keep_each(balls);
         archive.by_body(events);
@@ -106,7 +107,7 @@ public:
         archive.between(0, until, EventTime::last_step);
         archive.bodies(taken_off);
         archive.bodies(changed);
-        archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, supports);
+        archive.scratch(groups, trace, totals, alone, contact_manifolds, was_asleep, rolled, supports);
     }
 
 private:
@@ -168,6 +169,7 @@ private:
     void end_group_flights(std::vector<Body>& bodies, const EventTime& now);
     void fly_groups(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void release_groups(std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
+    bool roll_rest(std::uint32_t k, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
     void solve_rest(const std::vector<std::uint32_t>& landed, std::vector<Body>& bodies, const ForceField& forces,
                     const EventTime& now);
     void give_rest_of_step(std::uint32_t k, std::vector<Body>& bodies, const ForceField& forces, const EventTime& now);
@@ -250,6 +252,7 @@ private:
     std::int64_t impacts_in_frame_ = 0, frame_ = 0;
     std::int64_t until_ = 0;                                       // of the current run
     std::vector<std::uint32_t> taken_off_, changed_, was_asleep_;  // bodies with new trajectories
+    std::vector<RolledContact> rolled_;                            // bodies that have landed in the event at hand
     Supports supports_;
     const std::vector<BodyVelocity>* at_start_ = nullptr;
 };

@@ -1,6 +1,7 @@
 #include "sim/log/contact_log.h"
 
 #include "sim/contact/model/turning_resistance.h"
+#include "sim/contact/rolling/rolling_contact.h"
 
 #include <algorithm>
 #include <tuple>
@@ -266,6 +267,25 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
             point.stick_speed = stick_share * gravity_.norm() * problem.settings.h;
             set_place(point.last, m, i, problem.bodies);
         }
+    }
+}
+
+void ContactLog::add_rolled(const RolledContact& rolled, const std::vector<Manifold>& manifolds,
+                            const std::vector<Body>& bodies, double span) {
+    const Manifold& m = manifolds[rolled.manifold];
+    accounts_[rolled.body].touched = true;
+    friction_ += rolled.slipped;
+    if (!has_records()) return;
+    const Impulse on_body{rolled.impulse.linear, origin_.cross(rolled.impulse.linear) + rolled.impulse.angular};
+    const Impulse on_b = m.b == rolled.body ? on_body : Impulse{} - on_body;
+    for (int i = 0; i < m.count; ++i) {
+        if (!(m.points[std::size_t(i)].impulse > 0.0)) continue;
+        Sum& point = sums_[key_of(m, i)];
+        point.impulse = point.impulse + on_b;
+        add_contact(m.a, m.b, on_b);
+        point.span += span;
+        point.stick_speed = stick_share * gravity_.norm() * span;
+        set_place(point.last, m, i, bodies);
     }
 }
 

@@ -20,6 +20,8 @@
 
 namespace tumble {
 
+struct RolledContact;
+
 class ContactLog {
 public:
     /// energy: only the ledger of the records is kept; their lists stay empty.
@@ -46,6 +48,10 @@ public:
     /// Adds the impulses of a solve of resting contact. `totals` by manifold of the problem.
     void add_contacts(std::span<const std::uint32_t> manifolds, const ContactProblem& problem,
                       const std::vector<ManifoldImpulse>& totals);
+
+    /// Adds the contact of a body that rolled through `span` s.
+    void add_rolled(const RolledContact& rolled, const std::vector<Manifold>& manifolds,
+                    const std::vector<Body>& bodies, double span);
 
     /// Adds the impulse of a joint in this frame on body B (N s, N m s about the origin of the bodies' coordinates) and
     /// its work on each body, J. `nobody`: the world.

@@ -2,7 +2,7 @@
 
 #include "sim/checkpoint/archive.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
-#include "sim/step/joined_motion.h"
+#include "sim/step/placed_bodies.h"
 
 namespace tumble {
 
@@ -45,7 +45,7 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
     motions_.find(step, [&](std::uint32_t i, const Body& body) {
         BodyVelocity motion;
         if (body.flying) return motion;
-        if (body.placed) return step.joined.motion(i, set, step.h);
+        if (body.placed) return step.placed.motion(i, set, step.h);
         // All bodies in contact move by the velocities of the solve, whatever their integrator.
         motion.velocity = body.velocity + body.push_velocity;
         motion.angular_velocity = body.angular_velocity;

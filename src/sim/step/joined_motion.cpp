@@ -2,6 +2,7 @@
 
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/geometry/contact_tolerance.h"
+#include "sim/step/placed_bodies.h"
 
 #include <algorithm>
 
@@ -27,15 +28,11 @@ bool JoinedMotion::fly(const StepContext& step, ContactDetection& detection, std
 
 void JoinedMotion::decide(const StepContext& step, ContactDetection& detection) {
     std::vector<Body>& bodies = step.set.bodies;
-    for (const std::uint32_t i : flown_) bodies[i].placed = false;
-    flown_.clear();
-    ends_.clear();
     ways_.clear();
     const ContactIslands& islands = detection.islands();
     if (step.joints.empty()) return;
     mechanisms_.find(step.joints, bodies, rule_);
     flights_.resize(bodies.size());
-    place_.resize(bodies.size());
     ways_.resize(islands.size());
     std::vector<ContactFacts> contacts(islands.size());
     std::vector<MechanismFacts> facts(islands.size());
@@ -72,32 +69,13 @@ void JoinedMotion::decide(const StepContext& step, ContactDetection& detection) 
         for (std::size_t i = 0; i < ends.size(); ++i) {
             const std::uint32_t body = islands.bodies(k)[i];
             if (!bodies[body].jointed) continue;  // moves as if alone
-            bodies[body].placed = true;
-            place_[body] = std::uint32_t(flown_.size());
-            flown_.push_back(body);
-            ends_.push_back(ends[i]);
+            step.placed.place(body, ends[i], bodies);
         }
         for (const std::uint32_t m : islands.manifolds(k)) {
             release(detection.manifolds()[m]);
             detection.manifolds()[m].solved_by = SolvedBy::flight;
         }
     }
-}
-
-void JoinedMotion::give_momenta(const StepContext& step) const {
-    for (std::size_t n = 0; n < flown_.size(); ++n) {
-        Body& body = step.set.bodies[flown_[n]];
-        body.momentum = ends_[n].momentum;
-        body.angular_momentum = ends_[n].angular_momentum;
-        body.derive_velocities();
-    }
-}
-
-BodyVelocity JoinedMotion::motion(std::uint32_t body, const BodySet& set, double h) const {
-    const Body& start = set.bodies[body];
-    const RigidState& last = end(body);
-    return {(last.position - start.position) / h,
-            rotation_vector(last.orientation * start.orientation.conjugate()) / h};
 }
 
 }  // namespace tumble

@@ -1,5 +1,4 @@
-// Joined bodies in a step: decides the way of each island, before the forces, and keeps the states at its end of
-// islands that are free.
+// Joined bodies in a step: decides the way of each island, before the forces, and flies the islands that are free.
 #pragma once
 
 #include "sim/articulation/island_flight.h"
@@ -18,24 +17,18 @@ class JoinedMotion {
 public:
     explicit JoinedMotion(SweepRule rule) : rule_(rule) {}
 
-    /// Decides, and flies the bodies that are free: each to its own buffer. Marks them as `placed`.
+    /// Decides, and flies the bodies that are free, which are then placed at the ends of their flights.
     void decide(const StepContext& step, ContactDetection& detection);
     /// By island; empty in scenes without joints. Islands without joints have no way.
     std::span<const IslandWay> ways() const { return ways_; }
 
-    /// After the forces and the solve: the momenta of the step's end to the bodies that are free.
-    void give_momenta(const StepContext& step) const;
-    /// Motion of a body that is `placed`: its velocity along the step, and its state at the end.
-    BodyVelocity motion(std::uint32_t body, const BodySet& set, double h) const;
-    const RigidState& end(std::uint32_t body) const { return ends_[place_[body]]; }
-
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [rule, mechanisms, crowd, ways, flights, flown, ends, place] = self;
+        auto& [rule, mechanisms, crowd, ways, flights] = self;
         archive.rebuilt(rule, mechanisms);
         archive.keep(crowd);
-        archive.scratch(ways, flights, flown, ends, place);
+        archive.scratch(ways, flights);
     }
 
 private:
@@ -46,9 +39,6 @@ private:
     FigureCrowd crowd_;
     std::vector<IslandWay> ways_;
     std::vector<std::unique_ptr<IslandFlight>> flights_;  // by lowest body of an island
-    std::vector<std::uint32_t> flown_;                    // bodies that are free in this step
-    std::vector<RigidState> ends_;                        // of these
-    std::vector<std::uint32_t> place_;                    // by body: in flown_
 };
 
 }  // namespace tumble

@@ -15,8 +15,8 @@
 namespace tumble {
 
 class ContactLog;
-class JoinedMotion;
 class JointSet;
+class PlacedBodies;
 
 struct StepContext {
     const SimulationSettings& settings;
@@ -30,7 +30,7 @@ struct StepContext {
     double h;            // s, length of the step
     ContactLog* log;     // null: not asked for
     JointSet& joints;
-    const JoinedMotion& joined;
+    PlacedBodies& placed;
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s

@@ -6,7 +6,7 @@
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/log/contact_log.h"
-#include "sim/step/joined_motion.h"
+#include "sim/step/placed_bodies.h"
 #include "sim/threads/thread_pool.h"
 
 #include <algorithm>
@@ -56,7 +56,7 @@ double SteppedMotion::rebound_share() const { return restitution_rebound; }
 // Explicit Euler moves a pose by the velocities of the step's start, other methods by the velocities of its end; the
 // rotation by their mean.
 BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const StepContext& step) const {
-    if (body.placed) return step.joined.motion(i, step.set, step.h);
+    if (body.placed) return step.placed.motion(i, step.set, step.h);
     const bool before = body.dynamic() && !body.jointed && body.integrator == IntegratorKind::explicit_euler;
     const BodyVelocity& old = step.set.old_velocities[i];
     BodyVelocity motion;
@@ -148,7 +148,7 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         const Quat orientation = body.orientation;
         const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i, step);
         if (body.placed && share == 1.0) {
-            set_state(body, step.joined.end(i));
+            set_state(body, step.placed.end(i));
         } else if (body.jointed)
             turn_exactly(body, motion.velocity, motion.angular_velocity, share * h);
         else

@@ -1,6 +1,7 @@
 #include "sim/dynamics/integrators/rigid_state.h"
 
 #include "sim/dynamics/body.h"
+#include "sim/math/keyframe_track.h"
 
 namespace tumble {
 
@@ -19,6 +20,11 @@ void set_state(Body& body, const RigidState& state) {
     body.momentum = state.momentum;
     body.angular_momentum = state.angular_momentum;
     body.derive();
+}
+
+BodyVelocity mean_velocity(const Body& start, const RigidState& end, double h) {
+    return {(end.position - start.position) / h,
+            rotation_vector(end.orientation * start.orientation.conjugate()) / h};
 }
 
 Mat3 rotation_of(const Quat& q) {

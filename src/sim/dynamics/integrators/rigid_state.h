@@ -8,6 +8,7 @@
 namespace tumble {
 
 struct Body;
+struct BodyVelocity;
 
 /// X = (x, q, P, L) (notes eq. 1 with section 3.1's quaternion).
 struct RigidState {
@@ -29,6 +30,8 @@ RigidState state_of(const Body& body);
 RigidMass mass_of(const Body& body);
 /// Also updates the quantities derived from the state.
 void set_state(Body& body, const RigidState& state);
+/// Constant velocities that move the body from its pose to that of the state in h seconds.
+BodyVelocity mean_velocity(const Body& start, const RigidState& end, double h);
 
 /// The rotation matrix of a quaternion of any length: the stages of a step leave the unit sphere a little.
 Mat3 rotation_of(const Quat& q);

@@ -1,0 +1,27 @@
+#include "sim/step/rolling_motion.h"
+
+#include "sim/log/contact_log.h"
+#include "sim/step/placed_bodies.h"
+
+namespace tumble {
+
+void RollingMotion::decide(const StepContext& step, ContactDetection& detection) {
+    rolled_.clear();
+    const ContactIslands& islands = detection.islands();
+    for (std::size_t k = 0; k < islands.size(); ++k) {
+        if (islands.bodies(k).size() != 1 || !islands.joints(k).empty()) continue;
+        auto rolled = roll_alone(islands.bodies(k)[0], step.set.bodies, detection.manifolds(), islands.manifolds(k),
+                                 step.forces.field(), step.settings.gravity, step.h);
+        if (!rolled) continue;
+        step.placed.place(rolled->body, rolled->end, step.set.bodies);
+        rolled_.push_back(std::move(*rolled));
+    }
+}
+
+void RollingMotion::log_contacts(const StepContext& step, ContactDetection& detection) const {
+    if (!step.log) return;
+    for (const RolledContact& rolled : rolled_)
+        step.log->add_rolled(rolled, detection.manifolds(), step.set.bodies, step.h);
+}
+
+}  // namespace tumble
