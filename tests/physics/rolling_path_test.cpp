@@ -137,7 +137,7 @@ TEST(RollingPath, ALandingIsAlikeAtAnyStep) {
             }
 }
 
-// The books are closed: friction takes what the body loses while it slides, the contact gives what its momenta gain.
+// The change of the energy is the loss by friction, the change of the momenta the impulses of contact and gravity.
 TEST(RollingPath, RecordsBalance) {
     SceneDescription scene = coin_scene({.tilt = 65.0, .over = 0.5, .friction = 0.1, .slip = {0.1, 0.0, 0.3}});
     World world(scene);
