@@ -157,7 +157,7 @@ void World::State::run_stages(const StepContext& step) {
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     placed.clear(set.bodies);
     joined.decide(step, detection);  // joined bodies: their way in this step; those that touch nothing move
-    if (settings.impacts == ImpactMode::exact) rolling.decide(step, detection);
+    rolling.decide(step, detection);  // curved bodies on one point
     apply_forces(step);                // F and tau at t_n change P and L
     solve_contacts(step);              // non-penetration, friction and joints
     joints.end_step();

@@ -10,6 +10,8 @@ void RollingMotion::decide(const StepContext& step, ContactDetection& detection)
     const ContactIslands& islands = detection.islands();
     for (std::size_t k = 0; k < islands.size(); ++k) {
         if (islands.bodies(k).size() != 1 || !islands.joints(k).empty()) continue;
+        const Body& body = step.set.bodies[islands.bodies(k)[0]];
+        if (step.settings.impacts != ImpactMode::exact && body.integrator != IntegratorKind::exact) continue;
         auto rolled = roll_alone(islands.bodies(k)[0], step.set.bodies, detection.manifolds(), islands.manifolds(k),
                                  step.forces.field(), step.settings.gravity, step.h);
         if (!rolled) continue;

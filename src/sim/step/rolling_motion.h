@@ -1,4 +1,5 @@
-// Curved bodies that roll or slide alone (contact/rolling/rolling_contact.h) in a step of a scene with exact impacts.
+// Curved bodies that roll or slide alone (contact/rolling/rolling_contact.h) in a step: with exact impacts, and bodies
+// with integrator = "exact".
 #pragma once
 
 #include "sim/contact/rolling/rolling_contact.h"
