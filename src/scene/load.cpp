@@ -71,7 +71,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     read_run_settings(root, overrides, scene.simulation, scene.output);
     read_lights(root, scene);
     FileList files;
-    scene.environment = read_environment(root, file.parent_path(), files);
+    scene.environment = read_environment(root, file.parent_path(), files, imports);
     scene.wind = read_wind(root);
     scene.contact = read_contact(root);
     MeshCache meshes(imports, std::move(supplied));

@@ -1,4 +1,5 @@
 // [environment]: its keys and their errors, HDR files, and the irradiance of images whose irradiance is known.
+#include "scene/environment/exr_image.h"
 #include "scene/environment/hdr_image.h"
 #include "scene/environment/irradiance.h"
 #include "scene/environment/mirror_map.h"
@@ -220,6 +221,48 @@ TEST(Environment, NamesTheFault) {
     has(fault_of("background = [\"#000000\"]\n"), "colors");
     has(fault_of("rotation = 90\n"), "has an effect on an image only");
     has(fault_of("blurr = 1\n"), "blur");
+}
+
+std::string exr_file(const std::string& name) { return TUMBLE_SOURCE_DIR "/tests/fuzz/corpus/exr/" + name + ".exr"; }
+
+/// Why the program cannot read an image of the corpus, or the image.
+std::string exr_fault(const std::string& name, EnvironmentImage* image = nullptr) {
+    try {
+        const EnvironmentImage read = import_exr_image(read_mesh_bytes(exr_file(name)));
+        if (image != nullptr) *image = read;
+    } catch (const MeshError& error) {
+        return error.what();
+    }
+    return "none";
+}
+
+/// True if the program is built without OpenEXR, which the error must say.
+bool without_exr() { return exr_fault("plain").find("libopenexr-dev") != std::string::npos; }
+
+TEST(ExrImage, HasTheLightOfItsFileInAnyCompression) {
+    if (without_exr()) GTEST_SKIP();
+    for (const char* name : {"plain", "zip", "piz", "invalid_light"}) {
+        EnvironmentImage image;
+        ASSERT_EQ(exr_fault(name, &image), "none") << name;
+        ASSERT_EQ(image.width, 8);
+        ASSERT_EQ(image.height, 4);
+        const bool invalid = std::string(name) == "invalid_light";  // negative, and no number
+        EXPECT_EQ(image.at(6, 3), (std::array{3.0f, 0.75f, 0.125f})) << name;
+        EXPECT_EQ(image.at(1, 0), (std::array{invalid ? 0.0f : 0.5f, 0.0f, 6.0f})) << name;
+        EXPECT_EQ(image.at(2, 2), (std::array{1.0f, invalid ? 0.0f : 0.5f, 0.125f})) << name;
+    }
+    EnvironmentImage tiled;
+    ASSERT_EQ(exr_fault("tiled", &tiled), "none");
+    EXPECT_EQ(tiled.at(7, 3), (std::array{1.0f, 2.0f, 3.0f}));
+    EXPECT_EQ(exr_fault("luminance"), "none");
+}
+
+TEST(ExrImage, IsRefusedIfItIsCut) {
+    if (without_exr()) GTEST_SKIP();
+    EXPECT_NE(exr_fault("cut"), "none");
+    EXPECT_EQ(fault_of("image = \"" + exr_file("plain") + "\"\n"), "none");
+    EXPECT_NE(fault_of("image = \"" + exr_file("cut") + "\"\n").find("scene.toml:6:9"), std::string::npos)
+        << fault_of("image = \"" + exr_file("cut") + "\"\n");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "scene/keys/environment.h"
 
 #include "core/safe_text.h"
+#include "scene/environment/exr_image.h"
 #include "scene/environment/hdr_image.h"
 #include "scene/environment/presets.h"
 #include "scene/fields/settings_fields.h"
@@ -33,22 +34,27 @@ EnvironmentImage light_of_picture(const Texture& texture) {
     return image;
 }
 
-EnvironmentImage load_image(const fs::path& file) {
+EnvironmentImage load_image(const fs::path& file, MeshImports imports) {
     const std::string bytes = read_mesh_bytes(file);
     if (is_hdr_image(bytes)) return read_hdr_image(bytes);
-    if (!is_texture_image(bytes)) throw MeshError("is neither an HDR nor a PNG nor a JPEG file");
+    if (is_exr_image(bytes)) {
+        if (imports == MeshImports::refused)
+            throw MeshError("is an OpenEXR file, which is read in a child process, and that is not allowed here");
+        return import_exr_image(bytes);
+    }
+    if (!is_texture_image(bytes)) throw MeshError("is neither an HDR nor an OpenEXR nor a PNG nor a JPEG file");
     std::int64_t texels = 0;
     return light_of_picture(*make_texture(bytes, "", texels));
 }
 
 std::shared_ptr<const EnvironmentImage> read_image(const TomlValue& value, const fs::path& folder,
-                                                   std::vector<fs::path>& files) {
+                                                   std::vector<fs::path>& files, MeshImports imports) {
     const std::string name = value.text();
     if (name.empty()) value.fail("must not be empty");
     if (name.find('\0') != std::string::npos) value.fail("must not hold a zero byte");
     const fs::path file = (folder / fs::path(name)).lexically_normal();
     try {
-        auto image = std::make_shared<const EnvironmentImage>(load_image(file));
+        auto image = std::make_shared<const EnvironmentImage>(load_image(file, imports));
         files.push_back(file);
         return image;
     } catch (const MeshError& error) {
@@ -97,7 +103,7 @@ void needs_image(const TomlTable& table, const EnvironmentDescription& environme
 }  // namespace
 
 std::optional<EnvironmentDescription> read_environment(const TomlTable& root, const fs::path& folder,
-                                                       std::vector<fs::path>& files) {
+                                                       std::vector<fs::path>& files, MeshImports imports) {
     const auto table = root.find_table("environment");
     if (!table) return std::nullopt;
     auto environment = read_all_fields<EnvironmentDescription>(*table);
@@ -108,7 +114,7 @@ std::optional<EnvironmentDescription> read_environment(const TomlTable& root, co
     }
     if (const auto image = table->find("image")) {
         if (environment.image) image->origin().fail("and preset exclude each other: give one of them");
-        environment.image = read_image(*image, folder, files);
+        environment.image = read_image(*image, folder, files, imports);
     }
     if (environment.image) environment.background = BackgroundKind::image;
     if (const auto background = table->find("background")) read_background(*background, environment);

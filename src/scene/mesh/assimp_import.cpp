@@ -1,7 +1,6 @@
 #include "scene/mesh/assimp_import.h"
 
-#include "core/child_process.h"
-#include "core/error.h"
+#include "scene/mesh/import_process.h"
 #include "scene/mesh/mesh_images.h"
 #include "scene/mesh/mesh_transform.h"
 #include "scene/mesh/mtl_file.h"
@@ -13,19 +12,10 @@
 #include <assimp/IOSystem.hpp>
 #include <assimp/Importer.hpp>
 
-#include <fcntl.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
-#include <cerrno>
 #include <cmath>
-#include <csignal>
 #include <cstring>
-#include <exception>
-#include <fstream>
 #include <tuple>
 #include <vector>
 
@@ -33,7 +23,9 @@ namespace tumble {
 namespace {
 
 // Bytes beyond the program's own: importers take about ten times the file, plus fixed tables.
-constexpr rlim_t import_memory(std::size_t file_bytes) { return (rlim_t(256) << 20) + 16 * rlim_t(file_bytes); }
+constexpr std::uint64_t import_memory(std::size_t file_bytes) {
+    return (std::uint64_t(256) << 20) + 16 * std::uint64_t(file_bytes);
+}
 constexpr unsigned import_seconds = 60;   // the largest allowed mesh takes about ten
 constexpr unsigned deepest_node = 1000;   // nested transforms: a file with more is made to exhaust the stack
 constexpr std::size_t shown_bytes = 120;  // characters of assimp's own message
@@ -183,68 +175,6 @@ Imported import(std::string_view bytes, const std::string& extension) {
     return all;
 }
 
-// -- From the child to the parent: a byte for the kind, then the mesh or the text of an error.
-
-constexpr char is_mesh = 'm', is_error = 'e';
-
-void write_bytes(int file, const void* data, std::size_t size) {
-    if (!write_all(file, {static_cast<const char*>(data), size})) ::_exit(1);
-}
-
-template <class T>
-void write_list(int file, const std::vector<T>& list) {
-    const std::uint64_t count = list.size();
-    write_bytes(file, &count, sizeof count);
-    write_bytes(file, list.data(), list.size() * sizeof(T));
-}
-
-int run_child(std::string_view bytes, const std::string& extension, int result) {
-    const int nowhere = ::open("/dev/null", O_RDWR | O_CLOEXEC);
-    for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) ::dup2(nowhere, stream);
-    const rlimit no_core{0, 0};
-    ::setrlimit(RLIMIT_CORE, &no_core);
-    std::uint64_t pages = 0;
-    std::ifstream("/proc/self/statm") >> pages;
-    rlimit memory{};
-    if (::getrlimit(RLIMIT_AS, &memory) == 0) {
-        memory.rlim_cur = std::min(memory.rlim_max,
-                                   pages * static_cast<rlim_t>(::sysconf(_SC_PAGESIZE)) + import_memory(bytes.size()));
-        ::setrlimit(RLIMIT_AS, &memory);
-    }
-    std::signal(SIGALRM, SIG_DFL);
-    ::alarm(import_seconds);
-    try {
-        const Imported all = import(bytes, extension);
-        const MeshFile& mesh = all.mesh;
-        write_bytes(result, &is_mesh, 1);
-        write_list(result, mesh.positions);
-        write_list(result, mesh.triangles);
-        write_list(result, mesh.objects);
-        write_list(result, std::vector<char>{mesh.in_meters, mesh.colored});
-        write_list(result, all.materials);
-        for (const auto* texts : {&all.texture_names, &all.textures})
-            for (const std::string& text : *texts) write_list(result, std::vector<char>(text.begin(), text.end()));
-    } catch (const std::bad_alloc&) {
-        return ENOMEM;
-    } catch (const std::exception& error) {
-        write_bytes(result, &is_error, 1);
-        write_bytes(result, error.what(), std::strlen(error.what()));
-    }
-    return 0;
-}
-
-/// The child's end of the pipe closes when the child ends, even if it crashes.
-std::string read_all(int file) {
-    std::string all;
-    char part[1 << 16];
-    for (ssize_t n; (n = ::read(file, part, sizeof part)) != 0;) {
-        if (n < 0 && errno == EINTR) continue;
-        if (n < 0) break;
-        all.append(part, static_cast<std::size_t>(n));
-    }
-    return all;
-}
-
 /// The lists of a mesh, each behind its length, as far as they are complete.
 class Lists {
 public:
@@ -323,18 +253,15 @@ MeshFile checked_mesh(std::string_view bytes, const std::filesystem::path& folde
     return mesh;
 }
 
-[[noreturn]] void fail(int status, std::size_t file_bytes, const std::string& extension) {
-    const char* const reader = extension == three_mf ? "lib3mf" : "assimp";
-    if (WIFEXITED(status) && WEXITSTATUS(status) == ENOMEM)
-        throw MeshError(fmt::format("takes more than {} MiB of memory to import", import_memory(file_bytes) >> 20));
-    if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM)
-        throw MeshError(fmt::format("takes more than {} s to import", import_seconds));
-    if (WIFSIGNALED(status))
-        throw MeshError(
-            fmt::format("cannot be read, because {} crashes on it (signal {}); the file may be right: save it as .glb, "
-                        ".obj or .stl",
-                        reader, WTERMSIG(status)));
-    throw MeshError(fmt::format("cannot be imported by {}", reader));
+void write(ImportOutput& output, const Imported& all) {
+    const MeshFile& mesh = all.mesh;
+    output.write(mesh.positions);
+    output.write(mesh.triangles);
+    output.write(mesh.objects);
+    output.write(std::vector<char>{mesh.in_meters, mesh.colored});
+    output.write(all.materials);
+    for (const auto* texts : {&all.texture_names, &all.textures})
+        for (const std::string& text : *texts) output.write(std::vector<char>(text.begin(), text.end()));
 }
 
 }  // namespace
@@ -344,22 +271,11 @@ bool assimp_reads(const std::string& extension) {
 }
 
 MeshFile import_with_assimp(std::string_view bytes, const std::filesystem::path& folder, const std::string& extension) {
-    std::string answer;
-    pid_t child = -1;
-    try {
-        Pipe pipe;
-        child = fork_child({.own_group = false}, [&] { return run_child(bytes, extension, pipe.write_end()); });
-        pipe.close_write();
-        answer = read_all(pipe.read_end());
-    } catch (const RunError& error) {
-        throw MeshError("cannot be imported: " + error.message());
-    }
-    int status = 0;
-    while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
-    }
-    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0 || answer.empty()) fail(status, bytes.size(), extension);
-    if (answer[0] == is_error) throw MeshError(readable(answer.substr(1), 2 * shown_bytes));
-    return checked_mesh(std::string_view(answer).substr(1), folder);
+    const ImportLimits limits{extension == three_mf ? "lib3mf" : "assimp", import_memory(bytes.size()), import_seconds,
+                              ".glb, .obj or .stl"};
+    const std::string answer =
+        run_import(limits, [&](ImportOutput& output) { write(output, import(bytes, extension)); });
+    return checked_mesh(answer, folder);
 }
 
 }  // namespace tumble

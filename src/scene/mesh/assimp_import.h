@@ -1,6 +1,5 @@
 // Import of the mesh formats that Tumble does not read itself: 3MF by lib3mf, the others (Collada, 3D Studio, OFF, FBX
-// and more) by assimp. It runs in a child process with limits of memory and time: the libraries allocate as much as a
-// file claims, and some files crash them.
+// and more) by assimp. It runs in a child process (import_process.h).
 #pragma once
 
 #include "scene/mesh/mesh_file.h"
