@@ -12,6 +12,9 @@ in vec3 v_in_far;
 in vec4 v_shadow;
 #endif
 #endif
+#ifdef LAMP_SHADOW
+in vec4 v_lamp_shadow;
+#endif
 flat in vec4 v_eye;             // position of the eye; per_half of fog_share()
 flat in vec3 v_up;
 flat in vec3 v_diffuse;
@@ -151,6 +154,9 @@ vec4 body_pixel(vec3 place, vec3 normal, vec3 diffuse, float paint, float open, 
 #endif
     vec3 light = shade(surface) * paint;
 #ifdef LAMPS
+#ifdef LAMP_SHADOW
+    lamp_seen = lamp_visible(v_lamp_shadow);
+#endif
     light += light_of_lamps(place, normal, to_eye, surface) * paint;
 #endif
 #ifdef PAINTED

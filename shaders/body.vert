@@ -40,6 +40,9 @@ out vec3 v_in_far;
 out vec4 v_shadow;                  // place in the shadow maps
 #endif
 #endif
+#ifdef LAMP_SHADOW
+out vec4 v_lamp_shadow;             // see lamp_shadow_place()
+#endif
 flat out vec4 v_eye;                // see body.glsl
 #ifdef ENVIRONMENT
 flat out vec3 v_east, v_south;
@@ -250,6 +253,9 @@ void main() {
 #ifdef MESH
     v_normal = normalize(mesh_normal / instance_scale.xyz);
     vec3 lift = rotate(instance_orientation, v_normal);
+#ifdef LAMP_SHADOW
+    vec3 lamp_lift = instance_tile.y > 0.0 && dot(lift, to_shadow_lamp(position)) < 0.0 ? -lift : lift;
+#endif
     // An open mesh is lit on both sides. The offset points to the sun's side, because otherwise a side would shadow
     // itself.
     if (instance_tile.y > 0.0 && dot(v_normal, light) < 0.0) lift = -lift;
@@ -265,5 +271,11 @@ void main() {
 #else
     v_shadow = shadow_place(position, lift, instance_tile.w > 0.0);
 #endif
+#endif
+#ifdef LAMP_SHADOW
+#ifndef MESH
+    vec3 lamp_lift = lift;
+#endif
+    v_lamp_shadow = lamp_shadow_place(position, lamp_lift);
 #endif
 }

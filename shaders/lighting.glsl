@@ -14,6 +14,9 @@ LAMP_VALUE vec3 v_sun;              // received by a surface facing the sun
 #if defined(ENVIRONMENT) || defined(BACKGROUND)
 #include "environment.glsl"
 #endif
+#if defined(SHADOWED) || defined(LAMP_SHADOW)
+#include "shadow_kernel.glsl"
+#endif
 #ifdef SHADOWED
 #include "shadow.glsl"
 #endif

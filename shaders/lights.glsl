@@ -1,4 +1,4 @@
-// Light of LAMPS lights without shadows, in addition to the sun of lighting.glsl. Positions and directions have the axes
+// Light of LAMPS lights, one of which may have shadows, in addition to the sun of lighting.glsl. Positions and directions have the axes
 // of the surface. LAMP_KINDS: two bits for each light, the first one lowest.
 struct Lamp {
     vec3 place;     // of a point or spot from the point that its `from` is given from, m; of a sun the direction to it
@@ -35,6 +35,11 @@ LAMP_VALUE vec3 v_lamp_light[LAMPS];
 LAMP_VALUE vec4 v_lamp_axis[LAMPS];
 #endif
 
+#ifdef LAMP_SHADOW
+#include "lamp_shadow.glsl"
+float lamp_seen = 1.0;          // see lamp_visible()
+#endif
+
 vec3 light_of_lamps(vec3 from, vec3 normal, vec3 to_eye, Surface s) {
     vec3 sum = vec3(0.0);
     for (int i = 0; i < LAMPS; ++i) {
@@ -43,7 +48,11 @@ vec3 light_of_lamps(vec3 from, vec3 normal, vec3 to_eye, Surface s) {
 #else
         Lamp lamp = Lamp(v_lamp_place[i], v_lamp_light[i], vec4(0.0));
 #endif
-        sum += light_of(lamp, LAMP_KINDS >> (2 * i) & 3, from, normal, to_eye, s);
+        vec3 light = light_of(lamp, LAMP_KINDS >> (2 * i) & 3, from, normal, to_eye, s);
+#ifdef LAMP_SHADOW
+        if (i == LAMP_SHADOW) light *= lamp_seen;
+#endif
+        sum += light;
     }
     return sum;
 }

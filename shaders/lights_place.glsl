@@ -1,10 +1,5 @@
-// Vertex counterpart of lights.glsl. World axes, relative to the eye (render/passes/lamp_uniforms.h).
-layout(std140) uniform Lamps {
-    vec4 sun_color;             // irradiance over pi of the sun of lighting.glsl
-    vec4 lamp_place[4];         // m, of a point or spot; of a sun the unit vector to it; w: its kind
-    vec4 lamp_light[4];
-    vec4 lamp_axis[4];          // of a spot: direction in which it shines; w: cosine of half its angle
-};
+// Vertex counterpart of lights.glsl.
+#include "lamps_block.glsl"
 flat out vec3 v_sun;
 #ifdef LAMPS
 flat out vec3 v_lamp_place[LAMPS];
@@ -12,6 +7,9 @@ flat out vec3 v_lamp_light[LAMPS];
 #ifdef SPOTS
 flat out vec4 v_lamp_axis[LAMPS];
 #endif
+#endif
+#ifdef LAMP_SHADOW
+#include "lamp_shadow_place.glsl"
 #endif
 
 // `eye`: position of the eye in the axes of the surface; `rows`: these axes.

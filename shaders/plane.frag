@@ -21,6 +21,9 @@ flat in float v_cell;
 #endif
 #include "pattern.glsl"
 
+#ifdef LAMP_SHADOW
+flat in vec4 v_lamp_map[3];
+#endif
 flat in vec3 v_fall;            // see plane.vert
 flat in vec3 v_along_u;
 flat in vec3 v_along_v;
@@ -225,6 +228,9 @@ void main() {
     vec3 shaded = shade(surface);
 #ifdef LAMPS
     vec2 along = v_cell * far * vec2(here(v_along_u), here(v_along_v));
+#ifdef LAMP_SHADOW
+    lamp_seen = lamp_visible(v_lamp_map[0] + along.x * v_lamp_map[1] + along.y * v_lamp_map[2]);
+#endif
     shaded += light_of_lamps(vec3(along, 0.0), normal, to_eye, surface);
 #endif
 #ifdef GLOWING

@@ -54,6 +54,9 @@ flat out vec4 v_glow;
 flat out vec4 v_frame;          // the sun and up along the plane's axes
 flat out float v_cell;          // m, of the plane's coordinates
 #endif
+#ifdef LAMP_SHADOW
+flat out vec4 v_lamp_map[3];    // see lamp_shadow_place(): at the eye's foot, and for a meter along each axis
+#endif
 flat out vec3 v_fall;           // of the view ray, which is 1 along the camera's axis: slope towards the plane,
 flat out vec3 v_along_u;        // displacement along the plane's axes,
 flat out vec3 v_along_v;
@@ -154,6 +157,12 @@ void main() {
 #endif
 #ifdef LAMP_LIGHT
     place_lamps(vec3(0.0, 0.0, plane_normal.w), mat3(u, v, plane_normal.xyz));
+#ifdef LAMP_SHADOW
+    vec3 foot = -plane_normal.w * plane_normal.xyz;
+    v_lamp_map[0] = lamp_shadow_place(foot, plane_normal.xyz);
+    v_lamp_map[1] = lamp_shadow_place(foot + u, plane_normal.xyz) - v_lamp_map[0];
+    v_lamp_map[2] = lamp_shadow_place(foot + v, plane_normal.xyz) - v_lamp_map[0];
+#endif
 #endif
     v_rough = vec3(surface_roughness(plane_color.w), surface_veil(plane_color.w, plane_material.x));
 #ifdef OCCLUDED

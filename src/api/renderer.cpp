@@ -48,6 +48,12 @@ struct Renderer::State {
     bool transparent;
     Image image;  // a copy of the renderer's, in the interface's type
     Image blurred;
+
+    const tumble::Image& draw(const Snapshot& snapshot, const FrameMoment& moment) {
+        tumble::Snapshot drawn = v0::to_internal(snapshot, scene.body_count());
+        filter.follow(drawn);
+        return renderer.render(drawn, moment);
+    }
 };
 
 Renderer::Renderer(const Scene& scene, const RenderOptions& options) {
@@ -60,9 +66,7 @@ Renderer& Renderer::operator=(Renderer&&) noexcept = default;
 const Image& Renderer::render(const Snapshot& snapshot) {
     return guarded([&]() -> const Image& {
         State& state = state_of(state_, "Renderer");
-        tumble::Snapshot drawn = v0::to_internal(snapshot, state.scene.body_count());
-        state.filter.follow(drawn);
-        const tumble::Image& image = state.renderer.render(drawn);
+        const tumble::Image& image = state.draw(snapshot, {});
         if (state.image.pixels.empty())
             state.image = {image.width, image.height, image.pixels};
         else
@@ -79,8 +83,10 @@ const Image& Renderer::render_blurred(const std::vector<Snapshot>& moments) {
             throw InputError(fmt::format("a transparent frame is the mean of at most {} moments (given {})",
                                          most_images_with_alpha, moments.size()));
         if (moments.size() == 1) return render(moments.front());
+        state.image.pixels.clear();  // the next render() copies it whole
         ImageMean mean(state.transparent);
-        for (const Snapshot& moment : moments) mean.add(v0::to_internal(render(moment)));
+        for (std::size_t i = 0; i < moments.size(); ++i)
+            mean.add(state.draw(moments[i], {int(i), int(moments.size())}));
         tumble::Image blurred;
         mean.take(blurred);
         state.blurred = take(std::move(blurred));

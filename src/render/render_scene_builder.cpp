@@ -23,7 +23,8 @@ std::vector<char> bodies_near(const SceneDescription& description, const RenderS
         distances.assign(scene.bodies.size(), std::numeric_limits<double>::infinity());
         sorted.clear();
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-            if (!(scene.bodies[i].ao_radius > 0.0) || scene.bodies[i].large_receiver) continue;
+            const RenderBody& proxy = scene.bodies[i];
+            if (!(proxy.ao_radius > 0.0) || proxy.large_receiver || proxy.buried) continue;
             distances[i] = (description.bodies[i].position - eye).norm();
             sorted.push_back(distances[i]);
         }

@@ -3,6 +3,7 @@
 
 #include "core/check.h"
 #include "core/error.h"
+#include "core/image_mean.h"
 #include "render/antialiasing/antialiasing.h"
 #include "render/antialiasing/surface_ids.h"
 #include "render/frame/frame_context.h"
@@ -103,7 +104,8 @@ struct Renderer::State {
           passes(device, scene, setup.shadow_filter(), pass_options(description, options)),
           antialiasing(lods, description.output.width, description.output.height,
                        {is_analytic(description, options), options.transparent}),
-          image(description.output.width, description.output.height) {
+          image(description.output.width, description.output.height),
+          lens_mean(options.transparent) {
         if (options.keep_depths) depths = DepthImage(description.output.width, description.output.height);
     }
 
@@ -133,12 +135,15 @@ struct Renderer::State {
     Image image;
     DepthImage depths;  // of the switch keep_depths
     std::vector<Rectangle> changed;
-    std::unique_ptr<Renderer> mirror;  // null: no plane reflects
+    ImageMean lens_mean;
+    Image lens_image;
+    std::optional<FrameMoment> lens_moment;  // of lens_image, if it is the current image
+    std::unique_ptr<Renderer> mirror;        // null: no plane reflects
 
     /// Draws the mirrored bodies, and returns where their image changed, as the plane shows it.
-    std::vector<Rectangle> draw_mirrored(const Snapshot& snapshot) {
+    std::vector<Rectangle> draw_mirrored(const Snapshot& snapshot, const Eigen::Vector2d& lens_point) {
         if (!mirror) return {};
-        const Image& mirrored = mirror->render(snapshot);
+        const Image& mirrored = mirror->draw(snapshot, lens_point);
         std::vector<Rectangle> rectangles = mirror->changed();
         if (!rectangles.empty()) passes.set_reflection(mirrored);
         for (Rectangle& r : rectangles) r.x = mirrored.width - r.x - r.width;
@@ -156,8 +161,30 @@ Renderer::Renderer(const SceneDescription& scene, const RenderOptions& options)
 
 Renderer::~Renderer() = default;
 
-const Image& Renderer::render(const Snapshot& snapshot) {
+const Image& Renderer::render(const Snapshot& snapshot, const FrameMoment& moment) {
     State& s = *state_;
+    const std::vector<Rectangle> whole{{0, 0, s.image.width, s.image.height}};
+    const int samples = s.setup.lens_samples(snapshot);
+    if (samples == 0) {
+        const Image& image = draw(snapshot, Eigen::Vector2d::Zero());
+        if (std::exchange(s.lens_moment, std::nullopt)) s.changed = whole;
+        return image;
+    }
+    if (s.lens_moment == moment && !s.switches.full_redraw && s.setup.shows(snapshot)) {
+        s.changed.clear();
+        return s.lens_image;
+    }
+    for (const Eigen::Vector2d& point : lens_points(samples, moment)) s.lens_mean.add(draw(snapshot, point));
+    s.lens_mean.take(s.lens_image);
+    if (s.switches.keep_depths) draw(snapshot, Eigen::Vector2d::Zero());
+    s.lens_moment = moment;
+    s.changed = whole;
+    return s.lens_image;
+}
+
+const Image& Renderer::draw(const Snapshot& snapshot, const Eigen::Vector2d& lens_point) {
+    State& s = *state_;
+    s.setup.look_through(lens_point);
     s.device.make_current();  // another renderer may have been used in this thread
     PassTimer timer(s.device.gl(), s.switches.times);
     s.changed.clear();
@@ -174,7 +201,7 @@ const Image& Renderer::render(const Snapshot& snapshot) {
     s.ambient_occlusion.update(frame, visible);
     std::optional<Visibility> everything;
     const Visibility& drawn = s.switches.draw_hidden ? everything.emplace(everything_visible(frame)) : visible;
-    Damage damage = s.damage_tracker.find(frame, drawn, s.ambient_occlusion, s.draw_mirrored(snapshot));
+    Damage damage = s.damage_tracker.find(frame, drawn, s.ambient_occlusion, s.draw_mirrored(snapshot, lens_point));
     const OcclusionAtlas& atlas = s.ambient_occlusion.atlas();
     DrawList list = make_draw_list(frame, drawn, atlas, damage.drawn, damage.casters);
     if (s.switches.transparent && !s.antialiasing.analytic())

@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "render/camera/camera.h"
+#include "render/camera/lens.h"
 #include "render/gl/gl_context.h"
 #include "scene/description/description.h"
 #include "sim/snapshot/snapshot.h"
@@ -33,14 +34,15 @@ public:
 
     /// Draws the snapshot at the scene's output size, with the camera at the snapshot's time. The image is valid until
     /// the next call. Only regions that changed since the previous call are drawn. Resting bodies are cheap only if
-    /// their poses are the same to the bit, which PoseFilter provides. A camera movement redraws everything.
-    const Image& render(const Snapshot& snapshot);
+    /// their poses are the same to the bit, which PoseFilter provides. A camera movement redraws everything. Through a
+    /// lens, the image is the mean of those through its points; of these, a moment of a frame has its share.
+    const Image& render(const Snapshot& snapshot, const FrameMoment& moment = {});
 
     /// Regions in which the current image may differ from the previous one: rectangles that do not overlap. The whole
     /// image after the first render() and with full_redraw; empty if nothing moved.
     const std::vector<Rectangle>& changed() const;
 
-    /// Depths of the current image, and its camera. Precondition of depths(): the switch keep_depths.
+    /// Depths of the current image, and its camera; through a lens those of its middle. Precondition of depths(): the switch keep_depths.
     const DepthImage& depths() const;
     const Camera& camera() const;
 
@@ -48,6 +50,8 @@ public:
     std::string driver() const;
 
 private:
+    const Image& draw(const Snapshot& snapshot, const Eigen::Vector2d& lens_point);
+
     struct State;
     std::unique_ptr<State> state_;
 };

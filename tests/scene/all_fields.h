@@ -16,6 +16,7 @@ void for_all_fields(auto&& use) {
     use.template operator()<SimulationSettings>("simulation");
     use.template operator()<OutputSettings>("output");
     use.template operator()<CameraDescription>("camera");
+    use.template operator()<DepthOfField>("dof");
     use.template operator()<CameraKeyframe>("camera keyframe");
     use.template operator()<CameraShot>("shot");
     use.template operator()<LightDescription>("light");

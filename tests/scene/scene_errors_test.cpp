@@ -248,6 +248,20 @@ TEST(SceneErrors, OfMaterials) {
     });
 }
 
+TEST(SceneErrors, OfLenses) {
+    const std::string bodies = "\n[[body]]\nname = \"floor\"\nshape = { type = \"plane\" }\ntype = \"fixed\"\n";
+    expect_errors({
+        {"format = 1\n[camera]\ndof = @3", "dof must be a table (given 3)"},
+        {"format = 1\n[camera]\ndof = @{ aperture = 0.1 }", "focus"},
+        {"format = 1\n[camera]\ndof = { aperture = @0, focus = 1 }", "aperture must be above 0"},
+        {"format = 1\n[camera]\ndof = { aperture = 0.5, focus = @0.4 }", "focus must be at least the aperture"},
+        {"format = 1\n[camera]\ndof = { aperture = 0.5, focus = 1, samples = @3 }", "samples must be from 4 to 256"},
+        {"format = 1\n[camera]\ndof = { aperture = 0.5, focus = 1, @blades = 6 }", "unknown key \"blades\""},
+        {"format = 1\n[camera]\ndof = { aperture = 0.5, focus = @\"flor\" }" + bodies, "did you mean \"floor\"?"},
+        {"format = 1\n[camera]\ndof = { aperture = 0.5, focus = @\"floor\" }" + bodies, "focus must not be a plane"},
+    });
+}
+
 TEST(SceneErrors, OfLights) {
     expect_errors({
         {"format = 1\n[[light]]\ntype = @\"lamp\"", "type must be one of \"sun\", \"point\", \"spot\""},
@@ -255,10 +269,10 @@ TEST(SceneErrors, OfLights) {
         {"format = 1\n[[light]]\nposition = @[0, 1, 0]", "position has no effect on a sun light"},
         {"format = 1\n[[light]]\nangle = @30", "angle has no effect on a sun light"},
         {"format = 1\n[[light]]\nintensity = @-1", "intensity must be from 0 to 1000000 (given -1)"},
-        {"format = 1\n[[light]]\ntype = \"spot\"\nposition = [0, 1, 0]\nshadows = @true",
-         "shadows is only for suns: a spot light has no shadows"},
-        {"format = 1\n[[light]]\nshadows = true\n[[light]]\nshadows = @true",
-         "shadows is on for a light already: each shadow map would cost 6 ms"},
+        {"format = 1\n[[light]]\ntype = \"point\"\nposition = [0, 1, 0]\nshadows = @true",
+         "shadows is for suns and spots: the shadows of a point light would take six maps"},
+        {"format = 1\n[[light]]\nshadows = true\n[[light]]\nshadows = true\n[[light]]\nshadows = @true",
+         "shadows is on for two lights already: each shadow map costs 6 ms"},
         {"format = 1\n[[light]]\n[[light]]\n[[light]]\n[[light]]\n@[[light]]", "a scene has 4 lights at most"},
         {"format = 1\n[light]\n@intensity = 2", "unknown key \"intensity\""},
     });

@@ -25,16 +25,17 @@ PanelDrawing::PanelDrawing(const ClipPanel& panel, const RenderSwitches& options
 void PanelDrawing::draw_samples(const SharedFrames& memory, std::size_t panel, std::int64_t frame) {
     const std::size_t moments = memory.moments(panel);
     const bool blurred = moments > 1;
+    const int count = blurred ? int(moments) - 1 : 1;
     snapshot_.frame = frame;
     if (blurred && painter_) {
         memory.read_poses(panel, 0, snapshot_);
-        renderer_.render(snapshot_);
+        renderer_.render(snapshot_, {0, count});
         opening_depths_ = renderer_.depths();
         opening_camera_ = renderer_.camera();
     }
     for (std::size_t i = blurred ? 1 : 0; i < moments; ++i) {
         memory.read_poses(panel, i, snapshot_);
-        image_ = &renderer_.render(snapshot_);
+        image_ = &renderer_.render(snapshot_, {blurred ? int(i) - 1 : 0, count});
         if (blurred) mean_.add(*image_);
     }
     if (blurred) {

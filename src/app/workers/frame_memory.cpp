@@ -1,6 +1,7 @@
 #include "app/workers/frame_memory.h"
 
 #include "app/files/aov_file.h"
+#include "render/camera/lens.h"
 
 #include <fmt/format.h>
 
@@ -31,7 +32,9 @@ std::uint64_t panel_memory(const ClipPanel& panel, const RenderWork& work) {
     const std::uint64_t samples = scene.cords.empty() ? 1 : std::uint64_t(scene.output.samples);  // the renderer's rule
     std::uint64_t bytes = pixels * (targets * samples * sample + image_bytes + drawing);
     if (samples > 1) bytes += pixels * image_bytes;  // their mean
-    if (work.blur_samples > 1) bytes += pixels * (light + (work.outputs.transparent ? coverage : 0) + image_bytes);
+    const std::uint64_t mean = light + (work.outputs.transparent ? coverage : 0) + image_bytes;
+    if (work.blur_samples > 1) bytes += pixels * mean;
+    if (has_lens(scene.camera)) bytes += pixels * mean;
     if (panel.overlay) bytes += pixels * overlay;
     return bytes;
 }

@@ -33,8 +33,23 @@ Camera::Camera(const CameraDescription& camera, int width, int height, const Eig
     const SinCos half = sincos(0.5 * camera.vertical_fov * pi / 180.0);
     tan_y_ = half.sin / half.cos;
     tan_x_ = tan_y_ * width / height;
-    sides_ = {(right_ + tan_x_ * forward_).normalized(), (-right_ + tan_x_ * forward_).normalized(),
-              (up_ + tan_y_ * forward_).normalized(), (-up_ + tan_y_ * forward_).normalized()};
+    set_sides();
+}
+
+void Camera::set_sides() {
+    const double x = 2.0 * shift_.x() / width_, y = 2.0 * shift_.y() / height_;
+    sides_ = {(right_ + tan_x_ * (1.0 + x) * forward_).normalized(),
+              (-right_ + tan_x_ * (1.0 - x) * forward_).normalized(),
+              (up_ + tan_y_ * (1.0 - y) * forward_).normalized(), (-up_ + tan_y_ * (1.0 + y) * forward_).normalized()};
+}
+
+Camera Camera::through(const Eigen::Vector2d& point, double focus) const {
+    Camera view = *this;
+    view.eye_ += right_ * point.x() + up_ * point.y();
+    view.shift_ +=
+        Eigen::Vector2d(0.5 * width_ * point.x() / (tan_x_ * focus), -0.5 * height_ * point.y() / (tan_y_ * focus));
+    view.set_sides();
+    return view;
 }
 
 Camera Camera::from(const CameraDescription& camera) const {

@@ -31,6 +31,10 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
+    /// The same camera from another point of its lens, in m to the right of the eye and above it: what is at the
+    /// distance `focus` (m, along the view) stays at its pixel.
+    Camera through(const Eigen::Vector2d& point, double focus) const;
+
     /// Distance from eye to target, m: a length scale of the view.
     double target_distance() const { return target_distance_; }
 
@@ -65,6 +69,8 @@ public:
     glm::mat4 clip_from_relative(double near_distance) const;
 
 private:
+    void set_sides();
+
     Vec3 eye_, right_, up_, forward_;
     double target_distance_, viewing_distance_;
     double fog_distance_ = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 
 #include "core/deterministic_math.h"
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 
@@ -13,6 +14,19 @@ Vec3 turned(const Vec3& v, const Vec3& axis, double degrees) {
     const SinCos turn = sincos(degrees * pi / 180.0);
     const Vec3 along = axis * axis.dot(v);
     return along + turn.cos * (v - along) + turn.sin * axis.cross(v);
+}
+
+/// One without a lens has a closed one.
+std::optional<DepthOfField> between(const std::optional<DepthOfField>& a, const std::optional<DepthOfField>& b,
+                                    double part) {
+    if (!a && !b) return std::nullopt;
+    DepthOfField from = a ? *a : *b, to = b ? *b : *a;
+    if (!a) from.aperture = 0.0;
+    if (!b) to.aperture = 0.0;
+    to.aperture = from.aperture + part * (to.aperture - from.aperture);
+    to.focus = from.focus + part * (to.focus - from.focus);
+    to.samples = std::max(from.samples, to.samples);
+    return to;
 }
 
 }  // namespace
@@ -84,6 +98,7 @@ CameraDescription CameraAnimation::at(const Snapshot& snapshot) const {
     now.vertical_fov = before.vertical_fov + eased * (now.vertical_fov - before.vertical_fov);
     const Vec3 up = (1.0 - eased) * before.up.normalized() + eased * now.up.normalized();
     if (up.cross(now.target - now.eye).norm() > 1e-6 * (now.target - now.eye).norm()) now.up = up;
+    now.dof = between(before.dof, now.dof, eased);
     return now;
 }
 
@@ -110,6 +125,13 @@ CameraDescription CameraAnimation::own_at(const Snapshot& snapshot) const {
         const Vec3 way = carried(snapshot);
         now.eye += way;
         now.target += way;
+    }
+    now.dof = camera_.dof;
+    if (now.dof && now.dof->body) {
+        const Vec3 view = (now.target - now.eye).normalized();
+        now.dof->focus = view.dot(snapshot.bodies.at(*now.dof->body).center_of_mass - now.eye);
+        now.dof->focus = std::max(now.dof->focus, now.dof->aperture);  // it may be behind the eye
+        now.dof->body.reset();
     }
     return now;
 }

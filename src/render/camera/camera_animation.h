@@ -23,7 +23,8 @@ class CameraAnimation {
 public:
     explicit CameraAnimation(const CameraDescription& camera);
 
-    /// Eye, target, up and field of view at the snapshot's time. A whole turn returns to the same bits.
+    /// Eye, target, up, field of view and lens at the snapshot's time; the focus is a distance. A whole turn returns to
+    /// the same bits.
     CameraDescription at(const Snapshot& snapshot) const;
 
     /// Displacement of the camera with the followed body; zero without one, m.

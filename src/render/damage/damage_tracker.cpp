@@ -120,7 +120,8 @@ Damage DamageTracker::find(const FrameContext& frame, const Visibility& visible,
 
 void DamageTracker::find_moved(const FrameContext& frame, Damage& damage) {
     const bool everything = frame.anew || frame.camera_moved;
-    damage.background = everything || frame.near_distance != previous_near_distance_;
+    damage.background =
+        everything || frame.near_distance != previous_near_distance_ || frame.lamp_map;  // its shadows may be anywhere
     if (everything || options_.full_redraw || frame.cascades != previous_cascades_) damage.shadow_tiles.mark_all();
     moved_.bodies = everything ? std::vector<char>(frame.moved.size(), 1) : frame.moved;
     moved_.cords.clear();

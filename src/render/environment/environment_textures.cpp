@@ -3,7 +3,6 @@
 #include "scene/environment/irradiance.h"
 #include "scene/environment/mirror_map.h"
 
-#include <fmt/format.h>
 #include <glm/vec4.hpp>
 
 #include <cmath>
@@ -37,20 +36,6 @@ GlObject texture_of(const GlFunctions& gl, int width, int height, GLenum format,
 }
 
 }  // namespace
-
-std::vector<std::string> scene_defines(const RenderScene& scene) {
-    std::vector<std::string> all;
-    if (const auto& environment = scene.environment) {
-        if (environment->image) all.emplace_back("ENVIRONMENT");
-        if (environment->background == BackgroundKind::colors) all.emplace_back("BACKGROUND 1");
-        if (environment->background == BackgroundKind::image) all.emplace_back("BACKGROUND 2");
-        if (environment->ground_shadow) all.emplace_back("GROUND_SHADOW");
-    }
-    if (scene.shadow_alpha != 0) all.push_back(fmt::format("TRANSPARENT {}", scene.shadow_alpha));
-    if (scene.exposure != 0.0) all.push_back(fmt::format("EXPOSURE {:.9e}", std::exp2(scene.exposure)));
-    if (scene.tone == ToneCurve::linear) all.emplace_back("LINEAR_TONE");
-    return all;
-}
 
 EnvironmentTextures::EnvironmentTextures(const GlFunctions& gl, const RenderScene& scene) : gl_(&gl) {
     if (!scene.environment) return;

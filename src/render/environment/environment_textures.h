@@ -5,17 +5,12 @@
 #include "render/scene/render_scene.h"
 
 #include <optional>
-#include <string>
-#include <vector>
 
 namespace tumble {
 
 /// Uniform block and texture units of shaders/environment.glsl.
 inline constexpr GLuint environment_block = 1;
 inline constexpr GLuint mirror_unit = 9, background_unit = 10;
-
-/// Preprocessor definitions of all shaders of the scene.
-std::vector<std::string> scene_defines(const RenderScene& scene);
 
 class EnvironmentTextures {
 public:

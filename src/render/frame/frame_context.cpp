@@ -1,8 +1,10 @@
 #include "render/frame/frame_context.h"
 
 #include "core/check.h"
+#include "render/camera/lens.h"
 #include "render/scene/drawable_bounds.h"
 #include "render/scene/fog_distance.h"
+#include "scene/description/lamps.h"
 
 #include <algorithm>
 #include <utility>
@@ -34,16 +36,40 @@ FrameSetup::FrameSetup(const SceneDescription& description, const RenderScene& s
       parts_(std::move(parts)),
       animation_(description.camera),
       mirror_(mirror),
+      has_lens_(has_lens(description.camera)),
       placed_(mirrored(description.camera, mirror)),
-      camera_(first_camera(description, scene, shift, mirror)),
-      cascades_(description, scene, camera_, shadow_map_texels) {}
+      pinhole_(first_camera(description, scene, shift, mirror)),
+      camera_(pinhole_),
+      cascades_(description, scene, camera_, shadow_map_texels) {
+    if (second_shadow(scene.lamps)) lamp_map_.emplace(description, scene, camera_);
+}
 
 bool FrameSetup::move_camera(const Snapshot& whole) {
     CameraDescription now = mirrored(animation_.at(whole), mirror_);
-    if (same_place(now, placed_)) return false;
+    if (same_place(now, placed_) && now.dof == placed_.dof && lens_point_ == seen_through_) return false;
     placed_ = std::move(now);
-    camera_ = camera_.from(placed_);
+    seen_through_ = lens_point_;
+    camera_ = pinhole_ = pinhole_.from(placed_);
+    if (placed_.dof && seen_through_ != Eigen::Vector2d::Zero()) {
+        const double radius = 0.5 * placed_.dof->aperture;
+        const Eigen::Vector2d point(mirror_ ? -seen_through_.x() : seen_through_.x(), seen_through_.y());
+        camera_ = pinhole_.through(radius * point, placed_.dof->focus);
+    }
     return true;
+}
+
+int FrameSetup::lens_samples(const Snapshot& whole) const {
+    if (!has_lens_) return 0;
+    const CameraDescription now = animation_.at(whole);
+    return now.dof && now.dof->aperture > 0.0 ? now.dof->samples : 0;
+}
+
+bool FrameSetup::shows(const Snapshot& whole) {
+    const CameraDescription now = mirrored(animation_.at(whole), mirror_);
+    if (!finished_ || !same_place(now, placed_) || now.dof != placed_.dof) return false;
+    return std::ranges::equal(poses_, parts_.snapshot(whole).bodies, [](const Pose& pose, const BodyState& state) {
+        return pose.origin == state.origin && pose.orientation.coeffs() == state.orientation.coeffs();
+    });
 }
 
 std::vector<char> FrameSetup::find_moved(const Snapshot& snapshot, bool anew) {
@@ -72,6 +98,7 @@ FrameContext FrameSetup::prepare(const Snapshot& whole, bool one_sample, bool fu
     frame.drawables = make_drawables(*scene_, snapshot, camera_);
     frame.near_distance = near_distance_for(*scene_, snapshot, camera_);
     frame.cascades = cascades_.fit(*scene_, snapshot, camera_, animation_.carried(whole));
+    if (lamp_map_) frame.lamp_map = lamp_map_->fit(*scene_, snapshot, camera_, animation_.carried(whole));
     frame.planes = make_plane_patches(*scene_, snapshot, camera_, frame.near_distance);
     return frame;
 }

@@ -8,9 +8,11 @@
 #include "render/scene/drawable_bounds.h"
 #include "render/scene/plane_patch.h"
 #include "render/scene/render_scene.h"
+#include "render/shadow/lamp_map.h"
 #include "render/shadow/shadow_cascades.h"
 #include "sim/snapshot/snapshot.h"
 
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -27,7 +29,8 @@ struct FrameContext {
     PerDrawable<DrawableBounds> drawables{};
     double near_distance = 0.0;  // m
     ShadowCascades cascades{};
-    std::vector<PlanePatch> planes{};  // visible from their open side
+    std::optional<LampMap> lamp_map{};  // of the second light with shadows, if there is one
+    std::vector<PlanePatch> planes{};   // visible from their open side
 };
 
 /// Prepares the frames of a clip: it owns the camera and the poses of the previous frame.
@@ -43,6 +46,15 @@ public:
     /// `whole`: of the bodies of the scene file. `full_redraw`: the frame never counts as unchanged. The result is
     /// valid until the next call, or as long as the argument.
     FrameContext prepare(const Snapshot& whole, bool one_sample, bool full_redraw = false);
+
+    /// The frames that follow are seen through this point of the lens, in radii from its middle.
+    void look_through(const Eigen::Vector2d& point) { lens_point_ = point; }
+
+    /// The points of the lens at that time; 0: a pinhole.
+    int lens_samples(const Snapshot& whole) const;
+
+    /// True if the frame before is drawn, and shows this one.
+    bool shows(const Snapshot& whole);
 
     /// Call when the prepared frame is drawn. Without it, after an exception, the next frame is made anew.
     void finish() { finished_ = true; }
@@ -62,9 +74,12 @@ private:
     PartPoses parts_;
     CameraAnimation animation_;
     std::optional<PlaneShape> mirror_;
+    bool has_lens_;
     CameraDescription placed_;  // the camera of the previous frame
-    Camera camera_;
+    Camera pinhole_, camera_;
+    Eigen::Vector2d lens_point_ = Eigen::Vector2d::Zero(), seen_through_ = Eigen::Vector2d::Zero();
     CascadeFitter cascades_;
+    std::optional<LampMapFitter> lamp_map_;
     std::vector<Pose> poses_;  // of the previous frame
     bool finished_ = false;    // the previous frame is drawn
 };

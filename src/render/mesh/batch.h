@@ -39,9 +39,10 @@ struct Batch {
 
 struct DrawList {
     std::vector<Instance> instances;
-    std::vector<Batch> visible;      // possibly visible
-    std::vector<Batch> translucent;  // the same, farthest first
-    std::vector<Batch> casters;      // with a possibly visible shadow
+    std::vector<Batch> visible;       // possibly visible
+    std::vector<Batch> translucent;   // the same, farthest first
+    std::vector<Batch> casters;       // with a possibly visible shadow
+    std::vector<Batch> lamp_casters;  // of the second light with shadows
 };
 
 }  // namespace tumble

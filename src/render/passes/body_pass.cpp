@@ -1,7 +1,7 @@
 #include "render/passes/body_pass.h"
 
 #include "render/environment/environment_textures.h"
-#include "render/passes/lamp_uniforms.h"
+#include "render/passes/scene_defines.h"
 #include "render/shadow/shadow_map.h"
 
 #include <fmt/format.h>
@@ -52,6 +52,7 @@ void connect(const ShaderProgram& program) {
     program.set_block("Frame", frame_block);
     program.set_block("Environment", environment_block);
     program.set_sampler("shadow_map", GLint(shadow_unit));
+    program.set_sampler("lamp_shadow_map", GLint(lamp_shadow_unit));
     program.set_sampler("occlusion_atlas", GLint(occlusion_unit));
     program.set_block("Lamps", lamp_block);
     program.set_sampler("mesh_texture", GLint(paint_unit));
@@ -69,7 +70,6 @@ BodyPass::BodyPass(GlDevice& device, const std::filesystem::path& shaders, const
       shadows_(scene.light.shadows),
       filter_(filter),
       looks_(scene.looks),
-      lamp_defines_(lamp_defines(scene)),
       scene_defines_(scene_defines(scene)) {
     for (const RenderBody& proxy : scene.bodies)
         if (proxy.kind == DrawKind::box && proxy.metallic > 0.0f) metal_boxes_ = true;
@@ -121,8 +121,7 @@ const ShaderProgram& BodyPass::program(const Variant& variant) {
     if (variant.painted) files.defines.emplace_back("PAINTED");
     for (const std::string& define : look_defines(looks_[variant.look])) files.defines.push_back(define);
     for (const std::string& define : feature_defines(variant.features)) files.defines.push_back(define);
-    files.defines.insert(files.defines.end(), lamp_defines_.begin(), lamp_defines_.end());
-    for (const std::string& define : scene_defines_) files.defines.push_back(define);
+    files.defines.insert(files.defines.end(), scene_defines_.begin(), scene_defines_.end());
     made = &device_->program(shaders_, files);
     connect(*made);
     return *made;

@@ -17,7 +17,7 @@ namespace tumble {
 
 /// Uniform block and texture units of all draws.
 inline constexpr GLuint frame_block = 0, lamp_block = 2;
-inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1, reflection_unit = 8;
+inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1, reflection_unit = 8, lamp_shadow_unit = 11;
 
 /// Preprocessor definitions for shaders with shadow lookups.
 std::vector<std::string> shadow_defines(const ShadowFilter& filter);
@@ -68,7 +68,6 @@ private:
     std::array<const ShaderProgram*, 14 * look_shaders> programs_{};
     std::map<std::pair<std::size_t, unsigned>, const ShaderProgram*> with_features_;  // by index and features
     std::vector<SurfaceLook> looks_;
-    std::vector<std::string> lamp_defines_;
     std::vector<std::string> scene_defines_;
 };
 

@@ -92,7 +92,7 @@ PlacedCord place_cord(const CordDescription& cord, const Snapshot& snapshot, con
 void turn_to_light(Instance& half_box, const Quat& orientation, const Vec3& light) {
     const Vec3 there = orientation.conjugate() * light;
     for (int axis = 0; axis < 3; ++axis)
-        if (there[axis] > 0.0) half_box.scale[axis] = -half_box.scale[axis];
+        half_box.scale[axis] = there[axis] > 0.0 ? -std::abs(half_box.scale[axis]) : std::abs(half_box.scale[axis]);
 }
 
 std::size_t mesh_of(const RenderBody& proxy, const RenderScene& scene, const BoundingBall& ball, const Camera& view) {
@@ -149,19 +149,16 @@ public:
 
     void add_body(std::size_t i, bool drawn, bool casts) {
         const RenderBody& proxy = frame_.scene.bodies[i];
-        if (casts) {
-            const BoundingBall ball = ball_of(frame_.drawables.bodies[i]);
-            const std::size_t mesh = proxy.kind == DrawKind::box
-                                         ? half_box_mesh
-                                         : caster_mesh(proxy, frame_.scene, ball, frame_.camera, frame_.cascades);
-            Item item = item_of(i, mesh);
-            const MeshPaint* paint = proxy.kind == DrawKind::mesh ? frame_.scene.meshes[proxy.mesh].paint : nullptr;
-            if (proxy.translucent() || (paint && (paint->has_holes() || paint->translucent()))) {
-                item.features = surface_feature::sieved;
-                item.painted = paint != nullptr;
-            }
-            casters_.push_back(ordered(item, ball.center.norm(), false));
-        }
+        const BoundingBall ball = ball_of(frame_.drawables.bodies[i]);
+        if (casts)
+            add_caster(casters_, i,
+                       proxy.kind == DrawKind::box
+                           ? half_box_mesh
+                           : caster_mesh(proxy, frame_.scene, ball, frame_.camera, frame_.cascades));
+        if (frame_.lamp_map)
+            add_caster(lamp_casters_, i,
+                       proxy.kind == DrawKind::mesh ? scene_mesh(proxy.mesh, 0)
+                                                    : mesh_of(proxy, frame_.scene, ball, frame_.camera));
         if (!drawn) return;
         if (proxy.kind == DrawKind::box)
             add_faces(i);
@@ -176,6 +173,7 @@ public:
         const double distance = cords_.back().middle.norm();
         if (drawn) drawn_.push_back(ordered(item, distance, true));
         if (casts) casters_.push_back(ordered(item, distance, false));
+        if (frame_.lamp_map) lamp_casters_.push_back(ordered(item, distance, false));
     }
 
     DrawList take() {
@@ -183,14 +181,32 @@ public:
             return item.cord ? cord_instance(item.index) : body_instance(item);
         };
         DrawList list;
-        list.instances.reserve(drawn_.size() + translucent_.size() + casters_.size());
+        list.instances.reserve(drawn_.size() + translucent_.size() + casters_.size() + lamp_casters_.size());
         list.visible = append_batches(drawn_, list.instances, instance);
         list.translucent = append_batches(translucent_, list.instances, instance);
         list.casters = append_batches(casters_, list.instances, instance);
+        list.lamp_casters = append_batches(lamp_casters_, list.instances, [&](const Item& item) {
+            Instance made = instance(item);
+            if (item.mesh == half_box_mesh)
+                turn_to_light(made, frame_.snapshot.bodies[item.index].orientation,
+                              frame_.lamp_map->light_at(frame_.drawables.bodies[item.index].center));
+            return made;
+        });
         return list;
     }
 
 private:
+    void add_caster(std::vector<Item>& casters, std::size_t i, std::size_t mesh) {
+        const RenderBody& proxy = frame_.scene.bodies[i];
+        Item item = item_of(i, mesh);
+        const MeshPaint* paint = proxy.kind == DrawKind::mesh ? frame_.scene.meshes[proxy.mesh].paint : nullptr;
+        if (proxy.translucent() || (paint && (paint->has_holes() || paint->translucent()))) {
+            item.features = surface_feature::sieved;
+            item.painted = paint != nullptr;
+        }
+        casters.push_back(ordered(item, frame_.drawables.bodies[i].center.norm(), false));
+    }
+
     bool spans_cascades(const DrawableBounds& bounds) const {
         return frame_.scene.light.shadows && frame_.cascades.spans_maps(bounds.center, bounds.radius);
     }
@@ -290,7 +306,7 @@ private:
     const OcclusionAtlas& atlas_;
     Vec3 light_;  // unit, direction in which the light travels
     std::vector<PlacedCord> cords_;
-    std::vector<Item> drawn_, translucent_, casters_;
+    std::vector<Item> drawn_, translucent_, casters_, lamp_casters_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "render/gl/shader_compile_schedule.h"
 #include "render/passes/frame_uniforms.h"
 #include "render/passes/lamp_uniforms.h"
+#include "scene/description/lamps.h"
 
 #include <functional>
 #include <limits>
@@ -19,13 +20,14 @@ FramePasses::FramePasses(GlDevice& device, const RenderScene& scene, const Shado
       lamp_uniforms_(*gl_, GlKind::buffer),
       meshes_(*gl_, scene),
       occlusion_texture_(*gl_),
-      shadow_map_(device, options.shaders, frame_block),
+      shadow_map_(device, options.shaders),
       environment_(*gl_, scene),
       bodies_(device, options.shaders, scene, filter),
       planes_(device, options.shaders, scene, filter),
       widen_rods_(options.widen_rods),
       plain_background_(options.plain_background),
       schedule_(options.schedule) {
+    if (second_shadow(scene.lamps)) lamp_shadow_map_.emplace(device, options.shaders);
     gl_->FrontFace(GL_CW);  // the frame is drawn upside down (see Camera)
     gl_->Enable(GL_DEPTH_TEST);
     gl_->Enable(GL_DEPTH_CLAMP);  // no clipping at the near plane and at the sun's nearest depth
@@ -41,7 +43,7 @@ void FramePasses::upload(const FrameContext& frame, const DrawList& list, const 
     gl_->BufferData(GL_UNIFORM_BUFFER, sizeof uniforms, &uniforms, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, frame_block, uniforms_.name());
     if (scene_->lamps.empty()) return;
-    const LampUniforms lamps = make_lamp_uniforms(*scene_, frame.camera);
+    const LampUniforms lamps = make_lamp_uniforms(*scene_, frame.camera, frame.lamp_map);
     gl_->BindBuffer(GL_UNIFORM_BUFFER, lamp_uniforms_.name());
     gl_->BufferData(GL_UNIFORM_BUFFER, sizeof lamps, &lamps, GL_STREAM_DRAW);
     gl_->BindBufferBase(GL_UNIFORM_BUFFER, lamp_block, lamp_uniforms_.name());
@@ -67,6 +69,10 @@ void FramePasses::bind_textures() const {
     gl_->BindTexture(GL_TEXTURE_2D, occlusion_texture_.name());
     gl_->ActiveTexture(GL_TEXTURE0 + shadow_unit);
     gl_->BindTexture(GL_TEXTURE_2D, shadow_map_.texture());
+    if (!lamp_shadow_map_) return;
+    gl_->ActiveTexture(GL_TEXTURE0 + lamp_shadow_unit);
+    gl_->BindTexture(GL_TEXTURE_2D, lamp_shadow_map_->texture());
+    gl_->ActiveTexture(GL_TEXTURE0 + shadow_unit);
 }
 
 void FramePasses::set_reflection(const Image& image) {
@@ -108,6 +114,7 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
     compile_shaders(list);
     if (scene_->light.shadows && !damage.shadow_tiles.none())
         shadow_map_.draw(meshes_, list.casters, damage.shadow_tiles.rectangles(), frame.cascades.has_far);
+    if (lamp_shadow_map_) lamp_shadow_map_->draw(meshes_, list.lamp_casters);
     timer.ends(Pass::shadow);
 
     environment_.bind();
@@ -116,6 +123,7 @@ void FramePasses::draw(const FrameContext& frame, const Damage& damage, const Dr
         gl_->BindTexture(GL_TEXTURE_2D, reflection_->name());
         gl_->ActiveTexture(GL_TEXTURE0);
     }
+    if (lamp_shadow_map_) bind_textures();  // its shadows are on the stored background too
     begin_frame(frame, damage);
     timer.ends(Pass::background);
 

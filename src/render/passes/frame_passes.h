@@ -10,6 +10,7 @@
 #include "render/passes/body_pass.h"
 #include "render/passes/pass_timer.h"
 #include "render/passes/plane_pass.h"
+#include "render/shadow/lamp_shadow_map.h"
 #include "render/shadow/shadow_map.h"
 
 #include <array>
@@ -66,6 +67,7 @@ private:
     GpuMeshCache meshes_;
     OcclusionTexture occlusion_texture_;
     ShadowMap shadow_map_;
+    std::optional<LampShadowMap> lamp_shadow_map_;
     EnvironmentTextures environment_;
     std::optional<GlObject> reflection_;
     BodyPass bodies_;

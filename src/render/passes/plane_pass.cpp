@@ -4,7 +4,7 @@
 #include "render/environment/environment_textures.h"
 #include "render/gl/glm_conversion.h"
 #include "render/passes/body_pass.h"
-#include "render/passes/lamp_uniforms.h"
+#include "render/passes/scene_defines.h"
 #include "render/scene/plane_patch.h"
 
 #include <fmt/format.h>
@@ -55,7 +55,6 @@ PlanePass::PlanePass(GlDevice& device, const std::filesystem::path& shaders, con
       sky_(device.program(shaders, {"sky.vert", "sky.frag", scene_defines(scene)})),
       planes_(4 * (3 + scene.looks.size())),
       looks_(scene.looks),
-      lamp_defines_(lamp_defines(scene)),
       scene_defines_(scene_defines(scene)),
       textures_(*gl_),
       array_(*gl_, GlKind::vertex_array),
@@ -80,9 +79,8 @@ std::size_t PlanePass::index_of(const RenderBody& proxy) {
 }
 
 const ShaderProgram* PlanePass::make(const RenderBody& proxy, const std::vector<std::string>& more) const {
-    std::vector<std::string> own =
+    const std::vector<std::string> own =
         feature_defines(looks_[proxy.look].image.maps.bits() | (proxy.glows() ? surface_feature::glowing : 0u));
-    own.insert(own.end(), lamp_defines_.begin(), lamp_defines_.end());
     const ShaderProgram& made = device_->program(
         shaders_, {"plane.vert", "plane.frag",
                    with(with(defines(proxy.pattern, looks_[proxy.look], other_planes_, own), scene_defines_), more)});

@@ -59,7 +59,6 @@ private:
     const ShaderProgram& sky_;
     std::vector<std::optional<Programs>> planes_;  // by pattern and look, as far as the scene uses it
     std::vector<SurfaceLook> looks_;
-    std::vector<std::string> lamp_defines_;
     std::vector<std::string> scene_defines_;
     mutable TextureCache textures_;
     GlObject array_, corners_;

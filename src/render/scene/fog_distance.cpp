@@ -26,7 +26,7 @@ double viewing_distance(const SceneDescription& description, const RenderScene& 
         distances.clear();
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
             const RenderBody& proxy = scene.bodies[i];
-            if (!proxy.solid()) continue;
+            if (!proxy.solid() || proxy.buried) continue;
             const BodyDescription& body = description.bodies[i];
             distances.push_back((body.position + body.rotation * proxy.bound_center - eye).norm());
         }
@@ -57,7 +57,7 @@ double fog_distance(const SceneDescription& description, const RenderScene& scen
         };
         for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
             const RenderBody& proxy = scene.bodies[i];
-            if (!proxy.solid()) continue;
+            if (!proxy.solid() || proxy.buried) continue;
             add(proxy, description.bodies[i].position, description.bodies[i].rotation);
             for (const Keyframe& key : description.bodies[i].keyframes) add(proxy, key.position, key.rotation);
         }

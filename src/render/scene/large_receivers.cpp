@@ -29,7 +29,7 @@ struct ReceiverExtent {
     double size() const { return (high - low).maxCoeff(); }
 };
 
-bool is_solid(const RenderBody& proxy) { return proxy.solid(); }
+bool is_solid(const RenderBody& proxy) { return proxy.solid() && !proxy.buried; }
 
 }  // namespace
 

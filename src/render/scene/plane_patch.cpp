@@ -3,6 +3,7 @@
 #include "render/gl/glm_conversion.h"
 #include "render/shapes/drawing_style.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -115,6 +116,17 @@ std::vector<glm::vec3> sky_polygon(const std::vector<PlanePatch>& planes, const 
     std::vector<glm::vec3> corners;
     for (const Eigen::Vector2d& corner : polygon) corners.emplace_back(float(corner.x()), float(corner.y()), 1.0f);
     return corners;
+}
+
+bool hidden_behind(const std::vector<PlaneShape>& planes, const Vec3& eye, const RenderBody& proxy, const Vec3& center,
+                   const Quat& rotation) {
+    return std::any_of(planes.begin(), planes.end(), [&](const PlaneShape& plane) {
+        const Vec3 normal = rotation.conjugate() * plane.normal;
+        const double reach = std::min(normal.cwiseAbs().dot(proxy.half_extent), proxy.bound_radius);
+        constexpr double rounding = 1e-6;  // of the size: a face may lie in the plane
+        return plane.normal.dot(eye) > plane.offset &&
+               plane.normal.dot(center) + reach <= plane.offset + rounding * proxy.bound_radius;
+    });
 }
 
 }  // namespace tumble

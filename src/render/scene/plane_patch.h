@@ -37,4 +37,9 @@ double pattern_cell(double viewing_distance);
 /// The plane in the world: unit normal and offset (points p with normal . p = offset).
 PlaneShape plane_in_world(const RenderBody& proxy, const BodyState& state);
 
+/// True if one of the planes (world frame) is seen from its open side and hides all of a body, whose bounds have this
+/// center: it is not seen, and casts no visible shadow.
+bool hidden_behind(const std::vector<PlaneShape>& planes, const Vec3& eye, const RenderBody& proxy, const Vec3& center,
+                   const Quat& rotation);
+
 }  // namespace tumble

@@ -2,6 +2,7 @@
 
 #include "core/error.h"
 #include "render/scene/large_receivers.h"
+#include "render/scene/plane_patch.h"
 #include "render/shapes/drawn_shape.h"
 #include "scene/description/lamps.h"
 #include "scene/description/looks.h"
@@ -62,6 +63,31 @@ void set_look(const BodyDescription& body, RenderBody& proxy, RenderScene& scene
     }
 }
 
+/// Marks the fixed bodies that no camera sees, because a fixed plane hides them.
+void find_buried(const SceneDescription& description, RenderScene& scene) {
+    std::vector<PlaneShape> planes;
+    for (const std::size_t i : scene.planes) {
+        if (!scene.bodies[i].fixed) continue;
+        BodyState state;
+        state.origin = description.bodies[i].position;
+        state.orientation = description.bodies[i].rotation;
+        planes.push_back(plane_in_world(scene.bodies[i], state));
+    }
+    std::vector<Vec3> eyes;
+    for (const CameraDescription* camera : description.camera.all()) {
+        eyes.push_back(camera->eye);
+        for (const CameraKeyframe& key : camera->keyframes) eyes.push_back(key.eye);
+    }
+    for (std::size_t i = 0; !planes.empty() && i < scene.bodies.size(); ++i) {
+        RenderBody& proxy = scene.bodies[i];
+        if (!proxy.fixed || !proxy.solid()) continue;
+        const BodyDescription& body = description.bodies[i];
+        const Vec3 center = body.position + body.rotation * proxy.bound_center;
+        proxy.buried = std::ranges::all_of(
+            eyes, [&](const Vec3& eye) { return hidden_behind(planes, eye, proxy, center, body.rotation); });
+    }
+}
+
 }  // namespace
 
 RenderScene describe_bodies(const SceneDescription& description) {
@@ -92,10 +118,11 @@ RenderScene describe_bodies(const SceneDescription& description) {
     }
     if (const auto mirror = mirror_of(description))
         scene.bodies[*mirror].reflection = float(description.bodies[*mirror].appearance.reflection);
+    find_buried(description, scene);
     find_large_receivers(description, scene);
     std::vector<double> ao_radii;
     for (const RenderBody& proxy : scene.bodies)
-        if (proxy.ao_radius > 0.0 && !proxy.large_receiver) ao_radii.push_back(proxy.ao_radius);
+        if (proxy.ao_radius > 0.0 && !proxy.large_receiver && !proxy.buried) ao_radii.push_back(proxy.ao_radius);
     if (!ao_radii.empty()) {
         const auto middle = ao_radii.begin() + std::ptrdiff_t(ao_radii.size() / 2);
         std::nth_element(ao_radii.begin(), middle, ao_radii.end());

@@ -82,18 +82,6 @@ Held places_to_hold(const std::vector<CascadePlace>& places, const Vec3& x_axis,
     return {fine > 0 ? fine : finest, size};
 }
 
-/// True if one of the planes is seen from its open side and hides all of a body: it casts no visible shadow.
-bool hidden(const std::vector<PlaneShape>& planes, const Vec3& eye, const RenderBody& proxy, const Vec3& center,
-            const Quat& rotation) {
-    return std::any_of(planes.begin(), planes.end(), [&](const PlaneShape& plane) {
-        const Vec3 normal = rotation.conjugate() * plane.normal;
-        const double reach = std::min(normal.cwiseAbs().dot(proxy.half_extent), proxy.bound_radius);
-        constexpr double rounding = 1e-6;  // of the size: a face may lie in the plane
-        return plane.normal.dot(eye) > plane.offset &&
-               plane.normal.dot(center) + reach <= plane.offset + rounding * proxy.bound_radius;
-    });
-}
-
 double power_of_two_at_least(double value) { return std::exp2(std::ceil(std::log2(value))); }
 
 }  // namespace
@@ -139,7 +127,7 @@ CascadeFitter::CascadeFitter(const SceneDescription& description, const RenderSc
     const bool camera_turns = !description.camera.keyframes.empty() || description.camera.orbit != 0.0;
     const auto add = [&](const RenderBody& proxy, const Vec3& origin, const Quat& rotation, bool falls) {
         const Vec3 center = origin + rotation * proxy.bound_center;
-        if (hidden(planes, view.eye(), proxy, center, rotation)) return;
+        if (hidden_behind(planes, view.eye(), proxy, center, rotation)) return;
         const Vec3 landed = center + down * (falls ? landing.fall(center, down) : 0.0);
         for (const Vec3& p : {center, landed})
             if (camera_turns || view.sees_swept(view.relative(p), proxy.bound_radius, z_axis_))
@@ -213,7 +201,7 @@ ShadowCascades CascadeFitter::fit(const RenderScene& scene, const Snapshot& snap
         const BoundingBall ball = bounding_ball(proxy, snapshot.bodies[i], view);
         if (!view.sees_swept(ball.center, ball.radius, z_axis_)) continue;
         const Vec3 center = view.eye() + ball.center;
-        if (hidden(planes, view.eye(), proxy, center, snapshot.bodies[i].orientation)) continue;
+        if (hidden_behind(planes, view.eye(), proxy, center, snapshot.bodies[i].orientation)) continue;
         // beyond the largest far map: it casts no shadow, and would coarsen the others' texels and depths
         const double beyond = std::max(std::abs(x_axis_.dot(center) - low_x - 0.5 * size_),
                                        std::abs(y_axis_.dot(center) - low_y - 0.5 * size_)) -

@@ -12,59 +12,48 @@ constexpr int farthest_strip_rows =
 
 }  // namespace
 
-ShadowMap::ShadowMap(GlDevice& device, const std::filesystem::path& shaders, GLuint frame_block)
-    : gl_(&device.gl()),
-      program_(device.program(shaders, {"shadow.vert", "", {}})),
-      device_(&device),
-      shaders_(shaders),
-      frame_block_(frame_block),
-      texture_(*gl_, GlKind::texture),
-      framebuffer_(*gl_, GlKind::framebuffer),
-      empty_texture_(*gl_, GlKind::texture),
-      empty_framebuffer_(*gl_, GlKind::framebuffer) {
-    const GlFunctions& gl = *gl_;
-    program_.set_block("Frame", frame_block);
-    attach_depths(empty_framebuffer_, empty_texture_, shadow_map_texels, farthest_strip_rows);
-    gl.ClearDepth(1.0);
-    gl.Clear(GL_DEPTH_BUFFER_BIT);
-    attach_depths(framebuffer_, texture_, 2 * shadow_map_texels, shadow_map_texels);
+void attach_depths(const GlFunctions& gl, const GlObject& framebuffer, const GlObject& texture, int width, int height) {
+    gl.BindTexture(GL_TEXTURE_2D, texture.name());
+    gl.TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.name(), 0);
+    gl.DrawBuffer(GL_NONE);
+    gl.ReadBuffer(GL_NONE);
+    if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        throw RunError("the OpenGL driver refuses the shadow map; it may lack memory");
+}
+
+void compare_depths(const GlFunctions& gl) {
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_FUNC, GL_LEQUAL);
 }
 
-void ShadowMap::attach_depths(const GlObject& framebuffer, const GlObject& texture, int width, int height) const {
-    gl_->BindTexture(GL_TEXTURE_2D, texture.name());
-    gl_->TexImage2D(GL_TEXTURE_2D, 0, GL_DEPTH_COMPONENT32F, width, height, 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
-    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl_->TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
-    gl_->FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, texture.name(), 0);
-    gl_->DrawBuffer(GL_NONE);
-    gl_->ReadBuffer(GL_NONE);
-    if (gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-        throw RunError("the OpenGL driver refuses the shadow map; it may lack memory");
+ShadowMap::ShadowMap(GlDevice& device, const std::filesystem::path& shaders)
+    : gl_(&device.gl()),
+      programs_(device, shaders, {}),
+      texture_(*gl_, GlKind::texture),
+      framebuffer_(*gl_, GlKind::framebuffer),
+      empty_texture_(*gl_, GlKind::texture),
+      empty_framebuffer_(*gl_, GlKind::framebuffer) {
+    const GlFunctions& gl = *gl_;
+    attach_depths(gl, empty_framebuffer_, empty_texture_, shadow_map_texels, farthest_strip_rows);
+    gl.ClearDepth(1.0);
+    gl.Clear(GL_DEPTH_BUFFER_BIT);
+    attach_depths(gl, framebuffer_, texture_, 2 * shadow_map_texels, shadow_map_texels);
+    compare_depths(gl);
 }
 
 void ShadowMap::compile(const GpuMeshCache& meshes, const std::vector<Batch>& casters) const {
     if (casters.empty()) return;
     gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
-    program_.use();
+    programs_.solid().use();
     Batch one = casters.front();
     one.count = 1;
     meshes.draw(one);
-}
-
-const ShadowMap::Sieves& ShadowMap::sieves() const {
-    if (sieves_) return *sieves_;
-    const auto make = [&](std::vector<std::string> defines) {
-        const ShaderProgram& made = device_->program(shaders_, {"shadow.vert", "shadow.frag", std::move(defines)});
-        made.set_block("Frame", frame_block_);
-        made.set_sampler("mesh_texture", GLint(paint_unit));
-        return &made;
-    };
-    return sieves_.emplace(Sieves{make({"SIEVED"}), make({"SIEVED", "PAINTED"})});
 }
 
 // llvmpipe clears a part of a target by drawing it, at six times the cost of a copy.
@@ -89,17 +78,7 @@ void ShadowMap::draw(const GpuMeshCache& meshes, const std::vector<Batch>& caste
     for (int far = 0; far <= (with_far ? 1 : 0); ++far) {
         gl_->Viewport(far * shadow_map_texels, 0, shadow_map_texels, shadow_map_texels);
         gl_->Scissor(far * shadow_map_texels, 0, shadow_map_texels, shadow_map_texels);
-        const ShaderProgram* used = nullptr;
-        for (const Batch& batch : casters) {
-            const bool sieved = (batch.features & surface_feature::sieved) != 0;
-            const ShaderProgram* program = !sieved ? &program_ : batch.painted ? sieves().painted : sieves().plain;
-            if (program != used) {
-                program->use();
-                gl_->Uniform1i(program->uniform("far_map"), far);
-                used = program;
-            }
-            meshes.draw(batch);
-        }
+        programs_.draw(meshes, casters, far);
     }
     gl_->Disable(GL_SCISSOR_TEST);
 }

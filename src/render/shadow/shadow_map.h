@@ -5,16 +5,21 @@
 #include "render/gl/gl_device.h"
 #include "render/gl/gl_object.h"
 #include "render/mesh/gpu_mesh_cache.h"
+#include "render/shadow/caster_programs.h"
 #include "render/shadow/shadow_cascades.h"
 
 #include <filesystem>
-#include <optional>
 
 namespace tumble {
 
+/// Makes a texture of depths, bound from then on, and draws into it. Throws RunError.
+void attach_depths(const GlFunctions& gl, const GlObject& framebuffer, const GlObject& texture, int width, int height);
+/// Lookups in the bound texture compare.
+void compare_depths(const GlFunctions& gl);
+
 class ShadowMap {
 public:
-    ShadowMap(GlDevice& device, const std::filesystem::path& shaders, GLuint frame_block);
+    ShadowMap(GlDevice& device, const std::filesystem::path& shaders);
 
     /// Clears these parts of the texture and draws the casters, which must be all that touch them, into the near map
     /// and the far one, if there is one.
@@ -27,20 +32,10 @@ public:
     GLuint texture() const { return texture_.name(); }
 
 private:
-    void attach_depths(const GlObject& framebuffer, const GlObject& texture, int width, int height) const;
     void empty(const std::vector<Rectangle>& parts) const;
 
     const GlFunctions* gl_;
-    const ShaderProgram& program_;
-    struct Sieves {
-        const ShaderProgram *plain, *painted;
-    };
-    const Sieves& sieves() const;
-
-    GlDevice* device_;
-    std::filesystem::path shaders_;
-    GLuint frame_block_;
-    mutable std::optional<Sieves> sieves_;  // of casters that light passes in part; made at their first use
+    CasterPrograms programs_;
     GlObject texture_, framebuffer_;
     GlObject empty_texture_,
         empty_framebuffer_;  // a strip of farthest depths, copied over the parts of a map to redraw

@@ -88,6 +88,23 @@ double duration_in_file(const TomlTable& root) {
 
 constexpr double longest_fitted = 60.0;  // s; of a motion that lasts longer, the default camera shows this much
 
+std::optional<DepthOfField> read_lens(const TomlTable& camera, const SceneDescription& scene) {
+    const auto given = camera.find("dof");
+    if (!given) return std::nullopt;
+    TomlTable table = given->table();
+    table.set_title("dof");
+    auto lens = read_all_fields<DepthOfField>(table);
+    const TomlValue focus = table.require("focus");
+    if (!focus.is_text()) {
+        lens.focus = focus.number(limits::focus);
+        if (lens.focus < lens.aperture) focus.fail("must be at least the aperture: a lens sees nothing so near sharp");
+        return lens;
+    }
+    lens.body = BodyIndex(scene.bodies).find(focus);
+    if (endless(scene.bodies[*lens.body].shape)) focus.fail("must not be a plane, which has no center");
+    return lens;
+}
+
 /// A camera of the file; without its table the default one.
 CameraDescription read_one(const std::optional<TomlTable>& table, const SceneDescription& scene, double duration) {
     CameraDescription lens;
@@ -103,6 +120,7 @@ CameraDescription read_one(const std::optional<TomlTable>& table, const SceneDes
     CameraDescription camera = lens;
     // a camera that follows a body needs no view of the whole throw
     if (!given.eye || !given.target) camera = default_camera(scene, lens, table->find("follow") ? 0.0 : duration);
+    camera.dof = read_lens(*table, scene);
     read_follow(*table, scene, camera);
     read_place(*table, camera, given);
     if (table->find("fit") && given.eye && given.target)

@@ -101,6 +101,15 @@ struct CameraKeyframe {
 /// The motion that a camera without an eye or a target of its own shows: the simulated one, or a guess from the start.
 enum class CameraFit { motion, start };
 
+/// A lens that is wider than a point: sharp at the distance of its focus only.
+struct DepthOfField {
+    double aperture = 0.0;            // m, the diameter of the lens
+    double focus = 0.0;               // m, from the eye along the view
+    std::optional<std::size_t> body;  // index into bodies: instead, the distance of its center of mass
+    int samples = 16;                 // points of the lens that a frame is the mean of
+    bool operator==(const DepthOfField&) const = default;
+};
+
 struct CameraShot;
 
 /// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
@@ -117,6 +126,7 @@ struct CameraDescription {
     CameraFit fit = CameraFit::motion;
     bool own_eye = false, own_target = false;  // given, not chosen
     double fitted_time = 0.0;                  // s: the duration in the file
+    std::optional<DepthOfField> dof;           // empty: a pinhole
     std::vector<CameraShot> shots;             // in which other cameras take its place, by their start
 
     /// True if the simulated motion decides its place (framing/motion_camera.h). Until then it shows the start.
@@ -154,7 +164,7 @@ struct LampDescription {
     Color color = daylight;
     double intensity = 1.0;  // 1: the light of [light]; of a point or spot at a distance of 1 m
     double angle = 45.0;     // degrees, of the whole cone of a spot
-    bool shadows = false;    // of one sun
+    bool shadows = false;    // of two at most: suns and spots
 };
 
 /// A uniform wind and the moving air: F = 1/2 density drag A |w - v| (w - v) at the center of mass, where A is the

@@ -11,12 +11,22 @@
 
 namespace tumble {
 
-/// The index of the sun that has shadows, or else of the first sun: the LightDescription of the scene. Empty: none.
+/// The index of the first sun that has shadows, or else of the first sun: the LightDescription of the scene. Empty:
+/// none.
 inline std::optional<std::size_t> main_sun(const std::vector<LampDescription>& lamps) {
-    auto found = std::ranges::find(lamps, true, &LampDescription::shadows);
-    if (found == lamps.end()) found = std::ranges::find(lamps, LightType::sun, &LampDescription::type);
+    const auto is_sun = [](const LampDescription& lamp) { return lamp.type == LightType::sun; };
+    auto found = std::ranges::find_if(lamps, [&](const LampDescription& lamp) { return is_sun(lamp) && lamp.shadows; });
+    if (found == lamps.end()) found = std::ranges::find_if(lamps, is_sun);
     if (found == lamps.end()) return std::nullopt;
     return std::size_t(found - lamps.begin());
+}
+
+/// The index of the light that throws the shadows of shaders/lamp_shadow.glsl; those of the main sun are apart.
+inline std::optional<std::size_t> second_shadow(const std::vector<LampDescription>& lamps) {
+    const std::optional<std::size_t> sun = main_sun(lamps);
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+        if (lamps[i].shadows && i != sun) return i;
+    return std::nullopt;
 }
 
 /// Irradiance over pi, linear: of a sun anywhere, of another light at a distance of 1 m. Suns of [light] have that of

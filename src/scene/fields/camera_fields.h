@@ -17,6 +17,14 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
            "half a turn"});
     field(self.vertical_fov, "vertical_fov", limits::field_of_view,
           {"the angle between the top and the bottom of the frame"});
+    if constexpr (requires { self.dof; }) {  // not in the C++ interface
+        field(self.dof, "dof", ByCode(),
+              {.text = "a [lens](#depth-of-field): what is nearer or farther than its focus is blurred",
+               .standard = "none: all is sharp",
+               .type = "table",
+               .picture = true,
+               .later = true});
+    }
     field.section("motion");
     field(self.keyframes, "keyframes", ByCode(),
           {"positions at given times; constant before the first and after the last", "none", {}, "array of tables"});
@@ -38,6 +46,17 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
         field.since(self.fits_motion(), self.own_eye, self.own_target, self.fitted_time);
         field.since(!self.shots.empty(), self.shots);
     }
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<DepthOfField>, Visitor& field, Self& self) {
+    field(self.aperture, "aperture", Required(limits::aperture), {"the diameter of the lens"});
+    field.key("focus", {"the distance that is sharp, from the eye along the view; or the name of a body, whose center "
+                        "of mass is sharp",
+                        "required", "above 0, to 1e9", "number, m; or string"});
+    field.inner(self.focus, self.body);
+    field(self.samples, "samples", Whole{4, limits::lens_samples},
+          {"the points of the lens; a frame is the mean of that many images, and takes that much longer"});
 }
 
 template <class Visitor, class Self>

@@ -172,6 +172,8 @@ void check_frame_count(const TimeRequest& time, double duration, double fps) {
                         blame_fps ? fps_text(fps) : number_text(duration)));
 }
 
+constexpr std::size_t most_shadows = 2;  // lights
+
 LampDescription read_lamp(const TomlTable& table) {
     LampDescription lamp = read_all_fields<LampDescription>(table);
     const bool sun = lamp.type == LightType::sun, spot = lamp.type == LightType::spot;
@@ -183,10 +185,10 @@ LampDescription read_lamp(const TomlTable& table) {
     if (!spot) refuse("angle", "drop it, or give type = \"spot\"");
     if (!sun && !spot) refuse("direction", "drop it, or give type = \"spot\"");
     if (!sun) table.require("position");
-    if (!sun && lamp.shadows)
+    if (!sun && !spot && lamp.shadows)
         table.find("shadows")->fail(
-            fmt::format("is only for suns: a {} light has no shadows; drop the key, and give shadows to a sun",
-                        name_of(lamp.type)));
+            "is for suns and spots: the shadows of a point light would take six maps, 36 ms of a frame of 1280 x 720; "
+            "drop the key, or give type = \"spot\"");
     lamp.direction.normalize();
     return lamp;
 }
@@ -216,7 +218,8 @@ void read_lights(const TomlTable& root, SceneDescription& scene) {
         scene.light = read_all_fields<LightDescription>(*root.find_table("light"));
         return;
     }
-    std::optional<std::size_t> with_shadows, first_sun;
+    std::optional<std::size_t> first_sun;
+    std::size_t with_shadows = 0;
     for (TomlTable& table : given->tables("; write [[light]] for each")) {
         table.set_title("[[light]]");
         scene.lamps.push_back(read_lamp(table));
@@ -224,17 +227,15 @@ void read_lights(const TomlTable& root, SceneDescription& scene) {
         if (std::int64_t(at) == limits::lamps)
             table.origin().fail(fmt::format("is one too many: a scene has {} lights at most", limits::lamps));
         if (scene.lamps[at].type == LightType::sun && !first_sun && !table.has("shadows")) first_sun = at;
-        if (!scene.lamps[at].shadows) continue;
-        if (with_shadows)
+        if (scene.lamps[at].shadows && ++with_shadows > most_shadows)
             table.find("shadows")->fail(
-                "is on for a light already: each shadow map would cost 6 ms of a frame of 1280 x 720, and there is "
-                "one; "
+                "is on for two lights already: each shadow map costs 6 ms of a frame of 1280 x 720, and there are two; "
                 "give shadows = false here or there");
-        with_shadows = at;
     }
-    if (!with_shadows && first_sun) scene.lamps[*(with_shadows = first_sun)].shadows = true;
-    if (const auto sun = main_sun(scene.lamps)) scene.light.direction = scene.lamps[*sun].direction;
-    scene.light.shadows = with_shadows.has_value();
+    if (with_shadows == 0 && first_sun) scene.lamps[*first_sun].shadows = true;
+    const auto sun = main_sun(scene.lamps);
+    if (sun) scene.light.direction = scene.lamps[*sun].direction;
+    scene.light.shadows = sun && scene.lamps[*sun].shadows;
 }
 
 PairRules read_contact(const TomlTable& root) {

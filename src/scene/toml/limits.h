@@ -111,6 +111,9 @@ inline constexpr std::int64_t lamps = 4;                 // each has its values 
 inline constexpr Range light{0.0, 1e6, ""};              // a point of 1e6 is as bright as the sun at a distance of 1 km
 inline constexpr Range environment_light{0.0, 1e4, ""};  // factor on light: the sun has 1
 inline constexpr Range cone_angle{1.0, 170.0, "degrees"};
+inline constexpr Range aperture{0.0, 1e9, "m", true};  // of a lens; 0 is a pinhole
+inline constexpr Range focus{0.0, 1e9, "m", true};
+inline constexpr std::int64_t lens_samples = 256;  // images a frame: at least 4, and sums of transparent ones fit
 inline constexpr Range exposure{-20.0, 20.0, "stops"};
 
 // -- Overlays
