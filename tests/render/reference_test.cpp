@@ -1,0 +1,51 @@
+// Small pictures against what they should be: the mean of 64 samples a pixel (picture_reference measures large ones).
+#include "accumulated.h"
+#include "example_scenes.h"
+
+#include "render/renderer.h"
+#include "scene/load.h"
+
+#include <gtest/gtest.h>
+
+namespace tumble::reference_test {
+namespace {
+
+void expect_like_reference(SceneDescription scene, double flip, int above_32, int above_64) {
+    scene.output.width = 320;
+    scene.output.height = 180;
+    const Snapshot snapshot = first_snapshot(scene);
+    const Unlikeness found = unlikeness(accumulated(scene, snapshot, 8), Renderer(scene).render(snapshot));
+    EXPECT_LT(found.mean_flip, flip) << scene.file;
+    EXPECT_LE(found.above[1], above_32) << scene.file << ": pixels that differ by more than 32 levels";
+    EXPECT_LE(found.above[2], above_64) << scene.file << ": pixels that differ by more than 64 levels";
+}
+
+TEST(Reference, IsLikeWhiteBodiesOnPlainGround) {
+    expect_like_reference(parse_scene(R"(format = 1
+[[body]]
+type = "fixed"
+shape = { type = "plane" }
+[[body]]
+shape = { type = "sphere", radius = 1 }
+position = [0, 1, 0]
+pattern = "plain"
+color = "#ffffff"
+[[body]]
+shape = { type = "box", size = [1, 1, 1] }
+position = [2, 0.5, 0]
+pattern = "plain"
+color = "#ffffff"
+)",
+                                      "white.toml"),
+                          0.02, 0, 0);
+}
+
+// Their small bodies have edges that are nearer to each other than pixels.
+TEST(Reference, IsLikeDemoScenes) {
+    for (const char* name : {"bouncing_balls", "tower_hit", "turntable"})
+        expect_like_reference(load_scene(std::string(TUMBLE_SOURCE_DIR "/assets/scenes/") + name + ".toml"), 0.02, 80,
+                              10);
+}
+
+}  // namespace
+}  // namespace tumble::reference_test
