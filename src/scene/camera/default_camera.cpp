@@ -211,7 +211,9 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
 double side_of(const Mat3& paths, const Vec3& up) {
     const auto [level_right, level_front] = level_axes(up);
     const double whole = level_right.dot(paths * level_right) + level_front.dot(paths * level_front);
-    const auto seen = [&](double to_the_right) {  // part of the level paths' length, squared
+    // clang 14 captures structured bindings only as copies.
+    const auto seen = [&, level_right = level_right,
+                       level_front = level_front](double to_the_right) {  // part of the level paths' length, squared
         const SinCos a = sincos(to_the_right * degrees);
         const Vec3 right = a.cos * level_right - a.sin * level_front;
         return right.dot(paths * right) / whole;
