@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -49,10 +50,15 @@ struct SimulationSettings {
     std::uint64_t seed = 1;  // below 2^63
 };
 
+/// From linear light to the screen.
+enum class ToneCurve { filmic, linear };
+
 struct OutputSettings {
-    int width = 1280, height = 720;  // pixels
-    double fps = 60.0;               // frames per second; 24000.0 / 1001.0 is exact in clips
-    int samples = 4;                 // per pixel: 1, 2 or 4
+    int width = 1280, height = 720;       // pixels
+    double fps = 60.0;                    // frames per second; 24000.0 / 1001.0 is exact in clips
+    int samples = 4;                      // per pixel: 1, 2 or 4
+    std::optional<double> exposure = {};  // stops, a factor of two each on all light; 0 where not given
+    std::optional<ToneCurve> tone = {};   // filmic where not given
 };
 
 enum class CameraFit { motion, start };
@@ -72,11 +78,56 @@ struct Camera {
     double orbit = 0.0;                                   // degrees/s about the target
     std::string follow;                                   // the name of a body; empty: none
     CameraFit fit = CameraFit::motion;                    // which motion a camera without eye or target shows
+    std::optional<double> follow_time = {};               // s, in which it comes up with that body
+};
+
+/// A span of time in which a clip is seen by one of SceneSpec::cameras.
+struct Shot {
+    std::string camera;                                    // its name
+    double start = 0.0;                                    // s
+    double end = std::numeric_limits<double>::infinity();  // s; infinity: the next shot, or the end of the clip
+    double move = 0.0;                                     // s, in which the view goes over from the one before
+};
+
+enum class SpeedEasing { smooth, linear, step };
+
+/// The speed of a clip, as seconds of the scene's motion in a second of the clip.
+struct Speed {
+    double time = 0.0;                         // s; later than that of the one before. With an impact: after it
+    std::array<std::string, 2> impact = {};    // the names of two bodies; empty: at that time of the scene
+    double factor = 1.0;                       // 0.25 is slow motion
+    double hold = 0.0;                         // s of the clip in which the motion stands still
+    SpeedEasing easing = SpeedEasing::smooth;  // up to the next one
 };
 
 struct Light {
     Vec3 direction{-0.4, -1.0, -0.3};  // in which the light travels; its length is ignored
     bool shadows = true;
+};
+
+enum class LightType { sun, point, spot };
+
+/// One of several lights.
+struct Lamp {
+    LightType type = LightType::sun;
+    std::optional<Vec3> direction = {};  // in which the light of a sun or spot travels
+    std::optional<Vec3> position = {};   // m, of a point or spot
+    Color color{0xff, 0xf7, 0xe9};
+    double intensity = 1.0;            // 1: that of Light; of a point or spot at a distance of 1 m
+    std::optional<double> angle = {};  // degrees, of the whole cone of a spot
+    std::optional<bool> shadows = {};  // of one sun; of the first one where no light says so
+};
+
+/// Light from all sides, and the background.
+struct Environment {
+    std::string preset;      // "studio", "overcast" or "dusk"; empty: none
+    std::string image;       // .hdr, PNG or JPEG file, relative to SceneSpec::folder
+    std::string background;  // "sky", "image" or a color, "#rrggbb"; empty: of the preset or the image
+    std::optional<std::array<Color, 2>> gradient;  // in its place: of the horizon and straight up
+    std::optional<double> rotation;                // degrees about y
+    std::optional<double> intensity;               // factor on the light of the image
+    std::optional<double> blur;                    // of the image as background, 0 to 1
+    bool ground_shadow = false;                    // planes show shadows only
 };
 
 struct Wind {
@@ -289,6 +340,47 @@ struct Force {
     double end = std::numeric_limits<double>::infinity();  // s
 };
 
+enum class FieldType { uniform, point, vortex, drag };
+
+/// Where a field acts: on bodies whose center of mass is inside. A box or a ball.
+struct FieldRegion {
+    std::optional<Vec3> box;       // m, edge lengths
+    std::optional<double> sphere;  // m, radius
+    Vec3 center;                   // m
+};
+
+/// A force that depends on the place of a body. Which values it has depends on its type.
+struct Field {
+    FieldType type = FieldType::uniform;
+    std::optional<Vec3> acceleration = {};                 // m/s^2: uniform
+    std::optional<Vec3> center = {};                       // m: point, vortex
+    std::optional<Vec3> axis = {};                         // vortex
+    std::optional<double> strength = {};                   // m^3/s^2; m^2/s^2 of a vortex
+    std::optional<double> softening = {};                  // m: point, vortex
+    std::optional<Vec3> velocity = {};                     // m/s, of the medium: drag
+    std::optional<double> linear = {};                     // N s/m: drag
+    std::optional<double> quadratic = {};                  // N s^2/m^2: drag
+    std::optional<FieldRegion> region = {};                // everywhere where not given
+    double start = 0.0;                                    // s
+    double end = std::numeric_limits<double>::infinity();  // s
+};
+
+enum class PairForceType { gravity, coulomb, spring, inverse_square };
+
+/// A force between each two of the bodies.
+struct PairForce {
+    PairForceType type = PairForceType::gravity;
+    std::vector<std::string> bodies;                       // two or more
+    std::optional<double> strength = {};                   // not of springs; that of nature where not given
+    std::optional<double> softening = {};                  // m; not of springs
+    std::vector<double> charges = {};                      // C, one of each body: coulomb
+    std::optional<double> stiffness = {};                  // N/m: spring
+    std::optional<double> damping = {};                    // N s/m: spring
+    std::optional<double> length = {};                     // m: spring
+    double start = 0.0;                                    // s
+    double end = std::numeric_limits<double>::infinity();  // s
+};
+
 /// A cosmetic rope from a fixed point to a point of a body, or between the anchors of a joint.
 struct Cord {
     std::string body;      // its name, or its index as text
@@ -311,6 +403,13 @@ struct SceneSpec {
     std::vector<Joint> joints;
     std::vector<Force> forces;
     std::vector<Cord> cords;
+    std::vector<Lamp> lights = {};  // in place of `light`, if there are any
+    std::optional<Environment> environment = {};
+    std::vector<Field> fields = {};
+    std::vector<PairForce> pair_forces = {};
+    std::vector<Speed> speed = {};               // of clips
+    std::map<std::string, Camera> cameras = {};  // by name, for shots
+    std::vector<Shot> shots = {};
     std::string folder;                 // where relative mesh files start; empty: the current folder
     bool allow_import_process = false;  // for mesh files other than OBJ, STL, PLY and glTF: see load_scene()
 

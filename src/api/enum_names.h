@@ -47,6 +47,11 @@ TUMBLE_DESCRIBED(MassFrom, MassFrom);
 TUMBLE_DESCRIBED(PairRule, PairRule);
 TUMBLE_DESCRIBED(Interpolation, Interpolation);
 TUMBLE_DESCRIBED(CameraFit, CameraFit);
+TUMBLE_DESCRIBED(ToneCurve, ToneCurve);
+TUMBLE_DESCRIBED(SpeedEasing, SpeedEasing);
+TUMBLE_DESCRIBED(LightType, LightType);
+TUMBLE_DESCRIBED(FieldType, FieldKind);
+TUMBLE_DESCRIBED(PairForceType, PairForceKind);
 TUMBLE_DESCRIBED(JointType, JointType);
 TUMBLE_DESCRIBED(JointFrame, JointFrame);
 #undef TUMBLE_DESCRIBED

@@ -117,7 +117,7 @@ const std::unordered_map<std::string_view, std::size_t>& SceneData::names() cons
 
 const SceneDescription& SceneData::drawn() const {
     std::call_once(framed_, [&] {
-        drawn_ = description->camera.any_fits_motion()
+        drawn_ = description->camera.any_fits_motion() || description->camera.any_lags()
                      ? std::make_shared<const SceneDescription>(framed(*description, 1))
                      : description;
     });

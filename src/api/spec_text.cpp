@@ -2,12 +2,15 @@
 
 #include "scene/fields/body_fields.h"
 #include "scene/fields/camera_fields.h"
+#include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/fields/speed_fields.h"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <limits>
 #include <string_view>
 #include <unordered_map>
 
@@ -23,14 +26,24 @@ public:
         if (!spec.title.empty()) set("title", spec.title);
         write(spec.simulation);
         write(spec.output);
-        write(spec.camera);
-        header("[light]", "light");
-        write_fields<LightDescription>(*this, spec.light);
+        header("[camera]", "camera");
+        write(spec.camera, "camera", "camera");
+        for (const auto& [name, camera] : spec.cameras) {
+            const std::string table = "cameras." + text_of(name), path = fmt::format("cameras[{}]", text_of(name));
+            header(fmt::format("[{}]", table), path);
+            write(camera, table, path);
+        }
+        for (std::size_t i = 0; i < spec.shots.size(); ++i) write(spec.shots[i], i);
+        for (std::size_t i = 0; i < spec.speed.size(); ++i) write(spec.speed[i], i);
+        write_lights(spec);
+        if (spec.environment) write(*spec.environment);
         if (spec.wind) write(*spec.wind);
         write(spec.contact);
         for (std::size_t i = 0; i < spec.bodies.size(); ++i) write(spec.bodies[i], i);
         for (std::size_t i = 0; i < spec.joints.size(); ++i) write_joint(spec.joints[i], i, *this);
         for (std::size_t i = 0; i < spec.forces.size(); ++i) write(spec.forces[i], i);
+        for (std::size_t i = 0; i < spec.fields.size(); ++i) write(spec.fields[i], i);
+        for (std::size_t i = 0; i < spec.pair_forces.size(); ++i) write(spec.pair_forces[i], i);
         for (std::size_t i = 0; i < spec.cords.size(); ++i) write(spec.cords[i], i);
     }
 
@@ -55,13 +68,83 @@ private:
         write_fields<tumble::OutputSettings>(*this, o);
     }
 
-    void write(const Camera& c) {
-        header("[camera]", "camera");
+    void write(const Camera& c, const std::string& table, const std::string& path) {
         write_fields<CameraDescription>(*this, c, true);
         for (std::size_t i = 0; i < c.keyframes.size(); ++i) {
-            header("[[camera.keyframes]]", fmt::format("camera.keyframes[{}]", i));
+            header(fmt::format("[[{}.keyframes]]", table), fmt::format("{}.keyframes[{}]", path, i));
             write_fields<tumble::CameraKeyframe>(*this, c.keyframes[i]);
         }
+    }
+
+    void write(const Shot& s, std::size_t i) {
+        header("[[shot]]", fmt::format("shots[{}]", i));
+        set("camera", s.camera);
+        value("from", "start", text_of(s.start));
+        if (s.end != std::numeric_limits<double>::infinity()) value("to", "end", text_of(s.end));
+        set("move", s.move);
+    }
+
+    void write(const Speed& s, std::size_t i) {
+        header("[[speed]]", fmt::format("speed[{}]", i));
+        if (s.impact[0].empty() && s.impact[1].empty()) {
+            set("time", s.time);
+        } else {
+            value("time", "impact", text_of(fmt::format("impact:{},{}", s.impact[0], s.impact[1])));
+            value("after", "time", text_of(s.time));
+        }
+        set("factor", s.factor);
+        set("hold", s.hold);
+        set("easing", s.easing);
+    }
+
+    void write_lights(const SceneSpec& spec) {
+        if (spec.lights.empty()) {
+            header("[light]", "light");
+            write_fields<LightDescription>(*this, spec.light);
+        }
+        for (std::size_t i = 0; i < spec.lights.size(); ++i) {
+            header("[[light]]", fmt::format("lights[{}]", i));
+            write_fields<LampDescription>(*this, spec.lights[i]);
+        }
+    }
+
+    void write(const Environment& e) {
+        header("[environment]", "environment");
+        if (!e.preset.empty()) set("preset", e.preset);
+        if (!e.image.empty()) set("image", e.image);
+        if (!e.background.empty()) set("background", e.background);
+        if (e.gradient) value("background", "gradient", text_of(*e.gradient));
+        write_fields<EnvironmentDescription>(*this, e, true);
+    }
+
+    void write_span(double start, double end) {
+        const bool ends = end != std::numeric_limits<double>::infinity();
+        if (start == 0.0 && !ends) return;
+        line("enabled = [", prefix(), "start");  // a line for each, so that an error names the right one
+        line(fmt::format("    {},", text_of(start)), prefix(), "start");
+        if (ends) line(fmt::format("    {},", text_of(end)), prefix(), "end");
+        line("]", prefix(), "end");
+    }
+
+    void write(const Field& f, std::size_t i) {
+        const std::string path = fmt::format("fields[{}]", i);
+        header("[[field]]", path);
+        write_fields<FieldDescription>(*this, f, true);
+        write_span(f.start, f.end);
+        if (!f.region) return;
+        header("[field.region]", path + ".region");
+        write_fields<tumble::FieldRegion>(*this, *f.region, true);
+    }
+
+    void write(const PairForce& f, std::size_t i) {
+        header("[[pair_force]]", fmt::format("pair_forces[{}]", i));
+        write_fields<PairForceDescription>(*this, f, true);
+        if (!f.charges.empty()) {
+            std::string charges;
+            for (const double charge : f.charges) charges += (charges.empty() ? "" : ", ") + text_of(charge);
+            value("charges", "charges", "[" + charges + "]");
+        }
+        write_span(f.start, f.end);
     }
 
     void write(const PairRules& c) {

@@ -8,6 +8,7 @@
 #include "scene/keys/forces_and_cords.h"
 #include "scene/keys/instances.h"
 #include "scene/keys/joints.h"
+#include "scene/keys/labels.h"
 #include "scene/keys/materials.h"
 #include "scene/keys/matter.h"
 #include "scene/keys/overlay.h"
@@ -61,9 +62,10 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format",      "title", "simulation", "output",     "camera", "cameras", "shot",    "light",
-                      "environment", "wind",  "contact",    "materials",  "body",   "joint",   "chain",   "template",
-                      "instance",    "force", "field",      "pair_force", "cord",   "overlay", "caption", "speed"});
+    root.expect_keys({"format",  "title",       "simulation", "output",  "camera",    "cameras",    "shot",
+                      "light",   "environment", "wind",       "contact", "materials", "body",       "joint",
+                      "chain",   "template",    "instance",   "force",   "field",     "pair_force", "cord",
+                      "overlay", "caption",     "speed",      "label",   "logo",      "inset"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -78,6 +80,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     TextureFiles textures;
     const std::filesystem::path folder = file.parent_path();
     const Materials materials = read_materials(root, {folder, textures});
+    std::optional<LogoDescription> logo = read_logo(root, {folder, textures});
     const BodySources sources{materials, folder, scene.simulation, meshes, textures, files};
     scene.bodies = read_bodies(root, sources);
     const SceneTemplates templates = read_templates(root, sources);
@@ -101,6 +104,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     add_cords_of_joints(scene);
     scene.camera = read_camera(root, scene, overrides.camera);
     scene.overlay = read_overlay(root, scene.bodies, overrides);
+    read_labels(root, std::move(logo), overrides, scene);
     read_speed(root, scene);
     return scene;
 }

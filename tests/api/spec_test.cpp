@@ -90,6 +90,72 @@ TEST(Spec, MovesLikeTheFileWithTheSameValues) {
     EXPECT_EQ(loaded.files().size(), 3u);
 }
 
+/// Lights, place, direction, and forces at a distance.
+SceneSpec everything_directed() {
+    SceneSpec spec = crate_and_ball();
+    spec.bodies[2].name = "ball";
+    spec.output.exposure = 0.5;
+    spec.output.tone = ToneCurve::linear;
+    spec.camera.follow = "crate";
+    spec.camera.follow_time = 0.25;
+    spec.lights.emplace_back();
+    spec.lights[0].direction = Vec3{0.2, -1.0, 0.1};
+    spec.lights.emplace_back();
+    spec.lights[1].type = LightType::spot;
+    spec.lights[1].position = Vec3{1.0, 4.0, 1.0};
+    spec.lights[1].angle = 50.0;
+    spec.environment = Environment{};
+    spec.environment->preset = "dusk";
+    spec.environment->gradient = {Color{10, 20, 30}, Color{40, 50, 60}};
+    spec.environment->blur = 0.3;
+    spec.fields.emplace_back();
+    spec.fields[0].acceleration = Vec3{1.0, 0.0, 0.0};
+    spec.fields[0].region = FieldRegion{Vec3{9.0, 9.0, 9.0}, {}, {0.0, 2.0, 0.0}};
+    spec.fields[0].start = 0.1;
+    spec.fields.emplace_back();
+    spec.fields[1].type = FieldType::drag;
+    spec.fields[1].linear = 0.5;
+    spec.pair_forces.emplace_back();
+    spec.pair_forces[0].type = PairForceType::coulomb;
+    spec.pair_forces[0].bodies = {"crate", "ball"};
+    spec.pair_forces[0].charges = {1e-3, -2e-3};
+    spec.pair_forces[0].end = 1.0;
+    spec.speed.push_back({0.1, {"crate", "0"}, 0.5, 0.2, SpeedEasing::linear});
+    spec.cameras["from above"].eye = Vec3{0.0, 9.0, 0.1};
+    spec.cameras["from above"].keyframes = {{0.0, {}, {}, 30.0}, {1.0, {}, {}, 40.0}};
+    spec.shots.push_back({"from above", 0.5, 1.5, 0.25});
+    return spec;
+}
+
+TEST(Spec, HasLightsDirectionAndForcesOfTheFile) {
+    const SceneSpec spec = everything_directed();
+    const TestFolder folder;
+    const std::string file = folder / "scene.toml";
+    write_text(file, to_toml(spec));
+    const Scene built(spec), loaded = load_scene(file);
+    EXPECT_TRUE(same(after(built, 12), after(loaded, 12)));
+    EXPECT_FALSE(same(after(built, 12), after(Scene(crate_and_ball()), 12)));
+    EXPECT_EQ(Renderer(built).render(after(built, 8)), Renderer(loaded).render(after(loaded, 8)));
+    const auto blamed = [](const auto& change) {
+        SceneSpec wrong = everything_directed();
+        change(wrong);
+        try {
+            Scene scene(wrong);
+        } catch (const Error& error) {
+            return error.where().element;
+        }
+        return std::string();
+    };
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.lights[1].angle = 500.0; }), "lights[1].angle");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.fields[1].linear = -1.0; }), "fields[1].linear");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.pair_forces[0].bodies[1] = "bal"; }), "pair_forces[0].bodies");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.speed[0].factor = 0.0; }), "speed[0].factor");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.shots[0].camera = "top"; }), "shots[0].camera");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.cameras["from above"].vertical_fov = 0.0; }),
+              "cameras[\"from above\"].vertical_fov");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.environment->preset = "noon"; }), "environment.preset");
+}
+
 /// Bodies joined by each type of joint, with every field at least once.
 SceneSpec everything_joined() {
     SceneSpec spec = crate_and_ball();

@@ -5,6 +5,7 @@
 #include "scene/fields/camera_fields.h"
 #include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
+#include "scene/fields/label_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
 #include "scene/fields/speed_fields.h"
@@ -19,6 +20,7 @@ void for_all_fields(auto&& use) {
     use.template operator()<DepthOfField>("dof");
     use.template operator()<CameraKeyframe>("camera keyframe");
     use.template operator()<CameraShot>("shot");
+    use.template operator()<CameraInset>("inset");
     use.template operator()<LightDescription>("light");
     use.template operator()<LampDescription>("one of several lights");
     use.template operator()<EnvironmentDescription>("environment");
@@ -39,6 +41,8 @@ void for_all_fields(auto&& use) {
     use.template operator()<OverlayDescription>("overlay");
     use.template operator()<TrailPoint>("trail point");
     use.template operator()<Caption>("caption");
+    use.template operator()<LabelDescription>("label");
+    use.template operator()<LogoDescription>("logo");
     use.template operator()<JointDescription>("joint");
     use.template operator()<JointAxis>("joint coordinate");
     use.template operator()<JointSpring>("spring");

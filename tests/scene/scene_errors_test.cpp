@@ -191,6 +191,7 @@ TEST(SceneErrors, OfThePicture) {
         {"format = 1\n[camera]\norbit = @1e7", "orbit must be from -1000000 to 1000000 degrees/s (given 10000000)"},
         {"format = 1\n[camera]\norbit = @\"fast\"", "orbit must be a number"},
         {"format = 1\n[camera]\ninterpolation = @\"linear\"", "is for a camera with keyframes"},
+        {"format = 1\n[camera]\nfollow_time = @0.5", "is for a camera that follows a body"},
         {"format = 1\n[camera]\nkeyframes = @[]", "must hold at least one keyframe"},
         {"format = 1\n[camera]\nkeyframes = [{ time = 1 }, { time = @1 }]",
          "must come after the keyframe before, at 1 s"},

@@ -40,8 +40,8 @@ struct Coverage : FieldVisitor {
 /// GCC 12 takes some padding of two large structs for members: their members are counted. 0: any number.
 constexpr std::size_t number_of_members(const auto&) { return 0; }
 std::size_t number_of_members(const OverlayDescription& overlay) {
-    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p] = overlay;
-    return 16;
+    [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r] = overlay;
+    return 18;
 }
 std::size_t number_of_members(const JointDescription& joint) {
     [[maybe_unused]] const auto& [a, b, c, d, e, f, g, h, i, j, k, l, m, n, o, p, q, r, s, t, u, v, w, x] = joint;

@@ -184,6 +184,30 @@ camera = "side"
 from = 0.5
 to = 1.5
 move = 0.25
+[[inset]]
+camera = "side"
+corner = "top-left"
+size = 0.2
+margin = 0.05
+border = 3
+border_color = "#102030"
+from = 0.25
+to = 1.25
+[[label]]
+text = "{name}: {speed:.1f} m/s"
+body = "ball"
+offset = [0, 1, 0]
+size = 18
+color = "#ffe080"
+leader = false
+from = 0.125
+to = 1.75
+[logo]
+image = "../../tests/fuzz/corpus/texture/rgb.png"
+corner = "bottom-left"
+width = 0.1
+margin = 0.02
+opacity = 0.75
 [[speed]]
 time = 0.5
 factor = 0.5
@@ -227,6 +251,12 @@ const std::vector<std::vector<Change>> own_tables = {
      {"caption", "", "[[caption]]", "[[caption]]\ntext = \"\"\n[[caption]]", false},
      {"cameras", "[cameras.side]", "eye = [9, 1, 1]", "eye = [9, 1, 2]", false},
      {"shot", "", "[[shot]]\ncamera = \"side\"\nfrom = 0.5\nto = 1.5\nmove = 0.25\n", "", false},
+     {"inset", "",
+      "[[inset]]\ncamera = \"side\"\ncorner = \"top-left\"\nsize = 0.2\nmargin = 0.05\nborder = 3\n"
+      "border_color = \"#102030\"\nfrom = 0.25\nto = 1.25\n",
+      "", false},
+     {"label", "", "[[label]]", "[[label]]\nbody = \"ball\"\ntext = \"\"\n[[label]]", false},
+     {"logo", "[logo]", "opacity = 0.75", "opacity = 0.5", false},
      {"speed", "", "[[speed]]\ntime = 0.5\nfactor = 0.5\nhold = 0.125\neasing = \"linear\"\n", "", false}},
     {{"duration", "[simulation]", "duration = 2", "duration = 2.5", true},
      {"steps_per_frame", "[simulation]", "steps_per_frame = 8", "steps_per_frame = 9", true},

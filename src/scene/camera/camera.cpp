@@ -3,6 +3,7 @@
 #include "core/safe_text.h"
 #include "scene/camera/default_camera.h"
 #include "scene/fields/camera_fields.h"
+#include "scene/fields/label_fields.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
@@ -71,6 +72,8 @@ std::vector<CameraKeyframe> read_keyframes(const TomlValue& value, const CameraD
 
 void read_follow(const TomlTable& table, const SceneDescription& scene, CameraDescription& camera) {
     const auto follow = table.find("follow");
+    if (const auto time = table.find("follow_time"); time && !follow)
+        time->origin().fail("is for a camera that follows a body: give follow too");
     if (!follow) return;
     camera.follow = BodyIndex(scene.bodies).find(*follow);
     const BodyDescription& body = scene.bodies[*camera.follow];
@@ -142,7 +145,53 @@ std::vector<std::string_view> names_of(const std::map<std::string, CameraDescrip
     return names;
 }
 
-std::vector<CameraShot> read_shots(const TomlTable& root, const std::map<std::string, CameraDescription>& cameras) {
+using NamedCameras = std::map<std::string, CameraDescription>;
+
+/// The camera that a shot or an inset names.
+const CameraDescription& find_camera(const TomlTable& table, const NamedCameras& cameras) {
+    const TomlValue name = table.require("camera");
+    const auto found = cameras.find(name.text());
+    if (found == cameras.end())
+        name.origin().fail(fmt::format("\"{}\" is not the name of one of [cameras]{}", safe_text(name.text()),
+                                       suggestion(name.text(), names_of(cameras))));
+    return found->second;
+}
+
+void read_rectangle(const TomlTable& table, CameraInset& inset) {
+    const auto given = table.find("rectangle");
+    if (!given) return;
+    for (const char* key : {"corner", "size", "margin"})
+        if (const auto other = table.find(key))
+            other->origin().fail("and rectangle exclude each other: give one of them");
+    const auto sides = given->items(4, "numbers: left, top, width and height, as shares of the frame");
+    std::array<double, 4>& r = inset.rectangle.emplace();
+    for (std::size_t i = 0; i < 4; ++i) r[i] = sides[i].number(i < 2 ? limits::fraction : limits::frame_share);
+    constexpr double rounding = 1e-9;
+    if (r[0] + r[2] > 1.0 + rounding || r[1] + r[3] > 1.0 + rounding)
+        given->fail("must lie in the frame: left + width and top + height are at most 1");
+}
+
+std::vector<CameraInset> read_insets(const TomlTable& root, const NamedCameras& cameras) {
+    std::vector<CameraInset> insets;
+    const auto list = root.find("inset");
+    if (!list) return insets;
+    for (TomlTable& table : list->tables("; write [[inset]] for each")) {
+        table.set_title("[[inset]]");
+        if (std::int64_t(insets.size()) == limits::insets)
+            table.origin().fail(fmt::format("is one too many: a scene has {} insets at most", limits::insets));
+        CameraInset inset = read_all_fields<CameraInset>(table);
+        inset.camera = find_camera(table, cameras);
+        read_rectangle(table, inset);
+        const auto end = table.find("to");
+        inset.end = end ? end->number(limits::time) : infinity;
+        if (end && inset.end <= inset.start)
+            end->fail(fmt::format("must come after its start, at {} s", number_text(inset.start)));
+        insets.push_back(std::move(inset));
+    }
+    return insets;
+}
+
+std::vector<CameraShot> read_shots(const TomlTable& root, const NamedCameras& cameras) {
     std::vector<CameraShot> shots;
     const auto list = root.find("shot");
     if (!list) return shots;
@@ -150,12 +199,7 @@ std::vector<CameraShot> read_shots(const TomlTable& root, const std::map<std::st
     for (TomlTable& table : list->tables("; write [[shot]] for each")) {
         table.set_title("[[shot]]");
         CameraShot shot = read_all_fields<CameraShot>(table);
-        const TomlValue name = table.require("camera");
-        const auto found = cameras.find(name.text());
-        if (found == cameras.end())
-            name.origin().fail(fmt::format("\"{}\" is not the name of one of [cameras]{}", safe_text(name.text()),
-                                           suggestion(name.text(), names_of(cameras))));
-        shot.camera = found->second;
+        shot.camera = find_camera(table, cameras);
         if (!shots.empty() && shot.start < (open.back() ? shots.back().start : shots.back().end))
             table.find(table.has("from") ? "from" : "camera")
                 ->origin()
@@ -178,7 +222,7 @@ std::vector<CameraShot> read_shots(const TomlTable& root, const std::map<std::st
 CameraDescription read_camera(const TomlTable& root, const SceneDescription& scene,
                               const std::optional<std::string>& named) {
     const double duration = duration_in_file(root);
-    std::map<std::string, CameraDescription> cameras;
+    NamedCameras cameras;
     if (const auto tables = root.find_table("cameras"))
         for (const auto& [name, value] : tables->entries()) {
             TomlTable table = value.table();
@@ -187,6 +231,7 @@ CameraDescription read_camera(const TomlTable& root, const SceneDescription& sce
         }
     CameraDescription camera = read_one(root.find_table("camera"), scene, duration);
     camera.shots = read_shots(root, cameras);
+    camera.insets = read_insets(root, cameras);
     if (!named) return camera;
     const auto found = cameras.find(*named);
     if (found == cameras.end())

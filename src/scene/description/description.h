@@ -8,6 +8,7 @@
 #include "core/vector.h"
 #include "scene/description/environment.h"
 #include "scene/description/force_fields.h"
+#include "scene/description/frame_corner.h"
 #include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
 #include "scene/description/mesh_paint.h"
@@ -111,6 +112,7 @@ struct DepthOfField {
 };
 
 struct CameraShot;
+struct CameraInset;
 
 /// The camera at the start. A moving one follows its keyframes, then orbits its target, then moves with a body
 /// (render/camera/camera_animation.h).
@@ -121,6 +123,7 @@ struct CameraDescription {
     Interpolation interpolation = Interpolation::smooth;
     double orbit = 0.0;                 // degrees/s about the target, counter-clockwise seen from the tip of `up`
     std::optional<std::size_t> follow;  // index into bodies
+    std::optional<double> follow_time;  // s, in which it comes up with the body; empty: it moves as the body does
     Vec3 follow_start = Vec3::Zero();   // pose of that body's origin at the start
     Quat follow_start_rotation = Quat::Identity();
     CameraFit fit = CameraFit::motion;
@@ -128,23 +131,44 @@ struct CameraDescription {
     double fitted_time = 0.0;                  // s: the duration in the file
     std::optional<DepthOfField> dof;           // empty: a pinhole
     std::vector<CameraShot> shots;             // in which other cameras take its place, by their start
+    std::vector<CameraInset> insets;           // pictures of other cameras over its own
 
     /// True if the simulated motion decides its place (framing/motion_camera.h). Until then it shows the start.
     bool fits_motion() const {
         return fit == CameraFit::motion && !(own_eye && own_target) && keyframes.empty() && !follow;
     }
-    /// The same of this camera or one of its shots.
+    /// The same of this camera, or of one of its shots and insets.
     bool any_fits_motion() const;
+    /// True if it comes up with a body in time. Its path follows from the motion (framing/follow_path.h); until it is
+    /// known, the camera moves as the body does.
+    bool lags() const { return follow && follow_time.value_or(0.0) > 0.0; }
+    /// The same of this camera, or of one of its shots and insets.
+    bool any_lags() const;
     /// True if the view changes during a clip.
     bool moves() const { return !keyframes.empty() || orbit != 0.0 || follow || !shots.empty(); }
     /// This camera and those of its shots. The pointers are valid as long as it is.
     std::vector<const CameraDescription*> all() const;
+    /// Those of its insets too.
+    std::vector<const CameraDescription*> with_insets() const;
 };
 
 /// A span of time, in s of the scene, in which a clip is seen by another camera, which has no shots.
 struct CameraShot {
     double start = 0.0, end = 0.0;  // infinity: up to the end of the clip
     double move = 0.0;              // s, in which the view goes over from the one before; 0: a cut
+    CameraDescription camera;
+};
+
+/// A panel over the picture that shows the scene by another camera, which has no shots and no insets.
+struct CameraInset {
+    FrameCorner corner = FrameCorner::top_right;
+    double size = 0.3;     // share of the frame's width and height
+    double margin = 0.03;  // to the edges of the frame, share of its height
+    /// Left, top, width and height as shares of the frame, in place of the corner, the size and the margin.
+    std::optional<std::array<double, 4>> rectangle;
+    double border = 2.0;  // pixels of a picture 720 pixels high
+    Color border_color{245, 246, 248};
+    double start = 0.0, end = 0.0;  // s of the scene; infinity: up to the end of the clip
     CameraDescription camera;
 };
 

@@ -3,6 +3,8 @@
 
 #include "core/color.h"
 #include "core/vector.h"
+#include "scene/description/label.h"
+#include "scene/description/logo.h"
 
 #include <array>
 #include <cstddef>
@@ -104,6 +106,8 @@ struct OverlayDescription {
     PlotPlace plot_place = PlotPlace::inset;
     std::vector<Caption> captions;
     std::optional<double> fade_in, fade_out;  // s of the clip, from black at its start and to black at its end
+    std::vector<LabelDescription> labels;
+    std::optional<LogoDescription> logo;
 };
 
 }  // namespace tumble

@@ -36,6 +36,11 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
            "position "
            "in the frame; without a `target`, the camera looks at the body",
            "none", "the name of a body that is not fixed", "string"});
+    field(self.follow_time, "follow_time", limits::follow_time,
+          {.text = "the time in which the camera comes up with the body (critically damped): 0.3 is smooth; 0: it "
+                   "moves as the body does. With `follow` only",
+           .standard = "0",
+           .later = true});
     field(self.fit, "fit", ByType(),
           {.text = "the motion that a camera without `eye` or `target` shows: the simulated one in the file's "
                    "`duration`, or a guess from the bodies at the start, which needs no simulation. A camera with "
@@ -45,6 +50,7 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
         field.inner(self.follow_start, self.follow_start_rotation);
         field.since(self.fits_motion(), self.own_eye, self.own_target, self.fitted_time);
         field.since(!self.shots.empty(), self.shots);
+        field.since(!self.insets.empty(), self.insets);
     }
 }
 

@@ -126,6 +126,12 @@ template <>
 inline constexpr auto choices<CameraFit> = std::to_array<Choice<CameraFit>>({{"motion", CameraFit::motion},
                                                                              {"start", CameraFit::start}});
 template <>
+inline constexpr auto choices<FrameCorner> =
+    std::to_array<Choice<FrameCorner>>({{"top-left", FrameCorner::top_left},
+                                        {"top-right", FrameCorner::top_right},
+                                        {"bottom-left", FrameCorner::bottom_left},
+                                        {"bottom-right", FrameCorner::bottom_right}});
+template <>
 inline constexpr auto choices<SpeedEasing> = std::to_array<Choice<SpeedEasing>>({{"smooth", SpeedEasing::smooth},
                                                                                  {"linear", SpeedEasing::linear},
                                                                                  {"step", SpeedEasing::step}});

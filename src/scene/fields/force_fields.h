@@ -9,9 +9,14 @@ namespace tumble {
 
 template <class Visitor, class Self>
 void visit_fields(Of<FieldRegion>, Visitor& field, Self& self) {
-    field.inner(self.kind);
-    field(self.size, "box", limits::size, {"edge lengths of a box along the axes of the world", "none"});
-    field(self.radius, "sphere", limits::size, {"radius of a ball, in place of the box", "none"});
+    if constexpr (requires { self.kind; }) {
+        field.inner(self.kind);
+        field(self.size, "box", limits::size, {"edge lengths of a box along the axes of the world", "none"});
+        field(self.radius, "sphere", limits::size, {"radius of a ball, in place of the box", "none"});
+    } else {
+        field(self.box, "box", limits::size);
+        field(self.sphere, "sphere", limits::size);
+    }
     field(self.center, "center", limits::coordinate);
 }
 
@@ -31,7 +36,7 @@ void visit_fields(Of<FieldDescription>, Visitor& field, Self& self) {
                          "everywhere",
                          {},
                          "table"});
-    field.inner(self.region);
+    if constexpr (requires { self.region.kind; }) field.inner(self.region);
     field.key("enabled", {"the field acts in this span", "the whole clip", "0 to 1e9, `until` after `from`",
                           "`[from]` or `[from, until]`, s"});
     field.inner(self.start, self.end);

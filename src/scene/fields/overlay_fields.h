@@ -40,6 +40,8 @@ void visit_fields(Of<OverlayDescription>, Visitor& field, Self& self) {
     field(self.fade_out, "fade_out", limits::time,
           {.text = "it darkens to black for this long at its end", .standard = "none", .later = true});
     field.inner(self.captions);
+    field.since(!self.labels.empty(), self.labels);
+    field.since(self.logo.has_value(), self.logo);
 }
 
 template <class Visitor, class Self>

@@ -49,17 +49,14 @@ void visit_fields(Of<OutputSettings>, Visitor& field, Self& self) {
     field.shown(self.width, self.height);
     field(self.samples, "samples", ByCode(),
           {.text = "1: aliased edges; 2 or 4: antialiased edges", .type = "1, 2 or 4", .picture = true});
-    if constexpr (requires { self.exposure; }) {  // not in the C++ interface
-        field(self.exposure, "exposure", limits::exposure,
-              {.text = "1 makes all light twice as bright, -1 half", .standard = "0", .picture = true, .later = true});
-        field(
-            self.tone, "tone", ByType(),
-            {.text = "`\"filmic\"`: bright light approaches white; `\"linear\"`: it is cut off, and all below has its "
-                     "exact sRGB value",
-             .standard = "`\"filmic\"`",
-             .picture = true,
-             .later = true});
-    }
+    field(self.exposure, "exposure", limits::exposure,
+          {.text = "1 makes all light twice as bright, -1 half", .standard = "0", .picture = true, .later = true});
+    field(self.tone, "tone", ByType(),
+          {.text = "`\"filmic\"`: bright light approaches white; `\"linear\"`: it is cut off, and all below has its "
+                   "exact sRGB value",
+           .standard = "`\"filmic\"`",
+           .picture = true,
+           .later = true});
 }
 
 template <class Visitor, class Self>
@@ -104,7 +101,7 @@ void visit_fields(Of<EnvironmentDescription>, Visitor& field, Self& self) {
                "`\"image\"` where there is one, or else `\"sky\"`",
                {},
                "string; or array of two colors"});
-    field.shown(self.background, self.low, self.high, self.image, self.sun);
+    if constexpr (requires { self.sun; }) field.shown(self.background, self.low, self.high, self.image, self.sun);
     field(self.rotation, "rotation", limits::angle,
           {"of the image about the y axis, counter-clockwise seen from above"});
     field(self.intensity, "intensity", limits::environment_light, {"factor on the light of the image"});

@@ -7,6 +7,7 @@
 #include "scene/fields/camera_fields.h"
 #include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
+#include "scene/fields/label_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
 #include "scene/fields/speed_fields.h"

@@ -120,9 +120,16 @@ inline constexpr Range exposure{-20.0, 20.0, "stops"};
 inline constexpr Range arrow_scale{0.0, 1e15, "m per SI unit",
                                    true};  // an arrow of 1 m for the weakest force of interest
 
+inline constexpr Range label_size{4.0, 200.0, "pixels of a picture 720 pixels high"};
+inline constexpr Range frame_share{0.01, 1.0, ""};  // of a picture in the frame
+inline constexpr Range frame_margin{0.0, 0.5, ""};
+inline constexpr std::int64_t insets = 4;  // each draws the scene once more
+inline constexpr Range border{0.0, 50.0, "pixels of a picture 720 pixels high"};
+
 // -- Angles and directions
 inline constexpr Range angle{-1e6, 1e6, "degrees"};    // the reduction of sincos keeps all its digits far beyond
 inline constexpr Range orbit{-1e6, 1e6, "degrees/s"};  // three thousand turns per second: more is a mistake
+inline constexpr Range follow_time{0.0, 100.0, "s"};
 inline constexpr Range tilt{0.0, 180.0, "degrees"};
 inline constexpr Range field_of_view{1.0, 170.0, "degrees"};  // outside, the image is a dot or strongly distorted
 inline constexpr Range direction{-1e30, 1e30, ""};            // only the ratio of its components counts
