@@ -69,7 +69,7 @@ MarkerShape contact_shape(ContactFeatures features) {
 }
 
 OverlayBuilder::OverlayBuilder(const SceneDescription& scene, const OverlayScales& scales)
-    : scene_(&scene), scales_(scales), shown_(shown_bodies(scene)) {
+    : scene_(&scene), scales_(scales), shown_(shown_bodies(scene)), labels_(scene) {
     for (const BodyDescription& body : scene.bodies) radii_.push_back(radius_about_origin(body.shape));
     if (shows(Overlay::joints)) joints_ = sketch_joints(scene);
     if (!shows(Overlay::trails)) return;
@@ -84,6 +84,7 @@ const OverlayFrame& OverlayBuilder::next(const Snapshot& snapshot, const Contact
     const OverlayDescription& overlay = scene_->overlay;
     frame_.clear();
     const std::int64_t frame = frames_++;
+    labels_.add(snapshot, frame_.callouts);
     if (snapshot.time < overlay.start || snapshot.time >= overlay.end) return frame_;
     remember(snapshot, records);
     if (shows(Overlay::ghosts)) add_ghosts(snapshot, frame);

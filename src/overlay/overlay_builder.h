@@ -2,6 +2,7 @@
 // trails, ghosts and visible impulses need, so frames are given in order and once each.
 #pragma once
 
+#include "overlay/body_labels.h"
 #include "overlay/joint_sketch.h"
 #include "overlay/overlay_frame.h"
 #include "overlay/overlay_scales.h"
@@ -28,8 +29,8 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [scene, scales, shown, radii, joints, trails, ghosts, frames, impacts, frame] = self;
-        archive.rebuilt(scene, scales, shown, radii, joints);
+        auto& [scene, scales, shown, radii, joints, labels, trails, ghosts, frames, impacts, frame] = self;
+        archive.rebuilt(scene, scales, shown, radii, joints, labels);
         archive.expect_bodies(radii.size());
         archive.keep(ghosts, impacts);
         archive.count(frames);
@@ -81,6 +82,7 @@ private:
     std::vector<char> shown_;    // by body
     std::vector<double> radii_;  // m, of a ball about the origin that contains the body; 0 of planes
     std::vector<JointSketch> joints_;
+    BodyLabels labels_;
     std::vector<Trail> trails_;
     std::vector<Ghost> ghosts_;
     std::int64_t frames_ = 0;  // of the clip so far: with a shutter, the frames of snapshots are parts of these

@@ -115,6 +115,17 @@ void members(Stream& s, Frame& frame) {
         list(s, label.text, [&](auto& letter) { s.number(letter); });
         s.number(label.size);
     });
+    list(s, frame.callouts, [&](auto& callout) {
+        vector(s, callout.of);
+        vector(s, callout.at);
+        s.number(callout.lift);
+        list(s, callout.text, [&](auto& letter) { s.number(letter); });
+        s.number(callout.size);
+        s.number(callout.color.r);
+        s.number(callout.color.g);
+        s.number(callout.color.b);
+        s.number(callout.leader);
+    });
     s.number(frame.legend);
     number_or_none(s, frame.damage);
 }

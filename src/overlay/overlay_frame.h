@@ -66,6 +66,18 @@ struct OverlayLabel {
     float size = 15.0f;
 };
 
+/// Text in a box beside a point, with a line to it. It is moved so that it stays in the picture and off others before
+/// it.
+struct OverlayCallout {
+    Vec3 of;            // the point
+    Vec3 at;            // below the middle of the text
+    float lift = 0.0f;  // of the text above that
+    std::string text;   // lines
+    float size = 20.0f;
+    Color color;
+    bool leader = true;
+};
+
 /// In the order of drawing.
 struct OverlayFrame {
     std::vector<OverlaySurface> surfaces;
@@ -73,6 +85,7 @@ struct OverlayFrame {
     std::vector<OverlayArrow> arrows;
     std::vector<OverlayMarker> markers;
     std::vector<OverlayLabel> labels;
+    std::vector<OverlayCallout> callouts;
     bool legend = false;                 // the legend is shown
     std::optional<std::int64_t> damage;  // the dirty regions are outlined; the frame's number: they differ each time
 

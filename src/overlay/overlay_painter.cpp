@@ -42,6 +42,7 @@ OverlayPainter::OverlayPainter(const SceneDescription& scene, const PanelOverlay
       unit_(overlay_unit(scene.output.height)),
       raster_(scene.output.width, scene.output.height,
               Camera(scene.camera, scene.output.width, scene.output.height).pixel_size()),
+      callouts_(scene.output.width, scene.output.height, unit_),
       legend_top_(overlay.legend_top),
       image_(scene.output.width, scene.output.height),
       previous_(scene.output.width, scene.output.height) {
@@ -86,6 +87,7 @@ void OverlayPainter::draw_shapes(const Camera& camera, const OverlayFrame& shape
         raster_.marker(project(camera, at), marker.radius * unit_, marker.shape, marker.paint);
     }
     for (const OverlayLabel& label : shapes.labels) draw_label(camera, label);
+    callouts_.draw(camera, shapes.callouts, raster_);
 }
 
 // Parts behind the eye are cut out, which may leave several lines.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/image.h"
+#include "overlay/callout_painter.h"
 #include "overlay/legend.h"
 #include "overlay/overlay_frame.h"
 #include "overlay/shape_raster.h"
@@ -58,6 +59,7 @@ private:
     const SceneDescription* scene_;
     double unit_;  // pixels of a unit of the shapes' sizes
     ShapeRaster raster_;
+    CalloutPainter callouts_;
     std::optional<Image> legend_;
     int legend_top_;  // pixels
     Image image_;

@@ -72,7 +72,7 @@ bool shows(const OverlayDescription& overlay, ArrowQuantity quantity) {
 bool draws_shapes(const OverlayDescription& overlay) {
     OverlaySet shapes = overlay.show;
     for (const Overlay text : {Overlay::title, Overlay::clock, Overlay::mode}) shapes.remove(text);
-    return !shapes.empty();
+    return !shapes.empty() || !overlay.labels.empty();
 }
 
 // The marks of contacts are found in the same run.
