@@ -218,6 +218,13 @@ ValueMap values_of(const SceneDescription& scene) {
             if (part == "fields" || part == "pair forces") values[part] = hash;
     if (!scene.cords.empty()) values["cords"] = cords_text(scene);
     values["overlay"] = shown_text(scene.overlay);
+    for (std::size_t i = 0; i < scene.overlay.labels.size(); ++i) {
+        const LabelDescription& label = scene.overlay.labels[i];
+        values[fmt::format("label {}", i + 1)] =
+            fmt::format("{} of {} at {} size {} {} {}from {} to {}", label.text, label.body,
+                        label.offset ? text_of(*label.offset) : "above", label.size, to_string(label.color),
+                        label.leader ? "leader " : "", label.start, label.end);
+    }
     if (!values["overlay"].empty()) values["overlay style"] = overlay_style_text(scene.overlay);
     return values;
 }
@@ -246,6 +253,16 @@ ValueMap values_of(const Composition& composition) {
         for (const Panel& panel : plot.figure.panels) plots += panel.title + ";";
     }
     values["plot"] = plots;
+    const auto place_text = [](const Rectangle& r) { return fmt::format("{} {} {} {}", r.x, r.y, r.width, r.height); };
+    for (std::size_t i = 0; i < composition.insets.size(); ++i) {
+        const ClipInset& inset = composition.insets[i];
+        values[fmt::format("inset {}", i + 1)] =
+            fmt::format("{} border {} {} from {} to {}", place_text(inset.place), inset.border,
+                        to_string(inset.border_color), inset.start, inset.end);
+    }
+    if (const auto& logo = composition.logo)
+        values["logo"] = fmt::format("{} opacity {} #{:016x}", place_text(logo->place), logo->logo.opacity,
+                                     fnv_hash(std::as_bytes(std::span(logo->logo.image->levels.front().texels))));
     if (const ClipFade& fade = composition.fade; !fade.empty())
         values["fade"] = fmt::format("in {} out {} end {}", fade.in, fade.out, fade.last_time);
     return values;

@@ -15,7 +15,8 @@ Composition::Composition(const SceneDescription& scene)
 
 bool Composition::changes(double from, double to) const {
     if (from == to) return false;
-    return !plots.empty() || fade.share_at(from) != fade.share_at(to) ||
+    const auto comes_or_goes = [&](const ClipInset& inset) { return inset.shown(from) != inset.shown(to); };
+    return !plots.empty() || std::ranges::any_of(insets, comes_or_goes) || fade.share_at(from) != fade.share_at(to) ||
            (text.clock && clock_text_at(from) != clock_text_at(to)) ||
            captions_at(text.captions, from) != captions_at(text.captions, to);
 }

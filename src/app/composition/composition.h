@@ -21,6 +21,25 @@ struct ClipPanel {
     std::optional<PanelOverlay> overlay{};  // empty: nothing is drawn over the scene
 };
 
+/// A picture of the motion of a panel by another camera, over it.
+struct ClipInset {
+    std::size_t panel = 0;
+    std::shared_ptr<const SceneDescription> scene;  // with that camera alone; its output size is that of the place
+    Rectangle place;
+    int border = 0;  // pixels, inside the place
+    Color border_color;
+    double start = 0.0, end = 0.0;  // s
+
+    bool shown(double time) const { return start <= time && time < end; }
+    ClipPanel as_panel() const { return {scene, place}; }
+};
+
+/// A picture over the frame.
+struct ClipLogo {
+    LogoDescription logo;
+    Rectangle place;
+};
+
 /// A line of text above a panel.
 struct ClipLabel {
     std::string text;
@@ -65,15 +84,19 @@ struct Composition {
     Composition(const SceneDescription& scene);  // NOLINT: a scene is the simplest composition
 
     /// True if each frame is the image of the only panel.
-    bool plain() const { return panels.size() == 1 && text.empty() && plots.empty() && fade.empty(); }
-    /// True if the text or the plot may differ between two times, s.
+    bool plain() const {
+        return panels.size() == 1 && insets.empty() && text.empty() && plots.empty() && !logo && fade.empty();
+    }
+    /// True if the text, the plot or the shown insets may differ between two times, s.
     bool changes(double from, double to) const;
 
     int width = 0, height = 0;  // of the frame, pixels
     std::vector<ClipPanel> panels;
+    std::vector<ClipInset> insets;
     std::vector<ClipLabel> labels;
     ClipText text;
     std::vector<ClipPlot> plots;
+    std::optional<ClipLogo> logo;
     ClipFade fade;
     std::shared_ptr<const SceneDescription> aov_scene;  // the scene at the size of the AOVs
 };

@@ -41,8 +41,9 @@ public:
     /// `transparent`: the space around panels is; otherwise it is white.
     FrameComposer(const Composition& composition, bool transparent);
 
-    /// Composes the frame of that time (s).
-    void compose(std::span<const PanelImage> panels, double time);
+    /// Composes the frame of that time (s). `insets`: one for each of the composition, empty where it is not shown.
+    void compose(std::span<const PanelImage> panels, std::span<const std::optional<PanelImage>> insets, double time);
+    void compose(std::span<const PanelImage> panels, double time) { compose(panels, {}, time); }
 
     /// The image of the last compose().
     const Image& image() const { return share_ < 256 ? faded_ : frame_; }
@@ -50,11 +51,21 @@ public:
     const std::vector<Rectangle>& changed() const { return changed_; }
 
 private:
-    void restore(std::span<const PanelImage> panels, const Rectangle& region);
+    /// An inset over its panel.
+    struct Inset {
+        Rectangle place;
+        Stamp border;
+        bool shown = false;  // in the frame before
+    };
+    void change_insets(std::span<const std::optional<PanelImage>> insets);
+    void restore(std::span<const PanelImage> panels, std::span<const std::optional<PanelImage>> insets,
+                 const Rectangle& region);
     void fade(double time);
 
     std::uint8_t background_;        // around panels, of all four channels
     std::vector<Rectangle> places_;  // of the panels
+    std::vector<Inset> insets_;
+    std::optional<Stamp> logo_;
     TextLayer text_;
     std::vector<PlotLayer> plots_;
     Image frame_;

@@ -58,6 +58,30 @@ const SceneDescription* first_showing(std::span<const ClipScene> scenes, Overlay
     return first_with(scenes, [&](const SceneDescription& scene) { return scene.overlay.show.has(overlay); });
 }
 
+/// The place of a picture in a corner of the area.
+Rectangle in_corner(FrameCorner corner, int width, int height, int margin, const Rectangle& area) {
+    const bool right = corner == FrameCorner::top_right || corner == FrameCorner::bottom_right;
+    const bool bottom = corner == FrameCorner::bottom_left || corner == FrameCorner::bottom_right;
+    const auto at = [&](bool far, int first, int whole, int size) {
+        return first + std::clamp(far ? whole - margin - size : margin, 0, std::max(0, whole - size));
+    };
+    return {at(right, area.x, area.width, width), at(bottom, area.y, area.height, height), width, height};
+}
+
+/// The place of an inset in that of its panel.
+Rectangle place_of(const CameraInset& inset, const Rectangle& area) {
+    constexpr int least_side = 8;  // pixels
+    const auto pixels = [](double share, int whole) { return int(std::lround(share * whole)); };
+    if (inset.rectangle) {
+        const auto& [left, top, across, down] = *inset.rectangle;
+        const int x = pixels(left, area.width), y = pixels(top, area.height);
+        return {area.x + x, area.y + y, std::max(least_side, pixels(left + across, area.width) - x),
+                std::max(least_side, pixels(top + down, area.height) - y)};
+    }
+    return in_corner(inset.corner, std::max(least_side, pixels(inset.size, area.width)),
+                     std::max(least_side, pixels(inset.size, area.height)), pixels(inset.margin, area.height), area);
+}
+
 ClipText text_of(std::span<const ClipScene> scenes, const CompositionOptions& options) {
     ClipText text;
     if (const SceneDescription* scene = first_showing(scenes, Overlay::title))
@@ -75,6 +99,20 @@ ClipFade fade_of(std::span<const ClipScene> scenes, double last_time) {
     const SceneDescription* scene = first_with(scenes, fades);
     if (scene == nullptr) return {};
     return {scene->overlay.fade_in.value_or(0.0), scene->overlay.fade_out.value_or(0.0), last_time};
+}
+
+std::optional<ClipLogo> logo_of(std::span<const ClipScene> scenes, int width, int height) {
+    const SceneDescription* scene =
+        first_with(scenes, [](const SceneDescription& s) { return s.overlay.logo.has_value(); });
+    if (scene == nullptr) return std::nullopt;
+    const LogoDescription& logo = *scene->overlay.logo;
+    const Texture::Level& image = logo.image->levels.front();
+    const int margin = int(std::lround(logo.margin * height));
+    // Also a tall logo is in the frame as a whole.
+    double scale = logo.width * width / image.width;
+    scale = std::min(scale, std::max(1.0, double(height - 2 * margin)) / image.height);
+    const auto side = [&](int size) { return std::max(1, int(std::lround(scale * size))); };
+    return ClipLogo{logo, in_corner(logo.corner, side(image.width), side(image.height), margin, {0, 0, width, height})};
 }
 
 double wider(double vertical_fov, double factor) {
@@ -112,6 +150,26 @@ SceneDescription panel_scene(const SceneDescription& scene, int width, int heigh
     return panel;
 }
 
+namespace {
+
+/// The insets of a panel, whose whole scene has their cameras.
+void place_insets(Composition& composition, std::size_t panel, const SceneDescription& scene) {
+    std::erase_if(composition.insets, [&](const ClipInset& one) { return one.panel == panel; });
+    const Rectangle& area = composition.panels[panel].place;
+    for (const CameraInset& inset : scene.camera.insets) {
+        ClipInset made{panel, nullptr, place_of(inset, area), 0, inset.border_color, inset.start, inset.end};
+        made.border = int(std::lround(inset.border * composition.height / 720.0));
+        if (inset.border > 0.0) made.border = std::max(1, made.border);
+        SceneDescription shown = scene;
+        shown.camera = inset.camera;
+        shown.overlay = {};
+        made.scene = std::make_shared<const SceneDescription>(panel_scene(shown, made.place.width, made.place.height));
+        composition.insets.push_back(std::move(made));
+    }
+}
+
+}  // namespace
+
 void place_camera(Composition& composition, std::size_t panel, const SceneDescription& scene,
                   const CameraDescription& camera) {
     SceneDescription framed = scene;
@@ -119,6 +177,7 @@ void place_camera(Composition& composition, std::size_t panel, const SceneDescri
     const Rectangle& place = composition.panels[panel].place;
     auto whole = std::make_shared<const SceneDescription>(std::move(framed));
     if (panel == 0) composition.aov_scene = whole;
+    place_insets(composition, panel, *whole);
     composition.panels[panel].scene =
         is_whole(place, *whole)
             ? std::move(whole)
@@ -133,6 +192,7 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
     composition.aov_scene = scenes.front().scene;
     composition.text = text_of(scenes, options);
     composition.fade = fade_of(scenes, options.last_time);
+    composition.logo = logo_of(scenes, composition.width, composition.height);
     ClipText& text = composition.text;
     LayoutRequest request{.width = composition.width,
                           .height = composition.height,
@@ -152,6 +212,7 @@ Composition make_composition(std::span<const ClipScene> scenes, const Compositio
         if (!is_whole(place, *scene))
             scene = std::make_shared<const SceneDescription>(panel_scene(*scene, place.width, place.height));
         composition.panels.push_back({std::move(scene), place});
+        place_insets(composition, i, *scenes[i].scene);
         if (!layout.labels.empty()) composition.labels.push_back({scenes[i].label, layout.labels[i]});
     }
     text.header = layout.header;

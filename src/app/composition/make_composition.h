@@ -31,7 +31,7 @@ struct CompositionOptions {
 /// that shows them. Figures of plots are left empty but for their style. Throws InputError if the frame is too small.
 Composition make_composition(std::span<const ClipScene> scenes, const CompositionOptions& options);
 
-/// Gives a panel's scene that camera, and that of the AOVs if it is the first one.
+/// Gives a panel's scene that camera and its insets, and that of the AOVs if it is the first one.
 void place_camera(Composition& composition, std::size_t panel, const SceneDescription& scene,
                   const CameraDescription& camera);
 

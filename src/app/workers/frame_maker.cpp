@@ -93,10 +93,14 @@ DrawnFrame FrameMaker::make(const FrameJob& job) {
 }
 
 void FrameMaker::open_panels(const Composition& composition, RenderSwitches options) {
-    for (const ClipPanel& panel : composition.panels) {
-        panels_.push_back(std::make_unique<PanelDrawing>(panel, options));
+    const auto open = [&](const ClipPanel& panel) {
+        auto drawing = std::make_unique<PanelDrawing>(panel, options);
         options.compile_schedule = nullptr;  // it distributes the shaders of one renderer of each process
-    }
+        return drawing;
+    };
+    for (const ClipPanel& panel : composition.panels) panels_.push_back(open(panel));
+    for (const ClipInset& inset : composition.insets) insets_.push_back(open(inset.as_panel()));
+    inset_places_ = composition.insets;
 }
 
 void FrameMaker::make_image(const FrameJob& job, DrawnFrame& drawn) {
@@ -122,7 +126,16 @@ void FrameMaker::draw(const FrameJob& job) {
     if (!composer_) return;
     std::vector<PanelImage> images;
     for (const auto& panel : panels_) images.push_back({panel->image(), panel->changed()});
-    composer_->compose(images, job.time);
+    std::vector<std::optional<PanelImage>> insets;
+    for (std::size_t i = 0; i < insets_.size(); ++i) {
+        if (!inset_places_[i].shown(job.time)) {
+            insets.emplace_back();
+            continue;
+        }
+        insets_[i]->draw(memory_, inset_places_[i].panel, job.frame);
+        insets.emplace_back(PanelImage{insets_[i]->image(), insets_[i]->changed()});
+    }
+    composer_->compose(images, insets, job.time);
 }
 
 }  // namespace tumble

@@ -86,7 +86,8 @@ private:
     void draw(const FrameJob& job);
 
     SharedFrames& memory_;
-    std::vector<std::unique_ptr<PanelDrawing>> panels_;
+    std::vector<std::unique_ptr<PanelDrawing>> panels_, insets_;
+    std::vector<ClipInset> inset_places_;
     std::optional<FrameComposer> composer_;  // absent where the image of the only panel is the frame
     std::optional<VideoPixels> video_;
     std::optional<PngEncoder> png_;

@@ -46,6 +46,7 @@ RenderMemory render_memory(const Composition& composition, const RenderWork& wor
     RenderMemory memory;
     if (work.outputs.image()) {
         for (const ClipPanel& panel : composition.panels) memory.worker += panel_memory(panel, work);
+        for (const ClipInset& inset : composition.insets) memory.worker += panel_memory(inset.as_panel(), work);
         if (!composition.plain()) memory.worker += pixels_of(width, height) * image_bytes;
     }
     if (work.outputs.video) {

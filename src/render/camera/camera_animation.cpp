@@ -138,7 +138,7 @@ CameraDescription CameraAnimation::own_at(const Snapshot& snapshot) const {
 
 std::vector<std::size_t> followed_bodies(const CameraDescription& camera) {
     std::set<std::size_t> followed;
-    for (const CameraDescription* one : camera.all())
+    for (const CameraDescription* one : camera.with_insets())
         if (one->follow) followed.insert(*one->follow);
     return {followed.begin(), followed.end()};
 }

@@ -47,7 +47,7 @@ private:
     std::vector<CameraAnimation> shots_;  // of the camera's shots
 };
 
-/// The bodies that the camera and its shots follow, ascending.
+/// The bodies that the camera, its shots and its insets follow, ascending.
 std::vector<std::size_t> followed_bodies(const CameraDescription& camera);
 
 /// True if both cameras show the same image.

@@ -9,11 +9,12 @@
 
 namespace tumble {
 
-PoseFilter::PoseFilter(const SceneDescription& scene)
-    : path_(scene.camera),
-      camera_(scene.camera),
-      followed_(followed_bodies(scene.camera)),
-      view_(scene.camera, scene.output.width, scene.output.height) {
+PoseFilter::PoseFilter(const SceneDescription& scene) : followed_(followed_bodies(scene.camera)) {
+    const auto add_view = [&](const CameraDescription& camera) {
+        views_.push_back({CameraAnimation(camera), camera, Camera(camera, scene.output.width, scene.output.height)});
+    };
+    add_view(scene.camera);
+    for (const CameraInset& inset : scene.camera.insets) add_view(inset.camera);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const BodyDescription& body = scene.bodies[i];
         const bool moves = body.appearance.visible || follows(i);  // a followed body moves everything that is drawn
@@ -35,8 +36,11 @@ bool PoseFilter::may_stay(std::size_t body, const Pose& drawn, const BodyState& 
     const double turn = std::min((state.orientation.coeffs() - drawn.orientation.coeffs()).norm(),
                                  (state.orientation.coeffs() + drawn.orientation.coeffs()).norm());
     if (way == 0.0 && turn == 0.0) return true;
-    const double nearest = view_.relative(drawn.origin).norm() - radius;  // m, from the eye; of a plane: -infinity
-    return way + 2.0 * radius * turn <= drawn_tolerance * view_.pixel_size() * nearest;
+    return std::ranges::all_of(views_, [&](const View& one) {
+        const double nearest =
+            one.view.relative(drawn.origin).norm() - radius;  // m, from the eye; of a plane: -infinity
+        return way + 2.0 * radius * turn <= drawn_tolerance * one.view.pixel_size() * nearest;
+    });
 }
 
 bool PoseFilter::settle(std::size_t body, BodyState& state) {
@@ -51,6 +55,18 @@ bool PoseFilter::settle(std::size_t body, BodyState& state) {
     return true;
 }
 
+bool PoseFilter::move_views(const Snapshot& snapshot) {
+    bool moved = false;
+    for (View& one : views_) {
+        CameraDescription camera = one.path.at(snapshot);
+        if (same_place(camera, one.camera)) continue;
+        one.camera = std::move(camera);
+        one.view = one.view.from(one.camera);
+        moved = true;
+    }
+    return moved;
+}
+
 bool PoseFilter::follow(Snapshot& snapshot) {
     TUMBLE_CHECK_EQ(snapshot.bodies.size(), radii_.size());
     bool moved = std::exchange(first_, false);
@@ -59,10 +75,7 @@ bool PoseFilter::follow(Snapshot& snapshot) {
             drawn_.push_back({state.origin, state.orientation, state.center_of_mass});
     for (const std::size_t body : followed_)
         if (settle(body, snapshot.bodies[body])) moved = true;
-    CameraDescription camera = path_.at(snapshot);
-    if (!same_place(camera, camera_)) {
-        camera_ = std::move(camera);
-        view_ = view_.from(camera_);
+    if (move_views(snapshot)) {
         for (std::size_t i = 0; i < drawn_.size(); ++i)
             if (!follows(i)) {
                 const BodyState& state = snapshot.bodies[i];

@@ -36,10 +36,13 @@ public:
     /// For checkpoints: see sim/checkpoint/archive.h.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [path, camera, followed, view, radii, drawn, first] = self;
-        archive.rebuilt(path, followed, radii);
-        archive.keep(camera.eye, camera.target, camera.up, camera.vertical_fov, drawn, first);
-        if constexpr (!std::is_const_v<Self>) view = view.from(camera);
+        auto& [views, followed, radii, drawn, first] = self;
+        archive.rebuilt(followed, radii);
+        for (auto& [path, camera, view] : views) {
+            archive.keep(camera.eye, camera.target, camera.up, camera.vertical_fov);
+            if constexpr (!std::is_const_v<Self>) view = view.from(camera);
+        }
+        archive.keep(drawn, first);
     }
 
 private:
@@ -59,10 +62,16 @@ private:
     /// Updates the pose to draw of one body; false: it is unchanged.
     bool settle(std::size_t body, BodyState& state);
 
-    CameraAnimation path_;
-    CameraDescription camera_;
+    /// Moves each view to the snapshot's time; true if one has moved.
+    bool move_views(const Snapshot& snapshot);
+
+    struct View {
+        CameraAnimation path;
+        CameraDescription camera;
+        Camera view;
+    };
+    std::vector<View> views_;  // of the picture, and of its insets
     std::vector<std::size_t> followed_;
-    Camera view_;
     std::vector<double> radii_;  // m, of each body around its origin; 0: not drawn; infinite: a plane
     std::vector<Pose> drawn_;    // empty before the first call
     bool first_ = true;          // no call yet; a scene may have no bodies

@@ -1,13 +1,18 @@
 // The layout of frames, and text and plot on them.
 #include "app/composition/frame_composer.h"
 #include "app/composition/make_composition.h"
+#include "app/composition/scaled_image.h"
 #include "core/error.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <numbers>
+#include <optional>
+#include <vector>
 
 namespace tumble::composition_test {
 namespace {
@@ -335,6 +340,103 @@ TEST(Composition, NamesTheModeThatAllScenesShare) {
     const std::vector<ClipScene> one{{first, "", timing}}, both{{first, "a", timing}, {second, "b", timing}};
     EXPECT_EQ(make_composition(one, {}).text.mode, "symplectic-euler, impacts stepped, h = 1/960 s, seed 1");
     EXPECT_EQ(make_composition(both, {}).text.mode, "impacts stepped, h = 1/960 s, seed 1");
+}
+
+// Insets and logo.
+
+std::shared_ptr<const SceneDescription> scene_with_insets() {
+    auto scene = std::make_shared<SceneDescription>();
+    scene->output.width = 320;
+    scene->output.height = 180;
+    CameraInset corner;
+    corner.end = 1.0;
+    corner.border = 4.0;
+    CameraInset rectangle;
+    rectangle.rectangle = {0.0, 0.5, 0.25, 0.5};
+    rectangle.start = 0.5;
+    rectangle.end = 2.0;
+    scene->camera.insets = {corner, rectangle};
+    return scene;
+}
+
+TEST(Insets, LieInTheirCornerOrRectangle) {
+    const std::vector<ClipScene> scenes{{scene_with_insets(), "", {}}};
+    const Composition composition = make_composition(scenes, {});
+    ASSERT_EQ(composition.insets.size(), 2u);
+    EXPECT_EQ(composition.insets[0].place, (Rectangle{320 - 5 - 96, 5, 96, 54}));
+    EXPECT_EQ(composition.insets[0].border, 1);
+    EXPECT_EQ(composition.insets[1].place, (Rectangle{0, 90, 80, 90}));
+    EXPECT_EQ(composition.insets[1].scene->output.width, 80);
+    EXPECT_TRUE(composition.insets[1].scene->camera.insets.empty());
+    EXPECT_FALSE(composition.plain());
+    EXPECT_TRUE(composition.changes(0.4, 0.6));
+    EXPECT_FALSE(composition.changes(0.6, 0.7));
+}
+
+Image filled(int width, int height, std::uint8_t value) {
+    Image image(width, height);
+    for (int y = 0; y < height; ++y) std::fill_n(image.at(0, y), 4 * width, value);
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) image.at(x, y)[3] = 255;
+    return image;
+}
+
+// A composer that draws each frame from the one before has the pixels of a new one.
+TEST(Insets, PartialCompositionEqualsAFullOne) {
+    const std::vector<ClipScene> scenes{{scene_with_insets(), "", {}}};
+    const Composition composition = make_composition(scenes, {});
+    FrameComposer partial(composition, false);
+    const std::vector<Rectangle> whole{{0, 0, 320, 180}}, none, part{{30, 10, 40, 30}};
+    for (int n = 0; n < 25; ++n) {
+        const double time = 0.1 * n;
+        Image panel = filled(320, 180, 40), corner = filled(96, 54, 120), rectangle = filled(80, 90, 200);
+        for (int y = 10; y < 40; ++y) std::fill_n(corner.at(30, y), 4 * 40, std::uint8_t(100 + n));
+        for (int y = 10; y < 40; ++y) std::fill_n(panel.at(30, y), 4 * 40, std::uint8_t(n));
+        const auto compose = [&](FrameComposer& composer, const std::vector<Rectangle>& changed) {
+            const std::vector<PanelImage> panels{{panel, changed}};
+            std::vector<std::optional<PanelImage>> insets;
+            if (composition.insets[0].shown(time))
+                insets.emplace_back(PanelImage{corner, changed});
+            else
+                insets.emplace_back();
+            if (composition.insets[1].shown(time))
+                insets.emplace_back(PanelImage{rectangle, none});
+            else
+                insets.emplace_back();
+            composer.compose(panels, insets, time);
+        };
+        compose(partial, part);
+        FrameComposer full(composition, false);
+        compose(full, whole);
+        for (int y = 0; y < 180; ++y)
+            ASSERT_TRUE(std::equal(full.image().at(0, y), full.image().at(0, y) + 4 * 320, partial.image().at(0, y)))
+                << n << ' ' << y;
+        const int inset = partial.image().at(250, 30)[0];
+        EXPECT_EQ(inset >= 100, composition.insets[0].shown(time)) << n;
+    }
+}
+
+TEST(Logo, KeepsItsFormAndItsLight) {
+    auto texture = std::make_shared<Texture>();
+    Texture::Level& level = texture->levels.emplace_back();
+    level.width = 4;
+    level.height = 2;
+    level.texels.assign(8, {255, 255, 255, 255});
+    for (std::size_t i = 0; i < 8; i += 2) level.texels[i] = {0, 0, 0, 255};
+    auto scene = std::make_shared<SceneDescription>();
+    scene->output.width = 320;
+    scene->output.height = 180;
+    scene->overlay.logo = LogoDescription{texture, FrameCorner::bottom_left, 0.1, 0.05, 0.5};
+    const std::vector<ClipScene> scenes{{scene, "", {}}};
+    const Composition composition = make_composition(scenes, {});
+    ASSERT_TRUE(composition.logo);
+    EXPECT_EQ(composition.logo->place, (Rectangle{9, 180 - 9 - 16, 32, 16}));
+    const Image half = scaled_image(level, 2, 1, 0.5);
+    for (int x = 0; x < 2; ++x) {
+        EXPECT_EQ(half.at(x, 0)[0], 188);  // half of the light, not of the bytes
+        EXPECT_EQ(half.at(x, 0)[3], 128);
+    }
+    EXPECT_EQ(scaled_image(level, 4, 2, 1.0).at(1, 1)[0], 255);
 }
 
 }  // namespace
