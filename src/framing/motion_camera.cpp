@@ -1,6 +1,7 @@
 #include "framing/motion_camera.h"
 
 #include "core/error.h"
+#include "framing/follow_path.h"
 #include "scene/camera/default_camera.h"
 #include "sim/geometry/shapes/shape.h"
 #include "sim/world.h"
@@ -161,6 +162,7 @@ CameraDescription MotionCamera::camera() const {
     };
     place(placed);
     for (CameraShot& shot : placed.shots) place(shot.camera);
+    for (CameraInset& inset : placed.insets) place(inset.camera);
     return placed;
 }
 
@@ -183,6 +185,7 @@ MotionCamera simulated_motion(const SceneDescription& scene, int threads, const 
 SceneDescription framed(const SceneDescription& scene, int threads, const std::function<void()>& each) {
     SceneDescription placed = scene;
     if (scene.camera.any_fits_motion()) placed.camera = simulated_motion(scene, threads, each).camera();
+    if (scene.camera.any_lags()) placed.camera = simulated_path(scene, threads, each).applied(placed.camera);
     return placed;
 }
 

@@ -57,7 +57,7 @@ private:
 /// fails, the motion until then.
 MotionCamera simulated_motion(const SceneDescription& scene, int threads, const std::function<void()>& each = nullptr);
 
-/// The scene with its camera by a run of its own, where its motion decides the camera.
+/// The scene with its camera by a run of its own, where its motion decides the place or the path of the camera.
 SceneDescription framed(const SceneDescription& scene, int threads, const std::function<void()>& each = nullptr);
 
 }  // namespace tumble

@@ -164,6 +164,7 @@ public:
         progress_.update(done);
         if (interrupt_.pending()) throw Interrupted();
     }
+    Interrupt& interrupt() { return interrupt_; }
 
 private:
     Interrupt interrupt_;  // before the world makes its threads
@@ -315,6 +316,7 @@ void simulate_clip(const SimulateCommand& command) {
             monitor.update(n + 1);
             if (n + 1 == scenes.ends.front()) broken = broken_joints(first, world);
         };
+        scenes.find_paths(command.threads, monitor.interrupt());
         record_clip(scenes, recording, checkpoints);
         tables.finish();
         count = checkpoints.count();

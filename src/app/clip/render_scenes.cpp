@@ -54,6 +54,7 @@ RenderScenes::RenderScenes(const ClipRequest& command, const Shutter& shutter)
     for (const ClipScene& one : scenes) {
         scales_.emplace_back(*one.scene);
         motions_.emplace_back(*one.scene);
+        follows_.emplace_back(*one.scene);
         cameras_.push_back(one.scene->camera);
         if (command.sound) sounds_.emplace_back(*one.scene);
     }
@@ -172,6 +173,7 @@ std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
     if (!runs_.empty()) observers.push_back(&runs_[index]);
     if (composition.panels[index].overlay && needs_survey(scene.overlay)) observers.push_back(&scales_[index]);
     if (!sounds_.empty()) observers.push_back(&sounds_[index]);
+    if (scene.camera.any_lags() && !follows_[index].path.seen()) observers.push_back(&follows_[index]);
     // A shorter clip does not show the whole motion, and a longer one takes longer than the camera needs.
     const double clip = scene.simulation.duration, needed = scene.camera.fitted_time;
     if (scene.camera.any_fits_motion() && (clip == needed || (clip > needed && !observers.empty())))
@@ -179,10 +181,23 @@ std::vector<SurveyObserver*> RenderScenes::observers(std::size_t index) {
     return observers;
 }
 
+bool RenderScenes::sees_for_camera(std::size_t index, const SurveyObserver* observer) const {
+    return observer == &motions_[index] || observer == &follows_[index];
+}
+
+void RenderScenes::find_paths(int threads, Interrupt& interrupt) {
+    for (std::size_t i = 0; i < scenes.size(); ++i) {
+        if (!scenes[i].scene->camera.any_lags()) continue;
+        World run(*scenes[i].scene, scenes[i].timing, threads);
+        survey(run, {ends[i], shutter_.intervals, scenes[i].steps}, {{&follows_[i]}}, interrupt);
+    }
+    place_cameras();
+}
+
 void RenderScenes::survey_clip(const SurveyWork& work, Interrupt& interrupt) {
     for (std::size_t i = 0; i < scenes.size(); ++i) {
         std::vector<SurveyObserver*> seeing = observers(i);
-        if (!work.image) std::erase_if(seeing, [&](SurveyObserver* observer) { return observer != &motions_[i]; });
+        if (!work.image) std::erase_if(seeing, [&](SurveyObserver* one) { return !sees_for_camera(i, one); });
         if (seeing.empty()) continue;
         auto simulated = std::make_unique<World>(world(i, work.threads));
         if (work.at_start) work.at_start(i, *simulated);
@@ -193,7 +208,7 @@ void RenderScenes::survey_clip(const SurveyWork& work, Interrupt& interrupt) {
         } catch (const Interrupted&) {
             throw;
         } catch (const RunError&) {  // the frames before are drawn, and then it fails again
-            if (seeing.front() != &motions_[i]) throw;
+            if (!sees_for_camera(i, seeing.front())) throw;
             continue;
         }
         if (surveyed->whole()) kept_[i] = {std::move(simulated), std::move(surveyed)};
@@ -220,7 +235,8 @@ void RenderScenes::frame_motion(int threads) {
 
 void RenderScenes::place_cameras() {
     for (std::size_t i = 0; i < scenes.size(); ++i)
-        if (cameras_[i].any_fits_motion()) place_camera(composition, i, *scenes[i].scene, cameras_[i]);
+        if (cameras_[i].any_fits_motion() || cameras_[i].any_lags())
+            place_camera(composition, i, *scenes[i].scene, follows_[i].path.applied(cameras_[i]));
 }
 
 void RenderScenes::use_survey(int threads) {
@@ -245,7 +261,9 @@ void RenderScenes::visit_survey(Archive& archive, Self& self) {
         if (!camera.any_fits_motion()) continue;
         archive.keep(camera.eye, camera.target);
         for (auto& shot : camera.shots) archive.keep(shot.camera.eye, shot.camera.target);
+        for (auto& inset : camera.insets) archive.keep(inset.camera.eye, inset.camera.target);
     }
+    for (auto& follow : self.follows_) FollowPath::visit(archive, follow.path);
     for (auto& run : self.runs_) {
         archive.keep(run.times, run.values);
         archive.require([&run = run] {

@@ -9,6 +9,7 @@
 #include "app/survey/survey.h"
 #include "app/survey/surveyed_frames.h"
 #include "app/threads/interrupt.h"
+#include "framing/follow_path.h"
 #include "framing/motion_camera.h"
 #include "overlay/overlay_builder.h"
 #include "overlay/overlay_scales.h"
@@ -53,6 +54,13 @@ struct CameraObserver : SurveyObserver {
     MotionCamera motion;
 };
 
+/// The motion of a clip, for cameras that come up with a body.
+struct FollowObserver : SurveyObserver {
+    explicit FollowObserver(const SceneDescription& scene) : path(scene.camera) {}
+    void see(const Snapshot& snapshot, const Survey&, const ContactRecords*) override { path.see(snapshot); }
+    FollowPath path;
+};
+
 /// A scene that survey_clip() has simulated with all of its frames kept.
 struct SurveyedRun {
     std::unique_ptr<World> world;  // at the end
@@ -80,6 +88,9 @@ public:
 
     // The same by another run of the simulation, and its result in a checkpoint.
 
+    /// Finds the paths of cameras that come up with a body, by runs of their own. Before observers(). Replaces scenes of
+    /// the composition.
+    void find_paths(int threads, Interrupt& interrupt);
     /// Consumers of a scene that have to see all of its frames, in order.
     std::vector<SurveyObserver*> observers(std::size_t index);
     /// Fills in what the observers have seen. Replaces scenes of the composition.
@@ -118,6 +129,7 @@ private:
     FrameSet frames_from(std::size_t scene, double start) const;
     std::vector<double> warped_sound(std::size_t index, std::int64_t last) const;
     void fill_plots();
+    bool sees_for_camera(std::size_t index, const SurveyObserver* observer) const;
     void frame_motion(int threads);
     void place_cameras();
     void add_overlays();
@@ -132,6 +144,7 @@ private:
     std::vector<ScaleObserver> scales_;
     std::vector<SoundObserver> sounds_;  // one for each scene if the clip has sound
     std::vector<CameraObserver> motions_;
+    std::vector<FollowObserver> follows_;
     std::vector<CameraDescription> cameras_;  // by scene; the survey places each camera that shows the motion
     std::vector<SurveyedRun> kept_;
 };

@@ -28,11 +28,13 @@ void add(Sha256& hash, const NamedValues& values) {
     }
 }
 
-/// Text, plots and scales of arrows are laid out for the whole clip, and panels end with their scenes.
+/// Text, plots and scales of arrows are laid out for the whole clip, panels end with their scenes, and the path of a
+/// camera behind a body ends with the clip.
 bool depends_on_duration(std::span<const ClipScene> scenes) {
     return scenes.size() > 1 || std::ranges::any_of(scenes, [](const ClipScene& one) {
                const OverlayDescription& overlay = one.scene->overlay;
-               return !overlay.show.empty() || !overlay.plot.empty() || !overlay.captions.empty();
+               return !overlay.show.empty() || !overlay.plot.empty() || !overlay.captions.empty() || overlay.fade_out ||
+                      one.scene->camera.any_lags();
            });
 }
 
