@@ -40,6 +40,25 @@ target = [0, 0.5, 0]
 camera = "side"
 from = 0.5
 """
+TOGETHER = """\
+[cameras.top]
+eye = [0, 4, 0.01]
+target = [0, 0, 0]
+[[inset]]
+camera = "top"
+to = 0.52
+border = 0
+[[label]]
+body = "ball"
+text = "{y:.1f} m"
+size = 6
+"""
+CHASE = """\
+[camera]
+follow = "ball"
+follow_time = 0.3
+eye = [0, 1, 4]
+"""
 
 
 def difference(a, b):
@@ -103,6 +122,69 @@ class Direction(program.ProgramTest):
         self.write("scene.toml", HEAD + '[[shot]]\ncamera = "top"\n')
         error = self.check(2, "render", "scene.toml", "--frames", "f").stderr
         self.assertIn('"top" is not the name of one of [cameras]', error)
+
+    def test_insets_and_labels_are_the_same_for_any_workers_and_parts(self):
+        text = HEAD + TOGETHER
+        whole = self.frames(text, "--workers", "1")
+        self.assertEqual(whole, self.frames(text, "--workers", "3"))
+        part = self.frames(text, "--frames-range", "7-12", "--workers", "2")
+        self.assertEqual(part, whole[7:13])
+        plain = self.frames(text, "--overlay", "none", "--set", "inset.0.to=0.1")
+        inside = [self.corner(frame) != self.corner(other) for frame, other in zip(whole, plain)]
+        self.assertEqual(inside, [False, False] + [True] * 9 + [False] * 10)
+
+    @staticmethod
+    def corner(pixels, width=64, channels=3):
+        """The inset's place, without its lowest rows, in which labels may be."""
+        return [pixels[channels * (y * width + 46) : channels * (y * width + 61)] for y in range(2, 10)]
+
+    def test_a_camera_behind_a_body_is_the_same_after_a_resume_and_from_checkpoints(self):
+        text = HEAD + CHASE
+        whole = self.frames(text)
+        self.assertEqual(self.frames(text, "--frames-range", "11-20"), whole[11:])
+        self.check(0, "render", "scene.toml", "--frames", "kept", "--quiet")
+        for n in (3, 4, 12):
+            (self.folder / "kept" / f"frame_{n:06}.png").unlink()
+        self.check(0, "render", "scene.toml", "--frames", "kept", "--quiet", "--resume")
+        kept = [program.png_pixels(file)[3] for file in sorted((self.folder / "kept").glob("*.png"))]
+        self.assertEqual(kept, whole)
+        self.check(0, "simulate", "scene.toml", "--checkpoints", "points", "--every", "0.2", "--quiet")
+        late = self.frames(text, "--frames-range", "11-20", "--from-checkpoints", "points")
+        self.assertEqual(late, whole[11:])
+        self.assertNotEqual(whole, self.frames(text.replace("follow_time = 0.3", "")))
+
+    def test_all_cameras_have_their_folders(self):
+        self.write("scene.toml", HEAD + CAMERAS)
+        self.check(0, "render", "scene.toml", "--duration", "0.1", "--camera", "all", "--frames", "out",
+                   "--aov", "depth", "--quiet")
+        for camera in ("camera", "side"):
+            files = sorted(path.name for path in (self.folder / "out" / camera).iterdir())
+            for name in ("frame_000002.png", "aov_000002.npz"):
+                self.assertIn(name, files)
+        self.check(0, "render", "scene.toml", "--duration", "0.1", "--camera", "side", "--frames", "one",
+                   "--aov", "depth", "--quiet")
+        for name in ("frame_000002.png", "aov_000002.npz"):
+            self.assertEqual((self.folder / "one" / name).read_bytes(),
+                             (self.folder / "out" / "side" / name).read_bytes())
+        error = self.check(2, "render", "scene.toml", "--camera", "all", "-o", "clip.mp4").stderr
+        self.assertIn("needs --frames or --aov-folder", error)
+
+    def test_mistakes_of_labels_insets_and_logos_name_their_place(self):
+        for keys, message in [
+            ('[[label]]\nbody = "ball"\ntext = "{spede}"', "text has an unknown placeholder"),
+            ('[[label]]\nbody = "floor"\ntext = "a"', "body must have a center"),
+            ('[[label]]\nbody = "ball"\ntext = "a"\nfrom = 2\nto = 1', "to makes the time span end"),
+            ('[[inset]]\ncamera = "top"', '"top" is not the name of one of'),
+            ("[cameras.a]\n[[inset]]\ncamera = \"a\"\nsize = 0.5\nrectangle = [0, 0, 1, 1]", "exclude each other"),
+            ("[cameras.a]\n[[inset]]\ncamera = \"a\"\nrectangle = [0.5, 0, 0.6, 1]", "must lie in the frame"),
+            ('[logo]\nimage = "logo.png"', 'image "logo.png" does not exist'),
+            ('[logo]\nimage = "scene.toml"', "neither a PNG nor a JPEG"),
+            ("[logo]\nwidth = 0.2", "image"),
+        ]:
+            self.write("scene.toml", HEAD + keys + "\n")
+            error = self.check(2, "render", "scene.toml", "--frames", "f").stderr
+            self.assertRegex(error, f"scene.toml:[12][0-9]:[0-9]+: error: (.|\\n)*{message}")
+            self.assertFalse((self.folder / "f").exists())
 
 
 if __name__ == "__main__":

@@ -75,6 +75,11 @@ class Sound(program.ProgramTest):
         self.assertEqual(found, {("video", "h264"), ("audio", "aac")})
         self.assertAlmostEqual(duration, 1.55, delta=0.06)
 
+    def test_a_resumed_clip_has_the_sound_that_is_asked_for(self):
+        for sound, streams in [([], 1), (["--sound"], 2), (["--sound"], 2), ([], 1)]:
+            self.check(0, "render", "bounce.toml", "-o", "r.mp4", "--resume", "--quiet", *sound)
+            self.assertEqual(len(self.streams("r.mp4")[0]), streams)
+
     def test_a_clip_without_the_option_has_no_sound(self):
         self.check(0, "render", "bounce.toml", "-o", "a.mp4", "--quiet")
         self.assertEqual(self.streams("a.mp4")[0], {("video", "h264")})

@@ -1,6 +1,7 @@
 #include "app/cli/render_command.h"
 
 #include "app/cli/command.h"
+#include "app/cli/every_camera.h"
 #include "app/cli/render_report.h"
 #include "app/cli/render_run.h"
 #include "app/cli/say.h"
@@ -134,7 +135,7 @@ AovSet read_aovs(const std::string& text) {
     return aovs;
 }
 
-void run_render(const RenderCommand& command) {
+void run_one(const RenderCommand& command) {
     std::optional<RenderReport> report;
     if (command.report) report.emplace(command);
     RenderFigures done;
@@ -145,6 +146,10 @@ void run_render(const RenderCommand& command) {
     }
     if (!command.quiet) print_summary(done, command.aovs);
     if (report) report->write(done);
+}
+
+void run_render(const RenderCommand& command) {
+    for (const RenderCommand& one : of_each_camera(command)) run_one(one);
 }
 
 }  // namespace
@@ -298,6 +303,7 @@ void add_render(Command& command) {
         "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"
         "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"
         "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all\n"
+        "  tumble render scene.toml --frames out --aov depth --camera all   out/camera, and out/NAME of each other\n"
         "  tumble render a.toml b.toml                       side by side in a.mp4\n"
         "  tumble render scene.toml --vary simulation.integrator=explicit-euler,exact --overlay clock\n"
         "  tumble render scene.toml --plot energy --plot-place below\n"

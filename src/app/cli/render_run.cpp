@@ -197,6 +197,14 @@ RenderFigures figures_of(const RenderPlan& plan, const RenderScenes& scenes) {
     return figures;
 }
 
+/// Writes the sound of the surveyed clip into a folder that it makes.
+void write_sound(const RenderScenes& scenes, RenderPlan& plan, std::optional<TemporaryFolder>& folder) {
+    folder.emplace("sound");
+    const fs::path file = folder->path() / "sound.wav";
+    write_file(file, scenes.sound());
+    plan.set_sound(file);
+}
+
 /// The open outputs.
 class Destinations {
 public:
@@ -297,8 +305,8 @@ RenderPlan plan_render(const RenderCommand& command, const RenderScenes& scenes)
     if (plan.clip) plan.frames.video = scenes.frames;
     if (plan.clip && command.resume) {
         const ClipPicture picture{scenes.composition.width, scenes.composition.height, fps};
-        plan.segments =
-            std::make_unique<SegmentedClip>(*plan.clip, picture, plan.clip_options, plan.pictures, scenes.frames);
+        plan.segments = std::make_unique<SegmentedClip>(*plan.clip, picture, plan.clip_options, plan.pictures,
+                                                        scenes.frames, command.sound);
         plan.frames.video = plan.segments->missing();
     }
     plan.frames.drawn = plan.frames.folder.united_with(plan.frames.aovs).united_with(plan.frames.video);
@@ -317,7 +325,13 @@ RenderFigures render_to_files(const RenderCommand& command) {
     RenderPlan plan = plan_render(command, scenes);
     RenderFigures figures = figures_of(plan, scenes);
     Interrupt interrupt;  // before any thread or process is made
+    std::optional<TemporaryFolder> sound_folder;
     if (plan.frames.drawn.empty()) {
+        // A run that was ended after its last segment has left the joining, and the sound, to this one.
+        if (command.sound && plan.segments && !plan.segments->finished()) {
+            scenes.survey_clip({}, interrupt);
+            write_sound(scenes, plan, sound_folder);
+        }
         Destinations destinations(command, plan, scenes);
         destinations.complete();
         destinations.describe(figures);
@@ -349,13 +363,7 @@ RenderFigures render_to_files(const RenderCommand& command) {
         };
         scenes.survey_clip({threads, outputs.image(), keeps ? most_kept_bytes : 0, at_start}, interrupt);
     }
-    std::optional<TemporaryFolder> sound_folder;
-    if (command.sound) {
-        sound_folder.emplace("sound");
-        const fs::path file = sound_folder->path() / "sound.wav";
-        write_file(file, scenes.sound());
-        plan.set_sound(file);
-    }
+    if (command.sound) write_sound(scenes, plan, sound_folder);
     // Before any thread. The processes open OpenGL while the bodies are built.
     RenderPool render_pool(composition, command.drawing, outputs, workers, shutter.blur_samples);
     motion.make_panels(scenes, outputs.image(), threads);

@@ -157,7 +157,8 @@ void add_overlay(CLI::App& command, SceneOverrides& overrides, const std::string
 void add_camera(CLI::App& command, SceneOverrides& overrides) {
     command
         .add_option("--camera", overrides.camera,
-                    "One of [cameras] for the whole clip, in place of [camera] and [[shot]]")
+                    "One of [cameras] for the whole clip, in place of [camera] and [[shot]]. tumble render: all\n"
+                    "for frames and AOVs of each, in folders of their names")
         ->type_name("NAME");
 }
 

@@ -58,10 +58,16 @@ FrameIdentity identity_of_clip(FrameIdentity identity, const VideoFormat& format
     return identity;
 }
 
+/// The mark of the finished clip.
+std::string mark_of_clip(FrameIdentity segments, bool sound) {
+    if (sound) segments.settings.emplace_back("sound", "yes");
+    return segments.mark();
+}
+
 }  // namespace
 
 SegmentedClip::SegmentedClip(const fs::path& clip, const ClipPicture& picture, const ClipOptions& options,
-                             const FrameIdentity& identity, const FrameSet& frames)
+                             const FrameIdentity& identity, const FrameSet& frames, bool sound)
     : clip_(clip),
       folder_(clip.string() + ".parts"),
       picture_(picture),
@@ -70,7 +76,7 @@ SegmentedClip::SegmentedClip(const fs::path& clip, const ClipPicture& picture, c
       identity_(identity_of_clip(identity, format_, options, frames)),
       frames_(frames),
       segment_frames_(frames_of_segment(format_)),
-      joiner_(clip, format_, identity_.mark()) {
+      joiner_(clip, format_, mark_of_clip(identity_, sound)) {
     TUMBLE_CHECK_EQ(frames.contiguous() && !frames.empty(), true);
     if (is_written_in_place(clip))
         throw InputError(
@@ -81,7 +87,7 @@ SegmentedClip::SegmentedClip(const fs::path& clip, const ClipPicture& picture, c
             fmt::format("the folder holds segments of another clip, which differs in {}; delete it to start "
                         "anew, or name another clip",
                         differences(*there, identity_)));
-    finished_ = clip_has_mark(clip, identity_.mark());
+    finished_ = clip_has_mark(clip, mark_of_clip(identity_, sound));
     for (std::int64_t i = 0; !finished_ && i < segment_count(); ++i) {
         const Segment one = segment(i);
         if (!stored_in(one)) missing_.append(one.first, one.end);
