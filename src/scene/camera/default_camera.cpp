@@ -209,13 +209,11 @@ CameraDescription fitted(const SceneDescription& scene, const CameraDescription&
 
 /// The side, as degrees to the right of the front, from which the motion is seen.
 double side_of(const Mat3& paths, const Vec3& up) {
-    const auto [level_right, level_front] = level_axes(up);
-    const double whole = level_right.dot(paths * level_right) + level_front.dot(paths * level_front);
-    // clang 14 captures structured bindings only as copies.
-    const auto seen = [&, level_right = level_right,
-                       level_front = level_front](double to_the_right) {  // part of the level paths' length, squared
+    const auto level = level_axes(up);  // clang 14 has no structured bindings in lambdas
+    const double whole = level.first.dot(paths * level.first) + level.second.dot(paths * level.second);
+    const auto seen = [&](double to_the_right) {  // part of the level paths' length, squared
         const SinCos a = sincos(to_the_right * degrees);
-        const Vec3 right = a.cos * level_right - a.sin * level_front;
+        const Vec3 right = a.cos * level.first - a.sin * level.second;
         return right.dot(paths * right) / whole;
     };
     if (!(whole > 0.0) || seen(azimuth) >= side_on * side_on) return azimuth;

@@ -6,12 +6,12 @@
 #include "scene/mesh/mesh_file.h"
 
 #include <array>
-#include <compare>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -42,7 +42,9 @@ struct MeshSource {
     std::size_t index = 0;       // for the supplier
     UpAxis up = UpAxis::y;
 
-    friend auto operator<=>(const MeshSource&, const MeshSource&) = default;
+    friend bool operator<(const MeshSource& a, const MeshSource& b) {
+        return std::tie(a.file, a.index, a.up) < std::tie(b.file, b.index, b.up);
+    }
 };
 
 /// Loads each mesh once, and makes each (mesh, scale) once, so that bodies share data.

@@ -52,7 +52,7 @@ std::span<const Manifold> manifolds_of(const std::vector<Manifold>& manifolds, s
     const auto first = std::lower_bound(manifolds.begin(), manifolds.end(), std::pair(a, b), before);
     auto last = first;
     while (last != manifolds.end() && last->a == a && last->b == b) ++last;
-    return {first, last};
+    return std::span(manifolds).subspan(std::size_t(first - manifolds.begin()), std::size_t(last - first));
 }
 
 }  // namespace

@@ -391,7 +391,7 @@ void NarrowPhase::search(std::uint32_t index, double reach, double moved, double
         PersistentManifold& persistent =
             found.persistent.emplace_back(make_persistent_manifold(*m, a.pose, b.pose, of_b));
         if (m->more) continue;
-        keep_reduced_points(reduced(*m, found.scratch), std::span(m, alone ? 1 : 2), a.pose, b.pose, persistent);
+        keep_reduced_points(reduced(*m, found.scratch), std::span(&*m, alone ? 1 : 2), a.pose, b.pose, persistent);
     }
     if (count != entry.count) {
         found.changes.push_back({index, begin, count});
