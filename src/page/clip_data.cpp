@@ -1,13 +1,10 @@
 #include "page/clip_data.h"
 
-#include "core/check.h"
 #include "page/environment_data.h"
 #include "page/joint_marks.h"
 #include "page/motion_data.h"
 #include "page/scene_data.h"
 #include "page/table_data.h"
-
-#include <zlib.h>
 
 #include <algorithm>
 #include <utility>
@@ -71,25 +68,9 @@ Json run_json(const PageRun& run, const PageClip& clip, MeshTable& meshes, Array
     return json;
 }
 
-std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
-    constexpr int raw = -15, memory = 9;  // no header; the most memory, for the best compression
-    z_stream stream{};
-    TUMBLE_CHECK_EQ(deflateInit2(&stream, Z_BEST_COMPRESSION, Z_DEFLATED, raw, memory, Z_DEFAULT_STRATEGY), Z_OK);
-    std::vector<std::byte> room(deflateBound(&stream, uLong(bytes.size())));
-    stream.next_in = reinterpret_cast<Bytef*>(const_cast<std::byte*>(bytes.data()));
-    stream.avail_in = uInt(bytes.size());
-    stream.next_out = reinterpret_cast<Bytef*>(room.data());
-    stream.avail_out = uInt(room.size());
-    const int result = deflate(&stream, Z_FINISH);
-    room.resize(stream.total_out);
-    deflateEnd(&stream);
-    TUMBLE_CHECK_EQ(result, Z_STREAM_END);
-    return room;
-}
-
 }  // namespace
 
-ClipData make_clip_data(const PageClip& clip) {
+ClipData make_clip_container(const PageClip& clip) {
     ArrayStore arrays;
     MeshTable meshes;
     ClipData data;
@@ -102,11 +83,10 @@ ClipData make_clip_data(const PageClip& clip) {
     header["meshes"] = meshes.write(arrays);
     if (Json textures = meshes.write_textures(arrays); !textures.empty()) header["textures"] = std::move(textures);
     const std::string text = header.dump(-1, ' ', false, Json::error_handler_t::replace);
-    std::vector<std::byte> bytes;
+    std::vector<std::byte>& bytes = data.bytes;
     for (int shift = 0; shift < 32; shift += 8) bytes.push_back(std::byte(text.size() >> shift & 0xffu));
     for (const char c : text) bytes.push_back(std::byte(c));
     bytes.insert(bytes.end(), arrays.bytes().begin(), arrays.bytes().end());
-    data.bytes = deflated(bytes);
     return data;
 }
 

@@ -33,10 +33,13 @@ struct PageClip {
 };
 
 struct ClipData {
-    std::vector<std::byte> bytes;  // raw deflate
-    MotionErrors errors;           // largest deviations of all runs from the simulation at the frames
+    std::vector<std::byte> bytes;
+    MotionErrors errors;  // largest deviations of all runs from the simulation at the frames
 };
 
+/// The header and the arrays.
+ClipData make_clip_container(const PageClip& clip);
+/// The same by raw deflate, as pages have it.
 ClipData make_clip_data(const PageClip& clip);
 
 }  // namespace tumble

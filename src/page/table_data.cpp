@@ -145,8 +145,8 @@ Json make_impact_data(const PageRun& run, bool precise, ArrayStore& arrays) {
     for (std::size_t i = 0; i < run.impacts.size(); ++i)
         if (const ImpactRecord& r = run.impacts[i].record; r.moment != moment_of(r))
             json["moments"].push_back({i, r.moment.x(), r.moment.y(), r.moment.z()});
-    whole("event_a", [](const PageImpact& i) { return i.event_a; });
-    whole("event_b", [](const PageImpact& i) { return i.event_b; });
+    whole("event_a", [](const PageImpact& i) { return std::ptrdiff_t(i.event_a); });
+    whole("event_b", [](const PageImpact& i) { return std::ptrdiff_t(i.event_b); });
     return json;
 }
 

@@ -6,7 +6,6 @@
 #include "app/files/frame_folder.h"
 #include "app/page/record_run.h"
 #include "app/plots/alike_runs.h"
-#include "app/plots/quantities.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
 #include "core/html_text.h"
@@ -14,6 +13,7 @@
 #include "core/safe_text.h"
 #include "output/process.h"
 #include "output/temporary_folder.h"
+#include "quantities/quantities.h"
 
 #include <fmt/format.h>
 

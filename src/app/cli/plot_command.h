@@ -12,7 +12,7 @@ namespace tumble {
 
 struct PlotCommand {
     std::vector<std::filesystem::path> scenes;
-    std::string quantities;                              // names separated by commas (app/plots/quantities.h)
+    std::string quantities;                              // names separated by commas (quantities/quantities.h)
     std::filesystem::path output;                        // .svg, .png or .pdf
     std::optional<std::filesystem::path> motion_record;  // .json (app/causes)
     std::vector<std::string> vary;                       // "PATH=VALUE,VALUE"

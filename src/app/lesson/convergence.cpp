@@ -2,8 +2,8 @@
 
 #include "app/lesson/lesson_scene.h"
 #include "app/plots/plotted_run.h"
-#include "app/plots/quantities.h"
 #include "app/survey/survey.h"
+#include "quantities/quantities.h"
 #include "sim/world.h"
 
 #include <fmt/format.h>

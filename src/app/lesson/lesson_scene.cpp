@@ -1,9 +1,9 @@
 #include "app/lesson/lesson_scene.h"
 
-#include "app/plots/quantities.h"
 #include "app/plots/variants.h"
 #include "core/input_file.h"
 #include "core/safe_text.h"
+#include "quantities/quantities.h"
 
 #include <fmt/format.h>
 

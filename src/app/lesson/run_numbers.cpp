@@ -1,8 +1,8 @@
 #include "app/lesson/run_numbers.h"
 
 #include "app/lesson/lesson_scene.h"
-#include "app/plots/quantities.h"
 #include "core/check.h"
+#include "quantities/quantities.h"
 
 #include <fmt/format.h>
 

@@ -1,9 +1,9 @@
 // The values of quantities over a run, and the panels of a plot of several runs.
 #pragma once
 
-#include "app/plots/quantities.h"
 #include "app/survey/survey.h"
 #include "plot/figure.h"
+#include "quantities/quantities.h"
 
 #include <span>
 #include <string>

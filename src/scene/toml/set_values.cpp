@@ -117,6 +117,26 @@ void set_values(toml::table& document, std::span<const std::string> assignments)
     for (const std::string& assignment : assignments) set_value(document, assignment);
 }
 
+std::optional<SetValue> value_of_path(toml::table& document, std::string_view path_text) {
+    Path path;
+    const std::string assignment = std::string(path_text) + "=";
+    split_path(assignment, path);
+    toml::node* at = &document;
+    for (const std::string& key : path) {
+        if (toml::array* array = at->as_array())
+            at = &element(*array, key, path_text);
+        else if (toml::table* table = at->as_table())
+            at = table->get(key);
+        else
+            return std::nullopt;
+        if (at == nullptr) return std::nullopt;
+    }
+    if (const auto number = at->value<double>(); number && !at->is_boolean()) return SetValue{number, {}};
+    if (const auto flag = at->value<bool>()) return SetValue{{}, *flag ? "true" : "false"};
+    if (const auto text = at->value<std::string>()) return SetValue{{}, *text};
+    return std::nullopt;
+}
+
 std::optional<std::string> set_option(const toml::source_region& source) {
     if (!source.path || !source.path->starts_with(option)) return std::nullopt;
     return *source.path;

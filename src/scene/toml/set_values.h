@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace tumble {
 
@@ -17,6 +18,16 @@ namespace tumble {
 /// Throws InputError for a path without '=', and for an element that does not exist. Keys are checked where the
 /// document is read: errors about these values name the option.
 void set_values(toml::table& document, std::span<const std::string> assignments);
+
+/// A value as set_values() takes it.
+struct SetValue {
+    std::optional<double> number;  // otherwise text
+    std::string text;
+};
+
+/// The value of that path; none where the document does not give it, or gives a list or a table. Throws InputError for
+/// an element of an array that does not exist.
+std::optional<SetValue> value_of_path(toml::table& document, std::string_view path);
 
 /// "--set PATH" if the node or key comes from such an assignment.
 std::optional<std::string> set_option(const toml::source_region& source);

@@ -1,5 +1,5 @@
 // Quantities that plots show: those of `tumble plot --of`, and more of a body. Of joints those that the page has.
-import texts from "../../../src/app/plots/quantity_texts.json";
+import texts from "../../../src/quantities/quantity_texts.json";
 import type { BodyState, EnergyTable, Run, Vec3 } from "../data/clip.ts";
 import { add, cross, dot, norm, transform, turned } from "./linear.ts";
 

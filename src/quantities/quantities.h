@@ -1,7 +1,7 @@
 // Quantities of a run that plots can show, by the names of --of: sums over the scene, and values of a body or a joint.
 #pragma once
 
-#include "app/survey/survey.h"
+#include "quantities/survey_frame.h"
 #include "scene/description/description.h"
 
 #include <functional>

@@ -1,8 +1,8 @@
-#include "app/plots/quantities.h"
+#include "quantities/quantities.h"
 
-#include "app/plots/quantity_texts.h"
 #include "core/error.h"
 #include "core/safe_text.h"
+#include "quantities/quantity_texts.h"
 #include "scene/toml/error_text.h"
 
 #include <fmt/format.h>
