@@ -1,5 +1,6 @@
-// Builds the player, the template of pages and the compiler of lessons into ../build/web, or into the folder given.
-//   node build.mjs [FOLDER]
+// Builds the player, the template of pages and the compiler of lessons into ../build/web, or into the folder given. With a
+// module (build/live/live.wasm), the template of live pages too.
+//   node build.mjs [FOLDER [live.wasm]]
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
 import { existsSync } from "node:fs";
@@ -90,7 +91,31 @@ const compiler = await with_licenses(await bundled({
   target: "node18",
 }));
 
+/** The template of live pages: the policy allows a worker of the page's own text, and WebAssembly in it. */
+async function live_page(module) {
+  const { text: worker } = await script("live/worker.ts");
+  const { text, inputs: live_inputs } = await bundled({
+    entryPoints: [source("live_player.ts")], format: "iife", define: { LIVE_WORKER: JSON.stringify(worker) },
+  });
+  const live_player = await with_licenses({ text, inputs: [...live_inputs, ...style_inputs, font] });
+  const { text: live_style } = await bundled({
+    stdin: { contents: '@import "./live/live.css";', resolveDir: join(here, "src"), loader: "css" },
+  });
+  const template = (await readFile(source("page.html"), "utf8"))
+    .replace("[[hashes]];", "[[hashes]] 'wasm-unsafe-eval'; worker-src blob:;")
+    .replace('<script type="text/plain" id="tumble-player">', '<script type="text/plain" id="tumble-live">[[module]]</script>\n$&');
+  return fill(template, {
+    hashes: `${hash_of(loader)} ${hash_of(live_player)}`,
+    icon,
+    style: style + live_style,
+    loader,
+    module: deflateRawSync(module, { level: 9 }).toString("base64"),
+    player: deflateRawSync(live_player, { level: 9 }).toString("base64"),
+  });
+}
+
 await mkdir(out, { recursive: true });
+if (process.argv[3]) await writeFile(join(out, "live-page.html"), await live_page(await readFile(process.argv[3])));
 await writeFile(join(out, "player.js"), player);
 await writeFile(join(out, "page.html"), page);
 await writeFile(join(out, "lesson.cjs"), compiler);

@@ -1,0 +1,124 @@
+// The simulation as WebAssembly: the data of each run equals that of the native library, byte by byte. The program
+// live_data, in C, makes the native data.
+import assert from "node:assert/strict";
+import { spawnSync } from "node:child_process";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
+import { before, test } from "node:test";
+import { DecimalSteps } from "../src/live/decimal.ts";
+import { simulate_command } from "../src/live/command.ts";
+import { LiveModule } from "../src/live/module.ts";
+import { read_clip } from "../src/data/decode_clip.ts";
+import { repository, scenes_folder, temporary_folder } from "./program.ts";
+import { tumble_path } from "./paths.mjs";
+
+const live_data = join(dirname(tumble_path()), "tests/live/live_data");
+const wasm = join(repository, "build/live/live.wasm");
+const skip = !existsSync(wasm) ? "there is no build/live/live.wasm (scripts/build-web --live)" :
+  !existsSync(live_data) ? `there is no ${live_data}` : false;
+
+let module: LiveModule;
+before(async () => {
+  if (!skip) module = await LiveModule.of(await WebAssembly.compile(readFileSync(wasm)));
+});
+
+function whole(name: string, text: string, settings: string[]): { bytes: Uint8Array | null; error: string } {
+  const run = module.open(name, text, settings);
+  run.advance(run.all_frames);
+  const bytes = run.data(), error = run.error?.message ?? "";
+  run.close();
+  return { bytes, error };
+}
+
+/** Scenes without files, of a folder and short enough for a test of each. */
+function scenes(folder: string): string[] {
+  return readdirSync(folder).filter((name) => name.endsWith(".toml")).map((name) => join(folder, name))
+    .filter((file) => !/\b(file|image|texture|height_map|heights|normal_map|roughness_map)\s*=\s*"|\[sweep\]|\[\[axis\]\]/.test(readFileSync(file, "utf8")));
+}
+
+/** Large scenes take minutes natively. */
+const too_large = /thousand|ten_thousand|heap|pile|tower|hundred/;
+
+for (const folder of [scenes_folder, join(repository, "examples"), join(repository, "course/scenes")]) {
+  for (const file of scenes(folder).filter((each) => !too_large.test(basename(each)))) {
+    test(`${basename(folder)}/${basename(file)} has the native bytes`, { skip }, () => {
+      const name = basename(file), text = readFileSync(file, "utf8"), settings = ["simulation.duration=0.5"];
+      const out = join(temporary_folder, "native.bin");
+      const native = spawnSync(live_data, [out, name, file, ...settings], { encoding: "utf8" });
+      const { bytes, error } = whole(name, text, settings);
+      assert.equal(native.status === 0, bytes !== null, `native: ${native.stderr}; module: ${error}`);
+      if (bytes) assert.ok(Buffer.from(bytes).equals(readFileSync(out)), "the bytes differ");
+      else assert.ok(native.stderr.includes(error.slice(0, 40)), `native: ${native.stderr}; module: ${error}`);
+    });
+  }
+}
+
+const ball = `format = 1
+[simulation]
+duration = 1.0
+impacts = "exact"
+[[body]]
+name = "floor"
+type = "fixed"
+shape = { type = "plane" }
+[[body]]
+name = "ball"
+shape = { type = "sphere", radius = 0.1 }
+position = [0, 1.1, 0]
+restitution = 0.5
+`;
+
+test("a setting changes the run, and frames come in pieces", { skip }, () => {
+  const run = module.open("ball.toml", ball, ["body.ball.restitution=0.65"]);
+  assert.equal(run.all_frames, 61);
+  assert.equal(run.advance(20), 20);
+  assert.equal(read_clip(run.data()!).runs[0].frames, 20);
+  run.advance(100);
+  const { runs } = read_clip(run.data()!);
+  assert.equal(runs[0].frames, 61);
+  const [first] = runs[0].impacts;
+  assert.ok(Math.abs(first.time - Math.sqrt(2 / 9.81)) < 1e-3, `${first.time}`);
+  run.close();
+});
+
+test("mistakes have line and column", { skip }, () => {
+  const run = module.open("ball.toml", ball.replace("duration = 1.0", "duration = -1"), []);
+  assert.equal(run.all_frames, 0);
+  assert.equal(run.data(), null);
+  assert.deepEqual([run.error!.line, run.error!.column], [3, 12]);
+  run.close();
+});
+
+test("files are refused in words", { skip }, () => {
+  const run = module.open("mesh.toml", `${ball}[[body]]\nname = "mesh"\nshape = { type = "mesh", file = "a.obj" }\nposition = [0, 3, 0]\n`, []);
+  assert.match(run.error!.message, /a\.obj/);
+  run.close();
+});
+
+test("500 runs take no more memory than 50", { skip }, () => {
+  const once = (): void => {
+    const run = module.open("ball.toml", ball, []);
+    run.advance(61);
+    run.data();
+    run.close();
+  };
+  for (let i = 0; i < 50; ++i) once();
+  const { memory } = module;
+  for (let i = 0; i < 500; ++i) once();
+  assert.equal(module.memory, memory);
+});
+
+test("sliders give decimal text", () => {
+  const steps = new DecimalSteps("0", "1", "0.05");
+  assert.equal(steps.last, 20);
+  assert.deepEqual([0, 3, 13, 20].map((index) => steps.text(index)), ["0.00", "0.15", "0.65", "1.00"]);
+  assert.equal(steps.index("0.65"), 13);
+  const down = new DecimalSteps("-20", "0", "0.01");
+  assert.deepEqual([down.text(1019), down.text(0), down.text(down.last)], ["-9.81", "-20.00", "0.00"]);
+  assert.equal(new DecimalSteps("-0.5", "0.5", "0.25").text(1), "-0.25");
+});
+
+test("the command quotes what a shell would read", () => {
+  assert.equal(simulate_command("ball.toml", ["body.ball.restitution=0.65"]), "tumble simulate ball.toml --set body.ball.restitution=0.65");
+  assert.equal(simulate_command("it's.toml", ['body."a b".mass=1']), `tumble simulate 'it'\\''s.toml' --set 'body."a b".mass=1'`);
+});
