@@ -58,7 +58,13 @@ std::map<std::string, std::string, std::less<>> values_of(const PageShell& shell
 
 }  // namespace
 
-PageTemplate::PageTemplate(const std::filesystem::path& web_folder) : file_(web_folder / "page.html") {
+PageTemplate::PageTemplate(const std::filesystem::path& web_folder, PageKind kind)
+    : file_(web_folder / (kind == PageKind::live ? "live-page.html" : "page.html")) {
+    if (kind == PageKind::live && !std::filesystem::exists(file_))
+        throw RunError(
+            fmt::format("live pages need the simulation as WebAssembly, which is not built ({}): run "
+                        "scripts/build-web --live in Tumble's source tree",
+                        safe_path(file_)));
     std::ifstream file(file_, std::ios::binary);
     std::ostringstream text;
     text << file.rdbuf();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -34,14 +35,18 @@ struct PageShell {
     std::string body_html;      // content of <main>
     std::vector<ShellClip> clips;
     ShellLink previous, next, up;
+    bool live = false;        // for the template of live pages
     bool with_player = true;  // false for a page without anything to run: the script is left out
 };
+
+/// Live pages have the simulation too.
+enum class PageKind : std::uint8_t { recorded, live };
 
 /// The template, read once for many pages.
 class PageTemplate {
 public:
-    /// Throws RunError if it cannot be read.
-    explicit PageTemplate(const std::filesystem::path& web_folder);
+    /// Throws RunError if it cannot be read, or is not built.
+    explicit PageTemplate(const std::filesystem::path& web_folder, PageKind kind = PageKind::recorded);
     /// The whole page. Throws RunError if the template has an unknown place.
     std::string fill(const PageShell& shell) const;
 

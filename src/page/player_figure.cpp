@@ -50,8 +50,10 @@ std::string options_json(const PlayerOptions& options) {
 std::string figure_html(const PlayerFigure& figure) {
     std::string html = "<figure class=\"tumble-player\"";
     if (!figure.id.empty()) html += fmt::format(" id=\"{}\"", html_text(figure.id));
-    html += fmt::format(" data-clip=\"{}\" data-options=\"{}\">\n", html_text(figure.clip),
+    html += fmt::format(" data-clip=\"{}\" data-options=\"{}\"", html_text(figure.clip),
                         html_text(options_json(figure.options)));
+    if (!figure.live.empty()) html += fmt::format(" data-live=\"{}\"", html_text(figure.live));
+    html += ">\n";
     html += fallback_html(figure);
     html += "<noscript><p class=\"player-note\">Turning, scrubbing and plots need JavaScript.</p></noscript>\n";
     if (!figure.caption_html.empty()) html += fmt::format("<figcaption>{}</figcaption>\n", figure.caption_html);

@@ -34,6 +34,7 @@ struct PlayerFigure {
     std::string clip;  // id of the ShellClip
     std::string id;    // of the figure; empty: none
     PlayerOptions options;
+    std::string live;           // JSON of what a reader may change, of a live page; empty: nothing
     std::string poster;         // data address of a picture; empty: none
     std::string film;           // data address of an mp4 film; empty: none
     int width = 0, height = 0;  // of both, pixels

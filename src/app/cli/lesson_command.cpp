@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <optional>
 
 namespace tumble {
 namespace {
@@ -82,8 +83,27 @@ StagePictures draw_stage(const LessonCommand& command, const LessonStage& stage,
     return {film.poster, film.film, film.width, film.height};
 }
 
+struct LessonTemplates {
+    PageTemplate page;
+    std::optional<PageTemplate> live;  // where a lesson has live stages, and their simulation is built
+};
+
+LessonTemplates read_templates(const fs::path& web, const Course& course, bool quiet) {
+    LessonTemplates templates{PageTemplate(web), std::nullopt};
+    const bool any = std::ranges::any_of(course.lessons, [](const Lesson& lesson) {
+        return std::ranges::any_of(lesson.stages, [](const LessonStage& stage) { return !stage.live.empty(); });
+    });
+    if (!any) return templates;
+    try {
+        templates.live.emplace(web, PageKind::live);
+    } catch (const RunError& error) {
+        if (!quiet) say("note: live stages of the lessons show their recorded runs only: {}\n", error.message());
+    }
+    return templates;
+}
+
 std::vector<SitePage> make_pages(const LessonCommand& command, const Course& course, const LessonRuns& runs,
-                                 const PageTemplate& page_template) {
+                                 const LessonTemplates& templates) {
     std::vector<SitePage> pages;
     std::vector<std::string> posters;
     for (std::size_t i = 0; i < course.lessons.size(); ++i) {
@@ -93,11 +113,13 @@ std::vector<SitePage> make_pages(const LessonCommand& command, const Course& cou
             pictures.push_back(draw_stage(command, lesson.stages[s], runs.scenes()[i].stages[s]));
         if (command.check) continue;
         posters.push_back(pictures.empty() ? std::string() : pictures.front().poster);
-        const PageShell shell = lesson_page(course, i, runs.results()[i], pictures, generator);
-        pages.push_back({page_name(lesson), page_template.fill(shell)});
+        const std::vector<std::vector<LiveControl>> recorded(lesson.stages.size());
+        const auto& live = templates.live ? runs.scenes()[i].live : recorded;
+        const PageShell shell = lesson_page(course, i, {runs.results()[i], pictures, live}, generator);
+        pages.push_back({page_name(lesson), (shell.live ? *templates.live : templates.page).fill(shell)});
     }
     if (!command.check)
-        pages.push_back({index_name, page_template.fill(index_page(course, command.title, generator, posters))});
+        pages.push_back({index_name, templates.page.fill(index_page(course, command.title, generator, posters))});
     return pages;
 }
 
@@ -126,13 +148,13 @@ int run_lesson(const LessonCommand& command) {
     for (const fs::path& lesson : command.lessons)
         if (!fs::is_regular_file(lesson)) throw InputError(fmt::format("there is no file {}", safe_path(lesson)));
     const fs::path web = find_web_folder();
-    const PageTemplate page_template(web);
     const Course course = compile_lessons(command.lessons, web);
     print_errors(course.errors);
     if (!course.errors.empty()) return 2;
+    const LessonTemplates templates = read_templates(web, course, command.quiet);
 
     LessonRuns runs(course, generator);
-    plan_outputs(command, course, runs, page_template.file());
+    plan_outputs(command, course, runs, templates.page.file());
     if (runs.errors().empty()) {
         Progress progress(std::int64_t(runs.blocks()), command.quiet);
         runs.run(command.threads, [&](std::size_t done) { progress.update(std::int64_t(done)); });
@@ -140,7 +162,7 @@ int run_lesson(const LessonCommand& command) {
     }
     print_errors(runs.errors());
     if (!runs.errors().empty()) return 2;
-    const std::vector<SitePage> pages = make_pages(command, course, runs, page_template);
+    const std::vector<SitePage> pages = make_pages(command, course, runs, templates);
     if (!command.check) write_pages(command, pages);
     return 0;
 }

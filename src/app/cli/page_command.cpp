@@ -4,6 +4,7 @@
 #include "app/cli/say.h"
 #include "app/cli/shared_options.h"
 #include "app/files/output_plan.h"
+#include "app/page/live_controls.h"
 #include "core/error.h"
 #include "core/html_text.h"
 #include "core/safe_text.h"
@@ -38,6 +39,7 @@ struct PageCommand {
     bool film = true;                     // in the page, for readers without WebGL
     int film_width = 0, film_height = 0;  // pixels; 0: 640 at most, with the scene's aspect
     bool embed_glb = false;
+    std::optional<std::vector<std::string>> live;  // values to change, of a live page
     int threads = 1;
     int workers = 1;  // render processes of the film
     bool quiet = false;
@@ -45,6 +47,29 @@ struct PageCommand {
 
 constexpr int film_side = 640, side_of_panels = 960;  // pixels, the longer one of the film
 constexpr const char* clip_id = "clip-1";
+
+/// The simulation of a page has no files, and its command has no other options than --set.
+void check_live(const PageCommand& command, const PageScenes& scenes) {
+    const auto scene_file = command.scenes.front().lexically_normal();
+    for (const fs::path& file : scenes.inputs)
+        if (file.lexically_normal() != scene_file)
+            throw InputError(fmt::format("--live: a live page has no files, and the scene reads {}", safe_path(file)));
+    const SceneOverrides& o = command.overrides;
+    if (o.duration || o.fps || o.method || o.integrator || o.camera || o.overlay || o.plot)
+        throw InputError(
+            "--live: give --duration, --fps, --method, --integrator, --camera, --overlay and --plot in the scene, or "
+            "by "
+            "--set, as --set simulation.duration=2");
+}
+
+LivePage live_page(const PageCommand& command, const PageScenes& scenes) {
+    LivePage page;
+    page.name = scenes.sources.front().name;
+    page.settings = command.overrides.set;
+    for (const std::string& text : *command.live) page.controls.push_back(parse_live_control(text));
+    complete_live_controls(page.controls, scenes.sources.front().text, command.scenes.front(), command.overrides);
+    return page;
+}
 
 void check_command(const PageCommand& command, const PageScenes& scenes) {
     const SceneDescription& first = scenes.scenes.front();
@@ -56,6 +81,9 @@ void check_command(const PageCommand& command, const PageScenes& scenes) {
         throw InputError(fmt::format("--time: the clip lasts {:g} s (given {:g})", scenes.duration(), command.time));
     if (!command.compare.empty() && scenes.scenes.size() < 2)
         throw InputError("--compare: needs two runs or more: give several scenes, or --vary (given one run)");
+    if (command.live && scenes.scenes.size() > 1)
+        throw InputError(fmt::format("--live: needs a single run (given {})", scenes.scenes.size()));
+    if (command.live) check_live(command, scenes);
     if (command.embed_glb && scenes.scenes.size() > 1)
         throw InputError(fmt::format("--embed-glb: needs a single run (given {})", scenes.scenes.size()));
 }
@@ -91,8 +119,8 @@ std::string download_html(const PageCommand& command, const PageScenes& scenes) 
         1e-3 * double(exported.bytes.size()));
 }
 
-std::string body_html(const PageCommand& command, const PageScenes& scenes, const PageClip& clip,
-                      const PageFilm& film) {
+std::string body_html(const PageCommand& command, const PageScenes& scenes, const PageClip& clip, const PageFilm& film,
+                      const std::optional<LivePage>& live) {
     const PageRun& run = clip.runs.front();
     PlayerFigure figure;
     figure.clip = clip_id;
@@ -105,6 +133,7 @@ std::string body_html(const PageCommand& command, const PageScenes& scenes, cons
     figure.options.follow = command.follow;
     figure.options.compare = command.compare;
     figure.options.alt = summary_of(run);
+    if (live) figure.live = live_json(*live);
     if (command.embed_glb) figure.caption_html = download_html(command, scenes);
     std::string html = masthead_html(clip.title, "", summary_of(run)) + figure_html(figure);
     // The player shows the sources itself.
@@ -119,7 +148,8 @@ void run_page(const PageCommand& command) {
     const fs::path output = command.output.value_or(command.scenes.front().stem().string() + ".html");
     OutputPlan plan;
     plan.add_inputs(scenes.inputs);
-    const PageTemplate page_template(find_web_folder());
+    const std::optional<LivePage> live = command.live ? std::optional(live_page(command, scenes)) : std::nullopt;
+    const PageTemplate page_template(find_web_folder(), live ? PageKind::live : PageKind::recorded);
     plan.add_input(page_template.file());
     plan.add("-o", output);
 
@@ -138,7 +168,7 @@ void run_page(const PageCommand& command) {
     shell.description = fmt::format("{}: a clip to turn and scrub ({})", clip.title, summary_of(clip.runs.front()));
     shell.generator = clip.generator;
     shell.clips = {{clip_id, data.bytes}};
-    shell.body_html = body_html(command, scenes, clip, film);
+    shell.body_html = body_html(command, scenes, clip, film, live);
     const std::string page = page_template.fill(shell);
     file.write(page);
     file.commit();
@@ -174,6 +204,19 @@ void add_page(Command& command) {
     add_choice<std::string>(command, "--compare", c.compare,
                             {{"single", "single"}, {"ghost", "ghost"}, {"side-by-side", "side-by-side"}},
                             "How the page shows several runs at first: one, the others as ghosts, or all");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--live",
+            [&c](const std::vector<std::string>& texts) {
+                c.live.emplace();
+                for (const std::string& text : texts)
+                    if (!text.empty() && text != "{}") c.live->push_back(text);  // CLI11's texts of an option alone
+            },
+            "A live page: the reader changes these values, or the scene's text, and the page\n"
+            "simulates again. KEY is a key of --set; its slider has the range MIN:MAX:STEP, or\n"
+            "one around the scene's value; VALUE,VALUE is a choice")
+        ->expected(0, -1)
+        ->type_name("KEY[=MIN:MAX:STEP|=VALUE,VALUE...]");
     add_frames_of_time(command, c.overrides);
     add_camera(command, c.overrides);
     add_overlay(command, c.overrides,
@@ -209,6 +252,7 @@ void add_page(Command& command) {
         "  tumble page scene.toml                            writes scene.html\n"
         "  tumble page scene.toml --vary materials.ball.restitution=0.2,0.5,0.8 --compare ghost\n"
         "  tumble page scene.toml -o ball.html --overlay velocity,forces --plot body.ball.y,energy\n"
+        "  tumble page scene.toml --live body.ball.restitution simulation.gravity.1=-20:0:0.1\n"
         "  tumble page scene.toml --set simulation.impacts=exact   exact between frames too";
     command.logs = true;
     command.run = [&c] {

@@ -76,12 +76,25 @@ PlayerOptions read_options(const CourseJson& json) {
     return options;
 }
 
+LiveControl read_live_control(const CourseJson& json) {
+    LiveControl control;
+    read(json, "key", control.key);
+    read(json, "label", control.label);
+    read(json, "unit", control.unit);
+    read(json, "min", control.min);
+    read(json, "max", control.max);
+    read(json, "step", control.step);
+    read(json, "choices", control.choices);
+    return control;
+}
+
 LessonStage read_stage(const CourseJson& json, const std::string& file) {
     LessonStage stage;
     read(json, "id", stage.id);
     stage.scene = read_scene(json, file);
     read(json, "vary", stage.vary);
     read(json, "labels", stage.labels);
+    for (const CourseJson& control : json.at("live")) stage.live.push_back(read_live_control(control));
     stage.options = read_options(json.at("options"));
     read(json, "caption", stage.caption_html);
     read(json, "alt", stage.options.alt);

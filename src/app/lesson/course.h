@@ -2,6 +2,7 @@
 // that need a run.
 #pragma once
 
+#include "app/page/live_controls.h"
 #include "core/error.h"
 #include "page/player_figure.h"
 
@@ -35,6 +36,7 @@ struct LessonStage {
     LessonScene scene;
     std::vector<std::string> vary;    // as --vary
     std::vector<std::string> labels;  // of the runs; empty: made from `vary`
+    std::vector<LiveControl> live;    // values that the reader may change; empty: a recorded stage
     PlayerOptions options;
     std::string caption_html;
     BlockPlaces places;

@@ -36,8 +36,22 @@ int digits_of(double value, double tolerance) {
 
 std::string clip_id(const LessonStage& stage) { return "clip-" + stage.id; }
 
-std::string stage_html(const LessonStage& stage, const StagePictures& pictures) {
+/// Quantities of joints are recorded where a plot of the scene names them.
+std::string live_of(const LessonStage& stage, const std::vector<LiveControl>& controls) {
+    LivePage page;
+    page.name = stage.scene.text ? stage.id + ".toml" : stage.scene.file.filename().string();
+    page.settings = stage.scene.set;
+    if (stage.options.plot.find("joint.") != std::string::npos)
+        page.settings.push_back("overlay.plot=" + stage.options.plot);
+    page.controls = controls;
+    page.editor = false;
+    return live_json(page);
+}
+
+std::string stage_html(const LessonStage& stage, const StagePictures& pictures,
+                       const std::vector<LiveControl>& controls) {
     PlayerFigure figure;
+    if (!controls.empty()) figure.live = live_of(stage, controls);
     figure.clip = clip_id(stage);
     figure.id = stage.id;
     figure.options = stage.options;
@@ -62,13 +76,14 @@ std::string address_of(const Lesson& lesson) {
 
 }  // namespace
 
-PageShell lesson_page(const Course& course, std::size_t index, const LessonResult& result,
-                      const std::vector<StagePictures>& pictures, const std::string& generator) {
+PageShell lesson_page(const Course& course, std::size_t index, const LessonParts& parts, const std::string& generator) {
+    const LessonResult& result = parts.result;
     const Lesson& lesson = course.lessons[index];
     std::map<std::string, std::string, std::less<>> texts;
     PageShell shell;
     for (std::size_t i = 0; i < lesson.stages.size(); ++i) {
-        texts["stage:" + lesson.stages[i].id] = stage_html(lesson.stages[i], pictures[i]);
+        texts["stage:" + lesson.stages[i].id] = stage_html(lesson.stages[i], parts.pictures[i], parts.live[i]);
+        shell.live = shell.live || !parts.live[i].empty();
         shell.clips.push_back({clip_id(lesson.stages[i]), result.stages[i].clip});
     }
     for (std::size_t i = 0; i < lesson.convergences.size(); ++i)

@@ -15,9 +15,15 @@ struct StagePictures {
     int width = 0, height = 0;  // pixels
 };
 
-/// The page of a lesson of the course. `pictures`: by stage.
-PageShell lesson_page(const Course& course, std::size_t index, const LessonResult& result,
-                      const std::vector<StagePictures>& pictures, const std::string& generator);
+/// The contents of a lesson's page, by stage.
+struct LessonParts {
+    const LessonResult& result;
+    const std::vector<StagePictures>& pictures;
+    const std::vector<std::vector<LiveControl>>& live;  // empty: of stages that are recorded
+};
+
+/// The page of a lesson of the course.
+PageShell lesson_page(const Course& course, std::size_t index, const LessonParts& parts, const std::string& generator);
 
 /// The page of contents. `posters`: data addresses of the lessons' pictures; empty: there is none.
 PageShell index_page(const Course& course, const std::string& title, const std::string& generator,

@@ -144,12 +144,16 @@ void LessonRuns::load(const Lesson& lesson) {
     LessonResult& result = results_.emplace_back();
     const std::size_t index = scenes_.size() - 1;
     scenes.stages.resize(lesson.stages.size());
+    scenes.live.resize(lesson.stages.size());
     scenes.convergences.resize(lesson.convergences.size());
     result.stages.resize(lesson.stages.size());
     result.convergences.resize(lesson.convergences.size());
     for (const LessonMeasure& measure : lesson.measures) result.measures.emplace_back(measure.rows.size());
     for (std::size_t i = 0; i < lesson.stages.size(); ++i)
-        collect(index, [&] { scenes.stages[i] = load_stage(lesson.stages[i], inputs_); });
+        collect(index, [&] {
+            scenes.stages[i] = load_stage(lesson.stages[i], inputs_);
+            scenes.live[i] = load_live_controls(lesson.stages[i]);
+        });
     for (std::size_t i = 0; i < lesson.convergences.size(); ++i)
         collect(index, [&] { scenes.convergences[i] = load_convergence(lesson.convergences[i], inputs_); });
 }

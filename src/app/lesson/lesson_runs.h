@@ -28,6 +28,7 @@ struct LessonResult {
 /// The scenes of a lesson, as loaded.
 struct LessonScenes {
     std::vector<std::vector<LoadedScene>> stages;
+    std::vector<std::vector<LiveControl>> live;  // by stage
     std::vector<ConvergenceRuns> convergences;
 };
 

@@ -73,6 +73,19 @@ std::vector<LoadedScene> load_stage(const LessonStage& stage, FileList& read) {
     return scenes;
 }
 
+std::vector<LiveControl> load_live_controls(const LessonStage& stage) {
+    std::vector<LiveControl> controls = stage.live;
+    if (controls.empty()) return controls;
+    SceneOverrides overrides;
+    overrides.set = stage.scene.set;
+    try {
+        complete_live_controls(controls, scene_source(stage.scene), stage.id + ".toml", overrides);
+    } catch (const InputError& error) {
+        throw InputError(stage.places.of("live"), fmt::format("live: {}", error.message()));
+    }
+    return controls;
+}
+
 std::string scene_source(const LessonScene& scene) {
     std::string text = scene.text ? *scene.text : read_input_file(scene.file, "the scene");
     text.erase(0, std::min(text.find_first_not_of('\n'), text.size()));

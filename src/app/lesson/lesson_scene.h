@@ -25,6 +25,10 @@ SceneDescription load_lesson_scene(const LessonScene& scene, const SceneOverride
 /// One for each combination of the varied values; checks the names and times of the stage's options with them.
 std::vector<LoadedScene> load_stage(const LessonStage& stage, FileList& read);
 
+/// The controls of a live stage, complete. Throws InputError with a place where its scene is not valid with one of
+/// their ends.
+std::vector<LiveControl> load_live_controls(const LessonStage& stage);
+
 /// The same action; an InputError without a place gets this one, and `key` in its message.
 void with_place(const SourceLocation& place, const std::string& key, const std::function<void()>& action);
 

@@ -4,6 +4,17 @@ import type { Table } from "../table.ts";
 import { block_table, places_of, type BlockContext, type BlockText } from "./block.ts";
 import { read_scene_text } from "./scene_text.ts";
 
+/** A slider, or a choice; numbers as decimal text, as the scene gets them. */
+export interface LiveControlText {
+  key: string;
+  label: string;
+  unit: string;
+  min: string;
+  max: string;
+  step: string;
+  choices: string[];
+}
+
 export interface StageBlock {
   id: string;
   place: Place;
@@ -16,6 +27,8 @@ export interface StageBlock {
   vary: string[];
   /** Of the runs; empty: made from `vary`. */
   labels: string[];
+  /** Values that the reader may change, of a live stage. */
+  live: LiveControlText[];
   /** `data-options` of the player. */
   options: Record<string, unknown>;
   caption: string;
@@ -33,7 +46,7 @@ const compare = ["single", "ghost", "side-by-side"];
 export function read_scene(block: BlockText, table: Table, stage: Table): Pick<StageBlock, "scene" | "text" | "set" | "places"> {
   const scene = stage.text("scene");
   const set = stage.texts("set") ?? [];
-  const places = places_of(stage, ["scene", "set", "vary", "labels", "plot", "follow", "body"]);
+  const places = places_of(stage, ["scene", "set", "vary", "labels", "live", "plot", "follow", "body"]);
   const rest = Object.keys(table.values).filter((key) => key !== "stage");
   if (scene !== undefined) {
     const key = rest.find((name) => !known_beside_scene.has(name));
@@ -46,6 +59,28 @@ export function read_scene(block: BlockText, table: Table, stage: Table): Pick<S
 }
 /** Keys of convergence blocks, which are cut from the scene's text. */
 const known_beside_scene = new Set(["of", "at", "integrators", "steps_per_frame", "exact", "reference", "slopes"]);
+
+/** Without exponent. */
+function decimal(value: number | undefined): string {
+  return value === undefined ? "" : value.toFixed(12).replace(/\.?0+$/, "");
+}
+
+function read_live(stage: Table): LiveControlText[] {
+  return (stage.tables("live") ?? []).map((table) => {
+    table.require("key", "the key of the scene, as of --set");
+    const control: LiveControlText = {
+      key: table.text("key") ?? "", label: table.text("label") ?? "", unit: table.text("unit") ?? "",
+      min: decimal(table.number("min")), max: decimal(table.number("max")), step: decimal(table.number("step")),
+      choices: table.texts("choices") ?? [],
+    };
+    const numbers = [control.min, control.max, control.step].filter((each) => each !== "").length;
+    if (control.choices.length === 1) table.problem("choices", "choices: at least two (given 1)");
+    if (control.choices.length > 0 ? numbers > 0 : numbers !== 0 && numbers !== 3)
+      table.problem("key", `live: give min, max and step, or choices (of '${control.key}')`);
+    table.finish();
+    return control;
+  });
+}
 
 export function read_stage(block: BlockText, context: BlockContext): StageBlock | null {
   const table = block_table(block);
@@ -82,7 +117,7 @@ export function read_stage(block: BlockText, context: BlockContext): StageBlock 
   keep("compare", stage.choice("compare", compare));
   keep("panels", stage.texts("panels", panels) ?? (options.plot === undefined ? [] : ["plots"]));
   const result: StageBlock = {
-    id, place: block.place, vary: stage.texts("vary") ?? [], labels: stage.texts("labels") ?? [], options,
+    id, place: block.place, live: read_live(stage), vary: stage.texts("vary") ?? [], labels: stage.texts("labels") ?? [], options,
     caption: stage.has("caption") ? context.markdown(stage, "caption", true) : "",
     alt: stage.text("alt") ?? "",
     ...read_scene(block, table, stage),
