@@ -1,5 +1,5 @@
-/* The interface of C: live_data OUT NAME SCENE_FILE [PATH=VALUE]... writes the data of a run; live_data --check tests it;
- * live_data --time SCENE_FILE prints the processor time of a run with its data, ms, median of 9. */
+/* The interface of C. live_data OUT NAME SCENE_FILE [PATH=VALUE]... writes the data of a run; live_data --check tests
+ * the interface; live_data --time SCENE_FILE prints the processor time of a run with its data, ms, median of 9. */
 #include <tumble/live.h>
 
 #include <stdio.h>
