@@ -1,4 +1,4 @@
-// Depth of field: what is in focus is sharp, all else a disc of known size; frames do not depend on the ones before.
+// Depth of field: a point in focus is sharp, all else a disc of known size; frames do not depend on the ones before.
 #include "drawing.h"
 #include "example_scenes.h"
 

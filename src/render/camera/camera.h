@@ -31,8 +31,8 @@ public:
     int width() const { return width_; }
     int height() const { return height_; }
 
-    /// The same camera from another point of its lens, in m to the right of the eye and above it: what is at the
-    /// distance `focus` (m, along the view) stays at its pixel.
+    /// The same camera from another point of its lens, in m to the right of the eye and above it: points at
+    /// the distance `focus` (m, along the view) stay at their pixels.
     Camera through(const Eigen::Vector2d& point, double focus) const;
 
     /// Distance from eye to target, m: a length scale of the view.

@@ -1,5 +1,5 @@
-// Points of a lens. An image through each, with what is in focus at the same pixel, has that sharp and all else
-// displaced; their mean is what a wide lens shows.
+// Points of a lens. In an image through each, points in focus are at the same pixel and all else is displaced; the mean
+// of these images is that of a wide lens.
 #pragma once
 
 #include "scene/description/description.h"

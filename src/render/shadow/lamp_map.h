@@ -1,4 +1,4 @@
-// The region of the shadow map of a second light: the cone of a spot, or what the cascades of a sun hold. It depends on
+// The region of the shadow map of a second light: the cone of a spot, or the region of the cascades of a sun. It depends on
 // the scene and one snapshot only.
 #pragma once
 

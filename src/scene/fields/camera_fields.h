@@ -19,7 +19,7 @@ void visit_fields(Of<CameraDescription>, Visitor& field, Self& self) {
           {"the angle between the top and the bottom of the frame"});
     if constexpr (requires { self.dof; }) {  // not in the C++ interface
         field(self.dof, "dof", ByCode(),
-              {.text = "a [lens](#depth-of-field): what is nearer or farther than its focus is blurred",
+              {.text = "a [lens](#depth-of-field): all that is nearer or farther than its focus is blurred",
                .standard = "none: all is sharp",
                .type = "table",
                .picture = true,

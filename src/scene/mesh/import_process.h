@@ -15,7 +15,7 @@ struct ImportLimits {
     const char* library;   // its name, for errors
     std::uint64_t memory;  // bytes beyond the program's own
     unsigned seconds;
-    const char* instead;  // what to do with a file that crashes the library
+    const char* instead;  // kinds of file to save one as that crashes the library
 };
 
 /// The result, on its way from the child.
