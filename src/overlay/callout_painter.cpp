@@ -11,10 +11,10 @@ namespace tumble {
 namespace {
 
 // In units of sizes on the screen.
-constexpr double rim = 6.0;      // between a text and the edge of the picture
-constexpr double gap = 4.0;      // between two texts
-constexpr double fading = 24.0;  // from the edge of the picture, in which a callout becomes visible
-constexpr double dot = 3.2;      // radius, at the point
+constexpr double frame_margin = 6.0;  // between a text and the edge of the picture
+constexpr double gap = 4.0;           // between two texts
+constexpr double fading = 24.0;       // from the edge of the picture, in which a callout becomes visible
+constexpr double dot = 3.2;           // radius, at the point
 constexpr double line_width = 1.8;
 // In sizes of the letters.
 constexpr double line_height = 1.25, ascent = 0.95, padding = 0.35;
@@ -54,7 +54,7 @@ std::optional<PlacedCallout> CalloutPainter::placed(const Camera& camera, const 
     if (inside <= 0.0) return std::nullopt;
     placed.opacity = std::min(1.0, inside / (fading * unit_));
     const Image& text = picture(callout);
-    const int edge = int(std::lround(rim * unit_));
+    const int edge = int(std::lround(frame_margin * unit_));
     const auto kept = [&](double wanted, int size, int whole) {
         return std::max(edge, std::min(int(std::floor(wanted + 0.5)), whole - edge - size));
     };
@@ -65,7 +65,7 @@ std::optional<PlacedCallout> CalloutPainter::placed(const Camera& camera, const 
 
 /// Upwards, or where there is no space down, just past each text that it meets.
 void CalloutPainter::move_off(const std::vector<PlacedCallout>& before, Rectangle& box) const {
-    const int space = int(std::lround(gap * unit_)), edge = int(std::lround(rim * unit_));
+    const int space = int(std::lround(gap * unit_)), edge = int(std::lround(frame_margin * unit_));
     const auto blocking = [&](const Rectangle& tried) {
         return std::ranges::find_if(before, [&](const PlacedCallout& other) { return meet(tried, other.box, space); });
     };

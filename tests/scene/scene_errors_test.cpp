@@ -115,7 +115,7 @@ TEST(SceneErrors, UnknownKeysNameTheNearest) {
          "unknown key \"duratoin\" in [simulation] (did you mean \"duration\"?)"},
         {"format = 1\n[output]\n@xyz = 5",
          "unknown key \"xyz\" in [output] (known: \"size\", \"fps\", \"samples\", \"exposure\", \"tone\")"},
-        {"format = 1\n[camera]\n@fov = 5", "(known: \"eye\", \"target\", \"up\", \"vertical_fov\", \"keyframes\""},
+        {"format = 1\n[camera]\n@fov = 5", "(known: \"eye\", \"target\", \"up\", \"vertical_fov\", \"dof\", \"keyframes\""},
         {"format = 1\n[light]\n@shadow = true", "did you mean \"shadows\""},
         {"format = 1\n[wind]\n@speed = 1", "unknown key \"speed\" in [wind]"},
         {"format = 1\n[contact]\n@friction = 1",
