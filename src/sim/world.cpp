@@ -116,8 +116,9 @@ struct World::State {
     /// The log and its records are apart: a world without a log skips those of another.
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {
-        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, impacts, hits, contact_solver,
-               motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] = self;
+        auto& [settings, clock, steps, set, joints, joined, rolling, placed, woken, forces, detection, impacts, hits,
+               contact_solver, motion, sleep, check, log, totals, records, notes, potential_at_start, asleep, pool] =
+            self;
         archive.rebuilt(settings, clock);
         archive.expect_bodies(set.bodies.size());
         archive.between(0, steps, most_steps);
@@ -156,10 +157,10 @@ void World::State::run_stages(const StepContext& step) {
     detection.update(step, *motion);   // pairs: broad phase, exact manifolds, islands
     impacts.resolve(step, detection);  // v_rel < 0: impulses with restitution (notes eq. 20)
     placed.clear(set.bodies);
-    joined.decide(step, detection);  // joined bodies: their way in this step; those that touch nothing move
+    joined.decide(step, detection);   // joined bodies: their way in this step; those that touch nothing move
     rolling.decide(step, detection);  // curved bodies on one point
-    apply_forces(step);                // F and tau at t_n change P and L
-    solve_contacts(step);              // non-penetration, friction and joints
+    apply_forces(step);               // F and tau at t_n change P and L
+    solve_contacts(step);             // non-penetration, friction and joints
     joints.end_step();
     motion->advance(step, detection);  // x and q to t_n+1; ballistic bodies from impact to impact
     detection.out_of_date();

@@ -23,8 +23,7 @@ void set_state(Body& body, const RigidState& state) {
 }
 
 BodyVelocity mean_velocity(const Body& start, const RigidState& end, double h) {
-    return {(end.position - start.position) / h,
-            rotation_vector(end.orientation * start.orientation.conjugate()) / h};
+    return {(end.position - start.position) / h, rotation_vector(end.orientation * start.orientation.conjugate()) / h};
 }
 
 Mat3 rotation_of(const Quat& q) {
