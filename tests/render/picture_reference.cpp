@@ -1,4 +1,4 @@
-// How much pictures of scenes differ from references of 256 samples a pixel; not a test, because it takes a minute each:
+// How much pictures of scenes differ from references of 256 samples a pixel; no test, because it takes a minute each:
 //   ninja picture_reference && tests/render/picture_reference TIME SIZE FOLDER SCENE...
 // TIME: s, of the frame; SIZE: of its height, in parts of the scene's own; FOLDER: for the pictures, or - for none.
 #include "accumulated.h"

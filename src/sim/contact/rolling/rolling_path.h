@@ -28,8 +28,8 @@ struct RolledStep {
 };
 
 /// The motion through `span` s from the body's present state under the acceleration `gravity` (m/s^2), to 1e-12 of the
-/// body's size. A body that leaves the plane flies, and lands without a bounce. None where the body tilts onto a face or
-/// changes its way too often: the contact solver has to decide. Precondition: body.collider is a CurvedBody.
+/// body's size. A body that leaves the plane flies, and lands without a bounce. None where the body tilts onto a face
+/// or changes its way too often: the contact solver has to decide. Precondition: body.collider is a CurvedBody.
 std::optional<RolledStep> roll(const Body& body, const RollingPlane& plane, const Vec3& gravity, double span);
 
 }  // namespace tumble
