@@ -110,7 +110,8 @@ struct World::State {
                 .h = clock.seconds(1),
                 .log = log.get(),
                 .joints = joints,
-                .placed = placed};
+                .placed = placed,
+                .rolling = rolling};
     }
 
     /// The log and its records are apart: a world without a log skips those of another.

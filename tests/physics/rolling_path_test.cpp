@@ -169,6 +169,27 @@ TEST(RollingPath, RecordsBalance) {
     EXPECT_NEAR(losses.impact_loss, 0.0, 1e-10 * start);
 }
 
+// A coin that CCD stops at another body within a step is there on its rim, with the energy of that moment.
+TEST(RollingPath, AStoppedCoinStaysOnItsRim) {
+    for (const ImpactMode mode : {ImpactMode::exact, ImpactMode::stepped}) {
+        SceneDescription scene = coin_scene({.tilt = 85.0, .over = 0.0, .spin = 40.0});
+        const double speed = scene.bodies.back().velocity.x();
+        BodyDescription& wall =
+            add_fixed_box(scene, {0.1, 0.2, 1.0}, {std::copysign(0.05 + 0.06, speed), 0.1, 0.0}, 0.0);
+        wall.friction = 0.0;
+        std::swap(scene.bodies[1], scene.bodies[2]);
+        scene.simulation.impacts = mode;
+        set_step(scene, 60.0);
+        World world(scene);
+        const double start = energy(world);
+        for (int frame = 0; frame < 6; ++frame) {
+            world.advance_frame();
+            EXPECT_LT(energy(world), start * (1.0 + 1e-6));
+            for (const Overlap& overlap : world.overlaps()) EXPECT_LT(overlap.depth, 1e-4) << frame;
+        }
+    }
+}
+
 // Other contacts and rolling friction leave the body to the contact solver, and it comes to rest.
 TEST(RollingPath, RollingFrictionEndsTheMotion) {
     SceneDescription scene = coin_scene({.tilt = 40.0});

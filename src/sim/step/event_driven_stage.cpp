@@ -3,6 +3,7 @@
 #include "sim/checkpoint/archive.h"
 #include "sim/dynamics/integrators/gyroscopic_correction.h"
 #include "sim/step/placed_bodies.h"
+#include "sim/step/rolling_motion.h"
 
 namespace tumble {
 
@@ -62,9 +63,11 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
         return pairs_;
     };
     const auto& limits = motions_.limits(step, detection, find_pairs);
+    step.rolling.stop(step, limits);
     for (const std::uint32_t i : set.awake) {
         Body& body = set.bodies[i];
-        if (!body.flying && limits[i].share < 1.0)
+        const bool rolled = body.placed && !body.jointed;  // only as far
+        if (!body.flying && !rolled && limits[i].share < 1.0)
             step.forces.lose_time(i, body, limits[i].share, step.forces.touched(i, body));
     }
     events_.begin_step(set.bodies, set.motions, limits, step.forces.field(), step.index);

@@ -20,6 +20,22 @@ void RollingMotion::decide(const StepContext& step, ContactDetection& detection)
     }
 }
 
+void RollingMotion::stop(const StepContext& step, const std::vector<CcdFraction>& limits) const {
+    for (const RolledContact& rolled : rolled_) {
+        const double span = limits[rolled.body].share * step.h;
+        if (span == step.h || !(span > 0.0)) continue;
+        Body& body = step.set.bodies[rolled.body];
+        Body start = body;
+        set_state(start, rolled.start);
+        const auto shorter = roll(start, rolled.plane, body.fall(step.settings.gravity), span);
+        if (!shorter) continue;
+        body.momentum = shorter->end.momentum;
+        body.angular_momentum = shorter->end.angular_momentum;
+        body.derive_velocities();
+        step.set.motions[rolled.body] = mean_velocity(body, shorter->end, span);
+    }
+}
+
 void RollingMotion::log_contacts(const StepContext& step, ContactDetection& detection) const {
     if (!step.log) return;
     for (const RolledContact& rolled : rolled_)

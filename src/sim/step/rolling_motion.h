@@ -2,6 +2,7 @@
 // with integrator = "exact".
 #pragma once
 
+#include "sim/ccd/ccd_clamp.h"
 #include "sim/contact/rolling/rolling_contact.h"
 #include "sim/step/contact_detection.h"
 #include "sim/step/step_context.h"
@@ -14,6 +15,8 @@ class RollingMotion {
 public:
     /// Rolls the bodies for which that is possible, and places them at the ends of their motions.
     void decide(const StepContext& step, ContactDetection& detection);
+    /// Rolls the bodies that CCD stops within the step only as far, and sets their mean velocities until then.
+    void stop(const StepContext& step, const std::vector<CcdFraction>& limits) const;
     /// The impulses of their contacts, after the forces and the solve.
     void log_contacts(const StepContext& step, ContactDetection& detection) const;
 

@@ -17,6 +17,7 @@ namespace tumble {
 class ContactLog;
 class JointSet;
 class PlacedBodies;
+class RollingMotion;
 
 struct StepContext {
     const SimulationSettings& settings;
@@ -31,6 +32,7 @@ struct StepContext {
     ContactLog* log;     // null: not asked for
     JointSet& joints;
     PlacedBodies& placed;
+    RollingMotion& rolling;
 
     double start() const { return clock.seconds(index); }    // s
     double end() const { return clock.seconds(index + 1); }  // s

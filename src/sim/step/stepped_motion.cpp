@@ -7,6 +7,7 @@
 #include "sim/dynamics/kinematic_body.h"
 #include "sim/log/contact_log.h"
 #include "sim/step/placed_bodies.h"
+#include "sim/step/rolling_motion.h"
 #include "sim/threads/thread_pool.h"
 
 #include <algorithm>
@@ -80,6 +81,7 @@ void SteppedMotion::advance(const StepContext& step, ContactDetection& detection
     const auto& limits = motions_.limits(
         step, detection, [&]() -> const auto& { return detection.find_pairs(step); },
         [&](std::uint32_t i) { return turns_freely(i, step); });
+    step.rolling.stop(step, limits);
     if (!step.forces.field().pairs().empty()) fly_pairs(limits, step);
     step.pool.for_bodies(set.awake, tuning::parallel_bodies, [&](std::uint32_t i) {
         move(i, limits[i], step);
@@ -146,10 +148,12 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         const BodyVelocity& motion = step.set.motions[i];
         const double spin_before = spin(body);
         const Quat orientation = body.orientation;
+        // Joints have changed the spin within the step, and a body that rolls has the momenta of its end.
+        const bool rolled = body.placed && !body.jointed;
         const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i, step);
         if (body.placed && share == 1.0) {
             set_state(body, step.placed.end(i));
-        } else if (body.jointed)
+        } else if (body.jointed || rolled)
             turn_exactly(body, motion.velocity, motion.angular_velocity, share * h);
         else
             advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);
@@ -159,9 +163,9 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         body.derive();
         if (freely)
             turn_freely(body, orientation, share * h);
-        else if (in_contact && !body.jointed && spin_grew(body, spin_before))  // joints have changed it within the step
+        else if (in_contact && !body.jointed && !rolled && spin_grew(body, spin_before))
             limit_spin(body, spin_before);
-        if (in_contact && share < 1.0) forces.lose_time(i, body, share, true);
+        if (in_contact && !rolled && share < 1.0) forces.lose_time(i, body, share, true);
     }
     if (limit.carrier != CcdFraction::none) carry_along(body, step.set.bodies[limit.carrier], share, h);
 }

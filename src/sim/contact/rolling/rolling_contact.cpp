@@ -78,7 +78,7 @@ std::optional<RolledContact> roll_alone(std::uint32_t i, const std::vector<Body>
     const Vec3 fall = body.fall(gravity);
     const auto rolled = roll(body, *plane, fall, span);
     if (!rolled) return {};
-    RolledContact result{i, found->first, rolled->end, {}, rolled->slipped};
+    RolledContact result{i, found->first, *plane, state_of(body), rolled->end, {}, rolled->slipped};
     result.end.position -= lifted_share * overlap * plane->normal;
     result.impulse = momenta(result.end.position, result.end.momentum, result.end.angular_momentum) -
                      momenta(body.position, body.momentum, body.angular_momentum) -

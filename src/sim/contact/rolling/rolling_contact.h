@@ -16,7 +16,8 @@ namespace tumble {
 
 struct RolledContact {
     std::uint32_t body = 0, manifold = 0;
-    RigidState end;
+    RollingPlane plane;
+    RigidState start, end;
     Impulse impulse;       // N s, N m s about the origin of the bodies' coordinates, of the contact on the body
     double slipped = 0.0;  // J, lost by friction
 };
