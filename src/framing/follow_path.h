@@ -2,8 +2,8 @@
 // the body,
 //   y'' = w^2 (x - y) - 2 w y',  w = 2 / T,
 // so that behind a body of constant speed the camera lags by the way of the time T. It begins at rest. The way is taken
-// as straight between two frames, for which the answer is exact. Every frame of the clip is seen, from the first one on:
-// a frame then looks the same wherever the drawing began.
+// as straight between two frames, for which the answer is exact. Every frame of the clip is seen, from the first one
+// on: a frame then looks the same wherever the drawing began.
 #pragma once
 
 #include "scene/description/description.h"

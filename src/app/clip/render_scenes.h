@@ -88,8 +88,8 @@ public:
 
     // The same by another run of the simulation, and its result in a checkpoint.
 
-    /// Finds the paths of cameras that come up with a body, by runs of their own. Before observers(). Replaces scenes of
-    /// the composition.
+    /// Finds the paths of cameras that come up with a body, by runs of their own. Before observers(). Replaces scenes
+    /// of the composition.
     void find_paths(int threads, Interrupt& interrupt);
     /// Consumers of a scene that have to see all of its frames, in order.
     std::vector<SurveyObserver*> observers(std::size_t index);

@@ -186,6 +186,7 @@ bool EventDrivenMotion::roll_rest(std::uint32_t k, std::vector<Body>& bodies, co
         if (contact_manifolds_[m].a == k || contact_manifolds_[m].b == k) of_body.push_back(m);
     auto rolled = roll_alone(k, bodies, contact_manifolds_, of_body, forces, settings_.gravity, rest);
     if (!rolled) return false;
+    give_impulses(*rolled, contact_manifolds_, of_body);
     Body& body = bodies[k];
     if (log_) {
         log_->add_gravity(k, body, rest, body.position);

@@ -3,20 +3,49 @@
 #include "sim/log/contact_log.h"
 #include "sim/step/placed_bodies.h"
 
+#include <algorithm>
+
 namespace tumble {
 
+namespace {
+
+bool may_roll(const Body& body, const StepContext& step) {
+    return std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider) &&
+           (step.settings.impacts == ImpactMode::exact || body.integrator == IntegratorKind::exact);
+}
+
+}  // namespace
+
+// All bodies of an island roll, each alone, or none: CCD stops those that meet within the step.
 void RollingMotion::decide(const StepContext& step, ContactDetection& detection) {
     rolled_.clear();
     const ContactIslands& islands = detection.islands();
+    const std::vector<Body>& bodies = step.set.bodies;
+    std::vector<std::vector<std::uint32_t>> of_bodies;
     for (std::size_t k = 0; k < islands.size(); ++k) {
-        if (islands.bodies(k).size() != 1 || !islands.joints(k).empty()) continue;
-        const Body& body = step.set.bodies[islands.bodies(k)[0]];
-        if (step.settings.impacts != ImpactMode::exact && body.integrator != IntegratorKind::exact) continue;
-        auto rolled = roll_alone(islands.bodies(k)[0], step.set.bodies, detection.manifolds(), islands.manifolds(k),
-                                 step.forces.field(), step.settings.gravity, step.h);
-        if (!rolled) continue;
-        step.placed.place(rolled->body, rolled->end, step.set.bodies);
-        rolled_.push_back(std::move(*rolled));
+        const auto members = islands.bodies(k);
+        if (!islands.joints(k).empty() || islands.manifolds(k).size() < members.size() ||
+            !std::ranges::all_of(members, [&](std::uint32_t i) { return may_roll(bodies[i], step); }))
+            continue;
+        const std::size_t first = rolled_.size();
+        of_bodies.assign(members.size(), {});
+        for (std::size_t n = 0; n < members.size(); ++n) {
+            const std::uint32_t i = members[n];
+            for (const std::uint32_t m : islands.manifolds(k))
+                if (detection.manifolds()[m].a == i || detection.manifolds()[m].b == i) of_bodies[n].push_back(m);
+            auto rolled = roll_alone(i, bodies, detection.manifolds(), of_bodies[n], step.forces.field(),
+                                     step.settings.gravity, step.h);
+            if (!rolled) break;
+            rolled_.push_back(std::move(*rolled));
+        }
+        if (rolled_.size() < first + members.size()) {
+            rolled_.resize(first);
+            continue;
+        }
+        for (std::size_t n = 0; n < members.size(); ++n) {
+            give_impulses(rolled_[first + n], detection.manifolds(), of_bodies[n]);
+            step.placed.place(members[n], rolled_[first + n].end, step.set.bodies);
+        }
     }
 }
 

@@ -46,51 +46,61 @@ Impulse momenta(const Vec3& position, const Vec3& momentum, const Vec3& angular_
 }  // namespace
 
 std::optional<RolledContact> roll_alone(std::uint32_t i, const std::vector<Body>& bodies,
-                                        std::vector<Manifold>& manifolds, std::span<const std::uint32_t> of_body,
+                                        const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> of_body,
                                         const ForceField& forces, const Vec3& gravity, double span) {
     Body body = bodies[i];
     if (!std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider) || body.jointed ||
-        resists_turning(body) || of_body.empty() || !forces.only_gravity(i))
+        resists_turning(body) || !forces.only_gravity(i))
         return {};
-    std::optional<std::pair<std::uint32_t, int>> found;
-    std::uint32_t other = UINT32_MAX;
-    double gap = 0.0;
+    RolledContact result;
+    result.body = i;
+    double gap = infinity, next = infinity, touch = 0.0;  // the two smallest gaps, of their excess over touching
     for (const std::uint32_t k : of_body) {
         const Manifold& m = manifolds[k];
-        const std::uint32_t on = m.a == i ? m.b : m.a;
-        if (other != UINT32_MAX && on != other) return {};
-        other = on;
-        const double touch = touch_distance(body.radius, bodies[on].radius);
+        const double touching = touch_distance(body.radius, bodies[m.a == i ? m.b : m.a].radius);
         for (int p = 0; p < m.count; ++p) {
             const double separation = m.points[std::size_t(p)].separation;
-            if (found && std::max(gap, separation) <= touch) return {};
-            if (found && separation >= gap) continue;
-            found = {k, p};
+            if (separation - touching >= gap - touch) {
+                next = std::min(next, separation - touching);
+                continue;
+            }
+            next = gap - touch;
             gap = separation;
+            touch = touching;
+            result.manifold = k;
+            result.point = p;
         }
     }
-    if (!found || gap < -deep_overlap * body.radius) return {};
-    auto plane = plane_of(manifolds[found->first], body, bodies[other], span);
+    if (!(gap < infinity) || next <= 0.0 || gap < -deep_overlap * body.radius) return {};
+    const Manifold& m = manifolds[result.manifold];
+    const auto plane = plane_of(m, body, bodies[m.a == i ? m.b : m.a], span);
     if (!plane) return {};
+    result.plane = *plane;
     body.derive();
-    const double overlap = gap < -touch_distance(body.radius, bodies[other].radius) ? gap : 0.0;
-    plane->offset += overlap;
+    const double overlap = gap < -touch ? gap : 0.0;
+    result.plane.offset += overlap;
     const Vec3 fall = body.fall(gravity);
-    const auto rolled = roll(body, *plane, fall, span);
+    const auto rolled = roll(body, result.plane, fall, span);
     if (!rolled) return {};
-    RolledContact result{i, found->first, *plane, state_of(body), rolled->end, {}, rolled->slipped};
+    result.start = state_of(body);
+    result.end = rolled->end;
+    result.slipped = rolled->slipped;
     result.end.position -= lifted_share * overlap * plane->normal;
     result.impulse = momenta(result.end.position, result.end.momentum, result.end.angular_momentum) -
                      momenta(body.position, body.momentum, body.angular_momentum) -
                      Impulse{span * body.mass * fall, span * body.mass * body.position.cross(fall)};
+    return result;
+}
+
+void give_impulses(const RolledContact& rolled, std::vector<Manifold>& manifolds,
+                   std::span<const std::uint32_t> of_body) {
+    Manifold& m = manifolds[rolled.manifold];
     for (const std::uint32_t k : of_body) {
         release(manifolds[k]);
-        manifolds[k].solved_by = SolvedBy::flight;
+        if (manifolds[k].a == m.a && manifolds[k].b == m.b) manifolds[k].solved_by = SolvedBy::flight;
     }
     // The load that holds the body in the next step.
-    manifolds[found->first].points[std::size_t(found->second)].impulse =
-        std::max(0.0, plane->normal.dot(result.impulse.linear));
-    return result;
+    m.points[std::size_t(rolled.point)].impulse = std::max(0.0, rolled.plane.normal.dot(rolled.impulse.linear));
 }
 
 }  // namespace tumble

@@ -16,16 +16,20 @@ namespace tumble {
 
 struct RolledContact {
     std::uint32_t body = 0, manifold = 0;
+    int point = 0;  // of the manifold
     RollingPlane plane;
     RigidState start, end;
     Impulse impulse;       // N s, N m s about the origin of the bodies' coordinates, of the contact on the body
     double slipped = 0.0;  // J, lost by friction
 };
 
-/// The motion of a body through `span` s (m/s^2: gravity), if it can roll; its manifolds then have the impulses of
-/// that motion. `of_body`: indices of all manifolds of the body.
+/// The motion of a body through `span` s (m/s^2: gravity), if it can roll and touches nothing else at its start.
+/// `of_body`: indices of all manifolds of the body.
 std::optional<RolledContact> roll_alone(std::uint32_t body, const std::vector<Body>& bodies,
-                                        std::vector<Manifold>& manifolds, std::span<const std::uint32_t> of_body,
+                                        const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> of_body,
                                         const ForceField& forces, const Vec3& gravity, double span);
+/// Gives the body's manifolds the impulses of that motion.
+void give_impulses(const RolledContact& rolled, std::vector<Manifold>& manifolds,
+                   std::span<const std::uint32_t> of_body);
 
 }  // namespace tumble

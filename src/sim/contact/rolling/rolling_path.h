@@ -1,6 +1,6 @@
 // A curved body that touches a fixed plane at one point, under gravity: it rolls, slides, leaves the plane, and changes
-// from one to the other at any time. With the contact's arm r from the center, its force F and the plane's normal n, Newton and Euler (notes
-// section 2) are
+// from one to the other at any time. With the contact's arm r from the center, its force F and the plane's normal n,
+// Newton and Euler (notes section 2) are
 //   M v' = M g + F,  I w' = -w x I w + r x F,
 // and the contact point's acceleration gives F (Rosenberg 1977, "Analytical Dynamics of Discrete Systems", rolling
 // disk):
