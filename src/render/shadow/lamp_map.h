@@ -1,5 +1,5 @@
-// The region of the shadow map of a second light: the cone of a spot, or the region of the cascades of a sun. It depends
-// on the scene and one snapshot only.
+// The region of the shadow map of a second light: the cone of a spot, or the region of the cascades of a sun. It
+// depends on the scene and one snapshot only.
 #pragma once
 
 #include "render/camera/camera.h"
