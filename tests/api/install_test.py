@@ -172,7 +172,8 @@ class InstallTest(unittest.TestCase):
         headers = sorted((self.prefix / "include/tumble").glob("*.h"))
         self.assertEqual([h.name for h in headers], sorted(h.name for h in (ROOT / "include/tumble").glob("*.h")))
         for header in headers:
-            self.assertNotRegex(header.read_text(), r"#include <(?!tumble/)[^>]*[/.]", header.name)   # std has no folders
+            self.assertNotRegex(header.read_text(), r"#include <(?!tumble/|stddef\.h>|stdint\.h>)[^>]*[/.]",
+                                header.name)   # the library of C++ has no folders; live.h is for C
             unit = self.folder / "header.cpp"
             unit.write_text(f"#include <tumble/{header.name}>\n")
             run(CXX, "-std=c++17", "-fsyntax-only", *FLAGS.split(), f"-I{self.prefix / 'include'}", unit)
@@ -182,7 +183,7 @@ class InstallTest(unittest.TestCase):
         if nm is None:
             self.skipTest("nm is not installed")
         names = run(nm, "--dynamic", "--defined-only", "--demangle", "--format=posix", self.library).stdout.decode()
-        others = [name for name in names.splitlines() if "tumble::v0::" not in name]
+        others = [name for name in names.splitlines() if "tumble::v0::" not in name and not re.match("tumble_[a-z]+ T", name)]
         self.assertEqual(others, [])
 
     def test_installed_shaders_are_used(self):

@@ -70,6 +70,8 @@ const std::map<std::string, std::string> known = {
     {"sim/contact/model/free_motion.cpp", "balls: the other body of the pair has the edge"},
     {"sim/contact/model/predicted_gap.cpp", "cylinders and cones: the ball of a rim is not fixed in the body"},
     {"sim/event_driven/event_driven_motion.cpp", "balls and half-spaces: impacts in closed form"},
+    {"sim/contact/rolling/rolling_contact.cpp", "curved bodies on half-spaces and faces"},
+    {"sim/contact/rolling/rolling_path.cpp", "curved bodies: their support points and its derivatives"},
     // Times of impact of pairs of kinds.
     {"sim/ccd/time_of_impact.cpp", "closed forms for balls, axes of polyhedra, parts, triangles"},
     {"sim/step/hit_stage.cpp", "pairs whose hits have their own times"},

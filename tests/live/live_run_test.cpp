@@ -45,6 +45,7 @@ Bytes recorded(const std::filesystem::path& file, const std::vector<std::string>
 }
 
 Bytes live(const std::filesystem::path& file, const std::vector<std::string>& settings, std::int64_t piece) {
+    std::filesystem::current_path(file.parent_path());  // of its meshes: the page has the name alone
     LiveRun run(file.filename().string(), text_of(file), settings);
     while (run.frames() < run.all_frames()) run.advance(piece);
     return run.data();

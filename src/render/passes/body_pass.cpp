@@ -1,6 +1,7 @@
 #include "render/passes/body_pass.h"
 
 #include "render/environment/environment_textures.h"
+#include "render/gl/uniform_blocks.h"
 #include "render/passes/scene_defines.h"
 #include "render/shadow/shadow_map.h"
 

@@ -15,8 +15,7 @@
 
 namespace tumble {
 
-/// Uniform block and texture units of all draws.
-inline constexpr GLuint frame_block = 0, lamp_block = 2;
+/// Texture units of all draws.
 inline constexpr GLuint shadow_unit = 0, occlusion_unit = 1, reflection_unit = 8, lamp_shadow_unit = 11;
 
 /// Preprocessor definitions for shaders with shadow lookups.

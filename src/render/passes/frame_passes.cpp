@@ -1,6 +1,7 @@
 #include "render/passes/frame_passes.h"
 
 #include "render/gl/shader_compile_schedule.h"
+#include "render/gl/uniform_blocks.h"
 #include "render/passes/frame_uniforms.h"
 #include "render/passes/lamp_uniforms.h"
 #include "scene/description/lamps.h"

@@ -1,6 +1,7 @@
 #include "render/shadow/caster_programs.h"
 
-#include "render/passes/body_pass.h"
+#include "render/gl/uniform_blocks.h"
+#include "render/mesh/texture_cache.h"
 
 #include <utility>
 

@@ -7,15 +7,6 @@
 
 namespace tumble {
 
-namespace {
-
-bool may_roll(const Body& body, const StepContext& step) {
-    return std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider) &&
-           (step.settings.impacts == ImpactMode::exact || body.integrator == IntegratorKind::exact);
-}
-
-}  // namespace
-
 // All bodies of an island roll, each alone, or none: CCD stops those that meet within the step.
 void RollingMotion::decide(const StepContext& step, ContactDetection& detection) {
     rolled_.clear();
@@ -25,7 +16,10 @@ void RollingMotion::decide(const StepContext& step, ContactDetection& detection)
     for (std::size_t k = 0; k < islands.size(); ++k) {
         const auto members = islands.bodies(k);
         if (!islands.joints(k).empty() || islands.manifolds(k).size() < members.size() ||
-            !std::ranges::all_of(members, [&](std::uint32_t i) { return may_roll(bodies[i], step); }))
+            !std::ranges::all_of(members, [&](std::uint32_t i) {
+                return may_roll(bodies[i]) &&
+                       (step.settings.impacts == ImpactMode::exact || bodies[i].integrator == IntegratorKind::exact);
+            }))
             continue;
         const std::size_t first = rolled_.size();
         of_bodies.assign(members.size(), {});

@@ -45,13 +45,16 @@ Impulse momenta(const Vec3& position, const Vec3& momentum, const Vec3& angular_
 
 }  // namespace
 
+bool may_roll(const Body& body) {
+    return std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider) && !body.jointed &&
+           !resists_turning(body);
+}
+
 std::optional<RolledContact> roll_alone(std::uint32_t i, const std::vector<Body>& bodies,
                                         const std::vector<Manifold>& manifolds, std::span<const std::uint32_t> of_body,
                                         const ForceField& forces, const Vec3& gravity, double span) {
+    if (!may_roll(bodies[i]) || !forces.only_gravity(i)) return {};
     Body body = bodies[i];
-    if (!std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider) || body.jointed ||
-        resists_turning(body) || !forces.only_gravity(i))
-        return {};
     RolledContact result;
     result.body = i;
     double gap = infinity, next = infinity, touch = 0.0;  // the two smallest gaps, of their excess over touching

@@ -23,6 +23,8 @@ struct RolledContact {
     double slipped = 0.0;  // J, lost by friction
 };
 
+/// True for a curved body without joints and without rolling and spinning friction.
+bool may_roll(const Body& body);
 /// The motion of a body through `span` s (m/s^2: gravity), if it can roll and touches nothing else at its start.
 /// `of_body`: indices of all manifolds of the body.
 std::optional<RolledContact> roll_alone(std::uint32_t body, const std::vector<Body>& bodies,
