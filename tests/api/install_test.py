@@ -183,7 +183,7 @@ class InstallTest(unittest.TestCase):
         if nm is None:
             self.skipTest("nm is not installed")
         names = run(nm, "--dynamic", "--defined-only", "--demangle", "--format=posix", self.library).stdout.decode()
-        others = [name for name in names.splitlines() if "tumble::v0::" not in name and not re.match("tumble_[a-z]+ T", name)]
+        others = [name for name in names.splitlines() if "tumble::v0::" not in name and not re.match("tumble_[a-z_]+ T", name)]
         self.assertEqual(others, [])
 
     def test_installed_shaders_are_used(self):
