@@ -115,13 +115,13 @@ struct Lamp {
     Color color{0xff, 0xf7, 0xe9};
     double intensity = 1.0;            // 1: that of Light; of a point or spot at a distance of 1 m
     std::optional<double> angle = {};  // degrees, of the whole cone of a spot
-    std::optional<bool> shadows = {};  // of one sun; of the first one where no light says so
+    std::optional<bool> shadows = {};  // of at most two suns and spots; the first sun by default
 };
 
 /// Light from all sides, and the background.
 struct Environment {
     std::string preset;      // "studio", "overcast" or "dusk"; empty: none
-    std::string image;       // .hdr, PNG or JPEG file, relative to SceneSpec::folder
+    std::string image;       // .hdr, .exr, PNG or JPEG file, relative to SceneSpec::folder
     std::string background;  // "sky", "image" or a color, "#rrggbb"; empty: of the preset or the image
     std::optional<std::array<Color, 2>> gradient;  // in its place: of the horizon and straight up
     std::optional<double> rotation;                // degrees about y

@@ -42,7 +42,7 @@ public:
     /// image after the first render() and with full_redraw; empty if nothing moved.
     const std::vector<Rectangle>& changed() const;
 
-    /// Depths of the current image, and its camera; through a lens those of its middle. Precondition of depths(): the
+    /// Depths of the current image, and its camera; with a lens, as seen from its middle. Precondition of depths(): the
     /// switch keep_depths.
     const DepthImage& depths() const;
     const Camera& camera() const;

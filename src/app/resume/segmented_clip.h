@@ -26,7 +26,7 @@ struct ClipPicture {
 class SegmentedClip : public ClipSink {
 public:
     /// Looks for the segments of an earlier run, and writes nothing. `identity`: of the frames. `frames`: contiguous.
-    /// `sound`: the clip has one; segments have none, so that those of a clip without it serve too.
+    /// `sound`: the clip has one; segments have none, so that segments of a clip without sound serve too.
     /// Throws InputError if the folder of segments is of another clip, or if the clip is written in place.
     SegmentedClip(const std::filesystem::path& clip, const ClipPicture& picture, const ClipOptions& options,
                   const FrameIdentity& identity, const FrameSet& frames, bool sound);

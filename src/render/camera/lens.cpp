@@ -11,7 +11,8 @@ namespace {
 
 constexpr double golden = 0.61803398874989485;
 
-/// A step that visits all numbers below `count`, with neighbors far apart: early moments are not those of the middle.
+/// A step that visits all numbers below `count`, with neighbors far apart: early moments are then seen
+/// from all over the lens.
 int far_step(int count) {
     int step = std::max(1, int(golden * count));
     while (std::gcd(step, count) != 1) ++step;

@@ -21,7 +21,7 @@ inline std::optional<std::size_t> main_sun(const std::vector<LampDescription>& l
     return std::size_t(found - lamps.begin());
 }
 
-/// The index of the light that throws the shadows of shaders/lamp_shadow.glsl; those of the main sun are apart.
+/// The index of the light that throws the shadows of shaders/lamp_shadow.glsl; the main sun has its own shadow map.
 inline std::optional<std::size_t> second_shadow(const std::vector<LampDescription>& lamps) {
     const std::optional<std::size_t> sun = main_sun(lamps);
     for (std::size_t i = 0; i < lamps.size(); ++i)

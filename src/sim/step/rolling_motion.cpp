@@ -7,7 +7,7 @@
 
 namespace tumble {
 
-// All bodies of an island roll, each alone, or none: CCD stops those that meet within the step.
+// All bodies of an island roll, each alone, or none. CCD stops bodies that meet within the step.
 void RollingMotion::decide(const StepContext& step, ContactDetection& detection) {
     rolled_.clear();
     const ContactIslands& islands = detection.islands();
