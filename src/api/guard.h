@@ -1,35 +1,19 @@
 // Errors of the layers below as the exception of the interface; checks of arguments.
 #pragma once
 
+#include "core/default_floating_point.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "tumble/error.h"
 
 #include <fmt/format.h>
 
-#include <cfenv>
 #include <exception>
 #include <memory>
 #include <new>
 #include <utility>
 
 namespace tumble::v0 {
-
-/// Rounding to nearest and denormal numbers while it lives, then the caller's own again: a program that is built with
-/// -ffast-math, or that rounds otherwise, gets the same bytes. New threads inherit the state.
-class DefaultFloatingPoint {
-public:
-    DefaultFloatingPoint() {
-        std::fegetenv(&callers_);
-        std::fesetenv(FE_DFL_ENV);
-    }
-    ~DefaultFloatingPoint() { std::fesetenv(&callers_); }
-    DefaultFloatingPoint(const DefaultFloatingPoint&) = delete;
-    DefaultFloatingPoint& operator=(const DefaultFloatingPoint&) = delete;
-
-private:
-    std::fenv_t callers_;
-};
 
 /// Runs the work; InputError, RunError and other exceptions leave it as Error, std::bad_alloc as it is.
 template <class Work>

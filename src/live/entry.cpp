@@ -1,9 +1,9 @@
+#include "core/default_floating_point.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "live/live_run.h"
 #include "tumble/live.h"
 
-#include <cfenv>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,24 +19,9 @@ struct tumble_run {
 
 namespace {
 
-/// Rounding to nearest while it lives, then the caller's own again.
-class OwnFloatingPoint {
-public:
-    OwnFloatingPoint() {
-        std::fegetenv(&callers_);
-        std::fesetenv(FE_DFL_ENV);
-    }
-    ~OwnFloatingPoint() { std::fesetenv(&callers_); }
-    OwnFloatingPoint(const OwnFloatingPoint&) = delete;
-    OwnFloatingPoint& operator=(const OwnFloatingPoint&) = delete;
-
-private:
-    std::fenv_t callers_{};
-};
-
 template <class Work>
 void guarded(tumble_run& run, const Work& work) {
-    const OwnFloatingPoint own_floating_point;
+    const tumble::DefaultFloatingPoint default_floating_point;
     try {
         work();
     } catch (const tumble::InputError& error) {
