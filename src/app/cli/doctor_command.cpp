@@ -51,13 +51,14 @@ Finding check_ffmpeg(TimeLimit& time_limit) try {
 }
 
 /// Frames with text are the same on two machines only with the same font.
-Finding check_font() try {
-    const std::string family = Canvas(1, 1, 1.0).font_family();
-    if (family == "Inter") return {true, family};
-    return {false,
-            family.empty() ? "no font for text in clips and plots" : fmt::format("{} in place of Inter", family)};
-} catch (const RunError& error) {
-    return {false, error.what()};
+Finding check_font(TimeLimit& time_limit) {
+    const auto check = []() -> std::string {
+        const std::string family = Canvas(1, 1, 1.0).font_family();
+        if (family == "Inter") return family;
+        throw RunError(family.empty() ? "no font for text in clips and plots"
+                                      : fmt::format("{} in place of Inter", family));
+    };
+    return in_own_process("the font library", check, time_limit);  // GLib ends its process where memory is short
 }
 
 Finding check_player() try { return {true, find_web_folder().string()}; } catch (const RunError&) {
@@ -95,13 +96,14 @@ int run_doctor(const DoctorCommand& command) {
         software = try_drawing(GlBackend::software, time_limit);
         if (software.good) software.text = "EGL's software device, because OSMesa does not work here: the same frames";
     }
+    const Finding font = check_font(time_limit);
     const Finding ffmpeg = check_ffmpeg(time_limit);
     if (time_limit.interrupted()) throw Interrupted();
     print("shaders", shaders, "set TUMBLE_SHADERS to the folder of that name, or install Tumble again");
     print("OpenGL, osmesa", osmesa, "apt-get install libosmesa6   (not in Debian 14: EGL draws the same frames)");
     print("OpenGL, egl", egl, "apt-get install libegl1 libgl1-mesa-dri   (only for --gl egl, or without OSMesa)");
     print("drawing by", software, "apt-get install libosmesa6, or libegl1 libgl1-mesa-dri");
-    print("font", check_font(), "apt-get install fonts-inter   (only for text: other fonts give other pixels)");
+    print("font", font, "apt-get install fonts-inter   (only for text: other fonts give other pixels)");
     print("player of pages", check_player(),
           "scripts/build-web in Tumble's source tree   (only for page, lesson and render --report)");
     print("ffmpeg", ffmpeg, "apt-get install ffmpeg   (frames can be written without it)");

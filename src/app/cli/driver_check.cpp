@@ -33,8 +33,9 @@ int run_check(const std::function<std::string()>& check, int pipe) {
     return write_all(pipe, text) ? code : failed;
 }
 
-/// Runs `check` in a process of its own: a driver that crashes or hangs is a finding as well.
-Finding in_own_process(const std::function<std::string()>& check, TimeLimit& time_limit) {
+}  // namespace
+
+Finding in_own_process(const char* library, const std::function<std::string()>& check, TimeLimit& time_limit) {
     ProgramOutput output;
     try {
         Pipe pipe;
@@ -47,13 +48,11 @@ Finding in_own_process(const std::function<std::string()>& check, TimeLimit& tim
     } catch (const RunError& error) {
         return {false, error.message()};
     }
-    if (output.stopped) return time_limit.late("the driver");
+    if (output.stopped) return time_limit.late(library);
     if (output.end.signal == 0) return {output.end.ok(), output.text, output.end.exit_code != out_of_memory};
     const std::string limit = memory_limit_note();
-    return {false, fmt::format("the driver crashed ({}){}", strsignal(output.end.signal), limit), limit.empty()};
+    return {false, fmt::format("{} crashed ({}){}", library, strsignal(output.end.signal), limit), limit.empty()};
 }
-
-}  // namespace
 
 Finding try_drawing(GlBackend backend, TimeLimit& time_limit) {
     const auto check = [backend] {
@@ -68,7 +67,7 @@ Finding try_drawing(GlBackend backend, TimeLimit& time_limit) {
         if (image.width != 32 || image.height != 32) throw RunError("the picture has a different size than requested");
         return renderer.driver();
     };
-    return in_own_process(check, time_limit);
+    return in_own_process("the driver", check, time_limit);
 }
 
 }  // namespace tumble

@@ -51,6 +51,10 @@ private:
     bool interrupted_ = false;
 };
 
+/// Runs `check` in a process of its own: a library that crashes or hangs is a finding as well.
+/// The text that `check` returns is the text of a good finding; an exception makes a bad one.
+Finding in_own_process(const char* library, const std::function<std::string()>& check, TimeLimit& time_limit);
+
 /// Draws an empty scene of a few pixels; the text of a good finding is the driver's own name.
 Finding try_drawing(GlBackend backend, TimeLimit& time_limit);
 
