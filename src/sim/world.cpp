@@ -302,14 +302,14 @@ void World::State::finish_records(double duration) {
     for (const Joint& joint : joints.joints()) {
         const JointAccount::Span& frame = joint.account.frame;
         if (!joint.gear()) {
-            log->add_joint(joint.a, joint.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
+            log->add_joint(joint.a, joint.b, {frame.reaction.force, frame.reaction.moment}, frame.work_a, frame.work_b);
             continue;
         }
         const Joint &first = joints.joints()[joint.description.geared[0]],
                     &second = joints.joints()[joint.description.geared[1]];
-        log->add_joint(first.a, first.b, {frame.load.force, frame.load.moment}, frame.work_a, frame.work_b);
-        log->add_joint(second.a, second.b, {frame.second_load.force, frame.second_load.moment}, frame.second_work_a,
-                       frame.second_work_b);
+        log->add_joint(first.a, first.b, {frame.reaction.force, frame.reaction.moment}, frame.work_a, frame.work_b);
+        log->add_joint(second.a, second.b, {frame.second_reaction.force, frame.second_reaction.moment},
+                       frame.second_work_a, frame.second_work_b);
     }
     const auto finish = [&](const std::vector<Manifold>& found) {
         records = log->finish_frame(set.bodies, forces.field(), found, duration);

@@ -130,7 +130,7 @@ TEST(Articulation, AccelerationsAgainstDenseEquations) {
         t.dynamics.move(t.q.data(), t.speeds.data());
         for (std::size_t i = 0; i < t.scene.set.bodies.size(); ++i) {
             pushes.push_back({random.vector(), random.vector()});
-            t.dynamics.push(t.tree.node_of_body()[i], pushes[i]);
+            t.dynamics.apply(t.tree.node_of_body()[i], pushes[i]);
         }
         t.dynamics.accelerate(-gravity, t.rates.data());
         Eigen::VectorXd rest(a.rows()), acceleration(a.rows());

@@ -208,7 +208,7 @@ TEST(TreeFlight, AJointBreaksAtItsTime) {
         while (!t.list[0]->broken) {
             const Vec3 before = t.momentum();
             ASSERT_EQ(t.step(1.0 / rate), Outcome::flown);
-            const Vec3 given = t.list[0]->account.step.load.force + 1.0 / rate * t.forces.gravity();
+            const Vec3 given = t.list[0]->account.step.reaction.force + 1.0 / rate * t.forces.gravity();
             EXPECT_LT((t.momentum() - before - given).norm(), 1e-14);
         }
         EXPECT_NEAR(t.list[0]->broken_at, time, 1e-14);
@@ -241,7 +241,7 @@ TEST(TreeFlight, PiecesFlyOnAfterABreak) {
             before = t.momentum();
             EXPECT_EQ(t.step(1.0 / rate), Outcome::flown);
             EXPECT_LT(t.time, 3.0);
-            const Vec3 given = t.list[0]->account.step.load.force + 4.0 / rate * t.forces.gravity();
+            const Vec3 given = t.list[0]->account.step.reaction.force + 4.0 / rate * t.forces.gravity();
             EXPECT_LT((t.momentum() - before - given).norm(), 1e-13);
         }
         EXPECT_NEAR(t.energy(), energy, 1e-11);

@@ -49,8 +49,8 @@ struct Watch {
 
 }  // namespace
 
-// Two boxes or balls that overlap by half in free space: pushed apart no faster than push_limit radii per second, left
-// with no speed, and no overlap.
+// Two boxes or balls that overlap by half in free space: pushed apart no faster than correction_limit radii per second,
+// left with no speed, and no overlap.
 TEST(ContactHardInput, OverlapsDissolveSlowly) {
     for (const bool boxes : {false, true})
         for (const double depth : {0.1, 0.5, 0.9})
@@ -64,7 +64,8 @@ TEST(ContactHardInput, OverlapsDissolveSlowly) {
                 Watch watch;
                 watch.follow(world, scene.step(), 120 * steps);
                 const double radius = boxes ? std::sqrt(0.75) : 0.5;
-                EXPECT_LE(watch.fastest, 1.01 * tuning::push_limit * radius) << boxes << " " << depth << " " << steps;
+                EXPECT_LE(watch.fastest, 1.01 * tuning::correction_limit * radius)
+                    << boxes << " " << depth << " " << steps;
                 EXPECT_LE(world.measure().max_penetration, 1e-3) << boxes << " " << depth << " " << steps;
                 EXPECT_LE(world.measure().kinetic, 1e-6) << boxes << " " << depth << " " << steps;
             }
@@ -82,7 +83,7 @@ TEST(ContactHardInput, ACrowdDissolves) {
     World world(scene);
     Watch watch;
     watch.follow(world, scene.step(), 240 * 5);
-    EXPECT_LE(watch.fastest, 8.0 * tuning::push_limit * std::sqrt(0.75));
+    EXPECT_LE(watch.fastest, 8.0 * tuning::correction_limit * std::sqrt(0.75));
     EXPECT_LE(world.measure().max_penetration, 2e-3);
     for (const BodyState& b : world.snapshot().bodies) EXPECT_LE(b.center_of_mass.norm(), 15.0);
 }
@@ -98,7 +99,7 @@ TEST(ContactHardInput, ABoxExactlyInsideAnother) {
             World world(scene);
             Watch watch;
             watch.follow(world, scene.step(), 840 * steps);
-            EXPECT_LE(watch.fastest, 1.01 * tuning::push_limit * std::sqrt(0.75)) << small << " " << steps;
+            EXPECT_LE(watch.fastest, 1.01 * tuning::correction_limit * std::sqrt(0.75)) << small << " " << steps;
             EXPECT_LE(world.measure().max_penetration, 1e-3 * small) << small << " " << steps;
             EXPECT_LE(world.measure().momentum.norm(), 1e-9) << small << " " << steps;
         }

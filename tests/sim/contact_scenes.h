@@ -63,10 +63,10 @@ public:
         solver_.solve({bodies, *manifolds, before, {h_, threshold}}, islands_, pool_);
         for (const std::uint32_t i : awake_) {
             Body& body = bodies[i];
-            advance_pose(body, body.velocity + body.push_velocity, body.angular_velocity + body.push_angular_velocity,
-                         h_, RotationForm::quaternion);
-            body.push_velocity.setZero();
-            body.push_angular_velocity.setZero();
+            advance_pose(body, body.velocity + body.correction_velocity,
+                         body.angular_velocity + body.correction_angular_velocity, h_, RotationForm::quaternion);
+            body.correction_velocity.setZero();
+            body.correction_angular_velocity.setZero();
             body.derive();
         }
     }

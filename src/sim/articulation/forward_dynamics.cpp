@@ -182,7 +182,7 @@ void ForwardDynamics::set_speeds(const double* speeds) {
     }
 }
 
-void ForwardDynamics::push(int node, const Wrench& wrench) {
+void ForwardDynamics::apply(int node, const Wrench& wrench) {
     Link& link = links_[std::size_t(node)];
     link.effort.moment -= wrench.torque + link.center.cross(wrench.force);
     link.effort.force -= wrench.force;
@@ -443,7 +443,7 @@ void ForwardDynamics::find_speeds(std::span<const SpatialMotion> bodies, double*
     }
 }
 
-void ForwardDynamics::joint_forces(std::span<const Wrench> pushes, std::vector<SpatialForce>& forces) const {
+void ForwardDynamics::joint_forces(std::span<const Wrench> wrenches, std::vector<SpatialForce>& forces) const {
     const std::vector<TreeNode>& nodes = tree_.nodes();
     forces.assign(nodes.size(), {});
     for (std::size_t i = nodes.size(); i-- > 0;) {
@@ -456,9 +456,9 @@ void ForwardDynamics::joint_forces(std::span<const Wrench> pushes, std::vector<S
             };
             Vec3 force = node.mass * (link.acceleration.move + turning.cross(c) + w.cross(w.cross(c)));
             Vec3 torque = inertia_times(turning) + w.cross(inertia_times(w));
-            if (!pushes.empty()) {
-                force -= pushes[std::size_t(node.body)].force;
-                torque -= pushes[std::size_t(node.body)].torque;
+            if (!wrenches.empty()) {
+                force -= wrenches[std::size_t(node.body)].force;
+                torque -= wrenches[std::size_t(node.body)].torque;
             }
             forces[i] += SpatialForce{torque + c.cross(force), force};
         }

@@ -61,7 +61,7 @@ public:
     void set_speeds(const double* speeds);
     /// A force on a node's body, and a torque (N m) or force (N) along the coordinate of a revolute or prismatic node;
     /// between move() or set_speeds() and accelerate() or respond().
-    void push(int node, const Wrench& wrench);
+    void apply(int node, const Wrench& wrench);
     void drive(int node, double effort) { links_[std::size_t(node)].drive += effort; }
     /// A torque (N m) of the parent on a ball node, between the same; components in the parent's frame.
     void twist(int node, const Vec3& torque) { links_[std::size_t(node)].twist += frame_of(node) * torque; }
@@ -116,7 +116,7 @@ public:
 
     /// Force and moment (about the node's point) that the joint of each node gives to the rest of the tree behind it:
     /// by the recursive Newton-Euler algorithm (Featherstone 2008, Table 5.1), after accelerate().
-    void joint_forces(std::span<const Wrench> pushes, std::vector<SpatialForce>& forces) const;
+    void joint_forces(std::span<const Wrench> wrenches, std::vector<SpatialForce>& forces) const;
 
     const Link& link(int node) const { return node == TreeNode::ground ? ground_ : links_[std::size_t(node)]; }
 

@@ -117,8 +117,8 @@ bool IslandFlight::fly(const FlightStep& step, const Group& group, int parts) {
     for (std::size_t k = 0; k < sums.size(); ++k) {
         Joint& joint = *group.joints[k];
         joint.account.step = sums[k];
-        joint.force = sums[k].load.force / (step.to - step.from);
-        joint.torque = sums[k].load.torque / (step.to - step.from);
+        joint.force = sums[k].reaction.force / (step.to - step.from);
+        joint.torque = sums[k].reaction.torque / (step.to - step.from);
     }
     set_substeps(group, substeps * parts);
     return true;
@@ -127,9 +127,9 @@ bool IslandFlight::fly(const FlightStep& step, const Group& group, int parts) {
 // The number of substeps of the next step. The phase of a swing is proportional to the length of a substep.
 void IslandFlight::set_substeps(const Group& group, int substeps) const {
     const int wait = tree_.strains_energy() ? tuning::joint_wait : std::max(0, group.joints[0]->wait - 1);
-    if (wait == 0 && tree_.swing() < tuning::joint_easy_swing && substeps > 1) {
+    if (wait == 0 && tree_.phase() < tuning::joint_easy_phase && substeps > 1) {
         substeps /= 2;
-        for (double swing = 4.0 * tree_.swing(); substeps > 1 && swing < tuning::joint_easy_swing; swing *= 2.0)
+        for (double phase = 4.0 * tree_.phase(); substeps > 1 && phase < tuning::joint_easy_phase; phase *= 2.0)
             substeps /= 2;
     }
     for (Joint* joint : group.joints) {

@@ -364,7 +364,7 @@ void JointTree::load_direct(const std::vector<Body>& bodies, std::span<const std
     gap_ = std::max(gap_, worst);
 }
 
-void JointTree::load_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link) {
+void JointTree::linearize_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link) {
     const Hang& hang = hangs_[std::size_t(link.joint)];
     const TreeSides sides(joint, bodies, hang.forward);
     TreeNode& first = nodes_[std::size_t(hang.first)];
@@ -416,7 +416,7 @@ bool JointTree::find(const std::vector<Body>& bodies, std::span<const std::uint3
         if (hang.direct)
             load_direct(bodies, island, joint, link);
         else
-            load_joint(bodies, joint, link);
+            linearize_joint(bodies, joint, link);
     }
     return true;
 }

@@ -144,7 +144,7 @@ private:
     void load_anchor(const std::vector<Body>& bodies, const Joint& joint, const Hang& hang);
     void load_direct(const std::vector<Body>& bodies, std::span<const std::uint32_t> island, const Joint& joint,
                      const Link& link);
-    void load_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link);
+    void linearize_joint(const std::vector<Body>& bodies, const Joint& joint, const Link& link);
     void set_body(TreeNode& node, int place, const Body& body);
 
     std::vector<TreeNode> nodes_, sequence_;

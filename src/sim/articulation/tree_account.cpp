@@ -64,11 +64,11 @@ TreeAccount::Sample TreeAccount::joint_sample(const ForwardDynamics& dynamics, i
 
 // Integrals of p x F from the last sample to this one, by Simpson's rule: the force in the middle is that which gives
 // the mean, and the point there follows from both ends and their rates.
-void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes,
+void TreeAccount::add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> applied,
                                   std::span<const Sample> ends, double t) {
     const double span = t - time_;
     std::vector<Vec3> impulses(momenta.size());  // of the joint that each body hangs on
-    for (std::size_t i = 0; i < momenta.size(); ++i) impulses[i] = momenta[i] - momenta_[i] - (pushes[i] - pushes_[i]);
+    for (std::size_t i = 0; i < momenta.size(); ++i) impulses[i] = momenta[i] - momenta_[i] - (applied[i] - pushes_[i]);
     const auto order = tree_.order();
     for (std::size_t k = order.size(); k-- > 0;) {
         const auto [body, index] = order[k];
@@ -114,9 +114,9 @@ void TreeAccount::add_stage(const ForwardDynamics& dynamics, double t, double h)
     staged_ = true;
 }
 
-void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
-                         std::span<const PushedImpulse> pushed) {
-    dynamics.joint_forces(pushes, forces_);
+void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> wrenches,
+                         std::span<const AppliedImpulse> pushed) {
+    dynamics.joint_forces(wrenches, forces_);
     std::vector<Sample> now(samples_.size());
     for (std::size_t k = 0; k < now.size(); ++k)
         if (tree_.hangs(int(k))) now[k] = joint_sample(dynamics, int(k), t);
@@ -126,7 +126,7 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
         Vec3 velocity = dynamics.link(node).center_velocity();
         if (!tree_.is_free()) velocity -= t * frame_.gravity;
         momenta[i] = tree_.nodes()[std::size_t(node)].mass * velocity;
-        if (!pushed.empty()) given[i] = pushed[i].push;
+        if (!pushed.empty()) given[i] = pushed[i].impulse;
     }
     if (sampled_ && t > time_) add_mean_forces(momenta, given, now, t);
     samples_.swap(now);
@@ -136,20 +136,20 @@ void TreeAccount::sample(const ForwardDynamics& dynamics, double t, std::span<co
     sampled_ = true;
 }
 
-double TreeAccount::load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes) {
-    dynamics.joint_forces(pushes, forces_);
+double TreeAccount::load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> wrenches) {
+    dynamics.joint_forces(wrenches, forces_);
     const Sample s = joint_sample(dynamics, joint, 0.0);
     const JointDescription& strength = step_->joints[std::size_t(joint)]->description;
     return std::max(s.force.norm() / strength.break_force, s.torque.norm() / strength.break_torque);
 }
 
-// As for the rows of the direct solver (JointRows::swing_rate): sqrt(4 T / (m l)) for a rod of length l.
-double TreeAccount::swing_rate(double h) {
+// As for the rows of the direct solver (JointRows::pendulum_rate): sqrt(4 T / (m l)) for a rod of length l.
+double TreeAccount::pendulum_rate(double h) {
     for (std::size_t k = 0; k < samples_.size(); ++k) samples_[k].force += struck_[k] / h;
-    return swing_rate();
+    return pendulum_rate();
 }
 
-double TreeAccount::swing_rate() {
+double TreeAccount::pendulum_rate() {
     double most = 0.0;
     sums_.assign(starts_.size(), 0.0);
     for (std::size_t k = 0; k < samples_.size(); ++k) {
@@ -166,7 +166,7 @@ double TreeAccount::swing_rate() {
     return std::sqrt(most);
 }
 
-bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
+bool TreeAccount::finish(std::span<const AppliedImpulse> pushed) {
     const double h = step_->h;
     behind_.assign(starts_.size(), {});
     for (std::size_t i = 0; i < starts_.size(); ++i) {
@@ -180,7 +180,7 @@ bool TreeAccount::finish(std::span<const PushedImpulse> pushed) {
                    (start.position - frame_.origin).cross(before);
         b.work = body.kinetic_energy() - start.energy - body.mass * frame_.gravity.dot(body.position - start.position);
         if (pushed.empty()) continue;
-        b.momentum -= pushed[i].push;
+        b.momentum -= pushed[i].impulse;
         b.moment -= pushed[i].moment;
         b.work -= pushed[i].work;
     }
@@ -231,12 +231,12 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
     const std::size_t k = std::size_t(index);
     const bool second = joint.b == step_->island[std::size_t(tree_.child_of(index))];
     const double sign = second ? 1.0 : -1.0, h = step_->h;
-    JointLoad load;
-    load.force = sign * behind.momentum;
-    load.torque = staged_ ? torques_[k] : Vec3(sign * behind.moment - moments_[k]);
-    load.moment = sign * behind.moment + carried_[k];
-    joint.force = load.force / h;
-    joint.torque = load.torque / h;
+    JointReaction reaction;
+    reaction.force = sign * behind.momentum;
+    reaction.torque = staged_ ? torques_[k] : Vec3(sign * behind.moment - moments_[k]);
+    reaction.moment = sign * behind.moment + carried_[k];
+    joint.force = reaction.force / h;
+    joint.torque = reaction.torque / h;
     if (staged_) {  // the force stands for them
         joint.impulse = {};
         joint.curving = {};
@@ -258,15 +258,16 @@ bool TreeAccount::settle(Joint& joint, int index, const Behind& behind) const {
         }
     }
     const JointDescription& strength = joint.description;
-    const double over = std::max({joint.force.norm() / strength.break_force, load.force.norm() / strength.break_impulse,
-                                  joint.torque.norm() / strength.break_torque});
+    const double over =
+        std::max({joint.force.norm() / strength.break_force, reaction.force.norm() / strength.break_impulse,
+                  joint.torque.norm() / strength.break_torque});
     if (over > tuning::joint_flight_over) return false;
     if (over > 1.0) {
         joint.broken = true;
         joint.broken_at = step_->from + h;
     }
     joint.account.step = {};
-    joint.account.step.add_flight(load, 0.0, 0.0);
+    joint.account.step.add_flight(reaction, 0.0, 0.0);
     joint.account.step.work.springs = rotors_[k] - JointSet::rotor_energy(joint, step_->bodies);
     return true;
 }

@@ -12,10 +12,10 @@
 namespace tumble {
 
 /// Impulse, moment and work of the forces on a body that are not gravity.
-struct PushedImpulse {
-    Vec3 push = Vec3::Zero();    // N s
-    Vec3 moment = Vec3::Zero();  // N m s, about the origin of the falling frame
-    double work = 0.0;           // J
+struct AppliedImpulse {
+    Vec3 impulse = Vec3::Zero();  // N s
+    Vec3 moment = Vec3::Zero();   // N m s, about the origin of the falling frame
+    double work = 0.0;            // J
 };
 
 class TreeAccount {
@@ -31,15 +31,15 @@ public:
     /// Forces at time t (s, in the step), after ForwardDynamics::accelerate(). `momenta` (N s) of the bodies and
     /// positions of the joints are in the falling frame; `pushed`: since the start of the step, by body, or none. Again
     /// at the same time where the forces change.
-    void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> pushes,
-                std::span<const PushedImpulse> pushed);
+    void sample(const ForwardDynamics& dynamics, double t, std::span<const Wrench> wrenches,
+                std::span<const AppliedImpulse> pushed);
     /// Instead of sample() for a stage of Verlet's method of `h` s (negative in some stages of compositions) about
     /// time t, after ForwardDynamics::accelerate() or respond() in its middle.
     void add_stage(const ForwardDynamics& dynamics, double t, double h);
     /// Load of a joint (index among the island's) over its strength, after ForwardDynamics::accelerate().
-    double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> pushes);
+    double load_of(const ForwardDynamics& dynamics, int joint, std::span<const Wrench> wrenches);
     /// Fastest rate (rad/s) at which a link would swing about its joints under the forces of the last sample.
-    double swing_rate();
+    double pendulum_rate();
     /// The same in a stage of `h` s, with the impulses at both of its ends.
     void begin_stage() {
         struck_.assign(samples_.size(), Vec3::Zero());
@@ -51,7 +51,7 @@ public:
         torques_ = torques_before_;
         carried_ = carried_before_;
     }
-    double swing_rate(double h);
+    double pendulum_rate(double h);
 
     /// The pose at the end of a body with a prescribed motion.
     void carry(std::uint32_t body, const JointSide& end) {
@@ -60,7 +60,7 @@ public:
     }
     /// Gives the joints their forces, impulses and accounts, from the states of the bodies at both ends. Returns false
     /// where a limit is violated or a joint is loaded well beyond its strength.
-    bool finish(std::span<const PushedImpulse> pushed);
+    bool finish(std::span<const AppliedImpulse> pushed);
     /// Then, once the joints have the work of their laws: their work on both bodies, and that of a carrier.
     void give_work();
 
@@ -78,7 +78,7 @@ private:
         double energy;  // J, kinetic
     };
     Sample joint_sample(const ForwardDynamics& dynamics, int joint, double t) const;
-    void add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> pushes, std::span<const Sample> ends,
+    void add_mean_forces(std::span<const Vec3> momenta, std::span<const Vec3> applied, std::span<const Sample> ends,
                          double t);
     JointSide side(std::uint32_t body) const;
     bool settle(Joint& joint, int index, const Behind& behind) const;

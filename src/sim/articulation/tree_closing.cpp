@@ -63,7 +63,7 @@ void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<do
     move_still(at);
     closures_.linearize(dynamics_, at.data());
     closures_.give(closures_.shared(impulses), false);
-    closures_.push(dynamics_);
+    closures_.apply(dynamics_);
     std::vector<double> change(std::size_t(tree_.speeds()));
     dynamics_.accelerate(Vec3::Zero(), change.data());
     std::vector<Wrench> wrenches(step_->island.size());
@@ -74,16 +74,16 @@ void TreeFlight::give_impulses(const Vector& at, Vector& y, const std::vector<do
 }
 
 // The matrices at the coordinates y.
-void TreeFlight::load_closures(const Vector& y) {
+void TreeFlight::linearize_closures(const Vector& y) {
     move_still(y);
     std::vector<double> change(std::size_t(tree_.speeds()));
     dynamics_.accelerate(Vec3::Zero(), change.data());
-    closures_.load(dynamics_, y.data());
+    closures_.prepare(dynamics_, y.data());
 }
 
 // Returns the energy of the impulses.
 double TreeFlight::fit_closures(Vector& y, double time, bool counts) {
-    load_closures(y);
+    linearize_closures(y);
     const Vector before = y;
     double* speeds = y.data() + coordinates_;
     std::vector<double> sum(closures_.rows(), 0.0);
@@ -103,7 +103,7 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
     if (!closures_.any_rows()) return stage(y, h, time, counts);
     const double turn = std::abs(h) * fastest_turn(y), closed = closures_.place_rounding();
     closures_.set_compliance(joint_singular * turn * turn * turn * turn);
-    if (fitted_.size() != coordinates_ || fitted_ != y.head(coordinates_)) load_closures(y);
+    if (fitted_.size() != coordinates_ || fitted_ != y.head(coordinates_)) linearize_closures(y);
     at_start_ = closures_;
     if (counts) account_->begin_stage();
     std::vector<double> impulses(closures_.rows(), 0.0);
@@ -123,7 +123,7 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
             // In a singular position the gap along the vanishing row closes slowly, and by itself when that is passed.
             if (error < tuning::joint_flight_open) break;
             coarse_ = true;
-            swing_ = std::max(swing_, tuning::joint_easy_swing);
+            phase_ = std::max(phase_, tuning::joint_easy_phase);
             return false;
         }
         last = error;
@@ -135,7 +135,7 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
     const double most = most_energy(h);
     if (at_start_.energy_of(impulses) > most) {
         coarse_ = true;
-        swing_ = std::max(swing_, tuning::joint_easy_swing);
+        phase_ = std::max(phase_, tuning::joint_easy_phase);
         return false;
     }
     if (counts) {
@@ -145,10 +145,10 @@ bool TreeFlight::closed_stage(Vector& y, double h, double time, bool counts) {
     y = end;
     if (fit_closures(y, time + h, counts) > most) {
         coarse_ = true;
-        swing_ = std::max(swing_, tuning::joint_easy_swing);
+        phase_ = std::max(phase_, tuning::joint_easy_phase);
         return false;
     }
-    if (counts) swing_ = std::max(swing_, std::abs(h) * account_->swing_rate(h));
+    if (counts) phase_ = std::max(phase_, std::abs(h) * account_->pendulum_rate(h));
     closures_.set_compliance(0.0);
     return true;
 }
@@ -166,7 +166,7 @@ bool TreeFlight::close(double time) {
         if (error <= closures_.place_rounding() || error >= 0.5 * last) break;
         last = error;
         dynamics_.accelerate(Vec3::Zero(), change.data());
-        closures_.load(dynamics_, y_.data());
+        closures_.prepare(dynamics_, y_.data());
         std::vector<double> side = closures_.errors();
         for (double& x : side) x = -x;
         std::fill(change.begin(), change.end(), 0.0);

@@ -222,7 +222,7 @@ void TreeClosures::drive(ForwardDynamics& dynamics) {
         for (const Side* side : {&part.a, &part.b}) {
             if (!part.spring || side->node == TreeNode::ground) continue;
             const Vec3 force = side == &part.b ? part.force : Vec3(-part.force);
-            dynamics.push(side->node, {force, (side->point - dynamics.link(side->node).position()).cross(force)});
+            dynamics.apply(side->node, {force, (side->point - dynamics.link(side->node).position()).cross(force)});
         }
     }
 }
@@ -303,7 +303,7 @@ void TreeClosures::fill(const ForwardDynamics& dynamics) {
     }
 }
 
-void TreeClosures::load(ForwardDynamics& dynamics, const double* q) {
+void TreeClosures::prepare(ForwardDynamics& dynamics, const double* q) {
     const std::size_t m = rows_.size();
     linearize(dynamics, q);
     fill(dynamics);
@@ -333,13 +333,13 @@ void TreeClosures::accelerate(ForwardDynamics& dynamics, const Vec3& base, const
     if (same_places)
         linearize(dynamics, q);
     else
-        load(dynamics, q);
+        prepare(dynamics, q);
     std::vector<double> side(rows_.size());
     for (std::size_t r = 0; r < rows_.size(); ++r) side[r] = -acceleration_of(rows_[r], dynamics, rates);
     const std::vector<double> l = solve(side);
     give(l, true);
     dynamics.restore_efforts();
-    push(dynamics);
+    apply(dynamics);
     dynamics.respond(base, rates);
     give(shared(l), true);
 }

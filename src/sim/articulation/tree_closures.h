@@ -38,7 +38,7 @@ public:
     void accelerate(ForwardDynamics& dynamics, const Vec3& base, const double* q, double* rates,
                     bool same_places = false);
     /// The matrices at the positions of the dynamics, after ForwardDynamics::accelerate().
-    void load(ForwardDynamics& dynamics, const double* q);
+    void prepare(ForwardDynamics& dynamics, const double* q);
     /// Compliance of the rows, as a share of the largest, where that is more than rounding demands.
     void set_compliance(double share) { compliance_ = share; }
 
@@ -49,28 +49,28 @@ public:
     /// G u, and errors, as sides of the equations; in the length's unit.
     std::vector<double> speeds_of(const double* u) const;
     std::vector<double> errors() const;
-    /// Impulses l with G M^-1 G^T l = side, by the matrices of load(); or with G of the other's linearize_forms().
+    /// Impulses l with G M^-1 G^T l = side, by the matrices of prepare(); or with G of the other's linearize_forms().
     std::vector<double> solve(const std::vector<double>& side) const { return solve_by(matrix_, side); }
     std::vector<double> solve(const std::vector<double>& side, const TreeClosures& forms) const;
     /// The same impulses with equal loads on redundant rows.
     std::vector<double> shared(const std::vector<double>& l) const;
     /// l^T G M^-1 G^T l / 2, J.
     double energy_of(const std::vector<double>& l) const;
-    /// Adds M^-1 G^T l, by the matrices of load().
+    /// Adds M^-1 G^T l, by the matrices of prepare().
     void add_response(const std::vector<double>& l, double* u) const;
     /// True if the step began near a singular position: a row depends on others but for this share.
     bool nearly_dependent(double share) const;
 
     /// Forces of the rows are those of l; `springs`: those of springs stay, otherwise there are none.
     void give(const std::vector<double>& l, bool springs);
-    void push(ForwardDynamics& dynamics) const;
+    void apply(ForwardDynamics& dynamics) const;
     /// Adds the forces of all parts to those on the bodies.
-    void add_to(const ForwardDynamics& dynamics, std::span<Wrench> pushes) const;
+    void add_to(const ForwardDynamics& dynamics, std::span<Wrench> wrenches) const;
     /// Adds the forces of all parts, times h, to their sums; at time t (s, in the step) and the velocities of the
     /// dynamics.
     void add_sums(const ForwardDynamics& dynamics, const FallingFrame& frame, double t, double h, double* to) const;
     /// Adds the sums to the impulses by body.
-    void add_impulses(const double* sums, std::vector<PushedImpulse>& list) const;
+    void add_impulses(const double* sums, std::vector<AppliedImpulse>& list) const;
 
     /// Load of a cut joint over its strength.
     double load_of(int joint) const;

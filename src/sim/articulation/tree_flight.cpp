@@ -119,7 +119,7 @@ void TreeFlight::fit() {
     for (std::size_t i = 0; i < step_->island.size(); ++i) {
         const Body& body = step_->bodies[step_->island[i]];
         momenta.push_back({body.momentum - body.mass * frame_.velocity, body.angular_momentum});
-        dynamics_.push(tree_.node_of_body()[i], momenta.back());
+        dynamics_.apply(tree_.node_of_body()[i], momenta.back());
     }
     closures_.accelerate(dynamics_, Vec3::Zero(), y_.data(), y_.data() + coordinates_);
     if (!closures_.empty()) closures_.add_to(dynamics_, momenta);
@@ -228,7 +228,7 @@ void TreeFlight::add_pushes(const Vector& y, Vector& dy, double ahead) {
         Wrench wrench = step_->forces.at(index, body, at_scene, velocity, rotation, law_time_);
         wrench.force -= body.mass * frame_.gravity;
         pushes_[i] = wrench;
-        dynamics_.push(node, wrench);
+        dynamics_.apply(node, wrench);
         const Eigen::Index at = extras_ + 1 + pushed_numbers * Eigen::Index(i);
         const Vec3 about = (place - behind).cross(wrench.force) + wrench.torque;
         dy.segment<3>(at) = wrench.force;
@@ -303,8 +303,8 @@ void TreeFlight::normalize() {
     }
 }
 
-std::vector<PushedImpulse> TreeFlight::pushed_impulses() const {
-    std::vector<PushedImpulse> list;
+std::vector<AppliedImpulse> TreeFlight::applied_impulses() const {
+    std::vector<AppliedImpulse> list;
     if (pushed_ || !closures_.empty()) list.resize(step_->island.size());
     for (std::size_t i = 0; pushed_ && i < step_->island.size(); ++i) {
         const Eigen::Index at = extras_ + 1 + pushed_numbers * Eigen::Index(i);
@@ -315,7 +315,7 @@ std::vector<PushedImpulse> TreeFlight::pushed_impulses() const {
 }
 
 // After rate(y_).
-void TreeFlight::sample() { account_->sample(dynamics_, time_, pushes_, pushed_impulses()); }
+void TreeFlight::sample() { account_->sample(dynamics_, time_, pushes_, applied_impulses()); }
 
 bool TreeFlight::integrate(double until, IntegratorKind method) {
     const bool exact = method == IntegratorKind::exact;
@@ -324,7 +324,7 @@ bool TreeFlight::integrate(double until, IntegratorKind method) {
     for (bool fresh = true; done < span; fresh = false) {
         const Vector first = rate(y_);
         sample();
-        const double scale = std::max(fastest(y_, first), account_->swing_rate());
+        const double scale = std::max(fastest(y_, first), account_->pendulum_rate());
         if (span * scale > tuning::tree_phase * step_->most_steps) return false;
         const double least = tuning::tree_phase / (scale * tuning::tree_shortest);
         if (fresh || !exact) size = span / std::max(1.0, std::ceil(span * scale / tuning::tree_phase));
@@ -452,7 +452,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
     step_ = &*own_;
     event_ = none;
     coarse_ = strains_energy_ = false;
-    swing_ = 0.0;
+    phase_ = 0.0;
     if (!start(method.verlet() ? step.h / substeps : 0.0)) return Outcome::declined;
     if (method.order != order_ && method.verlet()) {
         order_ = method.order;
@@ -481,7 +481,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
         rate(y_);
     else
         dynamics_.place(y_.data(), y_.data() + coordinates_);
-    if (method.verlet() && substeps < tuning::joint_swing_substeps && !keeps_energy()) return Outcome::declined;
+    if (method.verlet() && substeps < tuning::joint_phase_substeps && !keeps_energy()) return Outcome::declined;
     if (!method.verlet()) sample();
     place();
     count_turns();
@@ -490,7 +490,7 @@ TreeFlight::Outcome TreeFlight::fly(const TreeStep& step, TreeMethod method, int
         account_->carry(tree_.carrier(),
                         {tree_.origin() + ground.point - ground.rotation * tree_.carried_at(), ground.orientation});
     }
-    if (!account_->finish(pushed_impulses())) return Outcome::stopped;
+    if (!account_->finish(applied_impulses())) return Outcome::stopped;
     if (!closures_.finish(*own_, y_.data() + closed_ + 1)) return Outcome::stopped;
     if (lost_ > 0.0) step_->joints[std::size_t(std::max(0, tree_.hung()))]->account.step.work.impacts += lost_;
     springs_.account(*own_, y_.data(), y_.data() + heats_);
@@ -506,11 +506,11 @@ TreeFlight::Outcome TreeFlight::advance_tree(const TreeStep& step, TreeMethod me
     for (;;) {
         const Outcome outcome = fly(step, method, substeps);
         if (outcome != Outcome::declined || !coarse_) return outcome;
-        if (2 * substeps > (closures_.empty() ? tuning::joint_swing_substeps : closure_substeps))
+        if (2 * substeps > (closures_.empty() ? tuning::joint_phase_substeps : closure_substeps))
             return Outcome::declined;
-        const double phase = swing_ * substeps;
+        const double phase = phase_ * substeps;
         do substeps *= 2;
-        while (phase > tuning::joint_swing * substeps && substeps < tuning::joint_swing_substeps);
+        while (phase > tuning::joint_phase * substeps && substeps < tuning::joint_phase_substeps);
     }
 }
 

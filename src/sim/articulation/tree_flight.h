@@ -65,9 +65,9 @@ public:
     bool is_tree() const { return tree_.found(); }
     /// Evaluations of the dynamics in the last step.
     int evaluations() const { return evaluations_; }
-    /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_swing where the next
+    /// Largest phase (rad) of a link's swing in a substep of the last step, at least joint_easy_phase where the next
     /// one should have no fewer.
-    double swing() const { return swing_; }
+    double phase() const { return phase_; }
     /// True if half the substeps would not have kept the energy of the last step.
     bool strains_energy() const { return strains_energy_; }
 
@@ -113,7 +113,7 @@ private:
     void move_still(const Vector& y);
     void give_impulses(const Vector& at, Vector& y, const std::vector<double>& impulses, const Vector& mean,
                        double time);
-    void load_closures(const Vector& y);
+    void linearize_closures(const Vector& y);
     double most_energy(double h) const;
     double fit_closures(Vector& y, double time, bool counts);
     bool close(double time);
@@ -145,7 +145,7 @@ private:
     void sample();
     void place();
     void count_turns();
-    std::vector<PushedImpulse> pushed_impulses() const;
+    std::vector<AppliedImpulse> applied_impulses() const;
 
     std::optional<TreeStep> own_;  // the step, up to a break
     const TreeStep* step_ = nullptr;
@@ -180,7 +180,7 @@ private:
     std::vector<double> stages_;
     int order_ = 0;
     Vector middle_, rates_, after_, mean_;
-    double swing_ = 0.0;
+    double phase_ = 0.0;
     bool coarse_ = false, strains_energy_ = false;
     std::vector<SpatialMotion> velocities_;  // by body
     std::vector<Sym3> inertias_;             // kg m^2, by body

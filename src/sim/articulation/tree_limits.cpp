@@ -216,7 +216,7 @@ void TreeLimits::respond(std::size_t k, Impact& impact, ForwardDynamics& dynamic
     }
     const std::vector<double> still(numbers, 0.0);
     std::vector<double> change(numbers, 0.0);
-    const auto push = [&](double impulse) {
+    const auto apply = [&](double impulse) {
         dynamics.move(q, still.data());
         for (std::size_t j = 0; j < list_.size(); ++j)
             if (passes[j]) hold(list_[j], dynamics, still.data());
@@ -227,7 +227,7 @@ void TreeLimits::respond(std::size_t k, Impact& impact, ForwardDynamics& dynamic
         closures_->accelerate(dynamics, Vec3::Zero(), q, change.data());
     };
     for (bool all = false; !all;) {
-        push(1.0);
+        apply(1.0);
         all = true;
         for (std::size_t j = 0; j < list_.size(); ++j)
             if (passes[j] && net_effort(list_[j], dynamics) > 0.0) passes[j] = all = false;
@@ -236,7 +236,7 @@ void TreeLimits::respond(std::size_t k, Impact& impact, ForwardDynamics& dynamic
                                    : limit.side * change[std::size_t(limit.speed_at)];
     const double rebound = impact.rebounds ? limit.restitution * impact.approach : 0.0;
     impact.impulse = (impact.approach + rebound) / gain;
-    push(impact.impulse);
+    apply(impact.impulse);
     for (std::size_t i = 0; i < numbers; ++i) speeds[i] += change[i];
     for (std::size_t j = 0; j < list_.size(); ++j) {
         if (passes[j] && !list_[j].ball) speeds[list_[j].speed_at] = 0.0;

@@ -69,8 +69,8 @@ TreeFlight::Outcome TreeFlight::advance_pieces(const TreeStep& step, TreeMethod 
     for (std::size_t k = 0; k < spans.size(); ++k) {
         Joint& joint = *step.joints[k];
         if (!joint.broken || joint.broken_at > weak.broken_at) joint.account.step.add(spans[k]);
-        joint.force = joint.account.step.load.force / step.h;
-        joint.torque = joint.account.step.load.torque / step.h;
+        joint.force = joint.account.step.reaction.force / step.h;
+        joint.torque = joint.account.step.reaction.torque / step.h;
     }
     return Outcome::flown;
 }

@@ -129,7 +129,7 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
         // The next pass would change them by less than this.
         const double next = pass == 0 ? change : change * std::min(1.0, change / last);
         if (next <= tolerance) {
-            if (pass >= verlet_easy_passes) swing_ = std::max(swing_, tuning::joint_easy_swing);
+            if (pass >= verlet_easy_passes) phase_ = std::max(phase_, tuning::joint_easy_phase);
             break;
         }
         if (pass > 1 && change > verlet_contraction * last) {
@@ -141,7 +141,7 @@ bool TreeFlight::stage(Vector& y, double h, double time, bool counts) {
     }
     if (counts) {
         account_->add_stage(dynamics_, time + 0.5 * h, h);
-        if (!closures_.any_rows()) swing_ = std::max(swing_, std::abs(h) * account_->swing_rate());
+        if (!closures_.any_rows()) phase_ = std::max(phase_, std::abs(h) * account_->pendulum_rate());
     }
     if (!closures_.empty()) {
         y[closed_] += h;
@@ -187,7 +187,7 @@ bool TreeFlight::integrate_verlet(double until, int substeps) {
             if (coarse_ || !change.allFinite() || !shorten_to_event(part, size, change)) return false;
         }
         if (!compose(y_, size, true)) return false;
-        if (swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps) {
+        if (phase_ > tuning::joint_phase && substeps < tuning::joint_phase_substeps) {
             coarse_ = true;
             return false;
         }

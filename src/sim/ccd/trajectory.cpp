@@ -15,8 +15,8 @@ constexpr double above_rounding = 1e-12;  // share by which the bounds exceed th
 
 }  // namespace
 
-std::optional<CurvedTurn> CurvedTurn::between(const End& start, const End& end, double span) {
-    CurvedTurn turn;
+std::optional<CurvedRotation> CurvedRotation::between(const End& start, const End& end, double span) {
+    CurvedRotation turn;
     turn.from = start.orientation;
     const Vec3 whole = rotation_vector(end.orientation * start.orientation.conjugate());
     const double fastest = std::max(start.angular_velocity.norm(), end.angular_velocity.norm());
@@ -29,22 +29,22 @@ std::optional<CurvedTurn> CurvedTurn::between(const End& start, const End& end, 
     return turn;
 }
 
-Quat CurvedTurn::orientation(double t) const { return (from_rotation_vector(vector(t)) * from).normalized(); }
+Quat CurvedRotation::orientation(double t) const { return (from_rotation_vector(vector(t)) * from).normalized(); }
 
-Vec3 CurvedTurn::angular_velocity(double t) const {
+Vec3 CurvedRotation::angular_velocity(double t) const {
     return body_spin(-vector(t), vector_rate(t));  // -theta: in the world
 }
 
 // |omega| <= |theta'|, since no singular value of the Jacobian exceeds 1. theta' is within the hull of its Bezier
 // points.
-double CurvedTurn::spin_bound(double span) const {
+double CurvedRotation::spin_bound(double span) const {
     const Vec3 middle = rate + 0.5 * span * bend;
     return std::max({rate.norm(), middle.norm(), vector_rate(span).norm()}) * (1.0 + above_rounding);
 }
 
 // |alpha| <= |theta''| + |J'| |theta'|, with |J'| <= (p / 6 + p^2 / 12 + p^3 / 60) |theta'| <= p / 2 |theta'| for
 // p = |theta| <= 2.
-double CurvedTurn::turning_bound(double span) const {
+double CurvedRotation::turning_bound(double span) const {
     const double spin = spin_bound(span), bending = std::max(bend.norm(), (bend + span * twist).norm());
     return (bending + spin * spin * (1.0 + 0.5 * span * spin)) * (1.0 + above_rounding);
 }
@@ -105,8 +105,8 @@ void Trajectory::turn_freely(const Body& body) {
         return;
     }
     const Vec3& inertia = body.principal_inertia;
-    turning_ = FreeTurn{FreeRotation(inertia, body.principal_axes, body.orientation, body.angular_momentum),
-                        body.inverse_inertia_body, body.angular_momentum};
+    turning_ = TorqueFreeRotation{FreeRotation(inertia, body.principal_axes, body.orientation, body.angular_momentum),
+                                  body.inverse_inertia_body, body.angular_momentum};
     // With J = 1/I and m the momentum in body axes: |omega|^2 <= min(2 T Jmax, |L|^2 Jmax^2), and Euler's equations
     // alpha_i = J_i (J_k - J_j) m_j m_k with 2 |m_j m_k| <= |L|^2 give the bound of each component; the three cannot be
     // reached together, |alpha| <= 2/sqrt(3) of the largest.
@@ -153,8 +153,8 @@ Trajectory Trajectory::towards(const Body& body, const Motion& end, double span,
 Trajectory Trajectory::between(const Body& body, const Motion& end, double span) {
     Trajectory path;
     path.move_along_cubic(body, end, span);
-    const auto turn =
-        CurvedTurn::between({body.orientation, body.angular_velocity}, {end.orientation, end.angular_velocity}, span);
+    const auto turn = CurvedRotation::between({body.orientation, body.angular_velocity},
+                                              {end.orientation, end.angular_velocity}, span);
     if (turn) {
         path.turning_ = *turn;
         path.spin_bound_ = turn->spin_bound(span);
@@ -174,7 +174,7 @@ void Trajectory::move_along_cubic(const Body& body, const Motion& end, double sp
 }
 
 void Trajectory::turn_uniformly(const Quat& from, const Vec3& angular_velocity) {
-    UniformTurn uniform;
+    UniformRotation uniform;
     uniform.from = from;
     uniform.rate = angular_velocity.norm();
     if (uniform.rate > 0.0) uniform.axis = angular_velocity / uniform.rate;
@@ -194,9 +194,9 @@ Trajectory Trajectory::deflected(double t, const Vec3& velocity) const {
 
 Quat Trajectory::orientation(double t) const {
     t += turned_;
-    if (const auto* free = std::get_if<FreeTurn>(&turning_)) return free->rotation.at(t);
-    if (const auto* curved = std::get_if<CurvedTurn>(&turning_)) return curved->orientation(t);
-    const auto& uniform = std::get<UniformTurn>(turning_);
+    if (const auto* free = std::get_if<TorqueFreeRotation>(&turning_)) return free->rotation.at(t);
+    if (const auto* curved = std::get_if<CurvedRotation>(&turning_)) return curved->orientation(t);
+    const auto& uniform = std::get<UniformRotation>(turning_);
     if (uniform.rate == 0.0) return uniform.from;
     const SinCos half = sincos(0.5 * uniform.rate * t);
     const Vec3 v = half.sin * uniform.axis;
@@ -219,13 +219,13 @@ Motion Trajectory::at(double t) const {
     motion.velocity = velocity(t);
     motion.orientation = orientation(t);
     motion.rotation = motion.orientation.toRotationMatrix();
-    if (const auto* free = std::get_if<FreeTurn>(&turning_)) {
+    if (const auto* free = std::get_if<TorqueFreeRotation>(&turning_)) {
         const Vec3 momentum = motion.rotation.transpose() * free->angular_momentum;
         motion.angular_velocity = motion.rotation * (free->inverse_inertia * momentum);
-    } else if (const auto* curved = std::get_if<CurvedTurn>(&turning_)) {
+    } else if (const auto* curved = std::get_if<CurvedRotation>(&turning_)) {
         motion.angular_velocity = curved->angular_velocity(t + turned_);
     } else {
-        const auto& uniform = std::get<UniformTurn>(turning_);
+        const auto& uniform = std::get<UniformRotation>(turning_);
         motion.angular_velocity = uniform.rate * uniform.axis;
     }
     return motion;

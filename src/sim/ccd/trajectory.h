@@ -14,7 +14,7 @@ namespace tumble {
 // A rotation that changes its speed and axis: the rotation vector from its start is cubic in time (Hermite), through
 // the orientations and angular velocities of both ends. Error O(span^4) in between.
 
-struct CurvedTurn {
+struct CurvedRotation {
     Quat from = Quat::Identity();
     Vec3 rate = Vec3::Zero(), bend = Vec3::Zero(), twist = Vec3::Zero();  // derivatives of the rotation vector at 0
 
@@ -23,7 +23,7 @@ struct CurvedTurn {
         Vec3 angular_velocity;  // rad/s
     };
     /// Between two ends `span` s apart; none where the rotation is too large for one vector.
-    static std::optional<CurvedTurn> between(const End& start, const End& end, double span);
+    static std::optional<CurvedRotation> between(const End& start, const End& end, double span);
 
     Vec3 vector(double t) const { return t * (rate + t * (0.5 * bend + t / 6.0 * twist)); }
     Vec3 vector_rate(double t) const { return rate + t * (bend + 0.5 * t * twist); }
@@ -55,7 +55,7 @@ struct Motion {
 
 struct Body;
 
-struct UniformTurn {
+struct UniformRotation {
     Quat from = Quat::Identity();
     Vec3 axis = Vec3::UnitY();
     double rate = 0.0;  // rad/s
@@ -65,7 +65,7 @@ struct UniformTurn {
         archive.keep(from, axis, rate);
     }
 };
-struct FreeTurn {
+struct TorqueFreeRotation {
     FreeRotation rotation;
     Mat3 inverse_inertia = Mat3::Zero();   // body frame
     Vec3 angular_momentum = Vec3::Zero();  // world
@@ -128,7 +128,7 @@ public:
 
 private:
     Vec3 start_ = Vec3::Zero(), velocity_ = Vec3::Zero(), acceleration_ = Vec3::Zero(), jerk_ = Vec3::Zero();
-    std::variant<UniformTurn, FreeTurn, CurvedTurn> turning_;
+    std::variant<UniformRotation, TorqueFreeRotation, CurvedRotation> turning_;
     double turned_ = 0.0;  // s, duration of the rotation before the start of the trajectory
     double spin_bound_ = 0.0, turning_bound_ = 0.0;
 

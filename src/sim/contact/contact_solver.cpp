@@ -364,8 +364,8 @@ void ContactSolver::keep_starts(const ContactProblem& problem, const ContactIsla
 void ContactSolver::leave_sweeps(const ContactProblem& problem, const ContactIslands& islands) {
     const auto finite = [&](std::uint32_t i) {
         const Body& body = problem.bodies[i];
-        return body.momentum.allFinite() && body.angular_momentum.allFinite() && body.push_velocity.allFinite() &&
-               body.push_angular_velocity.allFinite();
+        return body.momentum.allFinite() && body.angular_momentum.allFinite() && body.correction_velocity.allFinite() &&
+               body.correction_angular_velocity.allFinite();
     };
     const Momenta* start = starts_.data();
     for (const std::size_t k : softly_) {
@@ -378,8 +378,8 @@ void ContactSolver::leave_sweeps(const ContactProblem& problem, const ContactIsl
             Body& body = problem.bodies[i];
             body.momentum = first->linear;
             body.angular_momentum = first++->angular;
-            body.push_velocity.setZero();
-            body.push_angular_velocity.setZero();
+            body.correction_velocity.setZero();
+            body.correction_angular_velocity.setZero();
             body.derive_velocities();
         }
         for (const std::uint32_t m : islands.manifolds(k)) {

@@ -65,8 +65,8 @@ struct Body {
     Mat3 inverse_inertia = Mat3::Zero();   // world frame
     Vec3 gyration = Vec3::Zero();  // rad/s, gyroscopic correction of this step (gyroscopic_correction.h), for contacts
     // Position correction of this step: moves the pose and leaves the momenta alone.
-    Vec3 push_velocity = Vec3::Zero();
-    Vec3 push_angular_velocity = Vec3::Zero();
+    Vec3 correction_velocity = Vec3::Zero();
+    Vec3 correction_angular_velocity = Vec3::Zero();
 
     bool dynamic() const { return type == BodyType::dynamic; }
     bool moves() const { return dynamic() || track != nullptr; }
@@ -90,14 +90,15 @@ struct Body {
                radius, restitution, friction, drag_area, collider, track, inertia_body, inverse_inertia_body,
                principal_inertia, principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction,
                layers, collides_with, name, position, orientation, rotation, momentum, angular_momentum, velocity,
-               angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity] = self;
+               angular_velocity, inverse_inertia, gyration, correction_velocity, correction_angular_velocity] = self;
         archive.rebuilt(type, integrator, spherical_top, pair_rules, mass, inverse_mass, radius, restitution, friction,
                         drag_area, collider, track, inertia_body, inverse_inertia_body, principal_inertia,
                         principal_axes, center_of_mass, gravity_scale, rolling_friction, spinning_friction, layers,
                         collides_with, name);
         archive.scratch(placed);
         archive.keep(asleep, flying, jointed, flew, position, orientation, rotation, momentum, angular_momentum,
-                     velocity, angular_velocity, inverse_inertia, gyration, push_velocity, push_angular_velocity);
+                     velocity, angular_velocity, inverse_inertia, gyration, correction_velocity,
+                     correction_angular_velocity);
     }
 };
 

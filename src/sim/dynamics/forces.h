@@ -95,7 +95,7 @@ private:
     std::optional<WindDescription> wind_;
     std::vector<std::vector<ForceDescription>> at_points_;  // by body
     std::vector<std::uint32_t> pushed_;
-    PlaceForces place_;
+    PositionForces place_;
     PairForces pairs_;
     std::vector<Vec3> held_;  // N, in the order of PairForces::bodies()
 };

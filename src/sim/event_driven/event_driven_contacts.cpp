@@ -247,7 +247,7 @@ void EventDrivenMotion::solve_rest(const std::vector<std::uint32_t>& landed, std
                                  log_ ? &totals_ : nullptr,
                                  joints ? &groups_.joints() : nullptr};
     if (log_) totals_.assign(contact_manifolds_.size(), {});
-    std::vector<JointLoad> loads;
+    std::vector<JointReaction> loads;
     for (const std::uint32_t g : joined) groups_.keep_loads(g, loads);
     contact_solver_.solve(problem, islands_, alone_);
     std::size_t next = 0;
@@ -256,8 +256,8 @@ void EventDrivenMotion::solve_rest(const std::vector<std::uint32_t>& landed, std
         for (std::size_t k = 0; k < islands_.size(); ++k) log_->add_contacts(islands_.manifolds(k), problem, totals_);
     for (const std::uint32_t k : touched) {
         if (groups_.group(k) == GroupFlights::none) {  // pushes of joined bodies close their joints
-            bodies[k].push_velocity.setZero();
-            bodies[k].push_angular_velocity.setZero();
+            bodies[k].correction_velocity.setZero();
+            bodies[k].correction_angular_velocity.setZero();
         }
         changed_.push_back(k);
     }
@@ -299,8 +299,8 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
     const double rest = clock_.between(now, {now.step + 1, 0.0});
     motions_.resize(bodies.size());
     for (const std::uint32_t k : going) {
-        motions_[k] = {bodies[k].velocity + bodies[k].push_velocity,
-                       bodies[k].angular_velocity + bodies[k].push_angular_velocity};
+        motions_[k] = {bodies[k].velocity + bodies[k].correction_velocity,
+                       bodies[k].angular_velocity + bodies[k].correction_angular_velocity};
         if (groups_.group(k) != GroupFlights::none) motions_[k].angular_velocity += gyration(bodies[k], rest);
     }
     for (const RolledContact& rolled : rolled_)
@@ -353,8 +353,8 @@ void EventDrivenMotion::hold_receivers(std::vector<Body>& bodies, const ForceFie
             for (const std::uint32_t member : groups_.groups()[g].bodies)
                 all.share = std::min(all.share, (*limits)[member].share);
             hold(k, motions_[k], all, bodies, now);
-            bodies[k].push_velocity.setZero();
-            bodies[k].push_angular_velocity.setZero();
+            bodies[k].correction_velocity.setZero();
+            bodies[k].correction_angular_velocity.setZero();
             continue;
         }
         const CcdFraction& limit = (*limits)[k];

@@ -108,7 +108,7 @@ TreeFlight::Outcome GroupFlights::fly_tree(std::uint32_t group, const JointIslan
     TreeFlight::Outcome outcome = tree_flight_.advance(step, {IntegratorKind::exact, flight_order}, flight.substeps);
     if (outcome != TreeFlight::Outcome::declined || !tree_flight_.is_tree()) return outcome;
     outcome = tree_flight_.advance(step, {IntegratorKind::splitting, flight_order}, flight.substeps);
-    flight.swing = tree_flight_.swing();
+    flight.phase = tree_flight_.phase();
     return outcome == TreeFlight::Outcome::flown ? outcome : TreeFlight::Outcome::stopped;
 }
 
@@ -147,10 +147,10 @@ bool GroupFlights::start(std::uint32_t group, double span) {
     std::vector<Joint>& joints = joints_->joints();
     flight.substeps = 1;
     for (const std::uint32_t k : groups_[group].joints) flight.substeps = std::max(flight.substeps, joints[k].substeps);
-    flight.swing = tuning::joint_easy_swing;
+    flight.phase = tuning::joint_easy_phase;
     flight.reached.clear();
     flight.flies = fly(group, span);
-    const bool easy = flight.swing < tuning::joint_easy_swing;
+    const bool easy = flight.phase < tuning::joint_easy_phase;
     for (const std::uint32_t k : groups_[group].joints) {
         joints[k].substeps = easy ? std::max(1, flight.substeps / 2) : flight.substeps;
         joints[k].account.step = {};
@@ -209,12 +209,12 @@ void GroupFlights::end(std::uint32_t group, double time) {
         joints_->joints()[groups_[group].joints[i]].account.take_flight(reached.accounts[i]);
 }
 
-void GroupFlights::keep_loads(std::uint32_t group, std::vector<JointLoad>& loads) const {
+void GroupFlights::keep_loads(std::uint32_t group, std::vector<JointReaction>& loads) const {
     for (const std::uint32_t k : groups_[group].joints)
         loads.push_back({joints_->joints()[k].force, joints_->joints()[k].torque, Vec3::Zero()});
 }
 
-void GroupFlights::take_solve(std::uint32_t group, const std::vector<JointLoad>& loads, std::size_t& next) {
+void GroupFlights::take_solve(std::uint32_t group, const std::vector<JointReaction>& loads, std::size_t& next) {
     for (const std::uint32_t k : groups_[group].joints) {
         Joint& joint = joints_->joints()[k];
         joint.account.take_flight(joint.account.step);

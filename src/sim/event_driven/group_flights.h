@@ -50,8 +50,8 @@ public:
     void end_all();
     /// Around a solve instead of a flight: keeps the loads of the joints, and adds the solve's impulses to their
     /// accounts.
-    void keep_loads(std::uint32_t group, std::vector<JointLoad>& loads) const;
-    void take_solve(std::uint32_t group, const std::vector<JointLoad>& loads, std::size_t& next);
+    void keep_loads(std::uint32_t group, std::vector<JointReaction>& loads) const;
+    void take_solve(std::uint32_t group, const std::vector<JointReaction>& loads, std::size_t& next);
     const RigidState& start_of(std::uint32_t body) const { return flights_[group_of_[body]].first[place_[body]]; }
     /// State of a body at the end of the flight.
     const RigidState& end_of(std::uint32_t body) const {
@@ -77,7 +77,7 @@ private:
         std::vector<JointMemory> memory;  // by joint, at the start
         std::vector<Reached> reached;     // at the end, and at all times asked for
         int substeps = 1;                 // of a flight by rows
-        double swing = 0.0;               // rad, of its last one
+        double phase = 0.0;               // rad, of its last one
         bool flies = false;
     };
     bool fly(std::uint32_t group, double time);

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "scene/description/force_fields.h"
-#include "sim/fields/place_forces.h"
+#include "sim/fields/position_forces.h"
 
 #include <cstdint>
 #include <span>

@@ -121,10 +121,10 @@ int ImpactFriction::most_sweeps() const {
     return std::max(friction_least_sweeps, friction_work / int(blocks_.size()));
 }
 
-// N s, of the block's friction when its normal impulse grows by `pushed`.
-double ImpactFriction::limit(const ImpactSystem& cluster, const Block& block, double pushed) const {
+// N s, of the block's friction when its normal impulse grows by `added`.
+double ImpactFriction::limit(const ImpactSystem& cluster, const Block& block, double added) const {
     if (limits_held_) return block.limit;
-    return cluster.contact(block.contact).friction * std::max(0.0, cluster.impulse(block.contact) + pushed);
+    return cluster.contact(block.contact).friction * std::max(0.0, cluster.impulse(block.contact) + added);
 }
 
 // Solves a lone block's three impulses; among others does one round towards them, for `crowd` times its compliance.
@@ -133,37 +133,37 @@ ImpactFriction::Step ImpactFriction::relaxed(const ImpactSystem& cluster, const 
     const std::size_t i = block.contact;
     const double length = cluster.length(i), k0 = crowd * block.first_compliance, k1 = crowd * block.second_compliance,
                  kn = crowd * length * length;
-    double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, pushed = 0.0;
+    double parting = normal == Normal::adapted ? cluster.speed(i) : block.kept, added = 0.0;
     double slip0 = block.first_row.dot(cluster.velocity()) + block.first_offset;
     double slip1 = block.second_row.dot(cluster.velocity()) + block.second_offset;
     double f0 = block.f0, f1 = block.f1, change = 0.0;
     const int rounds = blocks_.size() < 2 && normal == Normal::adapted ? friction_sweeps : 1;
     for (int round = 0; round < rounds; ++round) {
-        const double push = std::max((block.kept - parting) / kn, -cluster.impulse(i) - pushed);
-        pushed += push;
-        slip0 += crowd * block.normal_first * push;
-        slip1 += crowd * block.normal_second * push;
+        const double grown = std::max((block.kept - parting) / kn, -cluster.impulse(i) - added);
+        added += grown;
+        slip0 += crowd * block.normal_first * grown;
+        slip1 += crowd * block.normal_second * grown;
         const auto [next0, next1] =
-            least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, limit(cluster, block, pushed), tolerance());
+            least_in_disc(k0, k1, slip0 - k0 * f0, slip1 - k1 * f1, limit(cluster, block, added), tolerance());
         const double step0 = next0 - f0, step1 = next1 - f1;
         f0 = next0;
         f1 = next1;
-        parting += kn * push + crowd * (block.normal_first * step0 + block.normal_second * step1);
+        parting += kn * grown + crowd * (block.normal_first * step0 + block.normal_second * step1);
         slip0 += k0 * step0;
         slip1 += k1 * step1;
         // By its length: the directions are arbitrary where both compliances are the same.
         const double slid = std::sqrt(k0 * step0 * (k0 * step0) + k1 * step1 * (k1 * step1));
-        const double now = std::max(kn * std::abs(push), slid);
+        const double now = std::max(kn * std::abs(grown), slid);
         change = std::max(change, now);
         if (now <= tolerance() * change) break;
     }
-    return {pushed, f0 - block.f0, f1 - block.f1, change};
+    return {added, f0 - block.f0, f1 - block.f1, change};
 }
 
 void ImpactFriction::take(ImpactSystem& cluster, Block& block, const Step& step) {
-    if (step.push != 0.0) cluster.push(block.contact, step.push * cluster.length(block.contact));
-    cluster.push_along(block.first_row, step.f0);
-    cluster.push_along(block.second_row, step.f1);
+    if (step.normal != 0.0) cluster.apply(block.contact, step.normal * cluster.length(block.contact));
+    cluster.apply_along(block.first_row, step.f0);
+    cluster.apply_along(block.second_row, step.f1);
     block.f0 += step.f0;
     block.f1 += step.f1;
 }
@@ -203,11 +203,11 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
             const Step& step = steps_.emplace_back(relaxed(cluster, block, normal, crowds_[k]));
             change = std::max(change, step.change);
             Step& moved = moved_[k];
-            moved = {step.push + ahead * moved.push, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0};
+            moved = {step.normal + ahead * moved.normal, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0};
             const double length = cluster.length(block.contact);
-            along +=
-                crowds_[k] * (length * length * step.push * moved.push + block.first_compliance * step.f0 * moved.f0 +
-                              block.second_compliance * step.f1 * moved.f1);
+            along += crowds_[k] *
+                     (length * length * step.normal * moved.normal + block.first_compliance * step.f0 * moved.f0 +
+                      block.second_compliance * step.f1 * moved.f1);
         }
         most = std::max(most, change);
         const bool last = sweep == sweeps || change <= tolerance() * most;
@@ -217,7 +217,7 @@ double ImpactFriction::relax_at_once(ImpactSystem& cluster, Normal normal) {
         for (std::size_t k = 0; k < blocks_.size(); ++k) {
             const Step &step = steps_[k], &moved = moved_[k];
             take(cluster, blocks_[k],
-                 {step.push + ahead * moved.push, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0});
+                 {step.normal + ahead * moved.normal, step.f0 + ahead * moved.f0, step.f1 + ahead * moved.f1, 0.0});
         }
         if (last) break;
         if (sweep == friction_follow) hold_limits(cluster);
@@ -277,9 +277,9 @@ void ImpactFriction::set(ImpactSystem& cluster, const std::vector<State>& from, 
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
         Block& block = blocks_[k];
         const auto step = [&](std::size_t i) { return share * (to[k].impulse[i] - from[k].impulse[i]); };
-        cluster.push(block.contact, step(0) * cluster.length(block.contact));
-        cluster.push_along(block.first_row, step(1));
-        cluster.push_along(block.second_row, step(2));
+        cluster.apply(block.contact, step(0) * cluster.length(block.contact));
+        cluster.apply_along(block.first_row, step(1));
+        cluster.apply_along(block.second_row, step(2));
         block.f0 += step(1);
         block.f1 += step(2);
     }

@@ -56,9 +56,9 @@ private:
     static Block make_block(ImpactSystem& cluster, std::size_t contact);
     void add_blocks(ImpactSystem& cluster);
     struct Step {  // N s: normal, along the two; and the change of speed, m/s
-        double push = 0.0, f0 = 0.0, f1 = 0.0, change = 0.0;
+        double normal = 0.0, f0 = 0.0, f1 = 0.0, change = 0.0;
     };
-    double limit(const ImpactSystem& cluster, const Block& block, double pushed) const;
+    double limit(const ImpactSystem& cluster, const Block& block, double added) const;
     void hold_limits(const ImpactSystem& cluster);
     void let_limits_go(ImpactSystem& cluster);
     Step relaxed(const ImpactSystem& cluster, const Block& block, Normal normal, double crowd) const;

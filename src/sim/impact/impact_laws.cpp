@@ -90,7 +90,7 @@ void apply(ImpactSystem& cluster, const std::vector<ActiveSet::Demand>& set, con
             if (lambda[i] > 0.0)
                 cluster.announce(set[i].row, factor * lambda[i], restitution.empty() ? 0.0 : restitution[i]);
     for (std::size_t i = 0; i < set.size(); ++i)
-        if (lambda[i] > 0.0) cluster.push(set[i].row, factor * lambda[i]);
+        if (lambda[i] > 0.0) cluster.apply(set[i].row, factor * lambda[i]);
     if (cluster.traced()) cluster.end_pass();
 }
 

@@ -37,7 +37,7 @@ ImpactSystem::ImpactSystem(const Island& island, const std::vector<Contact>& con
         velocity_.segment<6>(6 * Eigen::Index(i)) = roots_.back().weighted(body);
     }
     if (groups_) {
-        groups_->load(bodies, roots_);
+        groups_->linearize(bodies, roots_);
         groups_->turn_rotors(velocity_);
         groups_->project(velocity_);
         pushed_.setZero(velocity_.size());
@@ -127,7 +127,7 @@ VelocityRow ImpactSystem::join(const VelocityRow& own) {
     return row.squared_norm() > least ? row : VelocityRow{};
 }
 
-void ImpactSystem::push_own(const VelocityRow& row, double amount) {
+void ImpactSystem::apply_own(const VelocityRow& row, double amount) {
     if (row.joined) own_[row.joined->own].add_to(pushed_, row.joined->sign * amount);
 }
 

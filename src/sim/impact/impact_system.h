@@ -75,15 +75,15 @@ public:
     double offset(const Contact& c, const Vec3& direction) const;
 
     /// Adds `amount` along the unit row of contact i: an impulse of amount / length.
-    void push(std::size_t i, double amount) {
+    void apply(std::size_t i, double amount) {
         rows_[i].add_to(velocity_, amount);
-        if (groups_) push_own(rows_[i], amount);
+        if (groups_) apply_own(rows_[i], amount);
         impulse_[i] += amount / length_[i];
     }
     /// Adds `amount` N s along a form from relative_row().
-    void push_along(const VelocityRow& row, double amount) {
+    void apply_along(const VelocityRow& row, double amount) {
         row.add_to(velocity_, amount);
-        if (groups_) push_own(row, amount);
+        if (groups_) apply_own(row, amount);
     }
     double impulse(std::size_t i) const { return impulse_[i]; }  // N s, sum of all pushes
     /// True if the impulse is more than rounding, which gives some contacts a push, and not their mirror images.
@@ -104,7 +104,7 @@ private:
     std::uint32_t place(std::uint32_t body) const;
     bool joined(std::uint32_t place) const { return place != VelocityRow::none && groups_->joined(place); }
     VelocityRow join(const VelocityRow& own);
-    void push_own(const VelocityRow& row, double amount);
+    void apply_own(const VelocityRow& row, double amount);
     void add_row(const VelocityRow& form, double speed);
     double speed_at_start(std::size_t i) const { return length_[i] * (rows_[i].dot(start_) + offset_[i]); }
     void add_limits();

@@ -154,7 +154,7 @@ void hold_bounces(const Island& island, const std::vector<Contact>& contacts, st
     ActiveSet(rows, cluster.bodies()).solve(demands, lambda);
     if (!island.joints.empty()) {
         for (std::size_t i = 0; i < cluster.contacts(); ++i)
-            if (lambda[i] > 0.0) cluster.push(i, sign[i] * lambda[i]);
+            if (lambda[i] > 0.0) cluster.apply(i, sign[i] * lambda[i]);
         for (const JointImpulse& impulse : cluster.store_velocities(bodies)) apply_joint_impulse(impulse, bodies);
     }
     for (std::size_t i = 0; i < cluster.contacts(); ++i) {

@@ -190,8 +190,8 @@ void JoinedGroups::turn_rotors(Eigen::VectorXd& y) const {
         if (lock.rotor) y[6 * Eigen::Index(lock.other.a)] = -(lock.form.dot(y) + lock.offset) / lock.other.on_a[0];
 }
 
-void JoinedGroups::load_joint(Group& group, std::size_t index, const std::vector<Body>& all,
-                              const std::vector<MassRoot>& roots) {
+void JoinedGroups::linearize_joint(Group& group, std::size_t index, const std::vector<Body>& all,
+                                   const std::vector<MassRoot>& roots) {
     const Joint& joint = *joints_[index];
     if (joint.gear()) return load_gear(group, index, all, roots);
     const JointGeometry g = measure(joint, side_of(all, joint.a), side_of(all, joint.b));
@@ -258,7 +258,7 @@ void JoinedGroups::factor(Group& group) {
     group.matrix.factor();
 }
 
-void JoinedGroups::load(const std::vector<Body>& all, const std::vector<MassRoot>& roots) {
+void JoinedGroups::linearize(const std::vector<Body>& all, const std::vector<MassRoot>& roots) {
     locks_.clear();
     limits_.clear();
     points_.assign(joints_.size(), Vec3::Zero());
@@ -267,7 +267,7 @@ void JoinedGroups::load(const std::vector<Body>& all, const std::vector<MassRoot
     for (Group& group : groups_) {
         group.first_lock = locks_.size();
         group.locks = 0;
-        for (const std::size_t k : group.joints) load_joint(group, k, all, roots);
+        for (const std::size_t k : group.joints) linearize_joint(group, k, all, roots);
         if (group.locks > 0) factor(group);
     }
     for (const Lock& lock : locks_) moving = moving || lock.offset != 0.0;

@@ -51,7 +51,7 @@ public:
     void turn_rotors(Eigen::VectorXd& y) const;
 
     /// Reads the joints at the bodies' present poses. `roots`: by index in the group.
-    void load(const std::vector<Body>& all, const std::vector<MassRoot>& roots);
+    void linearize(const std::vector<Body>& all, const std::vector<MassRoot>& roots);
 
     /// Makes y fit: G y = 0.
     void project(Eigen::VectorXd& y);
@@ -101,7 +101,8 @@ private:
     Rate rate_of(const Joint& joint, const Vec3& point, const Vec3& direction, bool turns, const std::vector<Body>& all,
                  const std::vector<MassRoot>& roots) const;
     void add_rotor(Group& group, std::size_t index, Lock lock);
-    void load_joint(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
+    void linearize_joint(Group& group, std::size_t index, const std::vector<Body>& all,
+                         const std::vector<MassRoot>& roots);
     void load_gear(Group& group, std::size_t index, const std::vector<Body>& all, const std::vector<MassRoot>& roots);
     void factor(Group& group);
     void fit(Group& group, Eigen::VectorXd& y, bool carriers);

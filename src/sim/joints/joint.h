@@ -81,7 +81,7 @@ struct Joint {
         auto& [a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks, substeps,
                wait, jammed, active, broken, broken_at, value, impulse, curving, force, torque, point, account] = self;
         archive.rebuilt(a, b, description, anchor_a, anchor_b, frame_a, frame_b, size, springs, soft, steady, locks);
-        archive.between(1, substeps, 2 * tuning::joint_swing_substeps);
+        archive.between(1, substeps, 2 * tuning::joint_phase_substeps);
         archive.between(0, wait, tuning::joint_wait);
         archive.keep(jammed, active, broken, broken_at, value, impulse, curving, force, torque, point, account);
     }

@@ -14,21 +14,21 @@ double square(double x) { return x * x; }
 
 // Only gears have the second part: most joints spare the memory.
 void clear_span(const Joint& joint, JointAccount::Span& span) {
-    span.load = {};
+    span.reaction = {};
     span.work_a = span.work_b = 0.0;
     span.work = {};
     span.solves = 0;
     if (!joint.gear()) return;
-    span.second_load = {};
+    span.second_reaction = {};
     span.second_work_a = span.second_work_b = 0.0;
 }
 
 void add_span(const Joint& joint, const JointAccount::Span& from, JointAccount::Span& to) {
-    to.load.add(from.load);
+    to.reaction.add(from.reaction);
     to.work_a += from.work_a;
     to.work_b += from.work_b;
     if (!joint.gear()) return;
-    to.second_load.add(from.second_load);
+    to.second_reaction.add(from.second_reaction);
     to.second_work_a += from.second_work_a;
     to.second_work_b += from.second_work_b;
 }
@@ -92,11 +92,11 @@ void JointSet::end_step() {
         Joint& joint = joints_[k];
         JointAccount& account = joint.account;
         if (account.step.solves == 0) continue;
-        joint.force = account.step.load.force / (to_ - from_);
-        joint.torque = account.step.load.torque / (to_ - from_);
+        joint.force = account.step.reaction.force / (to_ - from_);
+        joint.torque = account.step.reaction.torque / (to_ - from_);
         if (joint.gear()) {
             account.second = {};
-            account.second.add(account.step.second_load, 1.0 / (to_ - from_));
+            account.second.add(account.step.second_reaction, 1.0 / (to_ - from_));
         }
         add_span(joint, account.step, account.frame);
         ++account.frame.solves;
@@ -110,9 +110,9 @@ void JointSet::take_events() {
     for (Joint& joint : joints_) {
         JointAccount& account = joint.account;
         if (account.events.solves == 0) continue;
-        joint.force += account.events.load.force / (to_ - from_);
-        joint.torque += account.events.load.torque / (to_ - from_);
-        if (joint.gear()) account.second.add(account.events.second_load, 1.0 / (to_ - from_));
+        joint.force += account.events.reaction.force / (to_ - from_);
+        joint.torque += account.events.reaction.torque / (to_ - from_);
+        if (joint.gear()) account.second.add(account.events.second_reaction, 1.0 / (to_ - from_));
         add_span(joint, account.events, account.frame);
         account.work.add(account.events.work);
         clear_span(joint, account.events);
@@ -130,12 +130,12 @@ void JointSet::end_frame(int steps, double h, const std::vector<Body>& bodies) {
         };
         const int rest = steps - account.frame.solves;
         if (joint.active && rest > 0 && rests(joint.a) && rests(joint.b)) {
-            const JointLoad last{joint.force, joint.torque, joint.point.cross(joint.force) + joint.torque};
-            account.frame.load.add(last, rest * h);
-            if (joint.gear()) account.frame.second_load.add(account.second, rest * h);
+            const JointReaction last{joint.force, joint.torque, joint.point.cross(joint.force) + joint.torque};
+            account.frame.reaction.add(last, rest * h);
+            if (joint.gear()) account.frame.second_reaction.add(account.second, rest * h);
         }
         account.mean = {};
-        account.mean.add(account.frame.load, 1.0 / (steps * h));
+        account.mean.add(account.frame.reaction, 1.0 / (steps * h));
     }
 }
 

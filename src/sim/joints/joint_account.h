@@ -31,13 +31,13 @@ struct JointWork {
 };
 
 /// Impulses on B, the opposite ones on A; or forces, as means over a time.
-struct JointLoad {
+struct JointReaction {
     Vec3 force = Vec3::Zero();   // N s
     Vec3 torque = Vec3::Zero();  // N m s, about the anchor
     Vec3 moment =
         Vec3::Zero();  // N m s, of both about the origin of the bodies' coordinates, at the positions of each step
 
-    void add(const JointLoad& other, double factor = 1.0) {
+    void add(const JointReaction& other, double factor = 1.0) {
         force += factor * other.force;
         torque += factor * other.torque;
         moment += factor * other.moment;
@@ -52,27 +52,27 @@ struct JointLoad {
 struct JointAccount {
     /// Account of a step, or of a frame.
     struct Span {
-        JointLoad load;
+        JointReaction reaction;
         double work_a = 0.0, work_b = 0.0;  // J, of the joint on each body
         JointWork work;
         int solves = 0;  // steps, or substeps
         // Second joint of a gear: the same, while the above are of the first joint.
-        JointLoad second_load;
+        JointReaction second_reaction;
         double second_work_a = 0.0, second_work_b = 0.0;
 
         void add(const Span& other) {
-            load.add(other.load);
+            reaction.add(other.reaction);
             work_a += other.work_a;
             work_b += other.work_b;
-            second_load.add(other.second_load);
+            second_reaction.add(other.second_reaction);
             second_work_a += other.second_work_a;
             second_work_b += other.second_work_b;
             work.add(other.work);
             solves += other.solves;
         }
-        /// Adds the load and the work of a flight in joint coordinates. Locks do no work there.
-        void add_flight(const JointLoad& given, double on_a, double on_b) {
-            load.add(given);
+        /// Adds the reaction and the work of a flight in joint coordinates. Locks do no work there.
+        void add_flight(const JointReaction& given, double on_a, double on_b) {
+            reaction.add(given);
             work_a += on_a;
             work_b += on_b;
             ++solves;
@@ -87,11 +87,11 @@ struct JointAccount {
     }
 
     Span step, frame;
-    Span events;         // of impacts, and flights between them, in this step: apart from the solve
-    JointLoad mean;      // N and N m, over the last frame
-    JointLoad second;    // N and N m, of a gear on its second joint: mean over the last step
-    JointWork work;      // since the start
-    bool holds = false;  // has held its bodies: the work of its locks is then no impact
+    Span events;           // of impacts, and flights between them, in this step: apart from the solve
+    JointReaction mean;    // N and N m, over the last frame
+    JointReaction second;  // N and N m, of a gear on its second joint: mean over the last step
+    JointWork work;        // since the start
+    bool holds = false;    // has held its bodies: the work of its locks is then no impact
 
     template <class Archive, class Self>
     static void visit(Archive& archive, Self& self) {

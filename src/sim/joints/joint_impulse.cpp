@@ -24,7 +24,7 @@ void apply_joint_impulse(const JointImpulse& impulse, std::vector<Body>& bodies)
     add(impulse.at->a, -1.0);
     add(impulse.at->b, 1.0);
     JointAccount::Span& account = impulse.joint->account.events;
-    (impulse.second ? account.second_load : account.load)
+    (impulse.second ? account.second_reaction : account.reaction)
         .add({impulse.force, impulse.torque, impulse.point.cross(impulse.force) + impulse.torque});
     (impulse.second ? account.second_work_a : account.work_a) += impulse.work_a;
     (impulse.second ? account.second_work_b : account.work_b) += impulse.work_b;

@@ -15,10 +15,10 @@ inline constexpr double joint_closed = 1e-13;
 
 /// Largest phase, rad, of a link's swing under tension in a step: the direction of the force is that of the step's
 /// start, and the motion grows without bound from a phase of 1 to 2 on. Related test: JointStatics.AWreckingBall.
-inline constexpr double joint_swing = 0.7;
+inline constexpr double joint_phase = 0.7;
 
 /// Phase, rad, below which the next step is tried with half the substeps. Not fitted: half the substeps double it.
-inline constexpr double joint_easy_swing = 0.4 * joint_swing;
+inline constexpr double joint_easy_phase = 0.4 * joint_phase;
 
 /// Steps for which the number of substeps stays that the energy of a flight has asked for. Not fitted: longer than a
 /// swing, within which the error changes its sign; equal substeps keep the energy in the mean.
@@ -26,7 +26,7 @@ inline constexpr int joint_wait = 30;
 
 /// Largest number of substeps: for that phase; where passes do not converge; and where contacts do not. Not fitted:
 /// bounds of the cost.
-inline constexpr int joint_swing_substeps = 1024;
+inline constexpr int joint_phase_substeps = 1024;
 inline constexpr int joint_open_substeps = 64;
 inline constexpr int joint_stuck_substeps = 4;
 
@@ -73,7 +73,7 @@ inline constexpr double joint_rest_tolerance = 1e-6;
 inline constexpr int joint_rounds = 40;
 
 /// Share of a joint's error that is moved out in a step. Test: JointLaws.AnAnchorApartIsPulledInWithoutSpeed.
-inline constexpr double joint_push_share = 0.2;
+inline constexpr double joint_correction_share = 0.2;
 
 /// Bodies of figures that touch something from which on all of them are solved in sweeps, the number down to which that
 /// stays so, and the steps after which it ends. Limits the cost: three ragdolls of 15 bodies are solved by rows.

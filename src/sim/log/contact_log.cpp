@@ -1,6 +1,6 @@
 #include "sim/log/contact_log.h"
 
-#include "sim/contact/model/turning_resistance.h"
+#include "sim/contact/model/rotational_friction.h"
 #include "sim/contact/rolling/rolling_contact.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ ContactFeatures swapped(ContactFeatures features) {
 }
 
 /// Subtracts an impulse (about the body's center) from the velocities before an impact.
-void push_before(StruckBody& struck, const Body& body, const Impulse& impulse) {
+void add_before(StruckBody& struck, const Body& body, const Impulse& impulse) {
     if (!body.dynamic()) return;
     struck.velocity_before -= body.inverse_mass * impulse.linear;
     struck.angular_velocity_before -= body.inverse_inertia * impulse.angular;
@@ -107,8 +107,8 @@ void ContactLog::add_entry(const ImpactTrace::Entry& entry, const Contact& c, co
     if (!has_records()) return add_struck_work(c, entry.impulse * c.normal, bodies);
     StruckBody a = struck_body(bodies[c.a]), b = struck_body(bodies[c.b]);
     const Vec3 j = entry.impulse * c.normal;
-    push_before(a, bodies[c.a], {-j, -c.arm_a.cross(j)});
-    push_before(b, bodies[c.b], {j, c.arm_b.cross(j)});
+    add_before(a, bodies[c.a], {-j, -c.arm_a.cross(j)});
+    add_before(b, bodies[c.b], {j, c.arm_b.cross(j)});
     add_entry(entry, c, point, bodies, when, a, b);
 }
 
@@ -140,14 +140,14 @@ void ContactLog::add_struck(const ImpactTrace& trace, const std::vector<Contact>
     for (const ImpactTrace::Entry& entry : trace.entries) {
         const Contact& c = contacts[entry.contact];
         const Vec3 j = entry.impulse * c.normal;
-        push_before(at(c.a), bodies[c.a], {-j, -c.arm_a.cross(j)});
-        push_before(at(c.b), bodies[c.b], {j, c.arm_b.cross(j)});
+        add_before(at(c.a), bodies[c.a], {-j, -c.arm_a.cross(j)});
+        add_before(at(c.b), bodies[c.b], {j, c.arm_b.cross(j)});
     }
     for (const JointImpulse& impulse : joint_impulses)
         for (const auto& [body, sign] : {std::pair(impulse.at->a, -1.0), std::pair(impulse.at->b, 1.0)}) {
             if (body == Joint::world || struck_[body] == none) continue;
             const Vec3 turn = (impulse.point - bodies[body].position).cross(impulse.force) + impulse.torque;
-            push_before(records_.struck[struck_[body]], bodies[body], {sign * impulse.force, sign * turn});
+            add_before(records_.struck[struck_[body]], bodies[body], {sign * impulse.force, sign * turn});
         }
 }
 
@@ -204,8 +204,8 @@ void ContactLog::add_impact(const ImpactTrace& trace, const std::vector<Contact>
         ImpactRecord& record = records_.impacts.back();
         const Vec3 moment = (record.point + c.rub).cross(c.impact_friction);
         const Vec3 &f = c.impact_friction, arm_a = c.arm_a + c.rub, arm_b = c.arm_b + c.rub;
-        push_before(records_.struck[record.struck_a], bodies[c.a], {-f, -arm_a.cross(f)});
-        push_before(records_.struck[record.struck_b], bodies[c.b], {f, arm_b.cross(f)});
+        add_before(records_.struck[record.struck_a], bodies[c.a], {-f, -arm_a.cross(f)});
+        add_before(records_.struck[record.struck_b], bodies[c.b], {f, arm_b.cross(f)});
         record.friction = c.impact_friction;
         record.moment += moment;
         add_contact(c.a, c.b, {c.impact_friction, moment});
@@ -250,7 +250,7 @@ void ContactLog::add_contacts(std::span<const std::uint32_t> manifolds, const Co
             left -= (place(i) - (about_b ? b.position : a.position)).cross(share(i) * total.on_b);
         const double torsion = m.normal.dot(left);
         const double turn = m.normal.dot(b.angular_velocity - a.angular_velocity);
-        if (resists_turning(a) || resists_turning(b))
+        if (has_rotational_friction(a) || has_rotational_friction(b))
             friction_ -= across(left, m.normal).dot(b.angular_velocity - a.angular_velocity);
         for (int i = 0; i < m.count; ++i) {
             if (!(share(i) > 0.0)) continue;

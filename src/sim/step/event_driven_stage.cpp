@@ -48,10 +48,10 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
         if (body.flying) return motion;
         if (body.placed) return step.placed.motion(i, set, step.h);
         // All bodies in contact move by the velocities of the solve, whatever their integrator.
-        motion.velocity = body.velocity + body.push_velocity;
+        motion.velocity = body.velocity + body.correction_velocity;
         motion.angular_velocity = body.angular_velocity;
         if (body.dynamic()) motion.angular_velocity += gyration(body, step.h);
-        motion.angular_velocity += body.push_angular_velocity;
+        motion.angular_velocity += body.correction_angular_velocity;
         return motion;
     });
     // Only stepped bodies are clamped: ballistic bodies find their impacts themselves.

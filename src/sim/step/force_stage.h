@@ -44,8 +44,8 @@ public:
 
     /// True if contact has added anything to the effect of the step's forces.
     bool touched(std::uint32_t i, const Body& body) const {
-        return effects_[i].after != Momenta{body.momentum, body.angular_momentum} || !body.push_velocity.isZero(0.0) ||
-               !body.push_angular_velocity.isZero(0.0);
+        return effects_[i].after != Momenta{body.momentum, body.angular_momentum} ||
+               !body.correction_velocity.isZero(0.0) || !body.correction_angular_velocity.isZero(0.0);
     }
 
     /// Removes the effect of the lost part of a step from a clamped body that moved for the fraction `share` of it. In

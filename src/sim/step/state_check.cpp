@@ -15,7 +15,8 @@ void StateCheck::examine(std::uint32_t i, const std::vector<Body>& bodies) {
     const Body& body = bodies[i];
     // One value that is not finite makes the sum not finite.
     if (std::isfinite(body.position.sum() + body.orientation.coeffs().sum() + body.momentum.sum() +
-                      body.angular_momentum.sum() + body.push_velocity.sum() + body.push_angular_velocity.sum()))
+                      body.angular_momentum.sum() + body.correction_velocity.sum() +
+                      body.correction_angular_velocity.sum()))
         return;
     for (std::uint32_t known = first_; i < known && !first_.compare_exchange_weak(known, i);) {
     }

@@ -61,7 +61,7 @@ BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const Step
     const bool before = body.dynamic() && !body.jointed && body.integrator == IntegratorKind::explicit_euler;
     const BodyVelocity& old = step.set.old_velocities[i];
     BodyVelocity motion;
-    motion.velocity = (before ? old.velocity : body.velocity) + body.push_velocity;
+    motion.velocity = (before ? old.velocity : body.velocity) + body.correction_velocity;
     motion.angular_velocity = before ? old.angular_velocity : body.angular_velocity;
     if (!before && body.jointed) {
         motion.angular_velocity += gyration(body, step.h);
@@ -71,7 +71,7 @@ BodyVelocity SteppedMotion::motion(std::uint32_t i, const Body& body, const Step
                               : mean_angular_velocity(body, step.h, step.settings.rotation);
         motion.angular_velocity = mean;  // through a named variable: see find_gyration()
     }
-    motion.angular_velocity += body.push_angular_velocity;
+    motion.angular_velocity += body.correction_angular_velocity;
     return motion;
 }
 
@@ -157,8 +157,8 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
             turn_exactly(body, motion.velocity, motion.angular_velocity, share * h);
         else
             advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);
-        body.push_velocity.setZero();
-        body.push_angular_velocity.setZero();
+        body.correction_velocity.setZero();
+        body.correction_angular_velocity.setZero();
         if (!in_contact && share < 1.0) forces.lose_time(i, body, share, false);
         body.derive();
         if (freely)

@@ -70,7 +70,7 @@ public:
 
     void prepare() { kernel_.prepare(groups(), 0, groups_, bodies()); }
     void warm_start() { kernel_.warm_start(groups(), 0, groups_, bodies()); }
-    void push(float rate) { kernel_.push(groups(), 0, groups_, bodies(), {rate, alike, unlike, fixed}); }
+    void correct(float rate) { kernel_.correct(groups(), 0, groups_, bodies(), {rate, alike, unlike, fixed}); }
     void accelerate(bool again) { kernel_.accelerate(1, state_.size(), bodies(), again); }
     void move(float substep) { kernel_.move(1, state_.size(), bodies(), substep); }
     void sum() { kernel_.sum(groups(), 0, groups_); }
@@ -203,7 +203,7 @@ TEST(SoftKernel, TheSameBitsAtAnyWidth) {
             for (int step = 0; step < 4; ++step) {
                 color.accelerate(step > 0);
                 if (step == 0) color.warm_start();
-                color.push(480.0f);
+                color.correct(480.0f);
                 color.move(1.0f / 480.0f);
                 color.relax(480.0f);
             }
@@ -246,7 +246,7 @@ TEST(SoftKernel, FixedBodiesAreNotWritten) {
         color.state(2)[0] = 0.25f;  // a belt
         color.state(1)[inverse_mass] = color.inertia(1)[0] = color.inertia(1)[3] = color.inertia(1)[5] = 1.0f;
         color.prepare();
-        color.push(480.0f);
+        color.correct(480.0f);
         color.relax(480.0f);
         EXPECT_EQ(color.state(2)[0], 0.25f);
         EXPECT_EQ(color.state(2)[1], 0.0f);
@@ -271,7 +271,7 @@ TEST(SoftKernel, AContactStopsAnApproach) {
         EXPECT_NEAR(aside.state(1)[1], -3.0 + j / m, 1e-5);
         EXPECT_NEAR(aside.state(1)[5], 0.4 * j / moment_of_inertia, 1e-4);  // about z: x arm times y impulse
         OneColor leaving = ball(*kernel, ball_lane(0.5), {1.0, 0.1, 0.0});
-        leaving.push(480.0f);
+        leaving.correct(480.0f);
         leaving.relax(480.0f);
         EXPECT_EQ(leaving.impulse(0, 0), 0.0f);
         EXPECT_EQ(leaving.state(1)[0], 1.0f);
@@ -282,10 +282,10 @@ TEST(SoftKernel, AContactStopsAnApproach) {
 TEST(SoftKernel, AGapIsClosedAndNotCrossed) {
     for (const Kernel* kernel : kernels()) {
         OneColor color = ball(*kernel, ball_lane(0.0, 0.005), {0.0, -3.0, 0.0});
-        color.push(480.0f);
+        color.correct(480.0f);
         EXPECT_NEAR(color.state(1)[1], -0.005 * 480.0, 1e-4);
         OneColor slow = ball(*kernel, ball_lane(0.0, 0.005), {0.0, -1.0, 0.0});
-        slow.push(480.0f);
+        slow.correct(480.0f);
         EXPECT_EQ(slow.state(1)[1], -1.0f);
     }
 }
@@ -297,18 +297,18 @@ TEST(SoftKernel, AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved) {
         lane.size = 0.001 / tuning::soft_slop;
         OneColor color = ball(*kernel, lane, Vec3::Zero());
         color.fixed = {50.0f, 0.8f, 0.2f};
-        color.push(480.0f);
+        color.correct(480.0f);
         const double bias = 50.0 * 0.009 * (1.0 + 0.009 / (tuning::soft_twice_as_stiff * lane.size));
         EXPECT_NEAR(color.impulse(0, 0), m * 0.8 * bias, 1e-5);
-        color.push(480.0f);
+        color.correct(480.0f);
         const double first = m * 0.8 * bias, v = first / m;
         EXPECT_NEAR(color.impulse(0, 0), first - m * 0.8 * (v - bias) - 0.2 * first, 1e-5);
         color.relax(480.0f);
         EXPECT_NEAR(color.state(1)[1], 0.0, 1e-6);
-        lane.size = 0.1 / tuning::push_limit;
+        lane.size = 0.1 / tuning::correction_limit;
         OneColor limited = ball(*kernel, lane, Vec3::Zero());
         limited.fixed = color.fixed;
-        limited.push(480.0f);
+        limited.correct(480.0f);
         EXPECT_NEAR(limited.state(1)[1], 0.8 * 0.1, 1e-6);
     }
 }
@@ -331,7 +331,7 @@ TEST(SoftKernel, UnlikeMassesHaveSofterContacts) {
             color.unlike = {8.0f, 0.6f, 0.4f};
             color.fixed = {12.0f, 0.9f, 0.1f};
             color.prepare();
-            color.push(480.0f);
+            color.correct(480.0f);
             const bool unlike = other == 0.4 || other == 2.4;
             const double overlap = 0.01 - tuning::soft_slop * lane.size;
             const double expected =
@@ -369,21 +369,21 @@ TEST(SoftKernel, TorsionalFrictionIsMuTimesTheLevers) {
         lane.points.clear();
         for (const double side : {-1.0, 1.0}) lane.points.push_back({Vec3(0.2 * side, 0.0, 0.0), 0.0, 0.4});
         OneColor fast = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
-        fast.push(480.0f);
+        fast.correct(480.0f);
         EXPECT_NEAR(fast.friction(0).z(), -0.5 * 0.2 * 0.8, 1e-6);
         EXPECT_NEAR(fast.state(1)[4], 10.0 - 0.5 * 0.2 * 0.8 / moment_of_inertia, 1e-4);
         OneColor slow = ball(*kernel, lane, Vec3::Zero(), {0.0, 0.1, 0.0});
-        slow.push(480.0f);
+        slow.correct(480.0f);
         EXPECT_NEAR(slow.state(1)[4], 0.0, 1e-6);
         // Friction of an area: half as much where the load is uniform, and all of it where one point has the load.
         lane.spread = 0.5;
         OneColor even = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
-        even.push(480.0f);
+        even.correct(480.0f);
         EXPECT_NEAR(even.friction(0).z(), -0.5 * 0.5 * 0.2 * 0.8, 1e-6);
         lane.points[0].impulse = 0.8;
         lane.points[1].impulse = 0.0;
         OneColor aside = ball(*kernel, lane, Vec3::Zero(), {0.0, 10.0, 0.0});
-        aside.push(480.0f);
+        aside.correct(480.0f);
         EXPECT_NEAR(aside.friction(0).z(), -0.5 * 0.2 * 0.8, 1e-6);
     }
 }
@@ -463,7 +463,7 @@ TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
             Lane lane = lane_of_two(random);
             lane.friction = 100.0;
             lane.points = {{random.vector(0.7), 0.0, 0.5}};
-            for (const bool pushing : {false, true}) {
+            for (const bool correcting : {false, true}) {
                 OneColor color(*kernel, 2, {lane});
                 for (std::size_t k = 1; k <= 2; ++k) {
                     random_mass(random, color.state(k)[inverse_mass], color.inertia(k));
@@ -471,8 +471,8 @@ TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
                         color.state(k)[i] = float(random(-0.3, 0.3) + (k == 1 && i < 3 ? 2.0 * lane.normal[i] : 0.0));
                 }
                 color.prepare();
-                if (pushing)
-                    color.push(480.0f);
+                if (correcting)
+                    color.correct(480.0f);
                 else
                     color.relax(480.0f);
                 const auto velocity = [&](std::size_t k, const Vec3& arm) {
@@ -481,7 +481,7 @@ TEST(SoftKernel, FrictionAndNormalImpulsesAreCoupled) {
                 };
                 const Vec3& arm = lane.points[0].arm;
                 const Vec3 relative = velocity(2, arm + lane.between) - velocity(1, arm);
-                if (pushing)
+                if (correcting)
                     EXPECT_NEAR(relative.dot(lane.normal), 0.0, 1e-4);
                 else
                     EXPECT_LT(relative.cross(lane.normal).norm(), 1e-4);

@@ -4,7 +4,7 @@
 
 #include "sim/contact/model/contact_areas.h"
 #include "sim/contact/model/contact_constraint.h"
-#include "sim/contact/model/turning_resistance.h"
+#include "sim/contact/model/rotational_friction.h"
 #include "sim/dynamics/body.h"
 
 #include <algorithm>
@@ -44,10 +44,10 @@ struct ConstraintRows {
     double area_load = 0.0;  // N s, of the first: sum of all loads times their coefficients
     int resistance = none;   // index of its ResistanceRows
 };
-/// Rolling and spinning friction of a constraint (turning_resistance.h).
+/// Rolling and spinning friction of a constraint (rotational_friction.h).
 struct ResistanceRows {
     int constraint = none;
-    TurningResistance levers;
+    RotationalFriction levers;
     Row rolling[2], spinning;                          // N m s, across the normal along both tangents, and about it
     double rolling_limit = 0.0, spinning_limit = 0.0;  // N m s
     double weights[3][3] = {};                         // second derivatives

@@ -19,11 +19,11 @@ constexpr double joint_stiffer = 1e-2;
 /// Stiffness of joints in the position correction, over the mean mass of the bodies, where an error is moved out. Near
 /// a singular position, as of a taut chain, it is closed by displacements up to half the square root of this times as
 /// large.
-constexpr double joint_push_apart = 1e3;
+constexpr double joint_correction_apart = 1e3;
 
 /// Stiffness of closed joints there, over the mass of the island: a hundred times that of contacts, so that each pass
 /// makes their errors up to a hundred times smaller.
-constexpr double joint_push_closed = 1e4;
+constexpr double joint_correction_closed = 1e4;
 
 /// Convergence of the rounds without contacts, relative to the impulses. Related test:
 /// JointLaws.AMotorOpensADoorToItsLimit.
@@ -51,32 +51,32 @@ constexpr double joint_contact_rest = 1e-6;
 
 using namespace contact_rows;
 
-// Position correction: push_out() for islands with joints. Contacts push, closed joints stay closed, at the end of the
-// step and to rounding: passes as for the velocities.
-bool DirectSolver::push_joined(const JointIsland& island, bool moved) {
-    const bool overlaps = push_out(island.problem.settings.h);
+// Position correction: correct_overlaps() for islands with joints. Contacts push, closed joints stay closed, at the end
+// of the step and to rounding: passes as for the velocities.
+bool DirectSolver::correct_joined(const JointIsland& island, bool moved) {
+    const bool overlaps = correct_overlaps(island.problem.settings.h);
     const double mean = total_mass_ / double(masses_.size());
-    const bool apart = joints_.start_push(island, tuning::joint_push_share,
-                                          {joint_push_apart * mean, joint_push_closed * total_mass_});
+    const bool apart = joints_.start_correction(island, tuning::joint_correction_share,
+                                                {joint_correction_apart * mean, joint_correction_closed * total_mass_});
     if (!overlaps && !apart) return false;
     if (!factor(true)) {
-        std::fill(push_.begin(), push_.end(), 0.0);
+        std::fill(correction_.begin(), correction_.end(), 0.0);
         return false;
     }
-    const std::vector<double> contacts = push_;
+    const std::vector<double> contacts = correction_;
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
-        push_ = contacts;
-        joints_.add_push(push_);
-        matrix_.solve(push_);
+        correction_ = contacts;
+        joints_.add_correction(correction_);
+        matrix_.solve(correction_);
         predict_ends(island, moved);
-        const double error = joints_.close_push(island, ends_, push_);
+        const double error = joints_.close_correction(island, ends_, correction_);
         if (error <= tuning::joint_closed || (error < tuning::joint_rounding && error >= 0.5 * last)) return true;
         if (!(error < last)) break;
         last = error;
     }
     // Overlaps and violated limits that cannot be moved out with closed joints stay.
-    std::fill(push_.begin(), push_.end(), 0.0);
+    std::fill(correction_.begin(), correction_.end(), 0.0);
     return false;
 }
 
@@ -89,17 +89,18 @@ bool DirectSolver::factored() {
     return factored_;
 }
 
-// Poses at the end of the step, moved by the velocities of the solve and the push as the bodies will be; `moved`: they
-// have been moved, but for the push.
+// Poses at the end of the step, moved by the velocities of the solve and the correction as the bodies will be; `moved`:
+// they have been moved, but for the correction.
 void DirectSolver::predict_ends(const JointIsland& island, bool moved) {
     const double h = island.problem.settings.h;
     ends_.resize(island.bodies.size());
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = island.problem.bodies[island.bodies[k]];
-        const Vec3 push = three(push_, 6 * k), push_turn = three(push_, 6 * k + 3) / length_;
+        const Vec3 correction = three(correction_, 6 * k),
+                   correction_rotation = three(correction_, 6 * k + 3) / length_;
         if (moved) {
-            ends_[k] = {body.position + h * push,
-                        (from_rotation_vector(h * push_turn) * body.orientation).normalized()};
+            ends_[k] = {body.position + h * correction,
+                        (from_rotation_vector(h * correction_rotation) * body.orientation).normalized()};
             continue;
         }
         const Vec3 omega = three(velocity_, 6 * k + 3) / length_ - body.gyration;
@@ -107,10 +108,10 @@ void DirectSolver::predict_ends(const JointIsland& island, bool moved) {
         const Vec3 omega_before = body.angular_velocity, momentum_before = body.angular_momentum;
         body.angular_velocity = omega;
         body.angular_momentum = length_ * length_ * (masses_[k].inertia * omega);
-        const Vec3 turn = omega + gyration(body, h) + push_turn;
+        const Vec3 turn = omega + gyration(body, h) + correction_rotation;
         body.angular_velocity = omega_before;
         body.angular_momentum = momentum_before;
-        ends_[k].position = body.position + h * (three(velocity_, 6 * k) + push);
+        ends_[k].position = body.position + h * (three(velocity_, 6 * k) + correction);
         ends_[k].orientation = (from_rotation_vector(h * turn) * body.orientation).normalized();
     }
 }
@@ -256,7 +257,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
                 continue;
             }
             if (!found) {
-                std::fill(push_.begin(), push_.end(), 0.0);
+                std::fill(correction_.begin(), correction_.end(), 0.0);
                 predict_ends(island, false);
             }
             consistent_ = found;
@@ -264,7 +265,7 @@ DirectSolver::Closing DirectSolver::close_joints(const JointIsland& island, bool
         }
         found = true;
         const auto [change, largest] = next_round();
-        std::fill(push_.begin(), push_.end(), 0.0);
+        std::fill(correction_.begin(), correction_.end(), 0.0);
         predict_ends(island, false);
         const double error = moving ? joints_.close(island, ends_) : 0.0;
         const double contact_error = moving && turns ? close_contacts(island) : 0.0;

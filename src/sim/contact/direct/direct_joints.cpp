@@ -33,8 +33,8 @@ constexpr double joint_compliance = 1e-2;
 using namespace contact_rows;
 
 // The rows of the joints at the present poses, and the matrix in which they have their blocks.
-void DirectSolver::load_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds) {
-    joints_.load(island, joint_compliance / (total_mass_ * double(island.joints.size())));
+void DirectSolver::linearize_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds) {
+    joints_.linearize(island, joint_compliance / (total_mass_ * double(island.joints.size())));
     structure(island.problem, island.bodies, manifolds);
     factored_ = base_kept_ = false;
 }
@@ -46,8 +46,8 @@ void DirectSolver::load_part(const JointIsland& island, std::span<const std::uin
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = problem.bodies[island.bodies[k]];
         if (in_parts_) {
-            body.momentum += share * starts_[k].push;
-            body.angular_momentum += share * starts_[k].turn;
+            body.momentum += share * starts_[k].impulse;
+            body.angular_momentum += share * starts_[k].angular_impulse;
             body.derive();
             find_gyration(body, d);
             masses_[k].inertia = body.rotation * body.inertia_body * body.rotation.transpose() / (length_ * length_);
@@ -56,7 +56,7 @@ void DirectSolver::load_part(const JointIsland& island, std::span<const std::uin
         put(&free_[6 * k], body.velocity, length_ * (body.angular_velocity + body.gyration));
         fastest_ = std::max({fastest_, body.velocity.norm(), length_ * body.angular_velocity.norm()});
     }
-    load_joints(island, manifolds);
+    linearize_joints(island, manifolds);
     if (!joints_.estimated()) each_contact_row([](const ConstraintRows&, Row& row) { row.estimate = 0.0; });
     speed_scale_ = std::max(speed_scale_, joints_.demand(free_));
     if (!in_parts_) return;
@@ -152,16 +152,18 @@ void DirectSolver::move(const JointIsland& island) {
         }
 }
 
-// Moves the bodies to the end of the step, with the push. `moved`: they are there but for the push.
+// Moves the bodies to the end of the step, with the correction. `moved`: they are there but for the correction.
 void DirectSolver::move_to_end(const JointIsland& island, bool moved) {
     const double h = island.problem.settings.h;
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         Body& body = island.problem.bodies[island.bodies[k]];
-        const Vec3 push = three(push_, 6 * k), push_turn = three(push_, 6 * k + 3) / length_;
+        const Vec3 correction = three(correction_, 6 * k),
+                   correction_rotation = three(correction_, 6 * k + 3) / length_;
         if (moved)
-            turn_exactly(body, push, push_turn, h);
+            turn_exactly(body, correction, correction_rotation, h);
         else
-            turn_exactly(body, body.velocity + push, body.angular_velocity + gyration(body, h) + push_turn, h);
+            turn_exactly(body, body.velocity + correction,
+                         body.angular_velocity + gyration(body, h) + correction_rotation, h);
         body.derive();
     }
 }
@@ -177,8 +179,8 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
                                       int substeps) {
     const ContactProblem& step = island.problem;
     const double h = step.settings.h, d = h / substeps;
-    load_bodies(step, island.bodies);
-    load_constraints(step, island.bodies, manifolds);
+    read_bodies(step, island.bodies);
+    linearize_constraints(step, island.bodies, manifolds);
     driven_ = true;
     factored_ = false;
     compliance_ = tuning::direct_compliance / total_mass_;
@@ -192,13 +194,13 @@ bool DirectSolver::solve_jointed_step(const JointIsland& island, std::span<const
     if (in_parts_)
         for (std::size_t k = 0; k < island.bodies.size(); ++k) {
             Body& body = step.bodies[island.bodies[k]];
-            body.momentum -= starts_[k].push;
-            body.angular_momentum -= starts_[k].turn;
+            body.momentum -= starts_[k].impulse;
+            body.angular_momentum -= starts_[k].angular_impulse;
             if (cut_) body.derive_velocities();
         }
     std::vector<double> sums;
     const double scale_of_step = speed_scale_;
-    swing_ = 0.0;
+    phase_ = 0.0;
     int cuts = 0;
     bool first = true;
     for (int substep = 0; substep < substeps; ++substep)
@@ -267,8 +269,8 @@ bool DirectSolver::solve_part(const JointIsland& part, std::span<const std::uint
         if (closing != Closing::closed && substeps < most) return false;
         if (closing != Closing::closed && !(gap_left_ < tuning::joint_flight_open)) fit_start(part);
     } while (joints_.give_way());
-    if (estimates()) swing_ = std::max(swing_, joints_.swing_rate(part) * part.problem.settings.h);
-    return !(swing_ > tuning::joint_swing && substeps < tuning::joint_swing_substeps);
+    if (estimates()) phase_ = std::max(phase_, joints_.pendulum_rate(part) * part.problem.settings.h);
+    return !(phase_ > tuning::joint_phase && substeps < tuning::joint_phase_substeps);
 }
 
 // The state before solve_part().
@@ -288,8 +290,8 @@ void DirectSolver::kick(const JointIsland& part) {
     kicked_ = true;
     for (std::size_t k = 0; k < part.bodies.size(); ++k) {
         Body& body = part.problem.bodies[part.bodies[k]];
-        body.momentum += share * starts_[k].push;
-        body.angular_momentum += share * starts_[k].turn;
+        body.momentum += share * starts_[k].impulse;
+        body.angular_momentum += share * starts_[k].angular_impulse;
         body.derive_velocities();
     }
 }
@@ -310,7 +312,7 @@ void DirectSolver::strike(const JointIsland& part, double ahead, Fitting fitting
 
 // Substeps of the next step, by those of this one.
 int DirectSolver::next_substeps(int substeps) const {
-    return swing_ < tuning::joint_easy_swing ? std::max(1, substeps / 2) : substeps;
+    return phase_ < tuning::joint_easy_phase ? std::max(1, substeps / 2) : substeps;
 }
 
 namespace {
@@ -384,7 +386,7 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         reset();
     }
     for (Joint* joint : island_joints) joint->substeps = next_substeps(substeps);
-    push_joined(island, in_parts_);
+    correct_joined(island, in_parts_);
     store_contacts(problem);
     move_to_end(island, in_parts_);
     fit_velocities(island, JointRows::Booking::fit, h, consistent_ ? Fitting::solved : Fitting::unsolved);
@@ -398,8 +400,8 @@ bool DirectSolver::solve_with_joints(const ContactProblem& problem, std::span<co
         body.rotation = starts_[k].rotation;
         body.derive();
         find_gyration(body, h);
-        body.push_velocity = moved / h - body.velocity;
-        body.push_angular_velocity = turned / h - body.angular_velocity - body.gyration;
+        body.correction_velocity = moved / h - body.velocity;
+        body.correction_angular_velocity = turned / h - body.angular_velocity - body.gyration;
     }
     return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
         return problem.bodies[i].momentum.allFinite() && problem.bodies[i].angular_momentum.allFinite();

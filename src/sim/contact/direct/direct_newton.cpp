@@ -137,9 +137,9 @@ double DirectSolver::gradient(std::vector<double>& g) {
 }
 
 // Weights of a constraint in the position correction.
-DirectSolver::Weights DirectSolver::push_weights(const ConstraintRows& constraint) const {
+DirectSolver::Weights DirectSolver::correction_weights(const ConstraintRows& constraint) const {
     Weights w;
-    const double stiffness = total_mass_ / tuning::direct_push_compliance;
+    const double stiffness = total_mass_ / tuning::direct_correction_compliance;
     const auto presses = [](const ConstraintRows& c, int i) {
         return c.normal[i].impulse > 0.0 || c.overlap[i] > tuning::direct_slop * c.size;
     };
@@ -154,7 +154,7 @@ DirectSolver::Weights DirectSolver::push_weights(const ConstraintRows& constrain
         for (int i = 0; i < constraints_[std::size_t(k)].count; ++i)
             active = active || presses(constraints_[std::size_t(k)], i);
     // Pushed apart, not sideways.
-    const double aside = active ? tuning::direct_push_across * stiffness : 0.0;
+    const double aside = active ? tuning::direct_correction_across * stiffness : 0.0;
     w.friction[0][0] = w.friction[1][1] = aside;
     w.friction[2][2] = constraint.count > 1 ? aside * length_ * length_ : 0.0;
     return w;
@@ -162,12 +162,12 @@ DirectSolver::Weights DirectSolver::push_weights(const ConstraintRows& constrain
 
 // The matrix of the masses. Joined bodies are pushed as if all had the same mass: otherwise the links between heavy
 // bodies would be thrown.
-void DirectSolver::set_masses(bool pushing) {
+void DirectSolver::set_masses(bool correcting) {
     matrix_.set_zero();
     for (std::size_t i = 0; i < masses_.size(); ++i) {
         BlockCholesky::Block& block = matrix_.diagonal(i);
         const double share =
-            pushing && !joints_.empty() ? total_mass_ / (double(masses_.size()) * masses_[i].mass) : 1.0;
+            correcting && !joints_.empty() ? total_mass_ / (double(masses_.size()) * masses_[i].mass) : 1.0;
         for (int r = 0; r < 3; ++r) {
             block.row[r][r] = share * masses_[i].mass;
             for (int c = 0; c < 3; ++c) block.row[3 + r][3 + c] = share * masses_[i].inertia(r, c);
@@ -175,25 +175,25 @@ void DirectSolver::set_masses(bool pushing) {
     }
 }
 
-bool DirectSolver::factor(bool pushing) {
+bool DirectSolver::factor(bool correcting) {
     weights_.clear();
     for (ConstraintRows& constraint : constraints_) {
-        weights_.push_back(pushing ? push_weights(constraint) : Weights{});
-        if (!pushing) evaluate(constraint, 0.0, &weights_.back());
+        weights_.push_back(correcting ? correction_weights(constraint) : Weights{});
+        if (!correcting) evaluate(constraint, 0.0, &weights_.back());
     }
-    if (!pushing) evaluate_resistance(0.0, true);
-    return factor_weights(pushing);
+    if (!correcting) evaluate_resistance(0.0, true);
+    return factor_weights(correcting);
 }
 
 // Factors the matrix of weights_ and the weights of the joints' rows.
-bool DirectSolver::factor_weights(bool pushing) {
+bool DirectSolver::factor_weights(bool correcting) {
     ++factorizations_;
     // Beside contacts a step has many factorizations, in which the rows of locked coordinates stay the same.
-    const bool kept = !pushing && !joints_.empty() && !constraints_.empty();
+    const bool kept = !correcting && !joints_.empty() && !constraints_.empty();
     if (kept && base_kept_) {
         matrix_.restore(base_);
     } else {
-        set_masses(pushing);
+        set_masses(correcting);
         if (kept) {
             joints_.add_weights(matrix_, JointRows::Which::unbounded);
             matrix_.save(base_);
@@ -233,7 +233,7 @@ bool DirectSolver::factor_weights(bool pushing) {
         const Row* const friction[3] = {&constraint.friction[0], &constraint.friction[1], &constraint.torsion};
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) add_row(*friction[i], *friction[j], w.friction[i][j]);
-        if (constraint.resistance == none || pushing) continue;  // pushes may roll
+        if (constraint.resistance == none || correcting) continue;  // pushes may roll
         const ResistanceRows& resistance = resistances_[std::size_t(constraint.resistance)];
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) add_row(resistance.row(i), resistance.row(j), resistance.weights[i][j]);
@@ -301,11 +301,11 @@ bool DirectSolver::minimize(int most_steps, int steps_without_ties) {
         for (std::size_t i = 0; i < step_.size(); ++i) step_[i] = -gradient_[i];
         matrix_.solve(step_);
         double slope_0 = 0.0, mass_slope = 0.0, mass_curvature = 0.0;
-        mass_times(step_, push_);
+        mass_times(step_, correction_);
         for (std::size_t i = 0; i < step_.size(); ++i) {
             slope_0 += gradient_[i] * step_[i];
-            mass_slope += push_[i] * (velocity_[i] - free_[i]);
-            mass_curvature += push_[i] * step_[i];
+            mass_slope += correction_[i] * (velocity_[i] - free_[i]);
+            mass_curvature += correction_[i] * step_[i];
         }
         each_contact_row([&](const ConstraintRows& constraint, Row& row) { row.change = dot(constraint, row, step_); });
         joints_.evaluate_changes(step_);

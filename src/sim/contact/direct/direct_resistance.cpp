@@ -1,5 +1,5 @@
-// DirectSolver: rolling and spinning friction (turning_resistance.h). Rolling friction lies in a disc as friction does;
-// both have limits that follow the loads from round to round.
+// DirectSolver: rolling and spinning friction (rotational_friction.h). Rolling friction lies in a disc as friction
+// does; both have limits that follow the loads from round to round.
 #include "sim/contact/direct/direct_solver.h"
 
 #include <algorithm>
@@ -14,7 +14,7 @@ void DirectSolver::add_resistance(int index, const ContactProblem& problem) {
     ConstraintRows& constraint = constraints_[std::size_t(index)];
     const Manifold& m = problem.manifolds[constraint.manifold];
     const Body &a = problem.bodies[m.a], &b = problem.bodies[m.b];
-    const TurningResistance levers = turning_resistance(m, a, b);
+    const RotationalFriction levers = rotational_friction(m, a, b);
     if (levers.none()) return;
     constraint.resistance = int(resistances_.size());
     ResistanceRows& resistance = resistances_.emplace_back();

@@ -30,7 +30,7 @@ constexpr double direct_closing = 1e-3;
 /// Share of an overlap that is corrected in a step. Smaller values leave boxes sunk after a hard landing; larger
 /// ones make heaps tremble (bench_contact). Related: bench_contact "pile of 1000" and the test
 /// ContactHardInput.OverlapsDissolveSlowly.
-constexpr double push_share = 0.2;
+constexpr double correction_share = 0.2;
 
 // Joined bodies bounce here and not in the stage of impacts, which knows no joints: -e v_rel- (notes eq. 14) of a point
 // that touches and approaches fast; otherwise 0.
@@ -50,10 +50,10 @@ double rebound(const Manifold& m, const ContactConstraint::Point& p, const Bodie
 
 }  // namespace
 
-void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies) {
+void DirectSolver::read_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies) {
     const std::size_t n = bodies.size();
     masses_.resize(n);
-    for (auto* v : {&free_, &velocity_, &step_, &gradient_, &scratch_, &push_}) v->assign(6 * n, 0.0);
+    for (auto* v : {&free_, &velocity_, &step_, &gradient_, &scratch_, &correction_}) v->assign(6 * n, 0.0);
     length_ = total_mass_ = speed_scale_ = fastest_ = 0.0;
     lightest_ = infinity;
     for (const std::uint32_t i : bodies) length_ += problem.bodies[i].radius / double(n);
@@ -70,8 +70,8 @@ void DirectSolver::load_bodies(const ContactProblem& problem, std::span<const st
     }
 }
 
-void DirectSolver::load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                                    std::span<const std::uint32_t> manifolds) {
+void DirectSolver::linearize_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                                         std::span<const std::uint32_t> manifolds) {
     constraints_.clear();
     resistances_.clear();
     area_firsts_.clear();
@@ -260,7 +260,7 @@ void DirectSolver::store_contacts(const ContactProblem& problem) {
 }
 
 void DirectSolver::store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed) {
-    std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a push
+    std::vector<bool> reached(bodies.size(), pushed);  // by impulses or a correction
     apply_contacts(problem, reached);
     store_contacts(problem);
     for (std::size_t k = 0; k < bodies.size(); ++k) {
@@ -268,12 +268,12 @@ void DirectSolver::store(const ContactProblem& problem, std::span<const std::uin
         Body& body = problem.bodies[bodies[k]];
         body.derive_velocities();
         if (!pushed && displacement_.empty()) continue;
-        body.push_velocity = Vec3::Map(push_.data() + 6 * k);
-        body.push_angular_velocity = Vec3::Map(push_.data() + 6 * k + 3) / length_;
+        body.correction_velocity = Vec3::Map(correction_.data() + 6 * k);
+        body.correction_angular_velocity = Vec3::Map(correction_.data() + 6 * k + 3) / length_;
         if (displacement_.empty()) continue;
         const double rate = 1.0 / problem.settings.h;
-        body.push_velocity += rate * Vec3::Map(displacement_.data() + 6 * k) - body.velocity;
-        body.push_angular_velocity +=
+        body.correction_velocity += rate * Vec3::Map(displacement_.data() + 6 * k) - body.velocity;
+        body.correction_angular_velocity +=
             rate / length_ * Vec3::Map(displacement_.data() + 6 * k + 3) - body.angular_velocity - body.gyration;
     }
 }
@@ -327,7 +327,7 @@ bool DirectSolver::solve_in_substeps(const ContactProblem& problem, std::uint32_
     }
     std::size_t next = 0;
     each_contact_row([&](const ConstraintRows&, Row& row) { row.impulse = sums[next++]; });
-    std::fill(push_.begin(), push_.end(), 0.0);
+    std::fill(correction_.begin(), correction_.end(), 0.0);
     return true;
 }
 
@@ -336,8 +336,8 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     factorizations_ = 0;
     displacement_.clear();
     for (const std::uint32_t k : manifolds) problem.manifolds[k].solved_by = SolvedBy::direct;
-    load_bodies(problem, bodies);
-    load_constraints(problem, bodies, manifolds);
+    read_bodies(problem, bodies);
+    linearize_constraints(problem, bodies, manifolds);
     joints_.clear();
     if (!joints.empty()) return solve_with_joints(problem, bodies, manifolds, joints);
     if (constraints_.empty()) return true;
@@ -346,7 +346,7 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     // nothing approaches, without gravity: overlaps are pushed apart all the same
     if (speed_scale_ <= tuning::direct_rounding * fastest_) {
         velocity_ = free_;
-        store(problem, bodies, push_out(problem.settings.h));
+        store(problem, bodies, correct_overlaps(problem.settings.h));
         return true;
     }
 
@@ -355,34 +355,35 @@ bool DirectSolver::solve(const ContactProblem& problem, std::span<const std::uin
     } else {
         if (!solve_rounds() || !admissible()) return false;
     }
-    const bool pushed = push_out(problem.settings.h);
+    const bool pushed = correct_overlaps(problem.settings.h);
     store(problem, bodies, pushed);
     return true;
 }
 
 // Position correction: overlaps are removed by a pseudo-velocity that leaves the velocities unchanged, by least squares
 // over the active contacts.
-bool DirectSolver::push_out(double h) {
-    std::fill(push_.begin(), push_.end(), 0.0);
-    const double stiffness = total_mass_ / tuning::direct_push_compliance;
+bool DirectSolver::correct_overlaps(double h) {
+    std::fill(correction_.begin(), correction_.end(), 0.0);
+    const double stiffness = total_mass_ / tuning::direct_correction_compliance;
     bool any = false;
     for (ConstraintRows& constraint : constraints_) {
         for (int i = 0; i < constraint.count; ++i) {
-            // A bouncing contact separates by its own speed and is pushed only by the difference: a push moves bodies
-            // past their momenta.
+            // A bouncing contact separates by its own speed and is pushed only by the difference: a correction moves
+            // bodies past their momenta.
             const Row& row = constraint.normal[i];
             const double parting = std::max(0.0, row.offset + dot(constraint, row, velocity_));
             const double beyond = constraint.overlap[i] - tuning::direct_slop * constraint.size;
-            const double speed = std::min(push_share * beyond / h, tuning::push_limit * constraint.size) - parting;
+            const double speed =
+                std::min(correction_share * beyond / h, tuning::correction_limit * constraint.size) - parting;
             constraint.overlap[i] -= h * parting;
             if (!(speed > 0.0)) continue;
             any = true;
-            add(constraint, constraint.normal[i], stiffness * speed, push_);
+            add(constraint, constraint.normal[i], stiffness * speed, correction_);
         }
     }
     if (!joints_.empty()) return any;
     if (!any || !factor(true)) return false;
-    matrix_.solve(push_);
+    matrix_.solve(correction_);
     return true;
 }
 

@@ -60,9 +60,9 @@ private:
         double normal[4] = {}, friction[3][3] = {};  // friction: both directions and the torsional row
     };
 
-    void load_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
-    void load_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
-                          std::span<const std::uint32_t> manifolds);
+    void read_bodies(const ContactProblem& problem, std::span<const std::uint32_t> bodies);
+    void linearize_constraints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
+                               std::span<const std::uint32_t> manifolds);
     void add_resistance(int constraint, const ContactProblem& problem);
     void set_resistance_limits();
     void evaluate_resistance(double along, bool weigh);
@@ -93,10 +93,10 @@ private:
     double gradient(std::vector<double>& g);
     double slope(double along, double mass_slope, double mass_curvature);
     double line_search(double slope_0, double mass_slope, double mass_curvature);
-    bool factor(bool pushing);
-    bool factor_weights(bool pushing);
-    Weights push_weights(const ConstraintRows& constraint) const;
-    void set_masses(bool pushing);
+    bool factor(bool correcting);
+    bool factor_weights(bool correcting);
+    Weights correction_weights(const ConstraintRows& constraint) const;
+    void set_masses(bool correcting);
     void follow_limits(int time);
     bool solve_rounds();
     bool solve_with_joints(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
@@ -104,7 +104,7 @@ private:
     bool solve_jointed_step(const JointIsland& island, std::span<const std::uint32_t> manifolds, int substeps);
     enum class Fitting { solved, unsolved, rebounds };  // with the rows' impulses or without; rebounds alone
     bool solve_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, int substeps, bool first);
-    void load_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds);
+    void linearize_joints(const JointIsland& island, std::span<const std::uint32_t> manifolds);
     void load_part(const JointIsland& part, std::span<const std::uint32_t> manifolds, bool first);
     void give_back_part(const JointIsland& part);
     bool kicks() const { return cut_ && constraints_.empty(); }
@@ -138,11 +138,11 @@ private:
     void mass_times(const std::vector<double>& u, std::vector<double>& result) const;
     bool within_cones() const;
     bool admissible() const;
-    bool push_out(double h);
+    bool correct_overlaps(double h);
     void apply_contacts(const ContactProblem& problem, std::vector<bool>& reached);
     void store_contacts(const ContactProblem& problem);
     void store(const ContactProblem& problem, std::span<const std::uint32_t> bodies, bool pushed);
-    bool push_joined(const JointIsland& island, bool moved);
+    bool correct_joined(const JointIsland& island, bool moved);
     void fit_velocities(const JointIsland& island, JointRows::Booking booking, double ahead, Fitting fitting);
     void fit_rows(const JointIsland& island, JointRows::Booking booking, double ahead, bool solved, bool struck);
 
@@ -156,7 +156,7 @@ private:
     bool driven_ = false;  // touches a prescribed motion: energy may enter
     int factorizations_ = 0;
     std::vector<Mass> masses_;
-    std::vector<double> free_, velocity_, step_, gradient_, scratch_, push_,
+    std::vector<double> free_, velocity_, step_, gradient_, scratch_, correction_,
         kept_;                          // u*, u, du, ...; six numbers per body
     std::vector<double> displacement_;  // m, displacement in the step of a body that is solved in substeps
     std::vector<ConstraintRows> constraints_;
@@ -169,7 +169,7 @@ private:
         Vec3 position, momentum, angular_momentum;  // after the forces
         Quat orientation;
         Mat3 rotation;
-        Vec3 push, turn;  // N s, N m s: by the forces of the step
+        Vec3 impulse, angular_impulse;  // N s, N m s: by the forces of the step
     };
     std::vector<Start> starts_;
     std::vector<Impulse> part_starts_;     // momenta
@@ -178,7 +178,7 @@ private:
     bool in_parts_ = false;                // it is solved in substeps, or cut
     bool kicked_ = false;                  // forces have acted since the rows have kept the velocities
     double estimated_for_ = 0.0;           // s: of the estimates of contacts
-    double swing_ = 0.0;                   // rad, largest phase of a swing in a substep
+    double phase_ = 0.0;                   // rad, largest phase of a swing in a substep
     double gap_left_ = 0.0;                // largest error of the last pass, in sizes of the joint
     bool consistent_ = true;               // the impulses fit the velocities
     bool settled_ = true;                  // the rounds have ended with impulses that no longer change

@@ -53,7 +53,7 @@ void JointRows::add_gear(const JointIsland& island, std::uint32_t index) {
     row.reference = std::abs(g.error) <= closed_share() * (row.turns() ? 1.0 : gear.size) ? 0.0 : g.error;
     row.target = unit * ((row.reference - g.error) / h_ + h_ * gear.curving[first]);
     row_of.value = std::max(std::abs(g.value[0]), std::abs(g.value[1] * gear.description.ratio));
-    push_row(row);
+    append_row(row);
 }
 
 // Where the row acts at the present poses.
@@ -91,13 +91,13 @@ GearGeometry JointRows::place_gear(const JointIsland& island, Block& block, Row&
     return g;
 }
 
-JointLoad JointRows::load_of(const Block& block, std::size_t which) const {
+JointReaction JointRows::reaction_of(const Block& block, std::size_t which) const {
     const GearSide& side = block.gear->sides[which];
-    JointLoad load;
+    JointReaction reaction;
     const double amount = side.factor * rows_[block.first].impulse;
-    (side.turns ? load.torque : load.force) = (side.turns ? length_ : 1.0) * amount * side.direction;
-    load.moment = side.point.cross(load.force) + load.torque;
-    return load;
+    (side.turns ? reaction.torque : reaction.force) = (side.turns ? length_ : 1.0) * amount * side.direction;
+    reaction.moment = side.point.cross(reaction.force) + reaction.torque;
+    return reaction;
 }
 
 double JointRows::gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const {
@@ -125,12 +125,12 @@ void JointRows::give_gear(const JointIsland& island, const Block& block) const {
     for (std::size_t s = 0; s < 2; ++s) {
         const GearSide& side = block.gear->sides[s];
         const Joint& of = (*joints_)[side.joint];
-        const JointLoad load = load_of(block, s);
+        const JointReaction reaction = reaction_of(block, s);
         const auto give = [&](std::uint32_t body, int place, double sign) {
             if (place == none) return;
             Body& b = bodies[body];
-            b.momentum += sign * load.force;
-            b.angular_momentum += sign * ((side.point - b.position).cross(load.force) + load.torque);
+            b.momentum += sign * reaction.force;
+            b.angular_momentum += sign * ((side.point - b.position).cross(reaction.force) + reaction.torque);
         };
         give(of.a, side.a, -1.0);
         give(of.b, side.b, 1.0);
@@ -142,13 +142,13 @@ void JointRows::account_gear(const JointIsland& island, const Block& block, bool
     for (std::size_t s = 0; s < 2; ++s) {
         const GearSide& side = block.gear->sides[s];
         const Joint& of = (*joints_)[side.joint];
-        const JointLoad load = load_of(block, s);
+        const JointReaction reaction = reaction_of(block, s);
         const auto work = [&](std::uint32_t body, int place) {
             const BodyVelocity v = mean_velocity(island, body, place, side.point);
-            return load.force.dot(v.velocity) + load.torque.dot(v.angular_velocity);
+            return reaction.force.dot(v.velocity) + reaction.torque.dot(v.angular_velocity);
         };
         const double on_a = -work(of.a, side.a), on_b = work(of.b, side.b);
-        (s == 0 ? step.load : step.second_load).add(load);
+        (s == 0 ? step.reaction : step.second_reaction).add(reaction);
         (s == 0 ? step.work_a : step.second_work_a) += on_a;
         (s == 0 ? step.work_b : step.second_work_b) += on_b;
         if (side.a == none) step.work.carriers -= on_a;

@@ -169,7 +169,7 @@ void JointRows::break_under_loads(const JointIsland& island) {
         Joint& j = joint(block);
         const JointDescription& strength = j.description;
         if (j.broken || block.gear || !strength.ever_breaks()) continue;
-        const double force = j.account.step.load.force.norm(), torque = j.account.step.load.torque.norm();
+        const double force = j.account.step.reaction.force.norm(), torque = j.account.step.reaction.torque.norm();
         j.broken = std::max({force / (h * strength.break_force), force / strength.break_impulse,
                              torque / (h * strength.break_torque)}) > 1.0;
         if (j.broken) j.broken_at = island.to;
@@ -190,7 +190,7 @@ void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking bookin
                             bool struck) {
     const ContactProblem& problem = island.problem;
     constraints_.clear();
-    load_bodies(problem, island.bodies);
+    read_bodies(problem, island.bodies);
     for (std::size_t k = 0; k < island.bodies.size(); ++k) {
         const Body& body = problem.bodies[island.bodies[k]];
         contact_rows::put(&free_[6 * k], body.velocity, length_ * body.angular_velocity);
@@ -226,7 +226,7 @@ void DirectSolver::fit_rows(const JointIsland& island, JointRows::Booking bookin
 
 // Displacements are velocities over a second here. Limits, motors and friction take no part.
 double DirectSolver::aim_at_gaps(const JointIsland& island) {
-    load_bodies(island.problem, island.bodies);
+    read_bodies(island.problem, island.bodies);
     std::fill(free_.begin(), free_.end(), 0.0);
     joints_.start_fit(island, island.problem.settings.h, false, false);
     joint_friction_softens_ = near_rest_ = factored_ = base_kept_ = false;
@@ -239,10 +239,10 @@ double DirectSolver::aim_at_gaps(const JointIsland& island) {
 void DirectSolver::close_poses(const ContactProblem& problem, std::span<const std::uint32_t> bodies,
                                std::span<const std::uint32_t> joints) {
     constraints_.clear();
-    load_bodies(problem, bodies);
+    read_bodies(problem, bodies);
     const JointIsland island{problem, bodies, joints, length_, problem.joints->from(), problem.joints->to()};
     joints_.start_step(problem.settings.h, false);
-    load_joints(island, {});
+    linearize_joints(island, {});
     joints_.keep_estimates();  // the impulses of the step
     double last = infinity;
     for (int pass = 0; pass < tuning::joint_rounds; ++pass) {
@@ -257,7 +257,7 @@ void DirectSolver::close_poses(const ContactProblem& problem, std::span<const st
             body.derive();
         }
     }
-    load_joints(island, {});
+    linearize_joints(island, {});
     joints_.keep_estimates();
     consistent_ = true;
     kicked_ = false;

@@ -49,7 +49,7 @@ JointRows::Row JointRows::make_row(const JointIsland& island, const Block& block
     return row;
 }
 
-void JointRows::push_row(const Row& row) {
+void JointRows::append_row(const Row& row) {
     const Block& block = blocks_.back();
     rows_.push_back(row);
     Row& added = rows_.back();
@@ -100,7 +100,7 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
     (above ? r.least : r.most) = 0.0;
     r.closes = true;
     r.rests = room <= tolerance;
-    // A limit violated at the start is not left by speed: see add_push().
+    // A limit violated at the start is not left by speed: see add_correction().
     r.reference = room < -tolerance ? value : limit;
     r.goal = limit;
     r.target = unit * (r.reference - value) / h_;
@@ -122,7 +122,7 @@ void JointRows::add_limit(const JointIsland& island, const Row& row, double valu
             r.closes = r.rests = false;
         }
     }
-    push_row(r);
+    append_row(r);
 }
 
 // The inertia resists a change of the rate from that before the forces. In one row with the spring, whose 1 / R and
@@ -139,7 +139,7 @@ void JointRows::add_armature(const JointIsland& island, const Row& row, double v
     r.target =
         unit / gain *
         (h_ * s.stiffness * (s.rest - value) + inertia * limit_rates(island, row, blocks_.back().point).at_start);
-    push_row(r);
+    append_row(r);
 }
 
 void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std::size_t k, const Row& row) {
@@ -152,7 +152,7 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         r.closes = true;
         r.reference = std::abs(value) <= closed_share() * (row.turns() ? 1.0 : j.size) ? 0.0 : value;
         r.target = unit * ((r.reference - value) / h + h * j.curving[k]);
-        push_row(r);
+        append_row(r);
         return;
     }
     if (axis.motion == JointAxis::Motion::limited) {
@@ -169,7 +169,7 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         r.target = unit * (stiffness * (target.value - value) + damping * target.speed) / gain;
         r.most = most * h / unit;
         r.least = -r.most;
-        push_row(r);
+        append_row(r);
     };
     if (j.armature(k) > 0.0) {
         add_armature(island, row, value, k);
@@ -183,7 +183,7 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         r.target = unit * *axis.motor->speed;
         r.most = axis.motor->max_force * h / unit;
         r.least = -r.most;
-        push_row(r);
+        append_row(r);
     } else if (axis.motor) {
         add_soft(Joint::motor, axis.motor->stiffness, axis.motor->damping, target_of(*axis.motor, from_, to_),
                  axis.motor->max_force);
@@ -193,7 +193,7 @@ void JointRows::add_laws(const JointIsland& island, const JointGeometry& g, std:
         r.law = Joint::friction;
         r.most = axis.friction * h / unit;
         r.least = -r.most;
-        push_row(r);
+        append_row(r);
     }
 }
 
@@ -215,7 +215,7 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
             r.soft = true;
             r.compliance = length_ * length_ / (h_ * gain);
             r.target = -length_ * s.stiffness * g.rotation[Eigen::Index(i)] / gain;
-            push_row(r);
+            append_row(r);
         }
     }
     if (!(axis.friction > 0.0 || j.description.friction_coefficient > 0.0)) return;
@@ -224,7 +224,7 @@ void JointRows::add_ball_laws(const JointIsland& island, const JointGeometry& g,
         r.most = axis.friction * h_ / length_;
         r.least = -r.most;
         r.starts_ball = i == 0;
-        push_row(r);
+        append_row(r);
     }
 }
 
@@ -237,7 +237,7 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     block.b = contact_rows::place_of(island.bodies, j.b);
     block.point = g.point;
     block.first = rows_.size();
-    block.axes = swing_axes(j, g);
+    block.axes = free_axes(j, g);
     compliance_ = compliance;
     for (std::size_t k = 0; k < j.count(); ++k)
         if (!j.locked(k)) j.value[k] = g.coordinates[k].value;
@@ -261,7 +261,7 @@ void JointRows::add_joint(const JointIsland& island, std::uint32_t index, double
     follow_load(block);
 }
 
-void JointRows::load(const JointIsland& island, double compliance) {
+void JointRows::linearize(const JointIsland& island, double compliance) {
     clear();
     JointSet& set = *island.problem.joints;
     joints_ = &set.joints();

@@ -12,7 +12,7 @@ namespace {
 
 /// Errors below this share of the smaller body are moved out by rigid rows: the displacements stay small near singular
 /// positions too. Not fitted: below any visible size.
-constexpr double joint_push_small = 1e-6;
+constexpr double joint_correction_small = 1e-6;
 
 double six_dot(const double* row, const std::vector<double>& u, int body) {
     double sum = 0.0;
@@ -352,7 +352,7 @@ bool JointRows::give_way() {
     return any;
 }
 
-bool JointRows::start_push(const JointIsland& island, double share, PushStiffness stiffness) {
+bool JointRows::start_correction(const JointIsland& island, double share, CorrectionStiffness stiffness) {
     bool any = false;
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
@@ -364,7 +364,7 @@ bool JointRows::start_push(const JointIsland& island, double share, PushStiffnes
             const bool held =
                 row.law == Joint::lock || (is_limit(row) && (row.impulse != 0.0 || row.goal != row.reference));
             const double wanted = row.closes ? share * (row.goal - row.reference) : 0.0;
-            const double small = joint_push_small * (row.turns() ? 1.0 : joint(block).size);
+            const double small = joint_correction_small * (row.turns() ? 1.0 : joint(block).size);
             any = any || wanted != 0.0;
             row.soft = std::abs(wanted) > small;
             row.weight = !held ? 0.0 : row.soft ? stiffness.apart : stiffness.closed;
@@ -375,16 +375,16 @@ bool JointRows::start_push(const JointIsland& island, double share, PushStiffnes
     return any;
 }
 
-void JointRows::add_push(std::vector<double>& push) const {
+void JointRows::add_correction(std::vector<double>& correction) const {
     for (const Block& block : blocks_)
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             const double amount = rows_[k].estimate + rows_[k].weight * rows_[k].target;
-            if (amount != 0.0) add(block, rows_[k], amount, push);
+            if (amount != 0.0) add(block, rows_[k], amount, correction);
         }
 }
 
-double JointRows::close_push(const JointIsland& island, std::span<const JointSide> ends,
-                             const std::vector<double>& push) {
+double JointRows::close_correction(const JointIsland& island, std::span<const JointSide> ends,
+                                   const std::vector<double>& correction) {
     const double h = island.problem.settings.h;  // s: the step, where the rows belong to its last substep
     double worst = 0.0;
     for (const Block& block : blocks_) {
@@ -393,7 +393,7 @@ double JointRows::close_push(const JointIsland& island, std::span<const JointSid
         for (std::size_t k = block.first; k < block.first + block.count; ++k) {
             Row& row = rows_[k];
             if (row.law != Joint::lock || row.soft) continue;
-            const double speed = dot(block, row, push), error = value_of(island, block, row, g, ends) - row.goal;
+            const double speed = dot(block, row, correction), error = value_of(island, block, row, g, ends) - row.goal;
             worst = std::max(worst, std::abs(error) / (row.turns() ? 1.0 : j.size));
             row.estimate += row.weight * (row.target - speed);
             row.target = speed - (row.turns() ? length_ : 1.0) * error / h;
@@ -414,12 +414,12 @@ void JointRows::store(const JointIsland& island, bool apply, bool settled) {
             const Row& row = rows_[k];
             const double amount = row.turns() ? length_ * row.impulse : row.impulse;
             j.impulse[row.coordinate][row.law] = amount;
-            if (row.law == Joint::lock && h_ * tuning::joint_swing_substeps >= step_)  // otherwise it is rounding
+            if (row.law == Joint::lock && h_ * tuning::joint_phase_substeps >= step_)  // otherwise it is rounding
                 j.curving[row.coordinate] = row.target / ((row.turns() ? length_ : 1.0) * h_);
         }
-        const JointLoad load = load_of(block);
-        j.force = load.force / h_;
-        j.torque = load.torque / h_;
+        const JointReaction reaction = reaction_of(block);
+        j.force = reaction.force / h_;
+        j.torque = reaction.torque / h_;
         j.point = block.point;
         if (block.breaks) {
             j.broken = true;
@@ -436,29 +436,30 @@ void JointRows::give(const JointIsland& island) const {
             give_gear(island, block);
             continue;
         }
-        const JointLoad load = load_of(block);
-        if (load.force.isZero(0.0) && load.torque.isZero(0.0)) continue;
+        const JointReaction reaction = reaction_of(block);
+        if (reaction.force.isZero(0.0) && reaction.torque.isZero(0.0)) continue;
         const Joint& j = joint(block);
         // Equal and opposite, about one point: momentum and angular momentum are kept to the last bit.
         if (block.a != none) {
             Body& a = bodies[j.a];
-            a.momentum -= load.force;
-            a.angular_momentum -= (block.point - a.position).cross(load.force) + load.torque;
+            a.momentum -= reaction.force;
+            a.angular_momentum -= (block.point - a.position).cross(reaction.force) + reaction.torque;
         }
         if (block.b != none) {
             Body& b = bodies[j.b];
-            b.momentum += load.force;
-            b.angular_momentum += (block.point - b.position).cross(load.force) + load.torque;
+            b.momentum += reaction.force;
+            b.angular_momentum += (block.point - b.position).cross(reaction.force) + reaction.torque;
         }
     }
 }
 
-JointLoad JointRows::load_of(const Block& block) const {
-    JointLoad load;
+JointReaction JointRows::reaction_of(const Block& block) const {
+    JointReaction reaction;
     for (const Row& row : rows(block))
-        (row.turns() ? load.torque : load.force) += (row.turns() ? length_ * row.impulse : row.impulse) * row.direction;
-    load.moment = block.point.cross(load.force) + load.torque;
-    return load;
+        (row.turns() ? reaction.torque : reaction.force) +=
+            (row.turns() ? length_ * row.impulse : row.impulse) * row.direction;
+    reaction.moment = block.point.cross(reaction.force) + reaction.torque;
+    return reaction;
 }
 
 }  // namespace tumble

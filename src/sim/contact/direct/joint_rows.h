@@ -17,7 +17,7 @@
 #include "sim/contact/model/contact_constraint.h"
 #include "sim/joints/gear.h"
 #include "sim/joints/joint_set.h"
-#include "sim/joints/swing.h"
+#include "sim/joints/pendulum_rate.h"
 #include "sim/math/block_cholesky.h"
 
 #include <algorithm>
@@ -59,8 +59,8 @@ public:
         bool rests = false;    // a limit that the coordinate is at from the start
         bool bounces = false;  // a limit with restitution that the coordinate is to meet with its whole speed: open
         double room = 0.0, approach = 0.0;  // m or rad, and m/s or rad/s: of such a limit, at the start
-        bool soft = false;                  // its estimate stays 0: a spring; in a push, a row whose error is moved out
-        bool inert = false;                 // a spring with the armature: it acts in the fit too
+        bool soft = false;         // its estimate stays 0: a spring; in a correction, a row whose error is moved out
+        bool inert = false;        // a spring with the armature: it acts in the fit too
         bool starts_ball = false;  // this row and the next two are a vector of friction, bounded by `most` in length
         bool turns() const { return coordinate >= 3; }
     };
@@ -83,7 +83,7 @@ public:
         std::uint32_t pair = 0;  // index in the matrix
         std::size_t first = 0, count = 0;
         Vec3 point = Vec3::Zero();
-        SwingAxes axes;
+        FreeAxes axes;
         bool breaks = false;  // gives way in this step: its impulses stay as they are
         Gear* gear = nullptr;
     };
@@ -122,14 +122,14 @@ public:
     }
     void stop_bounces() { bounce_ = false; }
     /// Keeps those of the open limits that are met first until `ends`, the poses at the end of the part that was
-    /// solved. The next load() closes them. `kicks`: the rest of the forces acts at the end. Returns whether there are
-    /// any.
+    /// solved. The next linearize() closes them. `kicks`: the rest of the forces acts at the end. Returns whether there
+    /// are any.
     bool find_strikes(const JointIsland& island, std::span<const JointSide> ends, bool kicks);
     std::span<const Strike> strikes() const { return strikes_; }
     void forget_strikes() { strikes_.clear(); }
 
     /// Rows for the present poses. `compliance` (1/kg) of the rigid rows.
-    void load(const JointIsland& island, double compliance);
+    void linearize(const JointIsland& island, double compliance);
     /// Pairs of island bodies coupled by joints, appended to the pairs in contact.
     void add_pairs(std::vector<BlockCholesky::Pair>& pairs);
 
@@ -179,19 +179,20 @@ public:
 
     /// Position correction, after the last use of the impulses: errors are moved out by pseudo-velocities, those of
     /// closed joints are kept at zero. Stiffness (kg) of rows whose error is moved out, and of all others.
-    struct PushStiffness {
+    struct CorrectionStiffness {
         double apart, closed;
     };
     /// Sets targets that move `share` of each error out in the step. Returns whether there are such errors.
-    bool start_push(const JointIsland& island, double share, PushStiffness stiffness);
-    void add_push(std::vector<double>& push) const;  // push += J^T (e + weight b)
+    bool start_correction(const JointIsland& island, double share, CorrectionStiffness stiffness);
+    void add_correction(std::vector<double>& correction) const;  // correction += J^T (e + weight b)
     /// H += weight J^T J over all rows; over those without bounds, whose weight is the same in all passes; over the
     /// others.
     enum class Which { all, unbounded, bounded };
     void add_weights(BlockCholesky& matrix, Which which) const;
-    /// Moves the targets of closed joints by their errors at `ends`, the poses with the push. Returns the largest
+    /// Moves the targets of closed joints by their errors at `ends`, the poses with the correction. Returns the largest
     /// error, in sizes of the joint.
-    double close_push(const JointIsland& island, std::span<const JointSide> ends, const std::vector<double>& push);
+    double close_correction(const JointIsland& island, std::span<const JointSide> ends,
+                            const std::vector<double>& correction);
 
     /// For account(): the velocities at the start of the step (`first`), or of a later substep.
     void keep_velocities(const JointIsland& island, bool first);
@@ -221,7 +222,7 @@ public:
 
     /// Fastest rate (rad/s) at which a body would swing about its joints under their forces: sqrt(4 T / (m l)) for a
     /// rod of length l.
-    double swing_rate(const JointIsland& island);
+    double pendulum_rate(const JointIsland& island);
 
     /// J u without the prescribed velocities; adds amount J^T; adds weight J^T J.
     static double dot(const Block& block, const Row& row, const std::vector<double>& u);
@@ -260,12 +261,12 @@ private:
     void add_gear(const JointIsland& island, std::uint32_t index);
     GearGeometry place_gear(const JointIsland& island, Block& block, Row& row);
     JointSide side_at(const JointIsland& island, std::uint32_t body) const;
-    JointLoad load_of(const Block& block) const;
+    JointReaction reaction_of(const Block& block) const;
     double gear_error(const JointIsland& island, const Block& block, std::span<const JointSide> ends) const;
-    JointLoad load_of(const Block& block, std::size_t which) const;  // of a gear, on one of its joints
+    JointReaction reaction_of(const Block& block, std::size_t which) const;  // of a gear, on one of its joints
     void give_gear(const JointIsland& island, const Block& block) const;
     void account_gear(const JointIsland& island, const Block& block, bool catches, JointAccount::Span& step);
-    void push_row(const Row& row);
+    void append_row(const Row& row);
     double smallest_size() const;  // m, of the joints
     Joint& joint(const Block& block) const { return (*joints_)[block.joint]; }
     static bool is_limit(const Row& row) {
@@ -276,8 +277,8 @@ private:
     std::vector<Block> blocks_;
     std::vector<Gear> gears_;  // of fixed capacity: blocks point to them
     std::vector<Row> rows_;
-    std::vector<BodyVelocity> before_;  // by body of the island
-    std::vector<double> swing_;         // 1/s^2, by body of the island
+    std::vector<BodyVelocity> before_;    // by body of the island
+    std::vector<double> pendulum_rates_;  // 1/s^2, by body of the island
     // Errors that a part of the step closes by speed, in sizes of the joint: the speed is no larger in a short part.
     double closed_share() const { return tuning::joint_rounding * std::min(1.0, h_ / step_); }
 

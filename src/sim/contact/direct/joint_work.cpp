@@ -1,6 +1,6 @@
 // JointRows: the work of a step by row, the impulses of its joints, and the swing of its bodies under them.
 #include "sim/contact/direct/joint_rows.h"
-#include "sim/joints/swing.h"
+#include "sim/joints/pendulum_rate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,10 +77,10 @@ void JointRows::account(const JointIsland& island, Booking booking) {
             else
                 add_work(step.work, row.law, done, catches);
         }
-        const JointLoad load = load_of(block);
-        step.load.add(load);
-        const double on_a = -(load.force.dot(a.velocity) + load.torque.dot(a.angular_velocity));
-        const double on_b = load.force.dot(b.velocity) + load.torque.dot(b.angular_velocity);
+        const JointReaction reaction = reaction_of(block);
+        step.reaction.add(reaction);
+        const double on_a = -(reaction.force.dot(a.velocity) + reaction.torque.dot(a.angular_velocity));
+        const double on_b = reaction.force.dot(b.velocity) + reaction.torque.dot(b.angular_velocity);
         step.work_a += on_a;
         step.work_b += on_b;
         if (block.a == none) step.work.carriers -= on_a;
@@ -89,8 +89,8 @@ void JointRows::account(const JointIsland& island, Booking booking) {
     }
 }
 
-double JointRows::swing_rate(const JointIsland& island) {
-    swing_.assign(island.bodies.size(), 0.0);
+double JointRows::pendulum_rate(const JointIsland& island) {
+    pendulum_rates_.assign(island.bodies.size(), 0.0);
     double most = 0.0;
     for (const Block& block : blocks_) {
         Vec3 force = Vec3::Zero();
@@ -100,8 +100,8 @@ double JointRows::swing_rate(const JointIsland& island) {
         for (const auto& [body, place] : {std::pair(j.a, block.a), std::pair(j.b, block.b)}) {
             if (place == none) continue;
             const Body& b = island.problem.bodies[body];
-            double& sum = swing_[std::size_t(place)];
-            sum += force.norm() * swing_compliance(block.axes, block.point - b.position, b.inverse_inertia);
+            double& sum = pendulum_rates_[std::size_t(place)];
+            sum += force.norm() * pendulum_compliance(block.axes, block.point - b.position, b.inverse_inertia);
             most = std::max(most, sum);
         }
     }

@@ -36,7 +36,7 @@ inline constexpr double direct_slop = 1e-6;
 
 /// Compliance of position correction, over the island's mass, and the share of that stiffness across the normals.
 /// No case is known that guards it.
-inline constexpr double direct_push_compliance = 1e-2;
-inline constexpr double direct_push_across = 0.03;
+inline constexpr double direct_correction_compliance = 1e-2;
+inline constexpr double direct_correction_across = 0.03;
 
 }  // namespace tumble::tuning

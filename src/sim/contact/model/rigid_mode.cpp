@@ -45,14 +45,14 @@ BodyVelocity RigidMode::at(const Vec3& position, const Vec3& origin) const {
 
 void RigidMode::scale_rest(double scale, const Vec3& origin, Body& body) const {
     const BodyVelocity common = at(body.position, origin);
-    const Vec3 linear = body.velocity + body.push_velocity,
-               angular = body.angular_velocity + body.push_angular_velocity;
+    const Vec3 linear = body.velocity + body.correction_velocity,
+               angular = body.angular_velocity + body.correction_angular_velocity;
     const Vec3 common_spin = inertia_of(body) * common.angular_velocity;
     body.momentum = body.mass * common.velocity + scale * (body.momentum - body.mass * common.velocity);
     body.angular_momentum = common_spin + scale * (body.angular_momentum - common_spin);
     body.derive_velocities();
-    body.push_velocity = linear - body.velocity;
-    body.push_angular_velocity = angular - body.angular_velocity;
+    body.correction_velocity = linear - body.velocity;
+    body.correction_angular_velocity = angular - body.angular_velocity;
 }
 
 void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h,
@@ -62,7 +62,7 @@ void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Bo
     double mass = 0.0;
     for (const std::uint32_t i : island) {
         const Body& body = bodies[i];
-        gained += h * body.push_velocity.cross(body.momentum);
+        gained += h * body.correction_velocity.cross(body.momentum);
         center += body.mass * (body.position - origin);
         mass += body.mass;
     }
@@ -71,7 +71,7 @@ void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Bo
     Mat3 inertia = Mat3::Zero();
     for (const std::uint32_t i : island) {
         const Body& body = bodies[i];
-        const Vec3 r = body.position - center, pushed = r + h * body.push_velocity;
+        const Vec3 r = body.position - center, pushed = r + h * body.correction_velocity;
         inertia += inertia_of(body) + body.mass * (pushed.dot(r) * Mat3::Identity() - r * pushed.transpose());
     }
     const Vec3 faster = inertia.inverse() * -gained;

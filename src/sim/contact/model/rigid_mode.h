@@ -36,9 +36,9 @@ private:
     Vec3 velocity_ = Vec3::Zero(), angular_velocity_ = Vec3::Zero();
 };
 
-/// For a free island, which is going to move by h (velocity + push): a push u moves a body past its momentum P, and the
-/// angular momentum changes by h u x P. All bodies rotate together (about c, by W more) so that the sum is conserved
-/// and none moves relative to another:
+/// For a free island, which is going to move by h (velocity + correction): a correction u moves a body past its
+/// momentum P, and the angular momentum changes by h u x P. All bodies rotate together (about c, by W more) so that the
+/// sum is conserved and none moves relative to another:
 ///     sum m (r + h u) x (W x r) + I W = -sum h u x P - C,   r = x - c,
 /// with C the moment (N m s) that the bodies have been given beyond zero, `carried`.
 void keep_angular_momentum(std::span<const std::uint32_t> island, std::vector<Body>& bodies, double h,

@@ -31,7 +31,7 @@ inline constexpr double load_left = 0.01;
 /// Largest speed of position correction, radii per second: deep overlaps at the start dissolve in visible time. Not
 /// fitted: a choice of appearance. Tests: ContactHardInput.OverlapsDissolveSlowly and
 /// SoftKernel.AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved.
-inline constexpr double push_limit = 5.0;
+inline constexpr double correction_limit = 5.0;
 
 /// A body is at rest if its surface moved, in one of these spans (s), by less than constant acceleration from rest
 /// at `sleep_acceleration` (radii/s^2) gives: 3e-6 radii in the shortest span, 2e-4 in the longest. A block on a

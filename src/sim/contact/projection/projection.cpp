@@ -21,9 +21,9 @@ constexpr int projection_passes = 4;
 /// error is at most this share of the last one.
 constexpr double projection_small = 0.01;
 
-/// Joints that are open by more than this share of the smaller body are pulled in by tuning::joint_push_share of it in
-/// a step, as anchors that were placed apart. Not fitted: bodies that turn by a radian in a step open their joints by
-/// less.
+/// Joints that are open by more than this share of the smaller body are pulled in by tuning::joint_correction_share of
+/// it in a step, as anchors that were placed apart. Not fitted: bodies that turn by a radian in a step open their
+/// joints by less.
 constexpr double projection_wide = 1.0;
 
 double along(const Vec3& direction, bool turns, const SpatialForce& f) {
@@ -130,7 +130,7 @@ double Projection::measure(const Tree& tree, std::size_t i, const std::vector<Bo
     const Node& node = nodes_[tree.first + i];
     Link& link = links[i];
     link.asked = {};
-    link.push = {};
+    link.impulse = {};
     double worst = 0.0;
     Vec3 moves[3], turns[3], rest[3];
     int moving = 0, turning = 0;
@@ -177,8 +177,8 @@ double Projection::measure(const Tree& tree, std::size_t i, const std::vector<Bo
             most = std::max(most, std::abs(value) / (angle ? 1.0 : node.size));
         }
         if (most > projection_wide) {
-            link.asked.turn *= tuning::joint_push_share;
-            link.asked.move *= tuning::joint_push_share;
+            link.asked.turn *= tuning::joint_correction_share;
+            link.asked.move *= tuning::joint_correction_share;
         }
         worst = most;
     } else if (refresh) {
@@ -221,14 +221,14 @@ bool Projection::eliminate(Link& link, Link* parent) {
 
 void Projection::gather(Link& link, Link* parent) {
     const SpatialForce needed = link.inertia * link.asked;
-    SpatialForce push{link.push.moment - needed.moment, link.push.force - needed.force};
+    SpatialForce impulse{link.impulse.moment - needed.moment, link.impulse.force - needed.force};
     for (int k = 0; k < link.frees; ++k) {
         Free& free = link.free[k];
-        free.effort = along(free.direction, free.turns, push);
-        push.moment -= free.pivot * free.effort * free.inertia.moment;
-        push.force -= free.pivot * free.effort * free.inertia.force;
+        free.effort = along(free.direction, free.turns, impulse);
+        impulse.moment -= free.pivot * free.effort * free.inertia.moment;
+        impulse.force -= free.pivot * free.effort * free.inertia.force;
     }
-    if (parent && link.frees < 6) parent->push += tumble::shifted(push, link.lever);
+    if (parent && link.frees < 6) parent->impulse += tumble::shifted(impulse, link.lever);
 }
 
 void Projection::spread(Link& link, const Link* parent) {

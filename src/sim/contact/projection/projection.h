@@ -67,7 +67,7 @@ private:
         Vec3 reference;          // m, world
         Vec3 arm, lever;         // m, to it from the center of mass, and from the reference of the parent
         SpatialInertia inertia;  // of the subtree
-        SpatialForce push;       // from the subtrees behind
+        SpatialForce impulse;    // from the subtrees behind
         SpatialMotion asked, change;
         Free free[6];
         int frees = 0;

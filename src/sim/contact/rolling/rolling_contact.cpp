@@ -1,7 +1,7 @@
 #include "sim/contact/rolling/rolling_contact.h"
 
 #include "sim/contact/model/contact_constraint.h"
-#include "sim/contact/model/turning_resistance.h"
+#include "sim/contact/model/rotational_friction.h"
 #include "sim/geometry/contact_tolerance.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ constexpr double lifted_share = 0.2;
 
 // The plane on which the manifold's points lie. Of a face only if the body cannot reach its border within the span.
 std::optional<RollingPlane> plane_of(const Manifold& m, const Body& body, const Body& other, double span) {
-    if (other.moves() || resists_turning(other)) return {};
+    if (other.moves() || has_rotational_friction(other)) return {};
     const auto plane = [&](const Vec3& normal, double offset) {
         const Vec3 world = other.rotation * normal;
         return RollingPlane{world, offset + world.dot(other.position), pair_friction(body, other)};
@@ -47,7 +47,7 @@ Impulse momenta(const Vec3& position, const Vec3& momentum, const Vec3& angular_
 
 bool may_roll(const Body& body) {
     return std::holds_alternative<std::shared_ptr<const CurvedBody>>(body.collider) && !body.jointed &&
-           !resists_turning(body);
+           !has_rotational_friction(body);
 }
 
 std::optional<RolledContact> roll_alone(std::uint32_t i, const std::vector<Body>& bodies,

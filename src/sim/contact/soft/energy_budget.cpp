@@ -29,11 +29,11 @@ constexpr double soft_energy_turn = 0.1;
 /// ContactEnergy.NeedlesFallOverAndLie and Needle.ComesToLieOnTheFloor.
 constexpr double soft_energy_slender = 1e3;
 
-// The impulse P = F h of the forces along the displacement h (v + push): work P . (v + push); likewise for the
-// rotation.
+// The impulse P = F h of the forces along the displacement h (v + correction): work P . (v + correction); likewise for
+// the rotation.
 double work_on(const ForceAccount& forces, const Body& solved) {
-    return forces.impulse.dot(solved.velocity + solved.push_velocity) +
-           forces.turn.dot(solved.angular_velocity + solved.push_angular_velocity);
+    return forces.impulse.dot(solved.velocity + solved.correction_velocity) +
+           forces.turn.dot(solved.angular_velocity + solved.correction_angular_velocity);
 }
 
 }  // namespace
@@ -84,16 +84,16 @@ double EnergyBudget::affordable_displacement() const { return start + work < 0.0
 void take_back(const ForceAccount& forces, double share, double displacement, Body& body) {
     const double taken = share * forces.gain;
     if (taken == 0.0 && displacement == 1.0) return;
-    const Vec3 velocity = displacement * (body.velocity + body.push_velocity);
-    const Vec3 angular_velocity = displacement * (body.angular_velocity + body.push_angular_velocity);
+    const Vec3 velocity = displacement * (body.velocity + body.correction_velocity);
+    const Vec3 angular_velocity = displacement * (body.angular_velocity + body.correction_angular_velocity);
     if (taken > 0.0) {
         const double scale = std::sqrt(1.0 - taken / body.kinetic_energy());
         body.momentum *= scale;
         body.angular_momentum *= scale;
         body.derive_velocities();
     }
-    body.push_velocity = velocity - body.velocity;
-    body.push_angular_velocity = angular_velocity - body.angular_velocity;
+    body.correction_velocity = velocity - body.velocity;
+    body.correction_angular_velocity = angular_velocity - body.angular_velocity;
 }
 
 bool may_spin_up(std::span<const std::uint32_t> island, const std::vector<Body>& bodies,

@@ -3,7 +3,7 @@
 // step, and a needle that spins by radians per substep is thrown up.
 // The budget is the lesser of two energies: the greater of those before and after the step's forces, and the initial
 // energy plus the forces' work along the coming displacement, so that lifted bodies pay for their lift. Where bodies
-// overlap deeply, lifting is free and only the first applies: pushing such heaps apart would slow them otherwise.
+// overlap deeply, lifting is free and only the first applies: correcting such heaps apart would slow them otherwise.
 // The excess is taken in proportion from the bodies that gained energy, so that a body sliding past a settling heap
 // keeps its own.
 #pragma once

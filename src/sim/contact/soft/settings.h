@@ -20,7 +20,7 @@ inline constexpr double soft_frequency_of_fixed = 0.2;
 /// 8000"). Test: SoftKernel.AnOverlapIsPushedOutSoftlyAndTheSpeedRemoved.
 inline constexpr double soft_twice_as_stiff = 1e-2;
 
-/// Least share of its compliance that a contact keeps when it is deeper than `push_limit` allows: bodies of
+/// Least share of its compliance that a contact keeps when it is deeper than `correction_limit` allows: bodies of
 /// millimeters still carry many times their weight, and a pressed body still gives way. Related test:
 /// ContactHardInput.AMillimeterAndAHundredMeters.
 inline constexpr double soft_least_give = 0.25;

@@ -24,10 +24,10 @@ constexpr double soft_damping = 2.0;
 /// on it.
 constexpr std::size_t soft_shared_groups = 24;
 
-/// Share of a joint's gap that is closed in a substep, and share of its impulse that a push gives up. Impulses add up
-/// from substep to substep: without the second, slow waves of a net grow by a quarter of the first in a substep; with
-/// it, a joint under the tension T is left open by about leak / rate T d^2 / m. Trees, whose gaps are closed at the end
-/// of each step, have no leak. Related test: Nets.HangsAsTheDirectSolverDoes.
+/// Share of a joint's gap that is closed in a substep, and share of its impulse that a correction gives up. Impulses
+/// add up from substep to substep: without the second, slow waves of a net grow by a quarter of the first in a substep;
+/// with it, a joint under the tension T is left open by about leak / rate T d^2 / m. Trees, whose gaps are closed at
+/// the end of each step, have no leak. Related test: Nets.HangsAsTheDirectSolverDoes.
 constexpr double soft_joint_rate = 0.05;
 constexpr double soft_joint_leak = 0.01;
 
@@ -253,7 +253,7 @@ void SoftBatch::pack_lane(const ContactProblem& problem, std::uint32_t manifold,
     lane[&Rows::size] = float(size);
     lane[&Rows::spread] = m.spread;
     if (!resistance_.empty())
-        if (const TurningResistance levers = turning_resistance(m, body_a, body_b); !levers.none())
+        if (const RotationalFriction levers = rotational_friction(m, body_a, body_b); !levers.none())
             resistance_.put(lanes * g + l, levers, count,
                             share * Vec3(swapped ? -m.rolling[0] : m.rolling[0], m.rolling[1], 0.0));
     // A manifold with points that bounce keeps friction of its own.
@@ -381,10 +381,10 @@ void SoftBatch::run(const ContactProblem& problem, IslandBatch& batch, const std
         each_joint_color([&](std::size_t f, std::size_t l) { kernel_.warm_start_joints(holds, f, l, bodies); });
         rub(false);
         each_color([&](std::size_t f, std::size_t l) {
-            kernel_.push(groups, f, l, bodies, substep_);
+            kernel_.correct(groups, f, l, bodies, substep_);
             each_resistance(f, l, [&](std::size_t g) { resistance_.resist(groups, g, width, bodies, false); });
         });
-        each_joint_color([&](std::size_t f, std::size_t l) { kernel_.push_joints(holds, f, l, bodies, substep_); });
+        each_joint_color([&](std::size_t f, std::size_t l) { kernel_.correct_joints(holds, f, l, bodies, substep_); });
         kernel_.move(1 + first_body, 1 + end_body, bodies, float(d_));
         if (!layout_->movers().empty()) {
             meet();
@@ -475,8 +475,9 @@ void SoftBatch::hand_back(const ContactProblem& problem, std::size_t first, std:
         Body& body = problem.bodies[layout_->blocks().order()[k]];
         body.derive_velocities();
         const float* moved = state(k + 1) + 8;
-        body.push_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
-        body.push_angular_velocity = rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity - body.gyration;
+        body.correction_velocity = rate * Vec3(moved[0], moved[1], moved[2]) - body.velocity;
+        body.correction_angular_velocity =
+            rate * Vec3(moved[3], moved[4], moved[5]) - body.angular_velocity - body.gyration;
         energies_.end(k, body);
     }
 }

@@ -2,7 +2,7 @@
 
 using Hold = JointRows<Lanes>;
 
-#include "sim/contact/soft/soft_turn_lanes.h"
+#include "sim/contact/soft/soft_angular_lanes.h"
 
 struct JointGroup {
     Hold& rows;
@@ -18,7 +18,7 @@ struct JointGroup {
           moved_a(groups.moved[2 * index]),
           moved_b(groups.moved[2 * index + 1]),
           kind(groups.kinds[index]),
-          turn(turns(kind) ? reinterpret_cast<Turn*>(groups.turns) + groups.turn_places[index] : nullptr) {}
+          turn(turns(kind) ? reinterpret_cast<Turn*>(groups.turns) + groups.angular_indices[index] : nullptr) {}
     bool driven() const { return kind == JointKind::driven; }
 };
 
@@ -103,7 +103,7 @@ void prepare_joints(const JointGroups& groups, std::size_t first, std::size_t la
             m.mass = mass_at(m, both);
         else
             m.mass.xx = mass_along(m, m.direction, both);
-        if (g.turn) prepare_turns(m, *g.turn);
+        if (g.turn) prepare_angular(m, *g.turn);
     }
 }
 
@@ -141,12 +141,12 @@ inline Vector solve_point(Hold& m, const Vector& speed, Lanes rate, float leak) 
 
 // The new impulse of a distance joint: positive pushes apart at `shortest`, negative pulls together at `longest`. A
 // distance that is not at its bound may reach it in a substep.
-template <bool pushing>
+template <bool correcting>
 inline Vector solve_distance(Hold& m, const Vector& speed, Lanes rate, float per_second, float leak) {
     const Lanes length = dot(m.direction, m.gap), along = dot(m.direction, speed);
     const Lanes room_up = m.longest - length, room_down = m.shortest - length;
     const auto rod = m.longest == m.shortest;
-    const Lanes closing = pushing ? rate : Lanes{};
+    const Lanes closing = correcting ? rate : Lanes{};
     const Lanes up = room_up > 0.0f && !rod ? per_second * room_up : closing * room_up;
     const Lanes down = room_down < 0.0f && !rod ? per_second * room_down : closing * room_down;
     const Lanes mass = m.mass.xx, was = m.impulse.x, old = (1.0f - leak) * was;
@@ -156,14 +156,14 @@ inline Vector solve_distance(Hold& m, const Vector& speed, Lanes rate, float per
     return (next - was) * m.direction;
 }
 
-template <bool pushing>
+template <bool correcting>
 inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size_t last, const Bodies& bodies,
                          const Substep& substep) {
     for (std::size_t k = first; k < last; ++k) {
         const JointGroup g(groups, k);
         Hold& m = g.rows;
         Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
-        if constexpr (!pushing) {
+        if constexpr (!correcting) {
             add_up(m, impulse_of(m, g.kind));
             if (g.turn) add_up_turns(*g.turn, g.driven());
             find_ends(g, bodies);
@@ -171,30 +171,30 @@ inline void sweep_joints(const JointGroups& groups, std::size_t first, std::size
             if (g.kind == JointKind::distance) m.mass.xx = mass_along(m, m.direction, both);
             if (g.turn) {  // axes and limbs turn by large angles in a step
                 m.mass = mass_at(m, both);
-                prepare_turns(m, *g.turn);
+                prepare_angular(m, *g.turn);
             }
         }
-        const Lanes rate = pushing ? all(substep.joint_rate) : Lanes{};
-        const float leak = pushing ? substep.joint_leak : 0.0f;
+        const Lanes rate = correcting ? all(substep.joint_rate) : Lanes{};
+        const float leak = correcting ? substep.joint_leak : 0.0f;
         if (g.turn) {
             const Vector force = change_of_point(m, parting(m, a, b), rate, leak);
-            const Vector torque = solve_turns<pushing>(m, *g.turn, g.driven(), b.angular - a.angular, force, rate,
-                                                       substep.per_second, leak);
+            const Vector torque = solve_turns<correcting>(m, *g.turn, g.driven(), b.angular - a.angular, force, rate,
+                                                          substep.per_second, leak);
             apply_torque(m, torque, a, b);
         }
         const Vector speed = parting(m, a, b);
         const Vector change = g.kind != JointKind::distance
                                   ? solve_point(m, speed, rate, leak)
-                                  : solve_distance<pushing>(m, speed, rate, substep.per_second, leak);
-        if constexpr (!pushing) add_up(m, change);
+                                  : solve_distance<correcting>(m, speed, rate, substep.per_second, leak);
+        if constexpr (!correcting) add_up(m, change);
         apply(m, change, a, b);
         save(bodies, g.a, g.moved_a, a);
         save(bodies, g.b, g.moved_b, b);
     }
 }
 
-void push_joints(const JointGroups& groups, std::size_t first, std::size_t last, const Bodies& bodies,
-                 const Substep& substep) {
+void correct_joints(const JointGroups& groups, std::size_t first, std::size_t last, const Bodies& bodies,
+                    const Substep& substep) {
     sweep_joints<true>(groups, first, last, bodies, substep);
 }
 void relax_joints(const JointGroups& groups, std::size_t first, std::size_t last, const Bodies& bodies,

@@ -5,7 +5,7 @@
 // poses will: R(t) with the rotation vector t since the start of the step.
 //
 // A turning joint is a point joint that also gives a torque: it locks or limits turns about up to three axes, which
-// turn with A (TurnRows). A driven joint is one with dampers or friction too.
+// turn with A (AngularRows). A driven joint is one with dampers or friction too.
 #pragma once
 
 #include "sim/contact/soft/soft_kernel.h"
@@ -40,7 +40,7 @@ inline constexpr std::size_t joint_rows = sizeof(JointRows<float>) / sizeof(floa
 /// The coordinates are n . r, with r the rotation vector of B relative to A since the start of the step and n an axis,
 /// both in a frame that turns with A; and small terms of second order, see `bend` and `circle`.
 template <class Real>
-struct TurnRows {
+struct AngularRows {
     Vector3<Real> axis_x, axis_y, axis_z;  // unit, world, at the start of the step
     Vector3<Real> now_x, now_y, now_z;     // the same at present
     Vector3<Real> least, most;             // rad, limits of the coordinates; locked ones have two equal limits
@@ -68,7 +68,7 @@ struct TurnRows {
     Vector3<Real> damping_sum, friction_sum;  // N m s, world
 };
 
-inline constexpr std::size_t turn_rows = sizeof(TurnRows<float>) / sizeof(float);
+inline constexpr std::size_t angular_rows = sizeof(AngularRows<float>) / sizeof(float);
 
 /// A group has joints of one kind.
 enum class JointKind : std::uint8_t { point, distance, turning, driven };
@@ -81,11 +81,11 @@ struct JointGroups {
     const std::uint32_t* bodies = nullptr;
     const std::uint16_t* moved = nullptr;
     const JointKind* kinds = nullptr;
-    float* turns = nullptr;                      // of the groups that turn
-    const std::uint32_t* turn_places = nullptr;  // by group: its index among groups that turn
+    float* turns = nullptr;                          // of the groups that turn
+    const std::uint32_t* angular_indices = nullptr;  // by group: its index among groups that turn
 };
 
 using JointLane = LaneOf<JointRows<float>>;
-using TurnLane = LaneOf<TurnRows<float>>;
+using AngularLane = LaneOf<AngularRows<float>>;
 
 }  // namespace tumble::soft

@@ -10,7 +10,7 @@
 namespace tumble {
 namespace {
 
-using Turns = soft::TurnRows<float>;
+using Turns = soft::AngularRows<float>;
 
 constexpr double no_limit = 1e6;      // rad: far from any turn, and finite in products
 constexpr double least_scale = 1e-6;  // of a coordinate that has no direction, as of a cross whose arms are in line
@@ -35,7 +35,7 @@ Vec3 vector_of(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
 
 // Impulses of a law about the axes. The impulses of a ball's dampers and friction are along the axes of A's frame; the
 // impulses of others are along the coordinates.
-Vec3 drive_about(const Joint& joint, const JointGeometry& g, const TurnAxes& axes, Joint::Law law) {
+Vec3 drive_about(const Joint& joint, const JointGeometry& g, const AngularAxes& axes, Joint::Law law) {
     Vec3 impulse;
     for (std::size_t k = 0; k < 3; ++k) impulse[Eigen::Index(k)] = joint.impulse[3 + k][law];
     if (!joint.turns_alike()) return impulse;
@@ -51,8 +51,8 @@ soft::JointKind kind_in_sweeps(const Joint& joint) {
     return turns_freely(joint) ? soft::JointKind::point : soft::JointKind::turning;
 }
 
-TurnAxes turn_axes(const Joint& joint, const JointGeometry& g) {
-    TurnAxes t;
+AngularAxes angular_axes(const Joint& joint, const JointGeometry& g) {
+    AngularAxes t;
     int free = 0, locked = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const JointCoordinate& c = g.coordinates[3 + k];
@@ -104,8 +104,8 @@ TurnAxes turn_axes(const Joint& joint, const JointGeometry& g) {
     return t;
 }
 
-void pack_turns(const Joint& joint, const JointGeometry& g, const TurnAxes& axes, const TurnUnits& units,
-                const soft::TurnLane& lane, bool driven) {
+void pack_angular(const Joint& joint, const JointGeometry& g, const AngularAxes& axes, const AngularUnits& units,
+                  const soft::AngularLane& lane, bool driven) {
     Vec3 least, most, locked, impulse;
     for (std::size_t k = 0; k < 3; ++k) {
         const auto i = Eigen::Index(k);
@@ -155,8 +155,8 @@ void pack_turns(const Joint& joint, const JointGeometry& g, const TurnAxes& axes
     lane.set(&Turns::friction, Vec3(units.share * drive_about(joint, g, axes, Joint::friction)));
 }
 
-void unpack_turns(const TurnAxes& axes, const Mat3& frame, const TurnUnits& units, const soft::TurnLane& lane,
-                  Joint& joint, bool driven) {
+void unpack_angular(const AngularAxes& axes, const Mat3& frame, const AngularUnits& units,
+                    const soft::AngularLane& lane, Joint& joint, bool driven) {
     const Vec3 held = vector_of(lane.vector(&Turns::impulse)) / units.share;
     for (std::size_t k = 0; k < 3; ++k) {
         const double impulse = held[Eigen::Index(k)] / axes.scale[k];
@@ -181,7 +181,7 @@ void unpack_turns(const TurnAxes& axes, const Mat3& frame, const TurnUnits& unit
 namespace {
 
 using Hold = soft::JointRows<float>;
-using Turned = soft::TurnRows<float>;
+using Turned = soft::AngularRows<float>;
 
 Vec3 wide(const soft::Vector3<float>& v) { return {v.x, v.y, v.z}; }
 
@@ -236,8 +236,8 @@ void SoftJoints::open(const SoftLayout& layout, std::span<const std::uint32_t> j
     const std::size_t groups = layout_->groups();
     places_.resize(joints.size());
     rows_.resize(groups * soft::joint_rows * units.lanes);
-    turn_axes_.resize(joints.size());
-    turn_rows_.resize(layout_->turning_groups() * soft::turn_rows * units.lanes);
+    angular_axes_.resize(joints.size());
+    angular_rows_.resize(layout_->turning_groups() * soft::angular_rows * units.lanes);
     lane_bodies_.resize(2 * groups * units.lanes);
     lane_moved_.resize(2 * groups);
 }
@@ -267,8 +267,8 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
     std::fill_n(rows_.data() + group * soft::joint_rows * lanes, soft::joint_rows * lanes, 0.0f);
     const soft::JointKind kind = layout_->kind(group);
     if (soft::turns(kind)) {
-        float* turns = turn_rows_.data() + layout_->turn_places()[group] * soft::turn_rows * lanes;
-        std::fill_n(turns, soft::turn_rows * lanes, 0.0f);
+        float* turns = angular_rows_.data() + layout_->angular_indices()[group] * soft::angular_rows * lanes;
+        std::fill_n(turns, soft::angular_rows * lanes, 0.0f);
     }
     std::fill_n(lane_bodies_.begin() + std::ptrdiff_t(2 * lanes * group), 2 * lanes, 0u);
     lane_moved_[2 * group] = lane_moved_[2 * group + 1] = 0;
@@ -302,8 +302,9 @@ void SoftJoints::pack(const ContactProblem& problem, std::size_t group) {
             const JointGeometry g = measure(j, side_of(problem.bodies, j.a), side_of(problem.bodies, j.b));
             for (std::size_t c = 3; c < Joint::coordinates; ++c)
                 if (!j.locked(c)) j.value[c] = g.coordinates[c].value;
-            turn_axes_[place] = turn_axes(j, g);
-            pack_turns(j, g, turn_axes_[place], turn_units(), turn_lane(group, l), kind == soft::JointKind::driven);
+            angular_axes_[place] = angular_axes(j, g);
+            pack_angular(j, g, angular_axes_[place], angular_units(), angular_lane(group, l),
+                         kind == soft::JointKind::driven);
             return;
         }
         const JointAxis& axis = j.axis(0);
@@ -320,13 +321,13 @@ void SoftJoints::unpack_torque(std::size_t group, std::size_t l, std::uint32_t p
     const soft::JointKind kind = layout_->kind(group);
     if (!soft::turns(kind)) return;
     Place& kept = places_[place];
-    const soft::TurnLane lane = turn_lane(group, l);
+    const soft::AngularLane lane = angular_lane(group, l);
     kept.torque = units_.mass * wide(lane.vector(&Turned::torque_sum));
     if (kind == soft::JointKind::driven) {
         kept.damping = units_.mass * wide(lane.vector(&Turned::damping_sum));
         kept.friction = units_.mass * wide(lane.vector(&Turned::friction_sum));
     }
-    unpack_turns(turn_axes_[place], kept.axes, turn_units(), lane, joint, kind == soft::JointKind::driven);
+    unpack_angular(angular_axes_[place], kept.axes, angular_units(), lane, joint, kind == soft::JointKind::driven);
 }
 
 void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::vector<std::uint8_t>& reached,
@@ -358,9 +359,9 @@ void SoftJoints::unpack(const ContactProblem& problem, std::size_t group, std::v
         j.torque = kept.torque / h;
         JointAccount::Span& step = j.account.step;
         step = {};
-        step.load.force = force;
-        step.load.torque = kept.torque;
-        step.load.moment = kept.center_a.cross(force) + moment + extra + kept.torque;
+        step.reaction.force = force;
+        step.reaction.torque = kept.torque;
+        step.reaction.moment = kept.center_a.cross(force) + moment + extra + kept.torque;
         carried[joints_[place]] = extra;
         if (ends.moved_a) {
             reached[ends.slot_a] = 1;
@@ -383,7 +384,7 @@ void SoftJoints::account(const ContactProblem& problem, std::size_t group) const
         const SoftLayout::JointEnds& ends = bodies_->joint_ends(place);
         JointAccount::Span& step = j.account.step;
         const Place& kept = places_[place];
-        const Vec3& force = step.load.force;
+        const Vec3& force = step.reaction.force;
         const BodyVelocity a = mean_at(problem, j.a, j.point), b = mean_at(problem, j.b, j.point);
         step.work_a = -force.dot(a.velocity) - kept.torque.dot(a.angular_velocity);
         step.work_b = force.dot(b.velocity) + kept.torque.dot(b.angular_velocity);

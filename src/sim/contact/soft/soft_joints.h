@@ -19,37 +19,37 @@
 
 namespace tumble {
 
-// The turns of a joint in the soft kernel (TurnRows in soft_joint_rows.h): its axes, limits, dampers and friction, from
-// the joint to a lane and back.
+// The turns of a joint in the soft kernel (AngularRows in soft_joint_rows.h): its axes, limits, dampers and friction,
+// from the joint to a lane and back.
 
 /// Kind of a joint that sweeps know (known_to_sweeps).
 soft::JointKind kind_in_sweeps(const Joint& joint);
 
 /// The axes of a joint's turns, one for each of the coordinates 3 to 5, of the poses at the start of a step.
-struct TurnAxes {
+struct AngularAxes {
     std::array<Vec3, 3> axis;           // unit, world
     std::array<double, 3> scale;        // rate of the coordinate over that of the turn about the axis
     std::array<double, 3> least, most;  // rad, about the axis
     std::array<bool, 3> locked{};
-    Vec3 bend = Vec3::Zero();  // as in soft::TurnRows
+    Vec3 bend = Vec3::Zero();  // as in soft::AngularRows
     double circle = 0.0, twist = 0.0;
     bool round = false;  // of a round cone
     double limit = 0.0;  // rad, its half angle
     Vec3 twist_a, twist_b;
 };
-TurnAxes turn_axes(const Joint& joint, const JointGeometry& g);
+AngularAxes angular_axes(const Joint& joint, const JointGeometry& g);
 
-struct TurnUnits {
+struct AngularUnits {
     double share;    // of a step's impulse in a substep, over the unit of mass
     double substep;  // s
     double mass;     // kg, of the kernel's numbers
 };
-void pack_turns(const Joint& joint, const JointGeometry& g, const TurnAxes& axes, const TurnUnits& units,
-                const soft::TurnLane& lane, bool driven);
+void pack_angular(const Joint& joint, const JointGeometry& g, const AngularAxes& axes, const AngularUnits& units,
+                  const soft::AngularLane& lane, bool driven);
 
 /// The impulses about the axes, for the next step: into Joint::impulse.
-void unpack_turns(const TurnAxes& axes, const Mat3& frame, const TurnUnits& units, const soft::TurnLane& lane,
-                  Joint& joint, bool driven);
+void unpack_angular(const AngularAxes& axes, const Mat3& frame, const AngularUnits& units,
+                    const soft::AngularLane& lane, Joint& joint, bool driven);
 
 struct Joint;
 
@@ -66,8 +66,8 @@ public:
     void open(const SoftLayout& layout, std::span<const std::uint32_t> joints, const Units& units, bool again);
     std::size_t size() const { return joints_.size(); }
     soft::JointGroups groups() {
-        return {rows_.data(),     lane_bodies_.data(), lane_moved_.data(),
-                layout_->kinds(), turn_rows_.data(),   layout_->turn_places()};
+        return {rows_.data(),     lane_bodies_.data(),  lane_moved_.data(),
+                layout_->kinds(), angular_rows_.data(), layout_->angular_indices()};
     }
 
     /// Each group by one thread.
@@ -82,10 +82,11 @@ private:
     soft::JointLane lane(std::size_t group, std::size_t l) {
         return {rows_.data() + (group * soft::joint_rows * units_.lanes + l), units_.lanes};
     }
-    soft::TurnLane turn_lane(std::size_t group, std::size_t l) {
-        return {turn_rows_.data() + (layout_->turn_places()[group] * soft::turn_rows * units_.lanes + l), units_.lanes};
+    soft::AngularLane angular_lane(std::size_t group, std::size_t l) {
+        return {angular_rows_.data() + (layout_->angular_indices()[group] * soft::angular_rows * units_.lanes + l),
+                units_.lanes};
     }
-    TurnUnits turn_units() const { return {1.0 / (units_.substeps * units_.mass), units_.substep, units_.mass}; }
+    AngularUnits angular_units() const { return {1.0 / (units_.substeps * units_.mass), units_.substep, units_.mass}; }
     void unpack_torque(std::size_t group, std::size_t l, std::uint32_t place, Joint& joint);
     void fetch_next(const ContactProblem& problem, std::size_t group) const;
     template <class Visit>
@@ -104,9 +105,9 @@ private:
     const SoftLayout* bodies_ = nullptr;
     const JointLayout* layout_ = nullptr;
     std::span<const std::uint32_t> joints_;
-    std::vector<Place> places_;        // at the start of the step
-    std::vector<TurnAxes> turn_axes_;  // the same, of joints that turn
-    AlignedFloats rows_, turn_rows_;
+    std::vector<Place> places_;              // at the start of the step
+    std::vector<AngularAxes> angular_axes_;  // the same, of joints that turn
+    AlignedFloats rows_, angular_rows_;
     std::vector<std::uint32_t> lane_bodies_;
     std::vector<std::uint16_t> lane_moved_;
 };

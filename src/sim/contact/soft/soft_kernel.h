@@ -155,7 +155,7 @@ struct Substep {
     float per_second;
     // for pairs that impulses move, of like or unlike masses; for pairs with a body that impulses do not move
     Softness alike, unlike, fixed;
-    // Joints: share of the gap that is closed, 1/s, and share of the last impulse that a push gives up.
+    // Joints: share of the gap that is closed, 1/s, and share of the last impulse that a correction gives up.
     float joint_rate = 0.0f, joint_leak = 0.0f;
 };
 
@@ -171,20 +171,20 @@ struct Kernel {
     /// contact in the last substep. This equals a start from its impulses, at a cost per body instead of per contact.
     void (*accelerate)(std::size_t first, std::size_t last, const Bodies&, bool again);
     void (*move)(std::size_t first, std::size_t last, const Bodies&, float substep);
-    /// push: one sweep that removes overlaps softly. relax: after the bodies have moved, a sweep that removes the push
-    /// from the velocities and sums the impulses.
-    void (*push)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
+    /// correct: one sweep that removes overlaps softly. relax: after the bodies have moved, a sweep that removes the
+    /// correction from the velocities and sums the impulses.
+    void (*correct)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     void (*relax)(const Groups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     /// The friction of shared areas alone (soft_areas.h), whose point has the loads of all manifolds. `counts`: adds it
     /// to the sums.
     void (*rub)(const Groups&, std::size_t first, std::size_t last, const Bodies&, bool counts);
     /// Adds the step's impulses into `force` and `moment`.
     void (*sum)(const Groups&, std::size_t first, std::size_t last);
-    /// The same for joints; they are pushed and relaxed after the contacts of a sweep, and warm started in each
+    /// The same for joints; they are corrected and relaxed after the contacts of a sweep, and warm started in each
     /// substep.
     void (*prepare_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&);
     void (*warm_start_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&);
-    void (*push_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
+    void (*correct_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
     void (*relax_joints)(const JointGroups&, std::size_t first, std::size_t last, const Bodies&, const Substep&);
 };
 

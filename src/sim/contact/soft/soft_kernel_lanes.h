@@ -8,7 +8,7 @@ constexpr float spin_share = float(tuning::spin_share), disc = float(spin_fricti
                 spinning_square = float(spin_friction::spinning_square),
                 spinning_limit = float(spin_friction::spinning_limit);
 constexpr float unlike_masses = float(tuning::soft_unlike_masses), twice_as_stiff = float(tuning::soft_twice_as_stiff);
-constexpr float slop = float(tuning::soft_slop), push_limit = float(tuning::push_limit),
+constexpr float slop = float(tuning::soft_slop), correction_limit = float(tuning::correction_limit),
                 least_give = float(tuning::soft_least_give);
 
 #include "sim/contact/soft/soft_lanes.h"
@@ -195,7 +195,7 @@ void move(std::size_t first, std::size_t last, const Bodies& bodies, float subst
 }
 
 // Present distances of the points. Bodies move between the two sweeps of a substep: the gaps of relax hold for the next
-// push.
+// correction.
 template <int points>
 inline void find_gaps(const Group& g, const Bodies& bodies) {
     Rows& m = g.rows;
@@ -295,7 +295,7 @@ inline void solve_friction(Rows& m, const Speeds<points>& speeds, Changes<points
 }
 
 // Visits one point after the other.
-template <bool pushing, int points>
+template <bool correcting, int points>
 inline void solve_normals(Rows& m, const Motion& a, const Motion& b, const Substep& substep, Speeds<points>& speeds,
                           Changes<points>& changes) {
     const auto held = a.inverse_mass == 0.0f || b.inverse_mass == 0.0f;
@@ -309,11 +309,11 @@ inline void solve_normals(Rows& m, const Motion& a, const Motion& b, const Subst
         PointRows<Lanes>& p = m.point[i];
         const Lanes closing = p.gap * substep.per_second, old = p.impulse;
         Lanes next;
-        if constexpr (pushing) {
+        if constexpr (correcting) {
             const Lanes rate = choose(&Softness::bias_rate);
             const Lanes overlap = smaller(p.gap + slop * m.size, Lanes{});
             const Lanes deep = unlike ? Lanes{} : smaller(overlap / (-twice_as_stiff * m.size), all(1.0f));
-            const Lanes spring = rate * overlap * (1.0f + deep), most = -push_limit * m.size;
+            const Lanes spring = rate * overlap * (1.0f + deep), most = -correction_limit * m.size;
             const auto apart = p.gap > 0.0f;
             const Lanes bias = apart ? closing : larger(spring, most);
             const Lanes mass = apart ? all(1.0f) : choose(&Softness::mass_scale);
@@ -344,22 +344,22 @@ inline bool idle(const Rows& m) {
     return !any(sum);
 }
 
-template <bool pushing, int points>
+template <bool correcting, int points>
 inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) {
-    if constexpr (!pushing) find_gaps<points>(g, bodies);
+    if constexpr (!correcting) find_gaps<points>(g, bodies);
     Rows& m = g.rows;
     Motion a = load(bodies, g.a, 0), b = load(bodies, g.b, 0);
     Speeds<points> speeds = speeds_of<points>(m, a, b);
     Changes<points> changes;
     const bool was_idle = idle<points>(m);
-    if constexpr (pushing) {
+    if constexpr (correcting) {
         solve_friction(m, speeds, changes);
 #pragma GCC unroll 4
         for (int i = 0; i < points; ++i) speeds.parting[i] += dot(m.point[i].to_friction, changes.friction);
     }
-    solve_normals<pushing>(m, a, b, substep, speeds, changes);
+    solve_normals<correcting>(m, a, b, substep, speeds, changes);
     if (was_idle && idle<points>(m)) return;
-    if constexpr (!pushing) {
+    if constexpr (!correcting) {
         // Friction last, so that it stays within the limit of the new normal impulses.
 #pragma GCC unroll 4
         for (int i = 0; i < points; ++i) speeds.friction = speeds.friction + changes.normal[i] * m.point[i].to_friction;
@@ -374,23 +374,23 @@ inline void solve(const Group& g, const Bodies& bodies, const Substep& substep) 
     save(bodies, g.b, g.moved_b, b);
 }
 
-template <bool pushing>
+template <bool correcting>
 inline void sweep(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies,
                   const Substep& substep) {
     for (std::size_t k = first; k < last; ++k) {
         const Group g(groups, k);
         switch (g.points) {  // each count in registers of its own
             case 1:
-                solve<pushing, 1>(g, bodies, substep);
+                solve<correcting, 1>(g, bodies, substep);
                 break;
             case 2:
-                solve<pushing, 2>(g, bodies, substep);
+                solve<correcting, 2>(g, bodies, substep);
                 break;
             case 3:
-                solve<pushing, 3>(g, bodies, substep);
+                solve<correcting, 3>(g, bodies, substep);
                 break;
             case 4:
-                solve<pushing, 4>(g, bodies, substep);
+                solve<correcting, 4>(g, bodies, substep);
                 break;
             default:
                 break;  // all points skipped because they will bounce
@@ -398,7 +398,7 @@ inline void sweep(const Groups& groups, std::size_t first, std::size_t last, con
     }
 }
 
-void push(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {
+void correct(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {
     sweep<true>(groups, first, last, bodies, substep);
 }
 void relax(const Groups& groups, std::size_t first, std::size_t last, const Bodies& bodies, const Substep& substep) {

@@ -15,7 +15,7 @@ namespace {
 #include "sim/contact/soft/soft_kernel_lanes.h"
 }  // namespace
 
-const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start,     accelerate,        move,        push,        relax,
-                         rub,          sum,     prepare_joints, warm_start_joints, push_joints, relax_joints};
+const Kernel sse2_kernel{TUMBLE_LANES, prepare, warm_start,     accelerate,        move,           correct,     relax,
+                         rub,          sum,     prepare_joints, warm_start_joints, correct_joints, relax_joints};
 
 }  // namespace tumble::soft

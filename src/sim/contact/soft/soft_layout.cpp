@@ -64,10 +64,10 @@ void JointLayout::color(std::span<const Place> places, std::size_t slots, std::s
     first_color_.push_back(first_group_.size());
     first_group_.push_back(groups);
 
-    turn_places_.resize(groups);
+    angular_indices_.resize(groups);
     turning_ = 0;
     for (std::size_t g = 0; g < groups; ++g) {
-        turn_places_[g] = std::uint32_t(turning_);
+        angular_indices_[g] = std::uint32_t(turning_);
         turning_ += soft::turns(kinds_[g]);
     }
 

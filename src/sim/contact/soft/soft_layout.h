@@ -41,7 +41,7 @@ public:
     soft::JointKind kind(std::size_t group) const { return kinds_[group]; }
     const soft::JointKind* kinds() const { return kinds_.data(); }
     /// By group: its index among groups that turn; meaningless for other groups.
-    const std::uint32_t* turn_places() const { return turn_places_.data(); }
+    const std::uint32_t* angular_indices() const { return angular_indices_.data(); }
     std::size_t turning_groups() const { return turning_; }
     /// By lane of all groups: index among the entries; none in unused lanes.
     std::uint32_t joint(std::size_t lane) const { return lane_joints_[lane]; }
@@ -55,7 +55,7 @@ private:
     std::vector<std::uint32_t> at_;     // by class: number, then the next lane
     std::vector<std::size_t> first_group_{0}, first_color_{0};
     std::vector<soft::JointKind> kinds_;  // by group
-    std::vector<std::uint32_t> turn_places_;
+    std::vector<std::uint32_t> angular_indices_;
     std::size_t turning_ = 0;
     std::vector<std::uint32_t> lane_joints_;
 };

@@ -53,7 +53,7 @@ soft::ManifoldLane lane_of(const soft::Groups& groups, std::size_t group, std::s
 
 }  // namespace
 
-void SoftResistance::put(std::size_t lane, const TurningResistance& levers, std::size_t points, const Vec3& impulse) {
+void SoftResistance::put(std::size_t lane, const RotationalFriction& levers, std::size_t points, const Vec3& impulse) {
     Lane& put = lanes_[lane];
     put.rolling = float(levers.rolling);
     put.spinning = float(levers.spinning);

@@ -1,8 +1,8 @@
-// Rolling and spinning friction (turning_resistance.h) in the sweeps of the soft solver: after each color of manifolds,
-// one lane after the other. Units as in the kernel.
+// Rolling and spinning friction (rotational_friction.h) in the sweeps of the soft solver: after each color of
+// manifolds, one lane after the other. Units as in the kernel.
 #pragma once
 
-#include "sim/contact/model/turning_resistance.h"
+#include "sim/contact/model/rotational_friction.h"
 #include "sim/contact/soft/soft_kernel.h"
 
 #include <cstddef>
@@ -18,7 +18,7 @@ public:
     bool empty() const { return lanes_.empty(); }
 
     /// A lane with a resistance. `impulse`: the last one on B along both tangents and about the normal.
-    void put(std::size_t lane, const TurningResistance& levers, std::size_t points, const Vec3& impulse);
+    void put(std::size_t lane, const RotationalFriction& levers, std::size_t points, const Vec3& impulse);
 
     /// The lanes of a group, after prepare(). `width`: lanes of a group.
     void warm_start(const soft::Groups& groups, std::size_t group, std::size_t width, const soft::Bodies& bodies) const;

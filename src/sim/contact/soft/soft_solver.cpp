@@ -65,7 +65,7 @@ SoftSolver::~SoftSolver() = default;
 void SoftSolver::solve(const ContactProblem& problem, std::span<Batch> batches, bool same, ThreadPool& pool) {
     if (mass_unit_ == 0.0) {
         mass_unit_ = mass_unit(problem.bodies);
-        resists_ = std::any_of(problem.bodies.begin(), problem.bodies.end(), resists_turning);
+        resists_ = std::any_of(problem.bodies.begin(), problem.bodies.end(), has_rotational_friction);
     }
     const auto threads = std::size_t(pool.size());
     const auto lanes = std::size_t(kernel_.lanes);

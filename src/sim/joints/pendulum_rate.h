@@ -9,14 +9,14 @@
 namespace tumble {
 
 /// The axes, world, about which a joint lets its bodies turn against each other. Three: all axes alike.
-struct SwingAxes {
+struct FreeAxes {
     int count = 3;
     std::array<Vec3, 3> axis;
 };
-SwingAxes swing_axes(const Joint& joint, const JointGeometry& g);
+FreeAxes free_axes(const Joint& joint, const JointGeometry& g);
 
 /// Square of the rate of the swing (1/s^2) over the tension (N), of a body with the joint at `arm` (m) from its center
 /// of mass. A rod has the lever l / 2 and I = m l^2 / 12: both of its joints together give 4 T / (m l).
-double swing_compliance(const SwingAxes& axes, const Vec3& arm, const Mat3& inverse_inertia);
+double pendulum_compliance(const FreeAxes& axes, const Vec3& arm, const Mat3& inverse_inertia);
 
 }  // namespace tumble

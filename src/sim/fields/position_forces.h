@@ -13,10 +13,10 @@ struct MassPoint {
     Vec3 position = Vec3::Zero(), velocity = Vec3::Zero();
 };
 
-class PlaceForces {
+class PositionForces {
 public:
     /// `origin`: m, world, of the coordinates.
-    PlaceForces(const std::vector<FieldDescription>& fields, const Vec3& origin);
+    PositionForces(const std::vector<FieldDescription>& fields, const Vec3& origin);
 
     bool empty() const { return fields_.empty(); }
     /// Sum of the forces at a time, N; and the mean over [from, to) for a body that stays where it is.

@@ -1,7 +1,7 @@
-// The code for the turns of joints (TurnRows in soft_joint_rows.h): part of soft_kernel_lanes.h, which says how it is
-// included.
+// The code for the turns of joints (AngularRows in soft_joint_rows.h): part of soft_kernel_lanes.h, which says how it
+// is included.
 
-using Turn = TurnRows<Lanes>;
+using Turn = AngularRows<Lanes>;
 
 constexpr float least_turn_gives = float(tuning::soft_least_turn_gives);
 
@@ -36,7 +36,7 @@ inline Vector from_axes(const Turn& t, const Vector& f) { return f.x * t.now_x +
 inline Vector each(const Vector& a, const Vector& b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
 
 // The axes of round cones, and the sine of the angle beyond. Near the middle of a cone its swing has no direction.
-inline void find_swing(Turn& t, const Spin& a, const Spin& b) {
+inline void find_pendulum_rate(Turn& t, const Spin& a, const Spin& b) {
     const Vector twist_a = turned_by(a, t.twist_a), twist_b = turned_by(b, t.twist_b);
     const Vector across = cross(twist_a, twist_b), both = twist_a + twist_b;
     const Lanes sine = root(dot(across, across)), length = root(dot(both, both));
@@ -62,7 +62,7 @@ inline void find_turns(Turn& t, const Vector& turn_a, const Vector& turn_b) {
     const Vector r = turn_between(a, b);
     const Lanes x = dot(t.axis_x, r), y = dot(t.axis_y, r), z = dot(t.axis_z, r), round = t.circle * z + t.twist * x;
     t.turned = {x + t.bend.x * y * z, y + t.bend.y * z * x + round * round, z + t.bend.z * x * y};
-    if (any(t.round)) find_swing(t, a, b);
+    if (any(t.round)) find_pendulum_rate(t, a, b);
 }
 
 inline Tensor inverse_of(const Tensor& k) {
@@ -78,7 +78,7 @@ inline Tensor inverse_of(const Tensor& k) {
 
 // After find_turns(), with the mass at the anchors. With the compliances C about the axes, A at the anchors and B
 // between them, an impulse f = -A^-1 (v + B j) that keeps the anchors together leaves C - B^T A^-1 B.
-inline void prepare_turns(const Hold& m, Turn& t) {
+inline void prepare_angular(const Hold& m, Turn& t) {
     const auto pull = [&](const Vector& n, Vector& spin) {
         const Vector of_a = m.inertia_a * n, of_b = m.inertia_b * n;
         spin = of_a + of_b;
@@ -108,10 +108,10 @@ inline void prepare_turns(const Hold& m, Turn& t) {
 }
 
 // Impulse about an axis within its limits, as of a distance joint.
-template <bool pushing>
+template <bool correcting>
 inline Lanes limited(Lanes least, Lanes most, Lanes turned, Lanes speed, Lanes mass, Lanes was, Lanes rate,
                      float per_second, float leak) {
-    const Lanes room_up = most - turned, room_down = least - turned, closing = pushing ? rate : Lanes{};
+    const Lanes room_up = most - turned, room_down = least - turned, closing = correcting ? rate : Lanes{};
     const Lanes up = (room_up > 0.0f ? all(per_second) : closing) * room_up;
     const Lanes down = (room_down < 0.0f ? all(per_second) : closing) * room_down;
     const Lanes old = (1.0f - leak) * was;
@@ -157,16 +157,16 @@ inline Vector solve_drives(const Hold& m, Turn& t, Vector& speed) {
 
 // New impulses about the axes; returns the change, world. `spin`: of B relative to A; `force`: the coming change of the
 // impulse at the anchors.
-template <bool pushing>
+template <bool correcting>
 inline Vector solve_turns(const Hold& m, Turn& t, bool driven, const Vector& spin, const Vector& force, Lanes rate,
                           float per_second, float leak) {
     Vector speed = along_axes(t, spin) + Vector{dot(t.pull_x, force), dot(t.pull_y, force), dot(t.pull_z, force)};
     Vector change{};
-    if (!pushing && driven) change = solve_drives(m, t, speed);
+    if (!correcting && driven) change = solve_drives(m, t, speed);
     const auto limit = [&](Lanes Vector::*k, Lanes mass) {
         const Lanes was = t.impulse.*k;
         const Lanes next =
-            limited<pushing>(t.least.*k, t.most.*k, t.turned.*k, speed.*k, mass, was, rate, per_second, leak);
+            limited<correcting>(t.least.*k, t.most.*k, t.turned.*k, speed.*k, mass, was, rate, per_second, leak);
         const Lanes by = (1.0f - t.locked.*k) * (next - was);
         t.impulse.*k += by;
         return by;
@@ -184,7 +184,7 @@ inline Vector solve_turns(const Hold& m, Turn& t, bool driven, const Vector& spi
     const Vector held = all(-1.0f) * (t.mass * off) - all(leak) * each(t.locked, t.impulse);
     t.impulse = t.impulse + held;
     const Vector torque = from_axes(t, change + by + held);
-    if constexpr (!pushing) t.torque_sum = t.torque_sum + torque;
+    if constexpr (!correcting) t.torque_sum = t.torque_sum + torque;
     return torque;
 }
 

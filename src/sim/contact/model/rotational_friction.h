@@ -11,15 +11,17 @@
 
 namespace tumble {
 
-struct TurningResistance {
+struct RotationalFriction {
     double rolling = 0.0, spinning = 0.0;  // m, torque over load: c r and s
 
     bool none() const { return !(rolling > 0.0) && !(spinning > 0.0); }
 };
 
-TurningResistance turning_resistance(const Manifold& manifold, const Body& a, const Body& b);
+RotationalFriction rotational_friction(const Manifold& manifold, const Body& a, const Body& b);
 
 /// True if some contact of the body may have a resistance.
-inline bool resists_turning(const Body& body) { return body.rolling_friction > 0.0 || body.spinning_friction > 0.0; }
+inline bool has_rotational_friction(const Body& body) {
+    return body.rolling_friction > 0.0 || body.spinning_friction > 0.0;
+}
 
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "sim/fields/place_forces.h"
+#include "sim/fields/position_forces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,21 +51,21 @@ bool lasts(const FieldDescription& f) {
 
 }  // namespace
 
-PlaceForces::PlaceForces(const std::vector<FieldDescription>& fields, const Vec3& origin) : fields_(fields) {
+PositionForces::PositionForces(const std::vector<FieldDescription>& fields, const Vec3& origin) : fields_(fields) {
     for (FieldDescription& f : fields_) {
         f.center -= origin;
         f.region.center -= origin;
     }
 }
 
-Vec3 PlaceForces::at(const MassPoint& body, double time) const {
+Vec3 PositionForces::at(const MassPoint& body, double time) const {
     Vec3 sum = Vec3::Zero();
     for (const FieldDescription& f : fields_)
         if (time >= f.start && time < f.end && f.region.contains(body.position)) sum += force_of(f, body);
     return sum;
 }
 
-Vec3 PlaceForces::mean(const MassPoint& body, double from, double to) const {
+Vec3 PositionForces::mean(const MassPoint& body, double from, double to) const {
     Vec3 sum = Vec3::Zero();
     for (const FieldDescription& f : fields_) {
         const double acts = std::min(to, f.end) - std::max(from, f.start);
@@ -75,7 +75,7 @@ Vec3 PlaceForces::mean(const MassPoint& body, double from, double to) const {
     return sum;
 }
 
-double PlaceForces::rate(const MassPoint& body, double time) const {
+double PositionForces::rate(const MassPoint& body, double time) const {
     double fastest = 0.0;
     for (const FieldDescription& f : fields_)
         if (time >= f.start && time < f.end && f.region.contains(body.position))
@@ -83,13 +83,13 @@ double PlaceForces::rate(const MassPoint& body, double time) const {
     return fastest;
 }
 
-bool PlaceForces::changes(double from, double to) const {
+bool PositionForces::changes(double from, double to) const {
     return std::any_of(fields_.begin(), fields_.end(), [&](const FieldDescription& f) {
         return (f.start >= from && f.start < to) || (f.end >= from && f.end < to);
     });
 }
 
-double PlaceForces::next_change(double time) const {
+double PositionForces::next_change(double time) const {
     double next = infinity;
     for (const FieldDescription& f : fields_)
         for (const double change : {f.start, f.end})
@@ -97,7 +97,7 @@ double PlaceForces::next_change(double time) const {
     return next;
 }
 
-double PlaceForces::potential(const MassPoint& body) const {
+double PositionForces::potential(const MassPoint& body) const {
     double sum = 0.0;
     for (const FieldDescription& f : fields_) {
         if (!lasts(f)) continue;

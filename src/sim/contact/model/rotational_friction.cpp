@@ -1,4 +1,4 @@
-#include "sim/contact/model/turning_resistance.h"
+#include "sim/contact/model/rotational_friction.h"
 
 #include <array>
 
@@ -21,11 +21,11 @@ std::array<const CollisionShape*, 2> touching_shapes(const Manifold& m, const Bo
 
 }  // namespace
 
-TurningResistance turning_resistance(const Manifold& manifold, const Body& a, const Body& b) {
-    if (!resists_turning(a) && !resists_turning(b)) return {};
+RotationalFriction rotational_friction(const Manifold& manifold, const Body& a, const Body& b) {
+    if (!has_rotational_friction(a) && !has_rotational_friction(b)) return {};
     const PairRule rule = a.pair_rules.friction;
-    TurningResistance resistance{pair_value(rule, a.rolling_friction, b.rolling_friction),
-                                 pair_value(rule, a.spinning_friction, b.spinning_friction)};
+    RotationalFriction resistance{pair_value(rule, a.rolling_friction, b.rolling_friction),
+                                  pair_value(rule, a.spinning_friction, b.spinning_friction)};
     if (!(resistance.rolling > 0.0)) return resistance;
     double curvature = 0.0;  // 1/m
     for (const CollisionShape* shape : touching_shapes(manifold, a, b))

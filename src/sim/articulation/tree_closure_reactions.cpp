@@ -31,25 +31,25 @@ void TreeClosures::give(const std::vector<double>& l, bool springs) {
 }
 
 // Equal and opposite at one point.
-void TreeClosures::push(ForwardDynamics& dynamics) const {
+void TreeClosures::apply(ForwardDynamics& dynamics) const {
     for (const Part& part : parts_) {
         if (part.spring) continue;
         for (const Side* side : {&part.a, &part.b}) {
             if (side->node == TreeNode::ground) continue;
             const double sign = side == &part.b ? 1.0 : -1.0;
             const Vec3 arm = part.b.point - dynamics.link(side->node).position();
-            dynamics.push(side->node, {sign * part.force, sign * (arm.cross(part.force) + part.torque)});
+            dynamics.apply(side->node, {sign * part.force, sign * (arm.cross(part.force) + part.torque)});
         }
     }
 }
 
-void TreeClosures::add_to(const ForwardDynamics& dynamics, std::span<Wrench> pushes) const {
+void TreeClosures::add_to(const ForwardDynamics& dynamics, std::span<Wrench> wrenches) const {
     for (const Part& part : parts_)
         for (const Side* side : {&part.a, &part.b}) {
             if (side->node == TreeNode::ground) continue;
             const double sign = side == &part.b ? 1.0 : -1.0;
             const Vec3 arm = part.b.point - dynamics.link(side->node).position();
-            Wrench& to = pushes[std::size_t(side->body)];
+            Wrench& to = wrenches[std::size_t(side->body)];
             to.force += sign * part.force;
             to.torque += sign * (arm.cross(part.force) + part.torque);
         }
@@ -80,14 +80,14 @@ void TreeClosures::add_sums(const ForwardDynamics& dynamics, const FallingFrame&
     }
 }
 
-void TreeClosures::add_impulses(const double* from, std::vector<PushedImpulse>& list) const {
+void TreeClosures::add_impulses(const double* from, std::vector<AppliedImpulse>& list) const {
     for (const Part& part : parts_) {
-        const Vec3 push = Vec3::Map(from), moment = Vec3::Map(from + 6) - Vec3::Map(from + 9);
+        const Vec3 impulse = Vec3::Map(from), moment = Vec3::Map(from + 6) - Vec3::Map(from + 9);
         for (int s = 0; s < 2; ++s) {
             const Side& side = s == 0 ? part.a : part.b;
             if (side.body == TreeNode::no_body) continue;
-            PushedImpulse& to = list[std::size_t(side.body)];
-            to.push += s == 0 ? Vec3(-push) : push;
+            AppliedImpulse& to = list[std::size_t(side.body)];
+            to.impulse += s == 0 ? Vec3(-impulse) : impulse;
             to.moment += s == 0 ? Vec3(-moment) : moment;
             to.work += from[12 + s];
         }
@@ -105,26 +105,26 @@ bool TreeClosures::finish(const TreeStep& step, const double* from) const {
     for (std::size_t p = 0; p < parts_.size(); ++p, from += sums) {
         const Part& part = parts_[p];
         Joint& joint = *step.joints[std::size_t(part.joint)];
-        const JointLoad load{Vec3::Map(from), Vec3::Map(from + 3), Vec3::Map(from + 6)};
+        const JointReaction reaction{Vec3::Map(from), Vec3::Map(from + 3), Vec3::Map(from + 6)};
         JointAccount::Span& span = joint.account.step;
         if (part.second) {
-            span.second_load.add(load);
+            span.second_reaction.add(reaction);
             span.second_work_a += from[12];
             span.second_work_b += from[13];
             continue;
         }
         span = {};
-        span.add_flight(load, from[12], from[13]);
+        span.add_flight(reaction, from[12], from[13]);
         if (part.spring) span.work.springs = part.stored - JointSet::potential(joint, step.bodies) - from[14];
-        joint.force = load.force / step.h;
-        joint.torque = load.torque / step.h;
+        joint.force = reaction.force / step.h;
+        joint.torque = reaction.torque / step.h;
         joint.impulse = {};
         joint.curving = {};
         const Joint& of = part.gear ? *step.joints[std::size_t(part.of)] : joint;
         const JointGeometry g = measure(of, side_of(step.bodies, of.a), side_of(step.bodies, of.b));
         joint.point = g.point;
         const auto along = [&](std::size_t c) {
-            return g.coordinates[c].direction.dot(c < 3 ? load.force : load.torque);
+            return g.coordinates[c].direction.dot(c < 3 ? reaction.force : reaction.torque);
         };
         if (part.gear) {
             const std::size_t c = geared_coordinate(of);
@@ -140,7 +140,7 @@ bool TreeClosures::finish(const TreeStep& step, const double* from) const {
         }
         const JointDescription& strength = joint.description;
         const double over =
-            std::max({joint.force.norm() / strength.break_force, load.force.norm() / strength.break_impulse,
+            std::max({joint.force.norm() / strength.break_force, reaction.force.norm() / strength.break_impulse,
                       joint.torque.norm() / strength.break_torque});
         if (over > tuning::joint_flight_over) return false;
         if (over <= 1.0) continue;

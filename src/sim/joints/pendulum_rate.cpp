@@ -1,11 +1,11 @@
-#include "sim/joints/swing.h"
+#include "sim/joints/pendulum_rate.h"
 
 #include <algorithm>
 
 namespace tumble {
 
-SwingAxes swing_axes(const Joint& joint, const JointGeometry& g) {
-    SwingAxes axes;
+FreeAxes free_axes(const Joint& joint, const JointGeometry& g) {
+    FreeAxes axes;
     if (joint.distance()) return axes;
     axes.count = 0;
     for (std::size_t k = 3; k < 6; ++k)
@@ -13,7 +13,7 @@ SwingAxes swing_axes(const Joint& joint, const JointGeometry& g) {
     return axes;
 }
 
-double swing_compliance(const SwingAxes& axes, const Vec3& arm, const Mat3& inverse_inertia) {
+double pendulum_compliance(const FreeAxes& axes, const Vec3& arm, const Mat3& inverse_inertia) {
     const double lever = arm.norm();
     if (!(lever > 0.0)) return 0.0;
     // Compliance against turns about the joint, times the lever across their axis.
