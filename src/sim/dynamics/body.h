@@ -70,6 +70,7 @@ struct Body {
 
     bool dynamic() const { return type == BodyType::dynamic; }
     bool moves() const { return dynamic() || track != nullptr; }
+    bool rolls() const { return placed && !jointed; }  // to the known end of this step, by its contact alone
     Pose pose() const { return {position, rotation}; }
     Vec3 origin() const { return position - rotation * center_of_mass; }
     /// m/s^2, of the body in free fall.

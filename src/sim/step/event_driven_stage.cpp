@@ -66,8 +66,7 @@ void EventDrivenStage::advance(const StepContext& step, ContactDetection& detect
     step.rolling.stop(step, limits);
     for (const std::uint32_t i : set.awake) {
         Body& body = set.bodies[i];
-        const bool rolled = body.placed && !body.jointed;  // only as far
-        if (!body.flying && !rolled && limits[i].share < 1.0)
+        if (!body.flying && !body.rolls() && limits[i].share < 1.0)
             step.forces.lose_time(i, body, limits[i].share, step.forces.touched(i, body));
     }
     events_.begin_step(set.bodies, set.motions, limits, step.forces.field(), step.index);

@@ -149,11 +149,10 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         const double spin_before = spin(body);
         const Quat orientation = body.orientation;
         // Joints have changed the spin within the step, and a body that rolls has the momenta of its end.
-        const bool rolled = body.placed && !body.jointed;
         const bool freely = (share < 1.0 || turns_too_far(body, h)) && turns_freely(i, step);
         if (body.placed && share == 1.0) {
             set_state(body, step.placed.end(i));
-        } else if (body.jointed || rolled)
+        } else if (body.jointed || body.rolls())
             turn_exactly(body, motion.velocity, motion.angular_velocity, share * h);
         else
             advance_pose(body, motion.velocity, motion.angular_velocity, share * h, step.settings.rotation);
@@ -163,9 +162,9 @@ void SteppedMotion::move(std::uint32_t i, const CcdFraction& limit, const StepCo
         body.derive();
         if (freely)
             turn_freely(body, orientation, share * h);
-        else if (in_contact && !body.jointed && !rolled && spin_grew(body, spin_before))
+        else if (in_contact && !body.jointed && !body.rolls() && spin_grew(body, spin_before))
             limit_spin(body, spin_before);
-        if (in_contact && !rolled && share < 1.0) forces.lose_time(i, body, share, true);
+        if (in_contact && !body.rolls() && share < 1.0) forces.lose_time(i, body, share, true);
     }
     if (limit.carrier != CcdFraction::none) carry_along(body, step.set.bodies[limit.carrier], share, h);
 }
