@@ -15,7 +15,8 @@ using FeatureKind = ContactFeature::Kind;
 constexpr double facing = 0.5;
 
 /// Angles of points on a rim: their number in a turn, and in a quarter_turn.
-constexpr std::uint64_t turn_steps = std::uint64_t(1) << 20, quarter_turn = turn_steps / 4;
+constexpr std::uint64_t turn_steps = std::uint64_t(1) << 20, quarter_turn = turn_steps / 4,
+                        eighth_turn = quarter_turn / 2;
 
 /// Points of a resting disc keep their places while the deepest of them lies at most this share of the radius above the
 /// deepest point of the rim: far above rounding, far below the tolerance of resting contact.
@@ -103,10 +104,10 @@ std::uint64_t rim_angle(const ContactFeature& disc, bool of_b, const CollisionSc
                 const std::uint64_t feature = m.points[std::size_t(i)].feature;
                 if ((feature & ~(turn_steps - 1) & ~face_feature(true, 0)) != base) continue;
                 const std::uint64_t off =
-                    (deepest + turn_steps - (feature & (turn_steps - 1)) + quarter_turn / 2) % quarter_turn;
-                const double angle = 2.0 * pi * (double(off) - double(quarter_turn / 2)) / double(turn_steps);
+                    (deepest + turn_steps - (feature & (turn_steps - 1)) + eighth_turn) % quarter_turn;
+                const double angle = 2.0 * pi * (double(off) - double(eighth_turn)) / double(turn_steps);
                 if (out * (1.0 - sincos(angle).cos) <= rim_tolerance)
-                    return (deepest + turn_steps + quarter_turn / 2 - off) % turn_steps;
+                    return (deepest + turn_steps + eighth_turn - off) % turn_steps;
             }
         }
     return out <= rim_tolerance ? 0 : deepest;
