@@ -85,6 +85,7 @@ class PangoCairo {
 public:
     PangoCairo();
 
+// NOLINTNEXTLINE(bugprone-macro-parentheses): a name that is declared takes none
 #define X(name) decltype(&::name) name = library_.require<decltype(&::name)>(#name);
     TUMBLE_PANGO_CAIRO_FUNCTIONS(X)
 #undef X
