@@ -40,6 +40,32 @@ color = "#ffffff"
                           0.02, 0, 0);
 }
 
+// Two boxes beside each other in the plane of the picture, a third of a pixel apart: few pixel centers are in the gap.
+TEST(Reference, IsLikeNarrowGap) {
+    expect_like_reference(parse_scene(R"(format = 1
+[camera]
+eye = [0, 1, 6]
+target = [0, 1, 0]
+vertical_fov = 40
+[[body]]
+type = "fixed"
+shape = { type = "box", size = [1, 1.6, 0.02] }
+position = [-0.473605, 0.827622, 0]
+rotation = { axis = [0, 0, 1], angle = 20 }
+pattern = "plain"
+color = "#303030"
+[[body]]
+type = "fixed"
+shape = { type = "box", size = [1, 1.6, 0.02] }
+position = [0.473605, 1.172378, 0]
+rotation = { axis = [0, 0, 1], angle = 20 }
+pattern = "plain"
+color = "#303030"
+)",
+                                      "gap.toml"),
+                          0.02, 130, 10);
+}
+
 // Their small bodies have edges that are nearer to each other than pixels.
 TEST(Reference, IsLikeDemoScenes) {
     for (const char* name : {"bouncing_balls", "tower_hit", "turntable"})

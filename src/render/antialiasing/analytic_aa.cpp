@@ -31,6 +31,9 @@ double inverse_width(double half) { return half < least_half ? 0.0 : 1.0 / (2.0 
 // of a ring hides the far rim). Above the deviation of a ball's mesh (0.15) and of its outline polygon (0.03).
 constexpr double hidden = 0.2;  // pixels
 
+// Rows to either side in which a gap beside an edge is looked for: as far as the margin of DirtyTiles.
+constexpr int gap_rows = 3;
+
 // The greatest integer not above x; for x >= -2 (avoids a call, because baseline x86-64 lacks the instruction).
 int below(double x) { return int(x + 2.0) - 2; }
 
@@ -61,8 +64,10 @@ public:
         count_n_ = across_ ? drawn_.width : drawn_.height;
         step_m_ = across_ ? row : 4;
         step_n_ = across_ ? 4 : row;
-        const double slope = (n1 - n0) / (m1 - m0), steepness = 0.5 * std::abs(slope),
-                     inverse = inverse_width(steepness);
+        slope_ = (n1 - n0) / (m1 - m0);
+        first_ = m0;
+        last_ = m1;
+        const double slope = slope_, steepness = 0.5 * std::abs(slope), inverse = inverse_width(steepness);
         if (!(std::max(m0, 0.0) < count_m_)) return;
         const int first = below(std::max(m0, 0.0)), last = below(std::min(m1, count_m_ - 0.5));
         for (int m = first; m <= last; ++m) {
@@ -106,8 +111,10 @@ private:
             from += step * step_n_;
             if (is_inner && outer_ == 0 && inside(from[3]) && (other + 0.5 - here.middle) * step > hidden) return;
             if (is_inner ? (outer_ == 0 ? !inside(from[3]) : from[3] == outer_) : inside(from[3])) break;
+            if (!is_inner && outer_ == 0 && (other + 0.5 - here.middle) * step > hidden) return;
         }
         if (whole_box && !is_inner && from[3] != inner_) from = of_face_beside(m, n, step, from);
+        if (is_inner && outer_ == 0) from = of_gap_beside(m, step, here, from);
         const int x = across_ ? n : m, y = across_ ? m : n;
         if (!dirty_.at(int(unsigned(x) / DirtyTiles::tile), int(unsigned(y) / DirtyTiles::tile))) return;
         const double after =
@@ -138,10 +145,33 @@ private:
         return otherwise;
     }
 
+    // Color of a gap along the outline, narrower than a pixel, that the centers of this row miss: rows on both sides of
+    // it show the same surface, one pixel wide, beside the edge.
+    const std::uint8_t* of_gap_beside(int m, int step, const Crossing& here, const std::uint8_t* otherwise) const {
+        const std::uint8_t* found = nullptr;
+        for (const int way : {-1, 1}) {
+            const std::uint8_t* seen = nullptr;
+            for (int rows = 1; rows <= gap_rows && seen == nullptr; ++rows) {
+                const int row = m + way * rows;
+                const double shift = way * rows * slope_, line = here.middle + shift;
+                if (std::abs(shift) > 1.0 || row + 0.5 < first_ || row + 0.5 > last_) break;
+                const int n = below(line + 0.5 * step);
+                if (row < 0 || row >= count_m_ || n < 1 || n >= count_n_ - 1) break;
+                const std::uint8_t* const pixel = drawn_.pixels.data() + row * step_m_ + n * step_n_;
+                const std::uint8_t id = pixel[3];
+                if (id != otherwise[3] && id != inner_ && pixel[step * step_n_ + 3] != id) seen = pixel;
+            }
+            if (seen == nullptr || (found != nullptr && found[3] != seen[3])) return otherwise;
+            found = seen;
+        }
+        return found;
+    }
+
     const Image& drawn_;
     const DirtyTiles& dirty_;
     Image& frame_;
-    bool across_ = false;  // the edge is steep: m is y
+    double slope_ = 0.0, first_ = 0.0, last_ = 0.0;  // of the edge: rise, and its ends along m
+    bool across_ = false;                            // the edge is steep: m is y
     int side_ = 1, count_m_ = 0, count_n_ = 0;
     std::ptrdiff_t step_m_ = 0, step_n_ = 0;  // strides, bytes
     std::uint8_t inner_ = 0, outer_ = 0, face_ = 0;

@@ -11,8 +11,8 @@
 namespace tumble {
 namespace {
 
-// One pixel for rounding by rasterization, one for the neighbors used by antialiasing, and one spare.
-constexpr double tile_margin = 3.0;  // pixels
+// One pixel for rounding by rasterization, and three for the neighbors used by antialiasing (gap_rows).
+constexpr double tile_margin = 4.0;  // pixels
 
 enum class ScreenArea { before, beside, behind };  // of points, relative to the eye
 
