@@ -88,14 +88,19 @@ CameraDescription FollowPath::applied(const CameraDescription& camera) const {
         const Track& path = *track++;
         if (path.times.empty()) return;
         const OwnPath own(one);
+        const auto add = [&](double time, const Vec3& way) {
+            CameraKeyframe& key = one.keyframes.emplace_back(own.at(time));
+            key.eye += way;
+            key.target += way;
+        };
         one.follow.reset();
         one.interpolation = Interpolation::linear;
         one.keyframes.clear();
-        for (std::size_t i = 0; i < path.times.size(); ++i) {
-            CameraKeyframe& key = one.keyframes.emplace_back(own.at(path.times[i]));
-            key.eye += path.ways[i];
-            key.target += path.ways[i];
-        }
+        for (std::size_t i = 0; i < path.times.size(); ++i) add(path.times[i], path.ways[i]);
+        // The shutter of the last frame is open after the last state: the camera goes on.
+        const std::size_t count = path.times.size();
+        if (count < 2 || path.ways[count - 1] == path.ways[count - 2]) return;
+        add(2.0 * path.times[count - 1] - path.times[count - 2], 2.0 * path.ways[count - 1] - path.ways[count - 2]);
     };
     apply(placed);
     for (CameraShot& shot : placed.shots) apply(shot.camera);

@@ -24,7 +24,8 @@ SceneDescription scene_of(const std::string& keys) {
 TEST(FollowPath, IsTheCriticallyDampedAnswer) {
     const SceneDescription scene = scene_of("");
     const CameraDescription camera = framed(scene, 1).camera;
-    ASSERT_EQ(camera.keyframes.size(), std::size_t(scene.frame_count()));
+    // One more than frames: the camera goes on while the shutter of the last frame is open.
+    ASSERT_EQ(camera.keyframes.size(), std::size_t(scene.frame_count()) + 1);
     EXPECT_FALSE(camera.follow);
     const double u = 3.0, lag = u * 0.4, w = 2.0 / 0.4;
     for (const CameraKeyframe& key : camera.keyframes) {
