@@ -5,6 +5,7 @@
 const vec3 sun_light = vec3(0.80, 0.745, 0.655);          // received by a surface facing the sun: a warm late morning
 const vec3 sky_light = vec3(0.325, 0.365, 0.435);         // from straight above, without the sun
 const vec3 bounce_light = vec3(0.195, 0.185, 0.170);      // from below: a dim reflection of the sunlit ground
+const float floor_in_sun = 0.6;                           // part of a floor below a body that the body does not shadow
 
 const vec3 sky_horizon = vec3(0.80, 0.86, 0.92);          // radiance: background, and mirrored by glossy surfaces
 const vec3 sky_zenith = vec3(0.20, 0.38, 0.66);

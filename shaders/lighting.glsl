@@ -108,6 +108,20 @@ vec3 dithered(vec3 shown) {
     return shown + (float(rank) - 31.5) / (64.0 * 255.0);
 }
 
+#ifndef ENVIRONMENT
+// Received by a surface that faces down. MIRROR_FLOOR: color of a mirroring floor, and the share that it mirrors. Its
+// image shows the undersides of bodies, which are as bright as it is.
+vec3 light_from_below() {
+#ifdef MIRROR_FLOOR
+    vec4 floor_below = MIRROR_FLOOR;
+    vec3 upward = floor_below.rgb * floor_in_sun * (sun_light + sky_light);
+    return max(bounce_light, mix(upward, sky_light, floor_below.a));
+#else
+    return bounce_light;
+#endif
+}
+#endif
+
 vec3 shade(Surface s) {
     float n_v = clamp(s.n_v, 1e-3, 1.0);
     vec2 environment = environment_scale(s.rough.x, n_v);
@@ -118,7 +132,7 @@ vec3 shade(Surface s) {
     share *= 1.0 + s.f0 * (1.0 / (environment.x + environment.y) - 1.0);
     vec3 light = (s.diffuse * (1.0 - share) * s.around + share * s.mirrored) * s.open;
 #else
-    vec3 light = s.diffuse * (mix(bounce_light, sky_light, 0.5 + 0.5 * s.up) * s.open);
+    vec3 light = s.diffuse * (mix(light_from_below(), sky_light, 0.5 + 0.5 * s.up) * s.open);
 #endif
 #ifdef SUNLIT
     float n_l = clamp(s.n_l, 0.0, 1.0);

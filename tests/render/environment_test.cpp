@@ -162,6 +162,19 @@ TEST(Mirror, ShowsABallBelowItselfAndNothingElse) {
     for (int c = 0; c < 4; ++c) EXPECT_EQ(mirrored.at(beside.x, beside.y)[c], plain.at(beside.x, beside.y)[c]);
 }
 
+// From the color of the floor and from what it mirrors: the undersides are what its image shows.
+TEST(Mirror, LightsUndersides) {
+    SceneDescription scene = empty_scene();
+    scene.camera.eye = Vec3(0.0, 0.3, 4.0);
+    scene.camera.target = Vec3(0.0, 1.5, 0.0);
+    scene.bodies = {ground_plane({0xd0, 0xd0, 0xd0}),
+                    box_body(Vec3(0.0, 2.0, 0.0), Vec3(0.6, 0.1, 0.6), {0xf0, 0xf0, 0xf0})};
+    const Pixel seen = pixel_of(scene, Vec3(0.0, 1.9, 0.0));
+    const int plain = drawn(scene).at(seen.x, seen.y)[1];
+    scene.bodies[0].appearance.reflection = 0.3;
+    EXPECT_GT(drawn(scene).at(seen.x, seen.y)[1], plain + 20);
+}
+
 TEST(GroundShadow, IsTheOnlyThingThatShowsOfThePlane) {
     SceneDescription scene = with_shadows_only();
     scene.light.direction = Vec3(-1.2, -1.0, 0.2);  // the shadow is beside the ball

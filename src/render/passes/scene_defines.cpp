@@ -28,11 +28,21 @@ void add_lamps(const RenderScene& scene, std::vector<std::string>& all) {
     all.push_back(fmt::format("LAMP_TEXELS {}.0", lamp_map_texels));
 }
 
+void add_mirror_floor(const RenderScene& scene, std::vector<std::string>& all) {
+    constexpr double steepest = 0.5;  // cosine of 60 degrees: a steeper plane is a wall
+    for (const RenderBody& body : scene.bodies) {
+        if (body.reflection <= 0.0f || body.plane.normal.normalized().y() < steepest) continue;
+        all.push_back(fmt::format("MIRROR_FLOOR vec4({:.6f}, {:.6f}, {:.6f}, {:.6f})", body.color.r, body.color.g,
+                                  body.color.b, body.reflection));
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> scene_defines(const RenderScene& scene) {
     std::vector<std::string> all;
     add_lamps(scene, all);
+    add_mirror_floor(scene, all);
     if (const auto& environment = scene.environment) {
         if (environment->image) all.emplace_back("ENVIRONMENT");
         if (environment->background == BackgroundKind::colors) all.emplace_back("BACKGROUND 1");
