@@ -162,7 +162,7 @@ TEST(Mirror, ShowsABallBelowItselfAndNothingElse) {
     for (int c = 0; c < 4; ++c) EXPECT_EQ(mirrored.at(beside.x, beside.y)[c], plain.at(beside.x, beside.y)[c]);
 }
 
-// From the color of the floor and from what it mirrors: the undersides are what its image shows.
+// By the color of the floor and by the sky that it mirrors: the image shows undersides.
 TEST(Mirror, LightsUndersides) {
     SceneDescription scene = empty_scene();
     scene.camera.eye = Vec3(0.0, 0.3, 4.0);
