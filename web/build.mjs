@@ -10,6 +10,7 @@ import { fileURLToPath } from "node:url";
 import { deflateRawSync } from "node:zlib";
 import { glsl_plugin } from "./build/glsl.mjs";
 import { math_plugin } from "./build/math.mjs";
+import { encode91 } from "./build/text91.mjs";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const out = resolve(process.argv[2] ?? join(here, "../build/web"));
@@ -109,7 +110,7 @@ async function live_page(module) {
     icon,
     style: style + live_style,
     loader,
-    module: deflateRawSync(module, { level: 9 }).toString("base64"),
+    module: encode91(deflateRawSync(module, { level: 9, memLevel: 9 })),
     player: deflateRawSync(live_player, { level: 9 }).toString("base64"),
   });
 }

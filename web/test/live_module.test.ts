@@ -10,6 +10,8 @@ import { simulate_command } from "../src/live/command.ts";
 import { LiveModule } from "../src/live/module.ts";
 import { read_clip } from "../src/data/decode_clip.ts";
 import { repository, scenes_folder, temporary_folder } from "./program.ts";
+import { encode91 } from "../build/text91.mjs";
+import { decode91 } from "../src/live/text91.ts";
 import { tumble_path } from "./paths.mjs";
 
 const live_data = join(dirname(tumble_path()), "tests/live/live_data");
@@ -106,6 +108,16 @@ test("500 runs take no more memory than 50", { skip }, () => {
   const { memory } = module;
   for (let i = 0; i < 500; ++i) once();
   assert.equal(module.memory, memory);
+});
+
+test("the module's text gives its bytes again, and is safe in a page", () => {
+  for (const size of [0, 1, 2, 3, 100, 5000]) {
+    const bytes = Uint8Array.from({ length: size }, (_, i) => i % 3 === 0 ? 0 : (i * i * 31) & 255);
+    const text = encode91(bytes);
+    assert.deepEqual(decode91(text), bytes);
+    assert.doesNotMatch(text, /[<[{\s]/);
+  }
+  assert.equal(decode91("<<"), null);
 });
 
 test("sliders give decimal text", () => {

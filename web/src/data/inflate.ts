@@ -13,7 +13,10 @@ function bytes_of_base64(base64: string): Uint8Array<ArrayBuffer> {
 }
 
 export async function inflate(base64: string): Promise<Uint8Array> {
-  const packed = bytes_of_base64(base64);
+  return inflate_bytes(bytes_of_base64(base64));
+}
+
+export async function inflate_bytes(packed: Uint8Array<ArrayBuffer>): Promise<Uint8Array> {
   if (typeof DecompressionStream === "undefined") throw new Error("This browser cannot read the clip: it has no DecompressionStream.");
   const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("deflate-raw"));
   try {

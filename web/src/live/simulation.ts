@@ -1,9 +1,10 @@
 // The simulation of a page, in a worker of its own: unpacked at the first need, started again where it hangs.
 import { read_clip } from "../data/decode_clip.ts";
 import type { Clip } from "../data/clip.ts";
-import { inflate } from "../data/inflate.ts";
+import { inflate_bytes } from "../data/inflate.ts";
 import type { LiveError } from "./module.ts";
 import type { FromWorker, LiveRequest, ToWorker } from "./protocol.ts";
+import { decode91 } from "./text91.ts";
 
 declare const LIVE_WORKER: string;
 
@@ -25,12 +26,19 @@ export interface SimulationEvents {
   stopped(): void;
 }
 
-async function compiled(): Promise<WebAssembly.Module> {
+let shared: Promise<WebAssembly.Module> | null = null;
+
+/** One for all players of the page. */
+function compiled(): Promise<WebAssembly.Module> {
+  return shared ??= compile();
+}
+
+async function compile(): Promise<WebAssembly.Module> {
   if (typeof WebAssembly === "undefined") throw new Error("This browser has no WebAssembly, or it is switched off.");
   if (!WebAssembly.validate(with_vectors)) throw new Error("This browser is too old for the simulation: it needs Chrome 91, Firefox 89, Safari 16.4 or later.");
-  const packed = document.getElementById("tumble-live")?.textContent;
-  if (!packed) throw new Error("This page has no simulation: it is damaged.");
-  const bytes = await inflate(packed) as Uint8Array<ArrayBuffer>;
+  const packed = decode91(document.getElementById("tumble-live")?.textContent?.trim() ?? "");
+  if (!packed?.length) throw new Error("This page has no simulation: it is damaged.");
+  const bytes = await inflate_bytes(packed) as Uint8Array<ArrayBuffer>;
   try {
     return await WebAssembly.compile(bytes);
   } catch (error) {

@@ -1,0 +1,2 @@
+export const characters: string;
+export function encode91(bytes: Uint8Array): string;
