@@ -37,12 +37,13 @@ const elements: Record<string, Record<string, Check>> = {
   section: { "data-quiz": any_text },
   form: { novalidate: /^$/ },
   label: { for: name },
-  input: { inputmode: /^decimal$/, autocomplete: /^off$/ },
+  input: { inputmode: /^decimal$/, autocomplete: /^off$/, type: /^radio$/, name: /^quiz-\d+$/, value: number },
+  p: { hidden: /^$/ },
   button: { type: /^submit$/ },
   output: { for: name },
   details: { open: /^$/ },
 };
-for (const plain of ("article aside blockquote br caption code em figure figcaption h1 h2 h3 h4 h5 h6 header hr nav p pre s span strong sub sup summary " +
+for (const plain of ("article aside blockquote br caption code em fieldset figure figcaption h1 h2 h3 h4 h5 h6 header hr nav pre s span strong sub sup summary " +
   "table tbody thead tr ul").split(" ")) elements[plain] = nothing;
 
 /** Places that the program fills in. */

@@ -72,6 +72,9 @@ const wrong: [string, string, RegExp][] = [
   ["an unknown overlay", stage.replace("alt =", 'overlay = ["velocty"]\nalt ='), /^11:1: overlay: unknown name 'velocty' \(nearest: 'velocity'\)$/],
   ["a scene twice", stage.replace("alt =", 'scene = "a.toml"\nalt ='), /^6:1: 'format' stands beside scene/],
   ["an unknown stage", `${stage}\n\`\`\`measure\nstage = "drip"\nrow = []\n\`\`\``, /^19:1: stage: no stage 'drip' in this lesson \(nearest: 'drop'\)$/],
+  ["choices of which none is right", "```quiz\nquestion = \"?\"\nchoices = [{ text = \"a\" }, { text = \"b\" }]\n```", /^7:1: choices: one of them must have right = true \(given 0\)$/],
+  ["a single choice", "```quiz\nquestion = \"?\"\nchoices = [{ text = \"a\", right = true }]\n```", /^7:1: choices: must be 2 to 8 tables \(given 1\)$/],
+  ["a number beside choices", "```quiz\nquestion = \"?\"\nchoices = [{ text = \"a\", right = true }, { text = \"b\" }]\nanswer = 1\n```", /^8:1: answer: is of questions with a number, not of choices$/],
   ["a check without quantity", `${stage}\n\`\`\`quiz\nquestion = "?"\nstage = "drop"\nanswer = 1\ntolerance = 1\ncheck = { off = 1 }\n\`\`\``, /^23:1: check: needs 'of' with 'take'/],
 ];
 for (const [name, text, expected] of wrong) {

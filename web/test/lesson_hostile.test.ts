@@ -63,6 +63,7 @@ test("hostile texts stay texts wherever a lesson has one", () => {
     "an equation": `${head()}$\\text{${meta.replace(/[%{}]/g, "")}}$`,
     "a stage": head() + stage(`caption = ${quoted}\nplot = ${quoted}\nfollow = ${quoted}\nbody = ${quoted}`),
     "a question": `${head()}\`\`\`quiz\nquestion = ${quoted}\nanswer = 1\ntolerance = 1\nunit = ${quoted}\nhint = ${quoted}\nexplanation = ${quoted}\n\`\`\``,
+    "choices": `${head()}\`\`\`quiz\nquestion = "?"\nchoices = [{ text = ${quoted}, right = true, because = ${quoted} }, { text = ${quoted} }]\n\`\`\``,
     "a table of measures": `${head()}${stage()}\`\`\`measure\nstage = "drop"\ncaption = ${quoted}\n[[row]]\nlabel = ${quoted}\nformula = ${quoted}\nexpected = 1\ntolerance = 1\nunit = ${quoted}\ncheck = { of = ${quoted}, take = "max" }\n\`\`\``,
     "an equation with numbers": `${head()}${stage()}\`\`\`numbers\nstage = "drop"\nequation = '\\jn'\nvalue = "j"\nexpression = "j"\ncaption = ${quoted}\n\`\`\``,
     "a convergence block": `${head()}\`\`\`convergence\nof = ${quoted}\nat = 1\nintegrators = ["rk4"]\nsteps_per_frame = [1, 2]\nexact = 1\nformat = 1\n[stage]\nalt = ${quoted}\ncaption = ${quoted}\n\`\`\``,

@@ -1,4 +1,4 @@
-// Questions with a number as the answer.
+// Questions with a number as the answer, or with choices.
 import { h } from "../ui/dom.ts";
 
 /** With a decimal point or comma, and any minus; null if it is no number. */
@@ -13,27 +13,81 @@ export function is_right(given: number, answer: number, tolerance: number): bool
   return Math.abs(given - answer) <= tolerance * (1 + 1e-9);
 }
 
-export function start_quiz(element: HTMLElement): void {
-  const { answer, tolerance } = JSON.parse(element.dataset.quiz!) as { answer: number; tolerance: number };
-  const form = element.querySelector<HTMLFormElement>(".quiz-form")!;
+type Verdict = "right" | "wrong" | "unread";
+
+/** What a question shows after a try. */
+class Answer {
+  private readonly result: HTMLOutputElement;
+  private readonly solution: HTMLDetailsElement | null;
+  readonly hint: boolean;
+
+  constructor(private readonly element: HTMLElement) {
+    this.result = element.querySelector<HTMLOutputElement>(".quiz-result")!;
+    this.solution = element.querySelector<HTMLDetailsElement>(".quiz-answer");
+    this.hint = element.querySelector(".quiz-hint") !== null;
+  }
+
+  show(verdict: Verdict, text: string): void {
+    this.element.dataset.verdict = verdict;
+    const sign = verdict === "right" ? "\u2713 " : verdict === "wrong" ? "\u2717 " : "";
+    this.result.replaceChildren(...(sign ? [h("span", { "aria-hidden": "true" }, sign)] : []), text);
+    if (verdict !== "right") return;
+    if (this.solution) this.solution.open = true;
+    this.element.dispatchEvent(new CustomEvent("tumble-answered", { bubbles: true }));
+  }
+
+  clear(): void {
+    delete this.element.dataset.verdict;
+    this.result.replaceChildren();
+  }
+}
+
+function start_number(form: HTMLFormElement, shown: Answer, answer: number, tolerance: number): void {
   const input = form.querySelector<HTMLInputElement>(".quiz-input")!;
-  const result = form.querySelector<HTMLOutputElement>(".quiz-result")!;
-  const solution = element.querySelector<HTMLDetailsElement>(".quiz-answer");
-  const hint = element.querySelector<HTMLDetailsElement>(".quiz-hint");
   form.addEventListener("submit", (event) => {
     event.preventDefault();
     const given = read_answer(input.value);
     const verdict = given === null ? "unread" : is_right(given, answer, tolerance) ? "right" : "wrong";
-    element.dataset.verdict = verdict;
     input.toggleAttribute("aria-invalid", verdict !== "right");
-    if (verdict === "unread") result.replaceChildren("Write a number, such as 0.25 or 3e-4.");
-    else if (verdict === "right") result.replaceChildren(h("span", { "aria-hidden": "true" }, "\u2713 "), "Right.");
-    else result.replaceChildren(h("span", { "aria-hidden": "true" }, "\u2717 "), `Not yet: the number is too ${given! > answer ? "large" : "small"}.${hint ? " There is a hint below." : ""}`);
-    if (verdict === "right" && solution) solution.open = true;
+    shown.show(verdict, verdict === "unread" ? "Write a number, such as 0.25 or 3e-4." : verdict === "right" ? "Right." :
+      `Not yet: the number is too ${given! > answer ? "large" : "small"}.${shown.hint ? " There is a hint below." : ""}`);
   });
   input.addEventListener("input", () => {
-    delete element.dataset.verdict;
     input.removeAttribute("aria-invalid");
-    result.replaceChildren();
+    shown.clear();
   });
+}
+
+function start_choices(form: HTMLFormElement, shown: Answer, right: number): void {
+  const inputs = [...form.querySelectorAll<HTMLInputElement>("input")];
+  const reason_of = (input: HTMLInputElement): HTMLElement | null => {
+    const next = input.closest(".quiz-choice")!.nextElementSibling;
+    return next?.classList.contains("quiz-because") ? next as HTMLElement : null;
+  };
+  const show_reason = (chosen: HTMLInputElement | null): void => {
+    for (const input of inputs) {
+      const reason = reason_of(input);
+      if (reason) reason.hidden = input !== chosen;
+    }
+  };
+  form.addEventListener("submit", (event) => {
+    event.preventDefault();
+    const chosen = inputs.find((input) => input.checked) ?? null;
+    show_reason(chosen);
+    if (!chosen) shown.show("unread", "Choose one of the answers.");
+    else if (Number(chosen.value) === right) shown.show("right", "Right.");
+    else shown.show("wrong", `Not this one.${shown.hint ? " There is a hint below." : ""}`);
+  });
+  form.addEventListener("change", () => {
+    show_reason(null);
+    shown.clear();
+  });
+}
+
+export function start_quiz(element: HTMLElement): void {
+  const data = JSON.parse(element.dataset.quiz!) as { answer: number; tolerance: number } | { right: number };
+  const form = element.querySelector<HTMLFormElement>(".quiz-form")!;
+  const shown = new Answer(element);
+  if ("right" in data) start_choices(form, shown, data.right);
+  else start_number(form, shown, data.answer, data.tolerance);
 }
