@@ -76,9 +76,11 @@ const { text: bundle, inputs } = await script("player.ts");
 const font = "node_modules/@fontsource/noto-sans-math/package.json";
 const player = await with_licenses({ text: bundle, inputs: [...inputs, ...style_inputs, font] });
 const { text: loader } = await script("loader.ts");
+const { text: contents } = await script("contents.ts");
 const icon = `data:image/svg+xml;base64,${(await readFile(source("icon.svg"))).toString("base64")}`;
 const page = fill(await readFile(source("page.html"), "utf8"), {
-  hashes: `${hash_of(loader)} ${hash_of(player)}`,
+  hashes: `${hash_of(loader)} ${hash_of(player)} ${hash_of(contents)}`,
+  contents,
   icon,
   style,
   loader,
@@ -106,7 +108,8 @@ async function live_page(module) {
     .replace("[[hashes]];", "[[hashes]] 'wasm-unsafe-eval'; worker-src blob:;")
     .replace('<script type="text/plain" id="tumble-player">', '<script type="text/plain" id="tumble-live">[[module]]</script>\n$&');
   return fill(template, {
-    hashes: `${hash_of(loader)} ${hash_of(live_player)}`,
+    hashes: `${hash_of(loader)} ${hash_of(live_player)} ${hash_of(contents)}`,
+    contents,
     icon,
     style: style + live_style,
     loader,

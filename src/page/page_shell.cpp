@@ -15,7 +15,10 @@
 namespace tumble {
 namespace {
 
-constexpr std::string_view player_begin = "{{player}}", player_end = "{{/player}}";
+/// Parts of the template that some pages have: {{NAME}} ... {{/NAME}}.
+std::map<std::string, bool, std::less<>> parts_of(const PageShell& shell) {
+    return {{"player", shell.with_player}, {"contents", shell.kind == "index"}};
+}
 
 std::string link_html(const ShellLink& link, std::string_view relation, std::string_view label) {
     if (link.address.empty()) return "";
@@ -75,28 +78,28 @@ PageTemplate::PageTemplate(const std::filesystem::path& web_folder, PageKind kin
 // One pass: the values are not searched for places.
 std::string PageTemplate::fill(const PageShell& shell) const {
     const auto values = values_of(shell);
+    const auto parts = parts_of(shell);
     const std::string_view text = text_;
     std::string page;
     for (std::size_t at = 0;;) {
         const std::size_t begin = text.find("{{", at);
         page += text.substr(at, begin - at);
         if (begin == std::string_view::npos) return page;
-        if (text.substr(begin).starts_with(player_begin)) {
-            const std::size_t end = text.find(player_end, begin);
-            at = shell.with_player || end == std::string_view::npos ? begin + player_begin.size() : end;
-            continue;
-        }
         const std::size_t end = text.find("}}", begin);
         const std::string_view name = text.substr(begin + 2, end == std::string_view::npos ? end : end - begin - 2);
-        if (name != player_end.substr(2, player_end.size() - 4)) {
-            const auto value = values.find(name);
-            if (value == values.end())
-                throw RunError(
-                    fmt::format("{}: unknown place '{{{{{}}}}}' in the template; run scripts/build-web again",
-                                safe_path(file_), safe_text(name)));
-            page += value->second;
-        }
         at = end + 2;
+        if (const auto part = parts.find(name); part != parts.end()) {
+            if (part->second) continue;
+            const std::size_t after = text.find(fmt::format("{{{{/{}}}}}", name), at);
+            if (after != std::string_view::npos) at = after;
+            continue;
+        }
+        if (name.starts_with('/') && parts.contains(name.substr(1))) continue;
+        const auto value = values.find(name);
+        if (value == values.end())
+            throw RunError(fmt::format("{}: unknown place '{{{{{}}}}}' in the template; run scripts/build-web again",
+                                       safe_path(file_), safe_text(name)));
+        page += value->second;
     }
 }
 

@@ -1,5 +1,6 @@
 // A lesson in the browser: symbols light arrows, numbers satisfy the equations, questions answer, paper has all of it.
 import assert from "node:assert/strict";
+import { dirname } from "node:path";
 import { before, test } from "node:test";
 import { no_webgl, open_page, type OpenedPage } from "./browser.ts";
 import { make_lesson } from "./made_lesson.ts";
@@ -78,6 +79,14 @@ tolerance = 1e-12
 check = { impact = 1, column = "restitution" }
 hint = "It is a coefficient."
 explanation = "It is $\\eps$."
+${"```"}
+
+${"```"}quiz
+question = "What does a heavier box change?"
+choices = [
+  { text = "The height of the bounce", because = "The speed after an impact does not depend on the mass." },
+  { text = "The impulse", right = true, because = "It is proportional to the mass." },
+]
 ${"```"}
 
 ::: derivation Folded
@@ -164,14 +173,50 @@ test("a question tells right from wrong, by keyboard alone", async () => {
   const answer = async (text: string) => {
     await page.locator(".quiz-input").fill(text);
     await page.keyboard.press("Enter");
-    return page.locator(".quiz-result").textContent();
+    return page.locator("#quiz-1 .quiz-result").textContent();
   };
   await page.locator(".quiz-input").focus();
   assert.match((await answer("0.6"))!, /too large/);
-  assert.equal(await page.locator(".quiz-answer").getAttribute("open"), null);
+  assert.equal(await page.locator("#quiz-1 .quiz-answer").getAttribute("open"), null);
   assert.match((await answer("many"))!, /Write a number/);
   assert.match((await answer("0,5"))!, /Right/);
-  assert.notEqual(await page.locator(".quiz-answer").getAttribute("open"), null);
+  assert.notEqual(await page.locator("#quiz-1 .quiz-answer").getAttribute("open"), null);
+  await opened.close();
+});
+
+test("a question with choices says why, by keyboard alone", async () => {
+  const opened = await open_page(path);
+  const { page } = opened;
+  const question = page.locator("#quiz-2");
+  const check = async (): Promise<string> => {
+    await page.keyboard.press("Enter");
+    return (await question.locator(".quiz-result").textContent())!;
+  };
+  await question.locator("input").first().focus();
+  assert.match(await check(), /Choose one/);
+  await page.keyboard.press("Space");
+  assert.match(await check(), /Not this one/);
+  assert.deepEqual(await question.locator(".quiz-because:visible").allTextContents(), ["The speed after an impact does not depend on the mass."]);
+  await page.keyboard.press("ArrowDown");
+  assert.equal(await question.locator(".quiz-because:visible").count(), 0);
+  assert.match(await check(), /Right/);
+  assert.notEqual(await question.locator(".quiz-answer").getAttribute("open"), null);
+  assert.deepEqual(await opened.problems(), []);
+  await opened.close();
+});
+
+test("the contents know which questions are answered, until they are told to forget", async () => {
+  const opened = await open_page(path);
+  const { page } = opened;
+  await page.locator(".quiz-input").fill("0.5");
+  await page.keyboard.press("Enter");
+  await page.goto(`file://${dirname(path)}/index.html`);
+  assert.equal(await page.locator(".lesson-progress").textContent(), "1 of 2 questions answered");
+  await page.reload();
+  await page.getByRole("button", { name: "Forget" }).click();
+  assert.equal(await page.locator(".lesson-progress").count(), 0);
+  await page.reload();
+  assert.equal(await page.locator(".course-progress").count(), 0);
   await opened.close();
 });
 
@@ -182,7 +227,9 @@ test("on paper there are pictures, lines to write on, and the answers at the end
   assert.ok(await page.locator(".tp-fallback img").isVisible());
   assert.ok(await page.locator(".tp-stage-host").isHidden());
   assert.ok(await page.locator(".quiz-blank").isVisible());
-  assert.ok(await page.locator(".quiz-form").isHidden());
+  assert.ok(await page.locator("#quiz-1 .quiz-form").isHidden());
+  assert.ok(await page.locator("#quiz-2 .quiz-choices").isVisible());
+  assert.ok(await page.locator("#quiz-2 .quiz-check").isHidden());
   assert.match((await page.locator(".print-answers").textContent())!, /0\.5/);
   await opened.close();
 });

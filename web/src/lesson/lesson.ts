@@ -1,6 +1,7 @@
 // What a lesson adds to its players: symbols that light arrows, equations with numbers, questions, print.
 import type { Player } from "../ui/player.ts";
 import { NumbersBlock } from "./numbers_block.ts";
+import { keep_progress } from "./progress.ts";
 import { start_quiz } from "./quiz.ts";
 import { LessonStages } from "./stages.ts";
 import { SymbolLight } from "./symbol_light.ts";
@@ -28,6 +29,7 @@ export function start_lesson(players: Player[]): void {
     if (player) new NumbersBlock(element, player);
   }
   for (const element of root.querySelectorAll<HTMLElement>("[data-quiz]")) start_quiz(element);
+  keep_progress(root);
   new SymbolLight(stages, root);
   unfold_for_print(root);
 }
