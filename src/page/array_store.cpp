@@ -17,8 +17,10 @@ double rounded_mantissa(double value, int bits) {
 
 ArrayStore::Json ArrayStore::add_planes(std::span<const std::uint64_t> values, int planes, int kind) {
     Json reference{bytes_.size(), values.size(), kind};
+    std::size_t at = bytes_.size();
+    bytes_.resize(at + std::size_t(planes) * values.size());
     for (int plane = 0; plane < planes; ++plane)
-        for (const std::uint64_t value : values) bytes_.push_back(std::byte(value >> (8 * plane) & 0xffu));
+        for (const std::uint64_t value : values) bytes_[at++] = std::byte(value >> (8 * plane) & 0xffu);
     return reference;
 }
 

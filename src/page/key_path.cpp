@@ -22,10 +22,14 @@ public:
     Search(const BodyRecord& body, const KeySearch& search) : body_(body), search_(search) {
         add_nodes();
         path_.frames.push_back(0);
-        for (std::size_t from = 0; from + 1 < nodes_.size();) from = add_segment(from);
+        for (std::size_t from = 0; from + 1 < nodes_.size() && path_.frames.size() <= search_.most;)
+            from = add_segment(from);
     }
 
-    KeyPath path() && { return std::move(path_); }
+    std::optional<KeyPath> path() && {
+        if (path_.frames.size() > search_.most) return std::nullopt;
+        return std::move(path_);
+    }
 
 private:
     void add_nodes();
@@ -125,6 +129,8 @@ std::size_t Search::add_segment(std::size_t from) {
 
 }  // namespace
 
-KeyPath find_keys(const BodyRecord& body, const KeySearch& search) { return Search(body, search).path(); }
+std::optional<KeyPath> find_keys(const BodyRecord& body, const KeySearch& search) {
+    return Search(body, search).path();
+}
 
 }  // namespace tumble

@@ -4,6 +4,8 @@
 
 #include "page/frame_channels.h"
 
+#include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -19,9 +21,11 @@ inline constexpr MotionErrors page_key_tolerance{2e-7, 2e-6, 1e-5, 1e-4};
 struct KeySearch {
     double fps = 60.0;
     Mat3 inertia = Mat3::Zero();  // kg m^2, body frame; zero of bodies that are not dynamic
+    std::size_t most = SIZE_MAX;  // keys
 };
 
-/// Precondition: all events of the body are known; it has at least two samples.
-KeyPath find_keys(const BodyRecord& body, const KeySearch& search);
+/// Nothing where the motion needs more than the most keys. Precondition: all events of the body are known; it has at
+/// least two samples.
+std::optional<KeyPath> find_keys(const BodyRecord& body, const KeySearch& search);
 
 }  // namespace tumble

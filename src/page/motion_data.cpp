@@ -151,8 +151,11 @@ void Writer::plan(std::size_t index) {
     plan.widths.add(encode_frames(body.samples, quanta(finest_level), 1.0 / run_.scene.output.fps));
     if (!body.all_events || (!events_ && !body.events.empty())) return;
     const bool dynamic = run_.scene.bodies[index].type == BodyType::dynamic;
-    plan.keys = find_keys(body, {run_.scene.output.fps, dynamic ? run_.reports[index].inertia : Mat3(Mat3::Zero())});
-    plan.key_bytes = bytes_of_key * double(plan.keys->frames.size());
+    // More keys than those would not be chosen at any level: the finest one has the most bytes.
+    const auto most = std::size_t((plan.widths.bytes(finest_level) + worth_of_keys) / bytes_of_key);
+    const Mat3 inertia = dynamic ? run_.reports[index].inertia : Mat3(Mat3::Zero());
+    plan.keys = find_keys(body, {run_.scene.output.fps, inertia, most});
+    if (plan.keys) plan.key_bytes = bytes_of_key * double(plan.keys->frames.size());
 }
 
 /// The finest level whose data fit into the budget, each body in its smaller form.

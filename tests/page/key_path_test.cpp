@@ -43,7 +43,7 @@ BodyRecord bouncing_ball() {
 TEST(KeyPath, ABouncingBallNeedsItsImpactsOnly) {
     const BodyRecord ball = bouncing_ball();
     ASSERT_GT(ball.events.size(), 4u);
-    const KeyPath path = find_keys(ball, {fps, Mat3::Identity()});
+    const KeyPath path = find_keys(ball, {fps, Mat3::Identity(), SIZE_MAX}).value();
     EXPECT_EQ(path.frames, (std::vector<std::size_t>{0, frames - 1}));
     EXPECT_LT(path.errors.position, 1e-13);
     EXPECT_LT(path.errors.velocity, 1e-11);
@@ -53,9 +53,17 @@ TEST(KeyPath, WithoutItsImpactsABallNeedsMoreFrames) {
     BodyRecord ball = bouncing_ball();
     const std::size_t impacts = ball.events.size();
     ball.events.clear();
-    const KeyPath path = find_keys(ball, {fps, Mat3::Identity()});
+    const KeyPath path = find_keys(ball, {fps, Mat3::Identity(), SIZE_MAX}).value();
     EXPECT_GE(path.frames.size(), 2 + 2 * impacts);
     EXPECT_LE(path.errors.position, page_key_tolerance.position);
+}
+
+TEST(KeyPath, OfMoreThanTheMostKeysThereIsNone) {
+    BodyRecord ball = bouncing_ball();
+    ball.events.clear();
+    const std::size_t needed = find_keys(ball, {fps, Mat3::Identity(), SIZE_MAX}).value().frames.size();
+    EXPECT_TRUE(find_keys(ball, {fps, Mat3::Identity(), needed}));
+    EXPECT_FALSE(find_keys(ball, {fps, Mat3::Identity(), needed - 1}));
 }
 
 TEST(KeyPath, AFreeRotationHasFewKeysWithinTheTolerance) {
@@ -69,7 +77,7 @@ TEST(KeyPath, AFreeRotationHasFewKeysWithinTheTolerance) {
             sample.rotation * Vec3((sample.rotation.conjugate() * momentum).cwiseQuotient(principal));
         body.samples.push_back(sample);
     }
-    const KeyPath path = find_keys(body, {fps, principal.asDiagonal()});
+    const KeyPath path = find_keys(body, {fps, principal.asDiagonal(), SIZE_MAX}).value();
     EXPECT_LT(path.frames.size(), frames / 4);
     EXPECT_LE(path.errors.rotation, page_key_tolerance.rotation);
     EXPECT_LE(path.errors.angular_velocity, page_key_tolerance.angular_velocity);
