@@ -6,7 +6,7 @@ import type { LiveError } from "./module.ts";
 const pause = 500;
 
 export class Editor {
-  readonly element: HTMLElement;
+  readonly element: HTMLDetailsElement;
   private readonly area: HTMLTextAreaElement;
   private readonly mistake = h("p", { class: "tp-live-mistake", role: "status", hidden: true });
   private timer = 0;
@@ -32,6 +32,10 @@ export class Editor {
 
   get edited(): boolean {
     return this.text !== this.given;
+  }
+
+  get open(): boolean {
+    return this.element.open;
   }
 
   set(text: string | null): void {

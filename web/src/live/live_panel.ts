@@ -148,7 +148,9 @@ export class LivePanel {
   private show_error(error: LiveError): void {
     this.end();
     this.editor?.show(error);
-    set_text(this.status, `${this.message_of(error)} The run before is shown.`);
+    // An open editor has the mistake below it.
+    const below = this.editor?.open && error.line > 0;
+    set_text(this.status, `${below ? "The scene has a mistake." : this.message_of(error)} The run before is shown.`);
   }
 
   private message_of({ message, line }: LiveError): string {
