@@ -4,6 +4,7 @@
 #include "scene/fields/camera_fields.h"
 #include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/fields/settings_fields.h"
 #include "scene/fields/speed_fields.h"
 

@@ -6,6 +6,7 @@
 #include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/label_fields.h"
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
 #include "scene/fields/speed_fields.h"
@@ -32,6 +33,12 @@ void for_all_fields(auto&& use) {
     use.template operator()<CompoundPart>("part");
     use.template operator()<GridRequest>("grid");
     use.template operator()<ScatterRequest>("scatter");
+    use.template operator()<CopyLooks>("copies");
+    use.template operator()<PoseRow>("poses");
+    use.template operator()<ChainRequest>("chain");
+    use.template operator()<TemplateRequest>("template");
+    use.template operator()<TemplateFile>("template file");
+    use.template operator()<InstanceRequest>("instance");
     use.template operator()<ForceDescription>("force");
     use.template operator()<FieldDescription>("field");
     use.template operator()<FieldRegion>("field region");

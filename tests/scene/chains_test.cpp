@@ -73,6 +73,17 @@ TEST(Chains, AreStraightWithoutSag) {
     EXPECT_EQ(scene_of("links = 4\nfrom = [1, 2, 3]\nto = [1, 2, -5]").joints.size(), 3u) << "both ends are free";
 }
 
+TEST(Chains, HaveEveryKeyOfAMaterial) {
+    const SceneDescription scene = scene_of(
+        "links = 2\nfrom = [0, 0, 0]\nto = [1, 0, 0]\nrolling_friction = 0.1\nspinning_friction = 0.2\n"
+        "sound = \"metal\"\nemission = \"#102030\"\n");
+    const BodyDescription& link = scene.bodies[3];
+    EXPECT_EQ(link.rolling_friction, 0.1);
+    EXPECT_EQ(link.spinning_friction, 0.2);
+    EXPECT_EQ(link.sound, SoundMaterial::metal);
+    EXPECT_EQ(link.appearance.emission, (Color{0x10, 0x20, 0x30}));
+}
+
 // Equal links hang so that the tangents of their slopes grow evenly: the vertical force on a link's end differs from
 // that on the other by its weight, and the horizontal one is the same all along.
 TEST(Chains, HangAtRest) {

@@ -134,6 +134,7 @@ std::string type_text() {
     if constexpr (std::is_same_v<T, Vec3>) return "vector";
     if constexpr (std::integral<T>) return "whole number";
     if constexpr (std::is_same_v<T, double>) return "number";
+    if constexpr (std::is_same_v<T, std::vector<Color>>) return "array of colors";
     return "";
 }
 
@@ -194,6 +195,7 @@ struct Reference : FieldVisitor {
         add_rule(row, required.rule);
         row.standard = "required";
     }
+    void add_rule(Row& row, NotEmpty) { row.range = "not empty"; }
     void add_rule(Row&, ByType) {}
     void add_rule(Row&, ByCode) {}
 

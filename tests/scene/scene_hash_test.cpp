@@ -505,7 +505,12 @@ TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
         }
     }
     for_all_fields([&]<class Struct>(const char*) {
-        KeyList list = std::is_same_v<Struct, BodyDescription> ? list_keys<Struct, Material>() : list_keys<Struct>();
+        if (std::is_same_v<Struct, CopyLooks>) return;  // keys of a body
+        if (std::is_same_v<Struct, PoseRow>) return;    // columns: posed_bodies_test.cpp
+        KeyList list = std::is_same_v<Struct, BodyDescription> ? list_keys<Struct, CopyLooks, Material>()
+                       : std::is_same_v<Struct, ChainRequest>  ? list_keys<Struct, Material>()
+                                                               : list_keys<Struct>();
+        if (std::is_same_v<Struct, ChainRequest>) std::erase(list.keys, "reflection");  // of planes; a link is none
         known_keys.emplace(list.keys.begin(), list.keys.end());
     });
     std::set<std::string> quantities;

@@ -5,7 +5,6 @@
 #include "scene/fields/field.h"
 #include "scene/toml/limits.h"
 
-#include <array>
 #include <memory>
 #include <optional>
 
@@ -114,7 +113,7 @@ auto& visibility_in(auto& body) {
 
 template <class Visitor, class Self>
 void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
-    field(self.name, "name", ByType(),
+    field(self.name, "name", NotEmpty(),
           {"for tables of results, forces and cords", "its index in the list", "unique, not empty"});
     field(self.type, "type", ByType(),
           {"`\"dynamic\"` moves by forces and contacts; `\"fixed\"` never moves; `\"kinematic\"` follows its keyframes "
@@ -171,7 +170,7 @@ void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
            "string"});
     field(self.keyframes, "keyframes", ByCode(), {"see [keyframes](#keyframes)", "none", {}, "array of tables"});
     field(self.interpolation, "interpolation", ByType(), {"see [keyframes](#keyframes)"});
-    for (const char* one : {"grid", "scatter", "scale", "colors", "poses"})
+    for (const char* one : {"grid", "scatter", "poses"})
         field.key(one, {"see [many bodies from one table](#many-bodies-from-one-table)", "none"});
     if constexpr (requires { self.appearance; }) {
         field.shown(self.appearance);
@@ -201,38 +200,6 @@ void visit_fields(Of<CompoundPart>, Visitor& field, Self& self) {
           {.text = "false: nothing touches the part, which has its mass all the same", .later = true});
     field(self.visible, "visible", ByType(),
           {.text = "an invisible part is simulated and not drawn", .picture = true, .later = true});
-}
-
-struct GridRequest {
-    std::array<int, 3> count{1, 1, 1};  // along x, y, z
-    Vec3 spacing = Vec3::Zero();        // m between neighbors' origins
-    Vec3 jitter = Vec3::Zero();         // m: largest displacement of a copy to either side
-    double tilt = 0.0;                  // degrees: largest rotation of a copy about a random axis
-};
-
-template <class Visitor, class Self>
-void visit_fields(Of<GridRequest>, Visitor& field, Self& self) {
-    field(self.count, "count", Required(ByCode()), {"along x, y, z", {}, "1 and up", "three whole numbers"});
-    field(self.spacing, "spacing", Required(NumberOrVector{limits::size}), {"between the origins of neighbors"});
-    field(self.jitter, "jitter", NumberOrVector{limits::size_or_zero},
-          {"largest random displacement of each copy, in both directions", "0"});
-    field(self.tilt, "tilt", limits::tilt, {"largest random rotation of each copy, about a random axis"});
-}
-
-struct ScatterRequest {
-    int count = 1;
-    Vec3 size = Vec3::Zero();  // m, of the box that contains the copies' origins
-    bool random_rotation = true;
-    double clearance = 0.0;  // m between the copies' bounding spheres
-};
-
-template <class Visitor, class Self>
-void visit_fields(Of<ScatterRequest>, Visitor& field, Self& self) {
-    field(self.count, "count", Required(Whole{1, limits::bodies}));
-    field(self.size, "size", Required(limits::size_or_zero), {"of the box in which the copies' origins lie"});
-    field(self.random_rotation, "rotation", Words{"random", "none", true},
-          {"`\"random\"`: a uniformly random rotation; `\"none\"`: the body's `rotation`"});
-    field(self.clearance, "clearance", limits::size_or_zero, {"between the bounding spheres"});
 }
 
 template <class Visitor, class Self>

@@ -35,6 +35,7 @@ struct Of {};
 struct ByType {};     // flags, texts, colors, rotations, names of enumerators
 struct ByCode {};     // read by code beside
 struct Direction {};  // a unit vector along the given one
+struct NotEmpty {};   // a text
 struct Whole {
     std::int64_t min, max;
 };

@@ -43,7 +43,7 @@ ScatterRequest read_scatter(const TomlValue& value) {
     return read_all_fields<ScatterRequest>(table);
 }
 
-void read_scale(const TomlTable& body, const ShapeRequest& shape, CopiesRequest& request) {
+void read_scale(const TomlTable& body, const ShapeRequest& shape, CopyLooks& request) {
     const auto value = body.find("scale");
     if (!value) return;
     const auto end = value->items(2, "numbers, the smallest and the largest factor");
@@ -57,7 +57,7 @@ void read_scale(const TomlTable& body, const ShapeRequest& shape, CopiesRequest&
     }
 }
 
-double draw_scale(const CopiesRequest& request, bool shares, Random& random) {
+double draw_scale(const CopyLooks& request, bool shares, Random& random) {
     const double part = shares ? double(random.index(mesh_sizes)) / (mesh_sizes - 1) : random.unit();
     return request.min_scale + (request.max_scale - request.min_scale) * part;
 }
@@ -244,16 +244,13 @@ std::optional<CopiesRequest> read_copies(const TomlTable& body, BodyType type, c
     if (endless(shape.shape)) {
         arrangement.origin().fail("is for bodies of finite size (given a plane, which is endless)");
     }
-    CopiesRequest request{{}, arrangement.origin(), 1.0, 1.0, {}};
+    CopiesRequest request{{}, arrangement.origin(), {}};
     if (grid)
         request.arrangement = read_grid(*grid);
     else
         request.arrangement = read_scatter(*scatter);
-    if (scales == CopyScales::drawn) read_scale(body, shape, request);
-    if (const auto colors = body.find("colors")) {
-        for (const TomlValue& color : colors->items()) request.colors.push_back(color.color());
-        if (request.colors.empty()) colors->fail("must name at least one color");
-    }
+    read_fields(body, request.looks);
+    if (scales == CopyScales::drawn) read_scale(body, shape, request.looks);
     return request;
 }
 
@@ -272,15 +269,16 @@ std::vector<BodyDescription> make_copies(const CopiesRequest& request, const Bod
     Random color_random(seed, table, Random::Purpose::color), size_random(seed, table, Random::Purpose::size);
     std::vector<BodyDescription> copies(static_cast<std::size_t>(number_of(request)), model);
     const bool shares = shared_data(shape.shape) != nullptr;
+    const std::vector<Color>& colors = request.looks.colors;
     for (BodyDescription& copy : copies) {
-        const double factor = draw_scale(request, shares, size_random);
+        const double factor = draw_scale(request.looks, shares, size_random);
         copy.shape = scaled(shape, factor, meshes);
         // A given mass stays, and so do the other moments per mass and squared length.
         if (copy.center_of_mass) *copy.center_of_mass *= factor;
         if (copy.inertia)
             for (double& moment : *copy.inertia)
                 moment *= factor * factor * (copy.mass ? 1.0 : factor * factor * factor);
-        if (!request.colors.empty()) copy.appearance.color = request.colors[color_random.index(request.colors.size())];
+        if (!colors.empty()) copy.appearance.color = colors[color_random.index(colors.size())];
     }
     if (const auto* grid = std::get_if<GridRequest>(&request.arrangement))
         place_in_grid(*grid, position_random, rotation_random, copies);

@@ -2,7 +2,7 @@
 // is random, without contact between its copies.
 #pragma once
 
-#include "scene/fields/body_fields.h"
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/shapes.h"
 #include "scene/toml/toml_reader.h"
 
@@ -16,8 +16,7 @@ namespace tumble {
 struct CopiesRequest {
     std::variant<GridRequest, ScatterRequest> arrangement;
     SourcePosition origin;  // of the grid or scatter, for errors
-    double min_scale = 1.0, max_scale = 1.0;
-    std::vector<Color> colors;  // empty: all have the body's color
+    CopyLooks looks;
 };
 
 /// Sizes of copies: each its own, or one for all. The copies of an instance have one size, whose key is for the whole.

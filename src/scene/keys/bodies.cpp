@@ -13,6 +13,7 @@
 
 #include <iterator>
 #include <string>
+#include <utility>
 
 namespace tumble {
 namespace {
@@ -51,16 +52,15 @@ void name_bodies(const TomlTable& table, bool are_copies, std::size_t first_inde
 
 /// Fails where the table and the columns of its file have the same value.
 void check_poses(const TomlTable& table, const PosedBodies& posed) {
-    const auto refuse = [&](const char* key, bool given_twice, std::string_view columns) {
-        if (const auto value = table.find(key); value && given_twice)
+    constexpr std::pair<const char*, std::string_view> same[] = {{"name", "body"},
+                                                                 {"position", "x,y,z"},
+                                                                 {"rotation", "qw,qx,qy,qz"},
+                                                                 {"velocity", "vx,vy,vz"},
+                                                                 {"angular_velocity", "wx,wy,wz"}};
+    for (const auto& [key, columns] : same)
+        if (const auto value = table.find(key); value && posed.has(columns))
             value->origin().fail(
                 fmt::format("and the columns ({}) of poses exclude each other: give one of them", columns));
-    };
-    refuse("name", posed.names, "body");
-    refuse("position", true, "x, y, z");
-    refuse("rotation", posed.rotations, "qw, qx, qy, qz");
-    refuse("velocity", posed.velocities, "vx, vy, vz");
-    refuse("angular_velocity", posed.angular_velocities, "wx, wy, wz");
 }
 
 /// The bodies of poses = "FILE.csv".
@@ -75,7 +75,7 @@ std::vector<BodyDescription> read_poses(const TomlTable& table, const TomlValue&
     const std::string text = read_named_file(value, "file of poses", sources, file);
     PosedBodies posed = read_posed_bodies(text, file.string(), model, names, std::int64_t(before));
     check_poses(table, posed);
-    if (!posed.names) name_bodies(table, true, before, names, posed.bodies);
+    if (!posed.has("body")) name_bodies(table, true, before, names, posed.bodies);
     return std::move(posed.bodies);
 }
 
@@ -116,7 +116,6 @@ BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequ
     body.type = type;
     body.shape = shape.shape;
     read_fields(table, body);
-    if (table.has("name") && body.name.empty()) table.find("name")->fail("must not be empty");
     apply_material(material, body);
     shape.shape = body.shape;
     if (body.mass && table.has("density"))
@@ -141,7 +140,7 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
     if (!list) return bodies;
     BodyNames names({});
     std::uint64_t number = 0;
-    const std::vector<std::string_view> known = list_keys<BodyDescription, Material>().keys;
+    const std::vector<std::string_view> known = list_keys<BodyDescription, CopyLooks, Material>().keys;
     for (TomlTable& table : list->tables("; write [[body]] for each")) {
         table.set_title("[[body]]");
         table.expect_keys(known);

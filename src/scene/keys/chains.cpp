@@ -1,15 +1,17 @@
 #include "scene/keys/chains.h"
 
 #include "core/deterministic_math.h"
+#include "scene/fields/body_fields.h"
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/chain_curve.h"
 #include "scene/keys/joint_keys.h"
 #include "scene/keys/joints.h"
+#include "scene/keys/read_fields.h"
 #include "scene/keys/shapes.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>
 
-#include <array>
 #include <optional>
 
 namespace tumble {
@@ -22,18 +24,11 @@ constexpr Choice<JointType> chain_joint_types[] = {
     {"fixed", JointType::fixed},
 };
 
-/// The other side of the joint at an end.
-struct ChainEnd {
-    bool joined = false;
-    std::optional<std::size_t> body;  // empty: the world
-};
+using ChainEnd = ChainRequest::End;
 
-struct ChainTable {
+/// The keys of a chain, and its table for the positions of errors.
+struct ChainTable : ChainRequest {
     const TomlTable& table;
-    std::string name;
-    std::size_t links;
-    bool loop = false;
-    std::array<ChainEnd, 2> ends;
 };
 
 ChainEnd read_end(const TomlValue& value, const BodyIndex& index) {
@@ -45,12 +40,8 @@ ChainEnd read_end(const TomlValue& value, const BodyIndex& index) {
 }
 
 ChainTable read_chain(const TomlTable& table, const BodyIndex& index) {
-    ChainTable chain{table, {}, 0, false, {}};
-    const TomlValue name = table.require("name");
-    chain.name = name.text();
-    if (chain.name.empty()) name.fail("must not be empty");
-    table.read("loop", chain.loop);
-    chain.links = std::size_t(table.require("links").integer(chain.loop ? 3 : 1, limits::links));
+    ChainTable chain{read_all_fields<ChainRequest, Material>(table), table};
+    if (chain.loop) table.require("links").integer(3, limits::links);
     if (const auto value = table.find("ends")) {
         if (chain.loop) value->origin().fail("is for chains with ends (given one with loop = true)");
         const auto end = value->items(2, "names: of a body, \"world\" or \"free\"");
@@ -59,25 +50,22 @@ ChainTable read_chain(const TomlTable& table, const BodyIndex& index) {
     if (chain.loop)
         for (const char* key : {"sag", "length"})
             if (const auto value = table.find(key)) value->origin().fail("is for chains with ends (given a loop)");
-    if (!chain.loop && table.has("normal")) table.find("normal")->origin().fail("is for chains with loop = true");
+    if (!chain.loop && chain.normal) table.require("normal").origin().fail("is for chains with loop = true");
     return chain;
 }
 
-ChainCurve hanging(const ChainTable& chain, const Vec3& from, const Vec3& to) {
-    const auto sag = chain.table.find("sag"), length = chain.table.find("length");
-    if (sag && length) sag->origin().fail("and length exclude each other: give one of them");
-    const TomlValue& given = sag ? *sag : *length;
-    std::optional<ChainCurve> curve;
-    if (sag) {
-        if (chain.links < 2) sag->fail("needs at least two links");
-        curve = hanging_chain_of_sag(from, to, chain.links, sag->number(limits::size));
-    } else {
-        const double most = length->number(limits::size), least = (to - from).norm();
-        if (most < least) length->fail(fmt::format("must be at least the distance of the ends, {:.6g} m", least));
-        if (most <= least * (1.0 + 1e-9)) return straight_chain(from, to, chain.links);
-        if (chain.links < 2) length->fail("needs at least two links");
-        curve = hanging_chain_of_length(from, to, chain.links, most);
-    }
+ChainCurve hanging(const ChainTable& chain) {
+    const Vec3 &from = chain.from, &to = chain.to;
+    if (chain.sag && chain.length)
+        chain.table.require("sag").origin().fail("and length exclude each other: give one of them");
+    const TomlValue given = chain.table.require(chain.sag ? "sag" : "length");
+    const double least = (to - from).norm();
+    if (chain.length && *chain.length < least)
+        given.fail(fmt::format("must be at least the distance of the ends, {:.6g} m", least));
+    if (chain.length && *chain.length <= least * (1.0 + 1e-9)) return straight_chain(from, to, chain.links);
+    if (chain.links < 2) given.fail("needs at least two links");
+    const std::optional<ChainCurve> curve = chain.sag ? hanging_chain_of_sag(from, to, chain.links, *chain.sag)
+                                                      : hanging_chain_of_length(from, to, chain.links, *chain.length);
     if (!curve)
         given.origin().fail(
             "has no hanging chain between these ends, which are too steep: give more links, ends that are "
@@ -85,23 +73,20 @@ ChainCurve hanging(const ChainTable& chain, const Vec3& from, const Vec3& to) {
     return *curve;
 }
 
-ChainCurve read_curve(const ChainTable& chain) {
-    const TomlTable& table = chain.table;
-    const Vec3 from = table.require("from").vector(limits::coordinate);
-    const TomlValue end = table.require("to");
-    const Vec3 to = end.vector(limits::coordinate);
-    if (!limits::size.contains((to - from).norm())) end.fail("must be another point than from");
+ChainCurve make_curve(const ChainTable& chain) {
+    const Vec3 &from = chain.from, &to = chain.to;
+    if (!limits::size.contains((to - from).norm())) chain.table.require("to").fail("must be another point than from");
     if (chain.loop) {
-        std::optional<Vec3> normal;
-        if (const auto value = table.find("normal")) {
-            const Vec3 direction = value->direction(), along = (to - from).normalized();
-            if (std::fabs(direction.dot(along)) > limits::axis_tolerance)
-                value->fail("must be square to the line from one point to the other");
-            normal = (direction - direction.dot(along) * along).normalized();
+        std::optional<Vec3> normal = chain.normal;
+        if (normal) {
+            const Vec3 along = (to - from).normalized();
+            if (std::fabs(normal->dot(along)) > limits::axis_tolerance)
+                chain.table.require("normal").fail("must be square to the line from one point to the other");
+            normal = (*normal - normal->dot(along) * along).normalized();
         }
         return closed_chain(from, to, chain.links, normal);
     }
-    if (table.has("sag") || table.has("length")) return hanging(chain, from, to);
+    if (chain.sag || chain.length) return hanging(chain);
     return straight_chain(from, to, chain.links);
 }
 
@@ -124,13 +109,6 @@ Quat rotation_with(const Vec3& x, const Vec3& z) {
 
 void append_links(const ChainTable& chain, const ChainCurve& curve, const BodyDescription& model, BodyNames& names,
                   std::vector<BodyDescription>& bodies) {
-    double twist = 0.0;  // degrees
-    chain.table.read("twist", twist, limits::angle);
-    std::vector<Color> colors;
-    if (const auto list = chain.table.find("colors")) {
-        for (const TomlValue& color : list->items()) colors.push_back(color.color());
-        if (colors.empty()) list->fail("must name at least one color");
-    }
     const SourcePosition origin = chain.table.require("name").origin();
     for (std::size_t i = 0; i < chain.links; ++i) {
         BodyDescription link = model;
@@ -138,10 +116,10 @@ void append_links(const ChainTable& chain, const ChainCurve& curve, const BodyDe
         names.take(link.name, origin);
         const Vec3 from = curve.corners[i], to = curve.corners[i + 1];
         link.position = 0.5 * (from + to);
-        const SinCos half = sincos(0.5 * std::remainder(twist * double(i), 360.0) * pi / 180.0);
+        const SinCos half = sincos(0.5 * std::remainder(chain.twist * double(i), 360.0) * pi / 180.0);
         link.rotation =
             (rotation_with((to - from).normalized(), curve.normal) * Quat(half.cos, half.sin, 0.0, 0.0)).normalized();
-        if (!colors.empty()) link.appearance.color = colors[i % colors.size()];
+        if (!chain.colors.empty()) link.appearance.color = chain.colors[i % chain.colors.size()];
         bodies.push_back(std::move(link));
     }
 }
@@ -222,17 +200,10 @@ void read_chains(const TomlTable& root, const BodySources& sources, std::vector<
     JointNames joint_names(joints);
     for (TomlTable& table : list->tables("; write [[chain]] for each")) {
         table.set_title("[[chain]]");
-        table.expect_keys({"name",          "links",         "shape",    "from",          "to",
-                           "sag",           "length",        "loop",     "normal",        "twist",
-                           "joint",         "ends",          "material", "color",         "colors",
-                           "roughness",     "metallic",      "pattern",  "visible",       "density",
-                           "mass",          "restitution",   "friction", "velocity",      "integrator",
-                           "pattern_color", "pattern_scale", "texture",  "texture_scale", "texture_filter",
-                           "normal_map",    "roughness_map", "opacity",  "emission"});
         const ChainTable chain = read_chain(table, index);
         check_number_of_bodies(std::int64_t(bodies.size() + chain.links), table.require("links").origin());
         ShapeRequest shape = read_shape(table.require("shape"), BodyType::dynamic, sources.folder, sources.meshes);
-        const ChainCurve curve = read_curve(chain);
+        const ChainCurve curve = make_curve(chain);
         check_lengths(chain, curve);
         const BodyDescription model = read_body_model(table, BodyType::dynamic, shape, sources);
         const std::size_t first_link = bodies.size();

@@ -1,9 +1,10 @@
 #include "scene/keys/instances.h"
 
 #include "core/safe_text.h"
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/joints.h"
-#include "scene/keys/motion.h"
+#include "scene/keys/read_fields.h"
 #include "scene/keys/template_pose.h"
 #include "scene/keys/templates.h"
 #include "scene/mesh/mesh_loader.h"
@@ -94,8 +95,7 @@ constexpr std::uint64_t first_random_table = std::uint64_t(1) << 32;
 
 constexpr Range usable_factor{1e-30, 1e30, ""};  // of masses: forces and stiffness stay finite
 
-const SceneTemplate& find_template(const SceneTemplates& templates, const TomlValue& value) {
-    const std::string name = value.text();
+const SceneTemplate& find_template(const SceneTemplates& templates, const TomlValue& value, const std::string& name) {
     if (const auto found = templates.find(name); found != templates.end()) return found->second;
     std::vector<std::string_view> known;
     for (const auto& [other, content] : templates) known.push_back(other);
@@ -110,16 +110,16 @@ double mass_of_all(const SceneTemplate& content) {
     return mass;
 }
 
-void read_size(const TomlTable& table, MeshCache& meshes, SceneTemplate& content) {
-    double scale = 1.0;
-    table.read("scale", scale, limits::copy_scale);
+void resize(const TomlTable& table, const InstanceRequest& request, MeshCache& meshes, SceneTemplate& content) {
+    const double scale = request.scale;
     double factor = scale * scale * scale;
-    if (const auto mass = table.find("mass")) {
+    if (request.mass) {
+        const TomlValue mass = table.require("mass");
         const double all = mass_of_all(content);
-        if (!(all > 0.0)) mass->origin().fail("is for templates with a dynamic body, and there is none");
-        factor = mass->number(limits::mass) / all;
+        if (!(all > 0.0)) mass.origin().fail("is for templates with a dynamic body, and there is none");
+        factor = *request.mass / all;
         if (!usable_factor.contains(factor))
-            mass->fail(
+            mass.fail(
                 fmt::format("is unusable for a template of {:.3g} kg: give densities that are nearer to it", all));
     }
     if (scale == 1.0 && factor == 1.0) return;
@@ -170,24 +170,21 @@ public:
           joint_names_(joints) {}
 
     void read(const TomlTable& table) {
-        table.expect_keys({"template", "name", "position", "rotation", "scale", "mass", "velocity", "angular_velocity",
-                           "pose", "color", "grid", "scatter", "colors"});
-        SceneTemplate content = find_template(templates_, table.require("template"));
-        const TomlValue name = table.require("name");
-        if (name.text().empty()) name.fail("must not be empty");
+        const InstanceRequest request = read_all_fields<InstanceRequest>(table);
+        SceneTemplate content = find_template(templates_, table.require("template"), request.of);
         if (const auto pose = table.find("pose")) apply_pose(*pose, content);
-        read_size(table, sources_.meshes, content);
+        resize(table, request, sources_.meshes, content);
 
         BodyDescription model;  // place and velocity of the whole
-        model.name = name.text();
-        table.read("position", model.position, limits::coordinate);
-        if (const auto rotation = table.find("rotation")) model.rotation = read_rotation(*rotation);
-        table.read("velocity", model.velocity, limits::velocity);
-        table.read("angular_velocity", model.angular_velocity, limits::angular_velocity);
-        table.read("color", model.appearance.color);
-        const bool colored = table.has("color") || table.has("colors");
+        model.name = request.name;
+        model.position = request.position;
+        model.rotation = request.rotation;
+        model.velocity = request.velocity;
+        model.angular_velocity = request.angular_velocity;
+        model.appearance.color = request.color.value_or(model.appearance.color);
+        const bool colored = request.color || table.has("colors");
         const std::vector<BodyDescription> places = make_places(table, model, content);
-        const SourcePosition& origin = name.origin();
+        const SourcePosition origin = table.require("name").origin();
         check_number_of_bodies(std::int64_t(bodies_.size()) + std::int64_t(places.size() * content.bodies.size()),
                                origin);
         check_number_of_joints(joints_.size() + places.size() * content.joints.size(), origin);

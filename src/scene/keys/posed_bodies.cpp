@@ -1,6 +1,7 @@
 #include "scene/keys/posed_bodies.h"
 
 #include "core/safe_text.h"
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/bodies.h"
 #include "scene/toml/error_text.h"
 #include "scene/toml/limits.h"
@@ -9,10 +10,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <optional>
+#include <span>
 
 namespace tumble {
 namespace {
@@ -96,69 +96,113 @@ std::size_t CsvLines::add_quoted(std::size_t first) {
     throw InputError(place(first), "the quote at the start of this cell has no end in the line");
 }
 
-constexpr auto column_names = std::to_array<std::string_view>(
-    {"body", "x", "y", "z", "qw", "qx", "qy", "qz", "vx", "vy", "vz", "wx", "wy", "wz"});
+/// The columns of a field of PoseRow.
+struct ColumnGroup {
+    std::string_view key;  // "x,y,z"
+    bool required;
+    std::size_t first, count;  // among all columns
+    bool given = false;
+};
+
+template <class Rule>
+constexpr bool is_required = false;
+template <class Rule>
+constexpr bool is_required<Required<Rule>> = true;
+
+/// The fields of PoseRow as groups of columns.
+struct GroupList : FieldVisitor {
+    template <class Rule>
+    void operator()(const auto&, std::string_view key, const Rule&, const About& = {}) {
+        const std::size_t first = columns.size();
+        for (std::string_view rest = key; !rest.empty();) {
+            const std::size_t end = std::min(rest.find(','), rest.size());
+            columns.push_back(rest.substr(0, end));
+            rest.remove_prefix(std::min(end + 1, rest.size()));
+        }
+        groups.push_back({key, is_required<Rule>, first, columns.size() - first});
+    }
+
+    std::vector<std::string_view> columns;
+    std::vector<ColumnGroup> groups;
+};
+
 constexpr std::size_t absent = SIZE_MAX;
 
 class PoseReader {
 public:
     PoseReader(std::string_view text, const std::string& file, const BodyDescription& model)
-        : lines_(text, file), file_(file), model_(model) {}
+        : lines_(text, file), file_(file), model_(model) {
+        const PoseRow row;
+        visit_fields(Of<PoseRow>(), known_, row);
+    }
 
     PosedBodies read(BodyNames& names, std::int64_t before);
 
 private:
-    enum Column : std::size_t { body, x, y, z, qw, qx, qy, qz, vx, vy, vz, wx, wy, wz };  // of column_names
+    /// Reads the fields of a row whose columns the file has, in the order of known_.groups.
+    struct RowReader : FieldVisitor {
+        RowReader(const PoseReader& from) : file(from) {}
+        void operator()(auto& target, std::string_view, const auto& rule, const About& = {}) {
+            if (group->given) file.read_value(target, group->first, rule);
+            ++group;
+        }
+
+        const PoseReader& file;
+        std::vector<ColumnGroup>::const_iterator group = file.known_.groups.begin();
+    };
+
     void read_header();
-    bool has_group(Column first, std::size_t count) const;
-    void refuse_velocity(Column column) const;
-    const Cell& cell(Column column) const { return lines_.cells()[places_[column]]; }
-    SourcePosition at(Column column) const { return lines_.at(cell(column), column_names[column]); }
-    double number(Column column, const Range& range) const;
-    Vec3 vector(Column first, const Range& range) const {
-        return {number(first, range), number(Column(first + 1), range), number(Column(first + 2), range)};
+    bool has_group(const ColumnGroup& group) const;
+    const Cell& cell(std::size_t column) const { return lines_.cells()[places_[column]]; }
+    SourcePosition at(std::size_t column) const { return lines_.at(cell(column), known_.columns[column]); }
+    double number(std::size_t column, const Range& range) const;
+
+    void read_value(Vec3& target, std::size_t first, const Range& range) const {
+        for (std::size_t k = 0; k < 3; ++k) target[Eigen::Index(k)] = number(first + k, range);
     }
-    Quat rotation() const;
-    std::string name() const;
+    template <class Rule>
+    void read_value(Vec3& target, std::size_t first, const Required<Rule>& required) const {
+        read_value(target, first, required.rule);
+    }
+    void read_value(Quat& target, std::size_t first, ByType) const;
+    void read_value(std::string& target, std::size_t column, NotEmpty) const;
 
     CsvLines lines_;
     const std::string& file_;
     const BodyDescription& model_;
-    std::array<std::size_t, column_names.size()> places_{};  // in a line, by column
+    GroupList known_;
+    std::vector<std::size_t> places_;  // in a line, by column
 };
 
 void PoseReader::read_header() {
-    places_.fill(absent);
+    places_.assign(known_.columns.size(), absent);
     if (!lines_.next()) throw InputError({file_, 1, 1}, "is empty: the first line names the columns, such as x,y,z");
     for (std::size_t i = 0; i < lines_.cells().size(); ++i) {
         const Cell& cell = lines_.cells()[i];
-        const auto known = std::ranges::find(column_names, cell.text);
-        if (known == column_names.end())
-            throw InputError(lines_.at(cell, {}).where,
-                             fmt::format("unknown column \"{}\"{}", safe_text(cell.text),
-                                         suggestion(cell.text, {column_names.begin(), column_names.end()})));
-        std::size_t& place = places_[std::size_t(known - column_names.begin())];
+        const auto known = std::ranges::find(known_.columns, cell.text);
+        if (known == known_.columns.end())
+            throw InputError(lines_.at(cell, {}).where, fmt::format("unknown column \"{}\"{}", safe_text(cell.text),
+                                                                    suggestion(cell.text, known_.columns)));
+        std::size_t& place = places_[std::size_t(known - known_.columns.begin())];
         if (place != absent) lines_.at(cell, cell.text).fail("is there twice");
         place = i;
     }
+    for (ColumnGroup& group : known_.groups) group.given = has_group(group);
 }
 
 /// Columns that go together. Fails if some are missing.
-bool PoseReader::has_group(Column first, std::size_t count) const {
-    const auto places = std::span(places_).subspan(first, count);
+bool PoseReader::has_group(const ColumnGroup& group) const {
+    const auto places = std::span(places_).subspan(group.first, group.count);
     const auto missing = std::ranges::find(places, absent);
     if (missing == places.end()) return true;
-    if (first != x && std::ranges::all_of(places, [](std::size_t place) { return place == absent; })) return false;
-    const auto group = std::span(column_names).subspan(first, count);
-    lines_.fail(fmt::format("has no column \"{}\": {} go together", group[std::size_t(missing - places.begin())],
-                            fmt::join(group, ", ")));
+    const auto is_absent = [](std::size_t place) { return place == absent; };
+    if (!group.required && std::ranges::all_of(places, is_absent)) return false;
+    const auto columns = std::span(known_.columns).subspan(group.first, group.count);
+    lines_.fail(fmt::format("has no column \"{}\": {} go together", columns[std::size_t(missing - places.begin())],
+                            fmt::join(columns, ", ")));
 }
 
-void PoseReader::refuse_velocity(Column column) const {
-    if (model_.type != BodyType::dynamic) at(column).fail("is for dynamic bodies: leave the column out");
-}
-
-double PoseReader::number(Column column, const Range& range) const {
+double PoseReader::number(std::size_t column, const Range& range) const {
     std::string_view text = cell(column).text;
     while (text.starts_with(' ')) text.remove_prefix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
@@ -170,30 +214,37 @@ double PoseReader::number(Column column, const Range& range) const {
     return range.contains(value) ? value : checked(value, range, at(column));
 }
 
-Quat PoseReader::rotation() const {
-    const Vec3 v = vector(qx, quaternion_component);
-    const Quat q(number(qw, quaternion_component), v.x(), v.y(), v.z());
+void PoseReader::read_value(Quat& target, std::size_t first, ByType) const {
+    Vec3 v;
+    read_value(v, first + 1, quaternion_component);
+    const Quat q(number(first, quaternion_component), v.x(), v.y(), v.z());
     const double norm = q.norm();
     if (!(std::fabs(norm - 1.0) <= limits::quaternion_tolerance))
-        at(qw).fail(fmt::format("must begin a quaternion of length 1 (given one of length {:.6g})", norm));
-    return q.normalized();
+        at(first).fail(fmt::format("must begin a quaternion of length 1 (given one of length {:.6g})", norm));
+    target = q.normalized();
 }
 
-std::string PoseReader::name() const {
-    std::string name(cell(body).text);
-    for (std::size_t i = 0; cell(body).quoted && (i = name.find("\"\"", i)) != std::string::npos; ++i) name.erase(i, 1);
-    if (name.empty()) at(body).fail("must not be empty");
+void PoseReader::read_value(std::string& name, std::size_t column, NotEmpty) const {
+    name = cell(column).text;
+    const bool quoted = cell(column).quoted;
+    for (std::size_t i = 0; quoted && (i = name.find("\"\"", i)) != std::string::npos; ++i) name.erase(i, 1);
+    if (name.empty()) at(column).fail("must not be empty");
     if (safe_text(name, name.size() + 1) != name)
-        at(body).fail(fmt::format("must be printable UTF-8 (given \"{}\")", safe_text(name)));
-    return name;
+        at(column).fail(fmt::format("must be printable UTF-8 (given \"{}\")", safe_text(name)));
 }
 
 PosedBodies PoseReader::read(BodyNames& names, std::int64_t before) {
     read_header();
-    has_group(x, 3);
-    PosedBodies made{{}, places_[body] != absent, has_group(qw, 4), has_group(vx, 3), has_group(wx, 3)};
-    if (made.velocities) refuse_velocity(vx);
-    if (made.angular_velocities) refuse_velocity(wx);
+    PosedBodies made;
+    for (const ColumnGroup& group : known_.groups) {
+        if (!group.given) continue;
+        made.columns.push_back(group.key);
+        const bool is_velocity = group.key == "vx,vy,vz" || group.key == "wx,wy,wz";
+        if (is_velocity && model_.type != BodyType::dynamic)
+            at(group.first).fail("is for dynamic bodies: leave the column out");
+    }
+    const bool named = made.has("body");
+    const std::size_t body = std::size_t(std::ranges::find(known_.columns, "body") - known_.columns.begin());
     const std::size_t width = lines_.cells().size();
     made.bodies.reserve(std::size_t(std::min(lines_.left(), limits::bodies)));
     while (lines_.next()) {
@@ -202,13 +253,9 @@ PosedBodies PoseReader::read(BodyNames& names, std::int64_t before) {
         const std::int64_t number = before + std::int64_t(made.bodies.size()) + 1;
         if (number > limits::bodies) check_number_of_bodies(number, lines_.at(lines_.cells().front(), "poses"));
         BodyDescription& one = made.bodies.emplace_back(model_);
-        one.position = vector(x, limits::coordinate);
-        if (made.rotations) one.rotation = rotation();
-        if (made.velocities) one.velocity = vector(vx, limits::velocity);
-        if (made.angular_velocities) one.angular_velocity = vector(wx, limits::angular_velocity);
-        if (!made.names) continue;
-        one.name = name();
-        names.take(one.name, at(body));
+        RowReader reader(*this);
+        visit_fields(Of<PoseRow>(), reader, one);
+        if (named) names.take(one.name, at(body));
     }
     if (made.bodies.empty()) throw InputError({file_, 1, 1}, "has no row below the names of its columns");
     return made;

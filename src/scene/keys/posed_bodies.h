@@ -3,6 +3,7 @@
 
 #include "scene/description/description.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -14,12 +15,13 @@ class BodyNames;
 
 struct PosedBodies {
     std::vector<BodyDescription> bodies;
-    // Columns of the file; the bodies have other values from the model.
-    bool names = false, rotations = false, velocities = false, angular_velocities = false;
+    std::vector<std::string_view> columns;  // fields of PoseRow that the file has, such as "x,y,z"
+
+    bool has(std::string_view field) const { return std::ranges::find(columns, field) != columns.end(); }
 };
 
 /// The bodies of a CSV text: the model with the values of a row. The first row names the columns, in any order: x,y,z
-/// (m, required), body (the name), qw,qx,qy,qz, vx,vy,vz (m/s) and wx,wy,wz (rad/s).
+/// (required) and the others of PoseRow (scene/fields/many_bodies_fields.h).
 /// - `file`: for errors, InputError at file, line and column.
 /// - `names`: gets the names of the bodies.
 /// - `before`: number of bodies of the scene before these.

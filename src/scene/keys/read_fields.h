@@ -7,12 +7,22 @@
 #include "scene/toml/toml_reader.h"
 
 #include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace tumble {
 
 inline void read_value(const TomlValue& given, bool& target, ByType) { target = given.boolean(); }
 inline void read_value(const TomlValue& given, std::string& target, ByType) { target = given.text(); }
+inline void read_value(const TomlValue& given, std::string& target, NotEmpty) {
+    target = given.text();
+    if (target.empty()) given.fail("must not be empty");
+}
+inline void read_value(const TomlValue& given, std::vector<Color>& target, ByType) {
+    for (const TomlValue& color : given.items()) target.push_back(color.color());
+    if (target.empty()) given.fail("must name at least one color");
+}
 inline void read_value(const TomlValue& given, Color& target, ByType) { target = given.color(); }
 inline void read_value(const TomlValue& given, Quat& target, ByType) { target = read_rotation(given); }
 template <Named Enum>
@@ -65,10 +75,10 @@ void read_fields(const TomlTable& table, Struct& target) {
     visit_fields(Of<Struct>(), reader, target);
 }
 
-/// The same, after the check that the table has no other keys.
-template <HasFields Struct>
+/// The same, after the check that the table has no keys but those, and those of `Others`, which are read elsewhere.
+template <HasFields Struct, HasFields... Others>
 Struct read_all_fields(const TomlTable& table, Struct target = {}) {
-    table.expect_keys(list_keys<Struct>().keys);
+    table.expect_keys(list_keys<Struct, Others...>().keys);
     read_fields(table, target);
     return target;
 }

@@ -1,7 +1,9 @@
 #include "scene/keys/templates.h"
 
+#include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/chains.h"
 #include "scene/keys/joints.h"
+#include "scene/keys/read_fields.h"
 
 #include <fmt/format.h>
 
@@ -32,7 +34,7 @@ SceneTemplate read_template_file(const TomlValue& value, const BodySources& sour
     const toml::table document = parse_toml(text, file.string());
     const TomlTable root(document, {"template", {file.string(), 1, 1}}, "the file of a template");
     refuse_instances(root);
-    root.expect_keys({"format", "title", "materials", "body", "joint", "chain"});
+    root.expect_keys(list_keys<TemplateFile>().keys);
     const std::filesystem::path folder = file.parent_path();
     const Materials materials = read_materials(root, {folder, sources.textures});
     return read_content(root, {materials, folder, sources.settings, sources.meshes, sources.textures, sources.files},
@@ -41,7 +43,7 @@ SceneTemplate read_template_file(const TomlValue& value, const BodySources& sour
 
 SceneTemplate read_template(const TomlTable& table, const BodySources& sources) {
     refuse_instances(table);
-    table.expect_keys({"file", "body", "joint", "chain"});
+    read_all_fields<TemplateRequest>(table);
     const auto file = table.find("file");
     if (!file) return read_content(table, sources, table.origin());
     for (const char* key : {"body", "joint", "chain"})
