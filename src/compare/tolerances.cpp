@@ -4,7 +4,6 @@
 #include "compare/platform.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "scene/toml/toml_file.h"
 #include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>

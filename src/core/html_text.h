@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -20,5 +21,8 @@ constexpr std::size_t base64_length(std::size_t bytes) { return (bytes + 2) / 3 
 
 /// "data:image/png;base64,...".
 std::string data_address(std::string_view media_type, std::span<const std::byte> bytes);
+
+/// The bytes of such a text; empty for text that is not base64. Padding is optional.
+std::optional<std::string> decode_base64(std::string_view text);
 
 }  // namespace tumble

@@ -1,7 +1,7 @@
 // The text of an MTL file, in a folder with an image: the result are materials or a MeshError.
 #include "mesh_fuzzer.h"
 
-#include "scene/mesh/mtl_file.h"
+#include "scene/mesh/mesh_readers.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     tumble::MeshImages images(tumble::fuzzed_folder().path());

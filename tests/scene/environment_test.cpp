@@ -5,7 +5,6 @@
 #include "scene/environment/mirror_map.h"
 #include "scene/environment/presets.h"
 #include "scene/load.h"
-#include "scene/mesh/input_file.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/toml/error_text.h"
 #include "support/folder.h"

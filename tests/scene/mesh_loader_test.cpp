@@ -1,7 +1,7 @@
 // Results of valid mesh files: surfaces welded, closed and oriented outward, with plausible normals.
 #include "scene/mesh/mesh_loader.h"
 #include "mesh_files.h"
-#include "scene/mesh/mesh_normals.h"
+#include "scene/mesh/mesh_faces.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
-#include "scene/mesh/polygon.h"
 #include "core/vector.h"
+#include "scene/mesh/mesh_file.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include "core/input_file.h"
 #include "core/safe_text.h"
 #include "output/temporary_file.h"
-#include "scene/mesh/base64.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

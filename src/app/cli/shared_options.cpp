@@ -3,7 +3,7 @@
 #include "compare/platform.h"
 #include "core/error.h"
 #include "scene/description/overlay.h"
-#include "scene/toml/frame_rate_text.h"
+#include "scene/toml/range.h"
 
 #include <algorithm>
 #include <charconv>

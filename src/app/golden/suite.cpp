@@ -3,7 +3,6 @@
 #include "app/golden/case_keys.h"
 #include "core/check.h"
 #include "core/frame_rate.h"
-#include "scene/toml/toml_file.h"
 #include "scene/toml/toml_reader.h"
 #include "scene/toml/toml_text.h"
 

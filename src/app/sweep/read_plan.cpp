@@ -5,7 +5,7 @@
 #include "app/sweep/sweep_sample.h"
 #include "core/error.h"
 #include "scene/toml/limits.h"
-#include "scene/toml/toml_file.h"
+#include "scene/toml/toml_reader.h"
 #include "scene/toml/toml_text.h"
 #include "sim/frames/clip_timing.h"
 

@@ -8,8 +8,6 @@
 #include "core/vector.h"
 #include "scene/description/environment.h"
 #include "scene/description/force_fields.h"
-#include "scene/description/frame_corner.h"
-#include "scene/description/interpolation.h"
 #include "scene/description/joint.h"
 #include "scene/description/mesh_paint.h"
 #include "scene/description/overlay.h"

@@ -7,7 +7,6 @@
 #pragma once
 
 #include "core/vector.h"
-#include "scene/description/interpolation.h"
 
 #include <array>
 #include <cstddef>
@@ -16,6 +15,9 @@
 #include <vector>
 
 namespace tumble {
+
+/// Interpolation between keyframes: of bodies, the camera and motors.
+enum class Interpolation { smooth, linear };
 
 enum class JointType { fixed, hinge, ball, slider, universal, cylindrical, planar, distance, six_dof, gear };
 

@@ -1,8 +1,15 @@
 #include "scene/description/mesh_paint.h"
 
+#include "scene/description/painted_mesh.h"
 #include "scene/description/texel_of.h"
 
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <tuple>
+
 namespace tumble {
+
 std::array<float, 4> Texture::texel(std::size_t level, int x, int y) const {
     const Level& image = levels[level];
     const auto& code = image.texels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
@@ -18,6 +25,68 @@ std::array<float, 3> color_at(const MeshMaterial& material, const std::array<flo
     const std::array<float, 4> texel = nearest_texel(material, uv);
     for (std::size_t c = 0; c < 3; ++c) color[c] = color[c] * texel[c] * vertex_color[c];
     return color;
+}
+
+namespace {
+
+bool same_texture(const MeshMaterial& a, const MeshMaterial& b) {
+    return a.texture == b.texture && a.wrap_u == b.wrap_u && a.wrap_v == b.wrap_v && a.nearest == b.nearest &&
+           a.maps == b.maps && a.translucent() == b.translucent() && a.blends == b.blends;
+}
+
+/// For each material the first one with its texture.
+std::vector<std::size_t> first_with_texture(const std::vector<MeshMaterial>& materials) {
+    std::vector<std::size_t> first;
+    for (const MeshMaterial& material : materials)
+        first.push_back(
+            std::size_t(std::find_if(materials.begin(), materials.end(),
+                                     [&](const MeshMaterial& other) { return same_texture(material, other); }) -
+                        materials.begin()));
+    return first;
+}
+
+float hole_of(const MeshMaterial& material) {
+    return material.has_holes() ? material.cutoff : material.blends ? -1.0f : 0.0f;
+}
+
+VertexPaint paint_of(const MeshMaterial& material, const MeshPaint::Corner& corner) {
+    VertexPaint paint{corner.uv,
+                      material.color,
+                      {material.roughness, material.metallic, hole_of(material), material.opacity},
+                      material.emission};
+    for (std::size_t c = 0; c < 3; ++c) paint.color[c] *= corner.color[c];
+    return paint;
+}
+
+}  // namespace
+
+PaintedMesh paint_mesh(std::span<const std::uint32_t> indices, const MeshPaint& paint) {
+    const std::vector<std::size_t> first = first_with_texture(paint.materials);
+    const auto texture_of = [&](std::uint32_t triangle) { return first[paint.material_of_triangle[triangle]]; };
+    std::vector<std::uint32_t> order(indices.size() / 3);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return texture_of(a) < texture_of(b); });
+
+    PaintedMesh mesh;
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<float, 2>, std::array<float, 3>>, std::uint32_t> made;
+    for (const std::uint32_t triangle : order) {
+        const MeshMaterial* texture = &paint.materials[texture_of(triangle)];
+        if (mesh.ranges.empty() || mesh.ranges.back().material != texture)
+            mesh.ranges.push_back({texture, mesh.indices.size(), 0});
+        mesh.ranges.back().count += 3;
+        const std::uint32_t number = paint.material_of_triangle[triangle];
+        for (std::size_t i = 3 * std::size_t(triangle); i < 3 * std::size_t(triangle) + 3; ++i) {
+            const MeshPaint::Corner& corner = paint.corners[i];
+            const auto [entry, is_new] =
+                made.try_emplace({indices[i], number, corner.uv, corner.color}, std::uint32_t(mesh.source.size()));
+            mesh.indices.push_back(entry->second);
+            if (!is_new) continue;
+            mesh.source.push_back(indices[i]);
+            mesh.paint.push_back(paint_of(paint.materials[number], corner));
+        }
+    }
+    return mesh;
 }
 
 }  // namespace tumble

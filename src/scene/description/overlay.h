@@ -1,21 +1,34 @@
-// The overlays of a clip: quantities that are drawn over its frames, captions and plots.
+// The overlays of a clip: quantities that are drawn over its frames, captions, plots and a logo.
 #pragma once
 
 #include "core/color.h"
 #include "core/vector.h"
 #include "scene/description/label.h"
-#include "scene/description/logo.h"
+#include "scene/description/mesh_paint.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace tumble {
+
+/// Places in a frame for pictures that are laid over it.
+enum class FrameCorner : std::uint8_t { top_left, top_right, bottom_left, bottom_right };
+
+/// A picture over all frames of a clip, in one of their corners.
+struct LogoDescription {
+    std::shared_ptr<const Texture> image;  // never null
+    FrameCorner corner = FrameCorner::top_right;
+    double width = 0.15;   // share of the width of the frame
+    double margin = 0.03;  // to the edges of the frame, share of its height
+    double opacity = 1.0;
+};
 
 enum class Overlay : std::uint8_t {
     contacts,          // contact points, marked by the features that meet

@@ -2,12 +2,11 @@
 
 #include "core/safe_text.h"
 #include "scene/keys/arrays.h"
-#include "scene/keys/matter.h"
-#include "scene/keys/motion.h"
+#include "scene/keys/body_values.h"
 #include "scene/keys/posed_bodies.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
-#include "scene/toml/toml_file.h"
+#include "scene/toml/toml_reader.h"
 
 #include <fmt/format.h>
 

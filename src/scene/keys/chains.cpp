@@ -1,10 +1,9 @@
-#include "scene/keys/chains.h"
+#include "scene/keys/readers.h"
 
 #include "core/deterministic_math.h"
 #include "scene/fields/body_fields.h"
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/chain_curve.h"
-#include "scene/keys/joint_keys.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/read_fields.h"
 #include "scene/keys/shapes.h"

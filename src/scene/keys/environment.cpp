@@ -1,4 +1,4 @@
-#include "scene/keys/environment.h"
+#include "scene/keys/readers.h"
 
 #include "core/safe_text.h"
 #include "scene/environment/exr_image.h"
@@ -6,7 +6,6 @@
 #include "scene/environment/presets.h"
 #include "scene/fields/settings_fields.h"
 #include "scene/keys/read_fields.h"
-#include "scene/mesh/input_file.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/mesh/texture_image.h"
 

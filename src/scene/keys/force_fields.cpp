@@ -1,4 +1,4 @@
-#include "scene/keys/force_fields.h"
+#include "scene/keys/readers.h"
 
 #include "core/safe_text.h"
 #include "scene/fields/force_fields.h"

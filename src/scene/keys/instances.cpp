@@ -1,11 +1,9 @@
-#include "scene/keys/instances.h"
 
 #include "core/safe_text.h"
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/read_fields.h"
-#include "scene/keys/template_pose.h"
 #include "scene/keys/templates.h"
 #include "scene/mesh/mesh_loader.h"
 #include "scene/toml/limits.h"

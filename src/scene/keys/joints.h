@@ -2,6 +2,7 @@
 #pragma once
 
 #include "scene/description/description.h"
+#include "scene/fields/choices.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/joint_places.h"
 #include "scene/toml/toml_reader.h"
@@ -43,5 +44,8 @@ const JointDescription& find_joint(const TomlValue& name, const std::vector<Join
 
 /// Fails at the origin if a scene with so many joints has too many.
 void check_number_of_joints(std::size_t number, const SourcePosition& origin);
+
+/// The type of a joint's table. Fails at an unknown key, and at a key of another type.
+JointType read_joint_type(const TomlTable& table);
 
 }  // namespace tumble

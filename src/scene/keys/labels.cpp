@@ -1,4 +1,4 @@
-#include "scene/keys/labels.h"
+#include "scene/keys/readers.h"
 
 #include "core/safe_text.h"
 #include "scene/fields/label_fields.h"

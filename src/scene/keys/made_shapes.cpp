@@ -1,4 +1,4 @@
-#include "scene/keys/made_shapes.h"
+#include "scene/keys/shapes.h"
 
 #include "core/input_file.h"
 #include "core/safe_text.h"

@@ -1,4 +1,4 @@
-#include "scene/keys/overlay.h"
+#include "scene/keys/readers.h"
 
 #include "scene/fields/overlay_fields.h"
 #include "scene/keys/body_index.h"

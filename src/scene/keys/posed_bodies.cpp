@@ -5,7 +5,6 @@
 #include "scene/keys/bodies.h"
 #include "scene/toml/error_text.h"
 #include "scene/toml/limits.h"
-#include "scene/toml/source_position.h"
 
 #include <fmt/format.h>
 

@@ -3,7 +3,7 @@
 
 #include "scene/fields/choices.h"
 #include "scene/fields/field.h"
-#include "scene/keys/motion.h"
+#include "scene/keys/body_values.h"
 #include "scene/toml/toml_reader.h"
 
 #include <optional>

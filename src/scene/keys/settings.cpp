@@ -1,4 +1,4 @@
-#include "scene/keys/settings.h"
+#include "scene/keys/readers.h"
 
 #include "core/frame_rate.h"
 #include "scene/description/lamps.h"

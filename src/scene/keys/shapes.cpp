@@ -3,7 +3,6 @@
 #include "core/safe_text.h"
 #include "scene/fields/body_fields.h"
 #include "scene/fields/choices.h"
-#include "scene/keys/made_shapes.h"
 #include "scene/keys/read_fields.h"
 #include "scene/mesh/curved_mesh.h"
 #include "scene/toml/limits.h"

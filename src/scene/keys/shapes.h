@@ -29,4 +29,11 @@ std::optional<Color> mean_paint(const Shape& shape);
 /// The shape enlarged by a factor. Meshes of equal scale are shared.
 Shape scaled(const ShapeRequest& request, double factor, MeshCache& meshes);
 
+/// `{ type = "hull", points = [[x, y, z], ...] }`
+ShapeRequest read_hull(const TomlTable& table);
+
+/// `{ type = "heightfield", file, size = [x, z], height, base }`. The file is relative to `folder`; it is added to the
+/// files of `meshes`.
+ShapeRequest read_height_field(const TomlTable& table, const std::filesystem::path& folder, MeshCache& meshes);
+
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "scene/keys/speed.h"
+#include "scene/keys/readers.h"
 
 #include "scene/fields/speed_fields.h"
 #include "scene/keys/body_index.h"

@@ -1,4 +1,4 @@
-#include "scene/keys/template_pose.h"
+#include "scene/keys/templates.h"
 
 #include "core/deterministic_math.h"
 #include "core/safe_text.h"

@@ -1,9 +1,9 @@
 #include "scene/keys/templates.h"
 
 #include "scene/fields/many_bodies_fields.h"
-#include "scene/keys/chains.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/read_fields.h"
+#include "scene/keys/readers.h"
 
 #include <fmt/format.h>
 

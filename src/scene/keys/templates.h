@@ -1,4 +1,4 @@
-// [template.NAME]: bodies and joints that instances place.
+// [template.NAME]: bodies and joints that instances place; [[instance]].
 #pragma once
 
 #include "scene/description/description.h"
@@ -21,5 +21,13 @@ using SceneTemplates = std::map<std::string, SceneTemplate, std::less<>>;
 
 /// Reads all templates.
 SceneTemplates read_templates(const TomlTable& root, const BodySources& sources);
+
+/// Appends the bodies NAME.BODY and the joints NAME.JOINT of all instances; copies are NAME.0.BODY.
+void read_instances(const TomlTable& root, const SceneTemplates& templates, const BodySources& sources,
+                    std::vector<BodyDescription>& bodies, std::vector<JointDescription>& joints);
+
+/// Moves the bodies so that hinges and sliders have the given coordinates (`pose = { NAME = degrees or m }`). Fixed and
+/// kinematic bodies and the world stay; without them, the first body of each group of joined bodies.
+void apply_pose(const TomlValue& pose, SceneTemplate& content);
 
 }  // namespace tumble

@@ -1,10 +1,8 @@
-#include "scene/mesh/assimp_import.h"
 
 #include "scene/mesh/import_process.h"
 #include "scene/mesh/mesh_images.h"
+#include "scene/mesh/mesh_readers.h"
 #include "scene/mesh/mesh_transform.h"
-#include "scene/mesh/mtl_file.h"
-#include "scene/mesh/three_mf_file.h"
 
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>

@@ -1,4 +1,4 @@
-#include "scene/mesh/file_paint.h"
+#include "scene/mesh/mesh_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,7 @@
 #include "scene/mesh/gltf_buffers.h"
 
-#include "scene/mesh/base64.h"
+#include "core/html_text.h"
 #include "scene/mesh/gltf_compression.h"
-#include "scene/mesh/input_file.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/toml/limits.h"
 

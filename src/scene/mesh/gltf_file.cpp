@@ -1,4 +1,4 @@
-#include "scene/mesh/gltf_file.h"
+#include "scene/mesh/mesh_readers.h"
 
 #include "scene/mesh/gltf_buffers.h"
 #include "scene/mesh/gltf_compression.h"

@@ -1,4 +1,3 @@
-#include "scene/mesh/input_file.h"
 
 #include "core/input_file.h"
 #include "scene/mesh/mesh_file.h"

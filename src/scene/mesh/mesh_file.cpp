@@ -1,7 +1,6 @@
 #include "scene/mesh/mesh_file.h"
 
 #include "scene/mesh/mesh_images.h"
-#include "scene/mesh/polygon.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,8 @@
 #include "scene/mesh/mesh_loader.h"
 #include "scene/mesh/curved_mesh.h"
-#include "scene/mesh/file_paint.h"
+#include "scene/mesh/mesh_file.h"
 
-#include "scene/mesh/mesh_normals.h"
-#include "scene/mesh/mesh_winding.h"
+#include "scene/mesh/mesh_faces.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/shape.h"
 

@@ -1,4 +1,4 @@
-#include "scene/mesh/mtl_file.h"
+#include "scene/mesh/mesh_readers.h"
 
 #include "core/color.h"
 #include "scene/mesh/mesh_text.h"

@@ -1,9 +1,8 @@
-#include "scene/mesh/obj_file.h"
+#include "scene/mesh/mesh_readers.h"
 
 #include "scene/mesh/mesh_images.h"
 #include "scene/mesh/mesh_text.h"
 #include "scene/mesh/mesh_transform.h"
-#include "scene/mesh/mtl_file.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>

@@ -1,7 +1,6 @@
-#include "scene/mesh/ply_file.h"
 
 #include "scene/mesh/mesh_images.h"
-#include "scene/mesh/mtl_file.h"
+#include "scene/mesh/mesh_readers.h"
 #include "scene/toml/limits.h"
 #include "scene/toml/range.h"
 

@@ -1,4 +1,4 @@
-#include "scene/mesh/polygon.h"
+#include "scene/mesh/mesh_file.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,5 @@
-#include "scene/mesh/assimp_import.h"
-#include "scene/mesh/gltf_file.h"
-#include "scene/mesh/input_file.h"
 #include "scene/mesh/mesh_file.h"
-#include "scene/mesh/obj_file.h"
-#include "scene/mesh/ply_file.h"
-#include "scene/mesh/stl_file.h"
+#include "scene/mesh/mesh_readers.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "scene/mesh/stl_file.h"
+#include "scene/mesh/mesh_readers.h"
 
 #include "scene/mesh/mesh_text.h"
 #include "scene/mesh/mesh_transform.h"

@@ -1,6 +1,5 @@
 #include "scene/mesh/texture_files.h"
 
-#include "scene/mesh/input_file.h"
 #include "scene/mesh/mesh_file.h"
 #include "scene/mesh/texture_image.h"
 

@@ -1,7 +1,6 @@
-#include "scene/mesh/three_mf_file.h"
 
+#include "scene/mesh/mesh_readers.h"
 #include "scene/mesh/mesh_transform.h"
-#include "scene/mesh/mtl_file.h"
 
 #include <Model/COM/NMR_DLLInterfaces.h>
 #include <fmt/format.h>

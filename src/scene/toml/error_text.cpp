@@ -10,6 +10,7 @@
 #include <numeric>
 
 namespace tumble {
+
 namespace {
 
 /// Number of insertions, deletions, replacements and swaps of adjacent characters that turn a into b (Damerau 1964, in
@@ -69,6 +70,11 @@ std::string suggestion(std::string_view given, const std::vector<std::string_vie
     if (std::string nearest = did_you_mean(given, known); !nearest.empty()) return nearest;
     if (known.empty() || known.size() > readable_list) return "";
     return fmt::format(" (known: {})", quoted_list(known));
+}
+
+void SourcePosition::fail(std::string_view problem) const {
+    if (is_option()) throw InputError(fmt::format("{}: {}", safe_text(name), problem));
+    throw InputError(where, fmt::format("{} {}", safe_text(name), problem));
 }
 
 }  // namespace tumble

@@ -1,9 +1,8 @@
-// Ranges of numbers and sets of names, with the error texts for values outside.
+// Ranges of numbers, sets of names and frame rates, with the error texts for values outside.
 #pragma once
 
 #include "core/safe_text.h"
 #include "scene/toml/error_text.h"
-#include "scene/toml/source_position.h"
 
 #include <cstdint>
 #include <span>
@@ -47,5 +46,12 @@ Value chosen(std::string_view given, std::span<const Choice<Value>> choices, con
     origin.fail("must be one of " + quoted_list(names) + " (given \"" + safe_text(given) + "\")" +
                 did_you_mean(given, names));
 }
+
+/// "60", "29.97" or "24000/1001" to frames per second. Fails at the position for another text and outside of the
+/// limits.
+double read_frame_rate(std::string_view text, const SourcePosition& origin);
+
+/// The same of a fraction alone: a scene file gives numbers without quotes.
+double read_rate_fraction(std::string_view text, const SourcePosition& origin);
 
 }  // namespace tumble

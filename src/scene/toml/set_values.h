@@ -1,7 +1,7 @@
 // Values of the command line (--set PATH=VALUE) in a parsed scene: any key of the scene by its path.
 #pragma once
 
-#include "scene/toml/source_position.h"
+#include "scene/toml/error_text.h"
 #include "scene/toml/toml_reader.h"
 
 #include <optional>

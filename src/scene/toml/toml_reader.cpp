@@ -1,9 +1,10 @@
 #define TOML_IMPLEMENTATION  // toml++ is compiled here, and only declared elsewhere
 #include "scene/toml/toml_reader.h"
 
+#include "core/input_file.h"
 #include "core/safe_text.h"
-#include "scene/toml/frame_rate_text.h"
 #include "scene/toml/limits.h"
+#include "scene/toml/range.h"
 #include "scene/toml/set_values.h"
 #include "scene/toml/toml_scan.h"
 
@@ -213,6 +214,10 @@ void TomlTable::read(std::string_view key, std::string& target) const {
 }
 void TomlTable::read(std::string_view key, Color& target) const {
     if (const auto value = find(key)) target = value->color();
+}
+
+std::string read_toml_file(const std::filesystem::path& file, const std::string& what, std::int64_t most_bytes) {
+    return read_input_file(file, "the " + what, most_bytes);
 }
 
 }  // namespace tumble

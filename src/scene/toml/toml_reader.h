@@ -5,8 +5,8 @@
 
 #include "core/color.h"
 #include "core/vector.h"
+#include "scene/toml/error_text.h"
 #include "scene/toml/range.h"
-#include "scene/toml/source_position.h"
 
 // toml++ 3.3 would read each number through a stream: from_chars gives the same values in less time.
 #define TOML_FLOAT_CHARCONV 1
@@ -23,6 +23,7 @@
 #include <toml++/toml.h>
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -114,6 +115,10 @@ private:
     SourcePosition origin_;
     std::string title_;
 };
+
+/// The text of a TOML file. Throws InputError if the file, a "scene" or a "plan" for messages, cannot be read, or is
+/// larger than the limit.
+std::string read_toml_file(const std::filesystem::path& file, const std::string& what, std::int64_t most_bytes);
 
 /// Parses the text; a syntax error becomes an InputError at its position in `file`.
 toml::table parse_toml(const std::string& text, const std::string& file);

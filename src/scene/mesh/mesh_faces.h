@@ -1,4 +1,5 @@
-// Normals for drawing if the file has none: smooth across gentle edges, hard across sharp ones.
+// Faces of a loaded mesh: one winding, and normals for drawing if the file has none (smooth across gentle edges, hard
+// across sharp ones).
 #pragma once
 
 #include "core/triangle_mesh.h"
@@ -7,6 +8,11 @@
 #include <vector>
 
 namespace tumble {
+
+/// The triangles to turn so that those that share an edge are consistent: a closed component is oriented outward, an
+/// open one like most of its area. A consistent component is unchanged (the inner surface of a hollow faces inward),
+/// and so is one that cannot be consistent, such as a Moebius strip.
+std::vector<char> triangles_to_flip(const TriangleMesh& mesh);
 
 /// A unit normal for every corner of every triangle: the mean of the normals of the faces at its vertex, weighted by
 /// their angles there (Thuermer and Wuethrich 1998), over those that differ from the corner's own face by less than the

@@ -1,4 +1,5 @@
-// The inertia of a body, and the layers by which bodies choose what they collide with.
+// Values of a body that take code to read: its motion, its inertia, and the layers by which bodies choose what they
+// collide with.
 #pragma once
 
 #include "scene/description/description.h"
@@ -11,5 +12,12 @@ void read_matter(const TomlTable& table, BodyDescription& body);
 
 /// Fails where a body of the file collides with a layer of no body, or where the scene has too many layers.
 void check_layers(const TomlTable& root, const SceneDescription& scene);
+
+/// Checks the motion of a body whose fields are read, and reads its keyframes. With keyframes, its pose is that of the
+/// first one.
+void check_motion(const TomlTable& table, BodyDescription& body);
+
+/// `[w, x, y, z]`, of unit length (a norm within 1e-3 of 1 is normalized), or `{ axis = [...], angle = degrees }`.
+Quat read_rotation(const TomlValue& value);
 
 }  // namespace tumble
