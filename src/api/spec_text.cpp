@@ -1,12 +1,13 @@
 #include "api/spec_text.h"
 
+#include "api/guard.h"
 #include "scene/fields/body_fields.h"
 #include "scene/fields/camera_fields.h"
 #include "scene/fields/force_fields.h"
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/fields/settings_fields.h"
-#include "scene/fields/speed_fields.h"
+#include "tumble/spec.h"
 
 #include <fmt/format.h>
 
@@ -16,6 +17,7 @@
 #include <unordered_map>
 
 namespace tumble::v0 {
+
 namespace {
 
 class SpecWriter : public SpecLines {
@@ -441,6 +443,16 @@ private:
 
 void write_joint(const Joint& joint, std::size_t index, SpecLines& lines) {
     JointWriter(lines).write(joint, fmt::format("joints[{}]", index));
+}
+
+std::string to_toml(const SceneSpec& spec) {
+    return guarded([&] {
+        SpecText made = spec_text(spec);
+        if (!made.first_mesh.empty())
+            throw Error(ErrorKind::input, {{}, 0, 0, made.first_mesh},
+                        "a mesh in memory cannot be part of a scene file: use a Mesh with the name of a file");
+        return std::move(made.text);
+    });
 }
 
 }  // namespace tumble::v0

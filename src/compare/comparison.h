@@ -78,4 +78,13 @@ struct SetResult {
 /// Leaves out the names of files in a folder that is about to go.
 void forget_files_in(const std::filesystem::path& folder, SetResult& result);
 
+// -- Results of a comparison for other programs: JSON and JUnit XML (docs/reference/comparison.md).
+
+/// One object, with a line break at its end.
+std::string to_json(const SetResult& result);
+
+/// A <testsuite> with a <testcase> for each image: <failure> for different and added ones, <error> for missing and
+/// broken ones.
+std::string to_junit(const SetResult& result);
+
 }  // namespace tumble

@@ -1,4 +1,4 @@
-#include "compare/comparison_text.h"
+#include "compare/comparison.h"
 
 #include "core/html_text.h"
 #include "core/safe_text.h"

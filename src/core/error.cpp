@@ -1,10 +1,15 @@
 #include "core/error.h"
 
+#include "core/check.h"
 #include "core/safe_text.h"
 
 #include <fmt/format.h>
 
+#include <cstdio>
+#include <cstdlib>
+
 namespace tumble {
+
 namespace {
 
 // Messages contain user text that the thrower may not have made safe.
@@ -30,6 +35,12 @@ RunError::RunError(const std::string& message)
 std::string reason_of(std::string_view what) {
     constexpr std::string_view prefix = "error: ";
     return std::string(what.starts_with(prefix) ? what.substr(prefix.size()) : what);
+}
+
+void contract_broken(const char* file, int line, const std::string& text) {
+    // The only print outside app/: the process aborts next, so no caller can report the reason.
+    std::fprintf(stderr, "%s:%d: broken contract: %s\n", file, line, text.c_str());
+    std::abort();
 }
 
 }  // namespace tumble

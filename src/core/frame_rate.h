@@ -2,6 +2,8 @@
 // all times. A fraction and its double name each other.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -28,5 +30,13 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text);
 
 /// For readers, and for parsers of rates: "60", "29.97", and "24000/1001" for a double that only many digits tell.
 std::string fps_text(double fps);
+
+/// For numbers of frames and steps, products of decimals: 4.35 * 100 is 434.99999999999994. The integer within a few
+/// roundings of x, otherwise x. Precondition: x >= 0.
+inline double rounded_if_nearly_whole(double x) {
+    constexpr double rounding = 1e-12;  // relative; about 4500 units in the last place
+    const double nearest = std::nearbyint(x);
+    return std::fabs(x - nearest) <= rounding * std::max(1.0, x) ? nearest : x;
+}
 
 }  // namespace tumble

@@ -43,4 +43,81 @@ Closedness closedness(const TriangleMesh& mesh) {
     return result;
 }
 
+namespace {
+
+struct Neighbor {
+    std::uint32_t triangle = MeshComponents::none;
+    bool alike = false;  // true if both use the edge in opposite directions, as consistently wound triangles do
+};
+
+/// Neighbors over each edge of each triangle.
+std::vector<std::array<Neighbor, 3>> neighbors_of(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    struct Use {
+        std::uint32_t low, high, triangle;
+        int edge;
+        bool upward;
+    };
+    std::vector<Use> uses;
+    uses.reserve(3 * triangles.size());
+    for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        for (int i = 0; i < 3; ++i) {
+            const std::uint32_t a = triangles[t][std::size_t(i)], b = triangles[t][std::size_t((i + 1) % 3)];
+            uses.push_back({std::min(a, b), std::max(a, b), t, i, a < b});
+        }
+    std::sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) {
+        return std::tie(a.low, a.high, a.triangle, a.edge) < std::tie(b.low, b.high, b.triangle, b.edge);
+    });
+    std::vector<std::array<Neighbor, 3>> result(triangles.size());
+    for (std::size_t first = 0, end = 0; first < uses.size(); first = end) {
+        while (end < uses.size() && uses[end].low == uses[first].low && uses[end].high == uses[first].high) ++end;
+        if (end - first != 2) continue;
+        const Use &a = uses[first], &b = uses[first + 1];
+        result[a.triangle][std::size_t(a.edge)] = {b.triangle, a.upward != b.upward};
+        result[b.triangle][std::size_t(b.edge)] = {a.triangle, a.upward != b.upward};
+    }
+    return result;
+}
+
+}  // namespace
+
+MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    const auto neighbors = neighbors_of(triangles);
+    MeshComponents result;
+    result.sheet.assign(triangles.size(), MeshComponents::none);
+    result.flipped.assign(triangles.size(), 0);
+    result.rim.assign(triangles.size(), 0);
+    std::vector<char> found(triangles.size(), 0);
+    std::vector<std::uint32_t> members;
+    for (std::uint32_t first = 0; first < triangles.size(); ++first) {
+        if (found[first]) continue;
+        found[first] = 1;
+        members.assign(1, first);
+        bool two_sided = true;
+        for (std::size_t k = 0; k < members.size(); ++k) {
+            const std::uint32_t t = members[k];
+            for (const Neighbor& n : neighbors[t]) {
+                if (n.triangle == MeshComponents::none) {
+                    result.rim[t] = 1;
+                    continue;
+                }
+                const char flipped = char(result.flipped[t] ^ char(!n.alike));
+                if (found[n.triangle]) {
+                    two_sided = two_sided && result.flipped[n.triangle] == flipped;
+                    continue;
+                }
+                found[n.triangle] = 1;
+                result.flipped[n.triangle] = flipped;
+                members.push_back(n.triangle);
+            }
+        }
+        for (const std::uint32_t t : members) {
+            if (two_sided)
+                result.sheet[t] = first;
+            else
+                result.flipped[t] = 0;
+        }
+    }
+    return result;
+}
+
 }  // namespace tumble

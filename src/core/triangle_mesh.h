@@ -32,4 +32,16 @@ struct Closedness {
 /// A mesh is closed if every edge is used once in each direction.
 Closedness closedness(const TriangleMesh& mesh);
 
+/// The connected components of a mesh, and the triangles in them that are wound inconsistently. Two triangles that
+/// share an edge without a third one are in one component; an edge with more triangles is a border.
+struct MeshComponents {
+    static constexpr std::uint32_t none = ~std::uint32_t(0);
+    // index of the first triangle of each triangle's component; none: the component is one-sided (Moebius)
+    std::vector<std::uint32_t> sheet;
+    std::vector<char> flipped;  // true if wound opposite to the first triangle
+    std::vector<char> rim;      // true if an edge of its component is a border
+};
+
+MeshComponents find_sheets(const std::vector<std::array<std::uint32_t, 3>>& triangles);
+
 }  // namespace tumble

@@ -3,8 +3,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/file_bytes.h"
-#include "output/make_folder.h"
-#include "output/output_target.h"
+#include "output/output_path.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>

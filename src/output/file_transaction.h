@@ -5,7 +5,7 @@
 // rest.
 #pragma once
 
-#include "output/confined_path.h"
+#include "output/output_path.h"
 #include "output/temporary_folder.h"
 
 #include <filesystem>
@@ -23,7 +23,7 @@ public:
     explicit FileTransaction(const std::filesystem::path& folder, InnerLinks links = InnerLinks::followed)
         : folder_(folder), links_(links) {}
 
-    /// Writes a file for a name in the folder (confined_path.h); folders are made. Throws InputError, RunError. No
+    /// Writes a file for a name in the folder (output_path.h); folders are made. Throws InputError, RunError. No
     /// existing file changes before commit().
     void add(const std::filesystem::path& name, std::string_view bytes);
 

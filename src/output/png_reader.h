@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,5 +65,17 @@ Image read_png(const std::filesystem::path& path);
 
 /// The size, from the header.
 ImageSize read_png_size(const std::filesystem::path& path);
+
+// -- The mark of a PNG file (png_mark_keyword), and the checksums of its chunks: pixels are not unpacked.
+
+struct PngState {
+    bool whole = false;               // all chunks are there with their checksums, and nothing behind them
+    std::optional<std::string> mark;  // of a file whose head is intact
+};
+
+PngState state_of_png(const std::filesystem::path& path);
+
+/// The mark alone, from the head of the file, which may be damaged behind it.
+std::optional<std::string> mark_of_png(const std::filesystem::path& path);
 
 }  // namespace tumble

@@ -2,7 +2,7 @@
 // renamed when all of it is on the disk.
 #pragma once
 
-#include "output/output_target.h"
+#include "output/output_path.h"
 #include "output/part_file.h"
 
 #include <cstddef>
@@ -20,7 +20,7 @@ enum class LeftParts {
 };
 
 /// An unfinished file. Unless it is published it is removed, and the existing file of the final name stays. A target
-/// that is written in place (output_target.h) is opened directly; a pipe is opened when a program reads it.
+/// that is written in place (output_path.h) is opened directly; a pipe is opened when a program reads it.
 class TemporaryFile {
 public:
     /// Creates the hidden file. Throws RunError naming `final_path` if its folder is missing or not writable.

@@ -2,7 +2,7 @@
 
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/output_target.h"
+#include "output/output_path.h"
 #include "output/yuv420.h"
 
 #include <fmt/format.h>

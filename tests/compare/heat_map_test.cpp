@@ -1,4 +1,4 @@
-#include "compare/metrics/heat_map.h"
+#include "compare/metrics/metric_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Pairs of pictures and sets of them: verdicts, masks, order, failures.
-#include "compare/set_compare.h"
 #include "compare/image_folder.h"
+#include "compare/pair_compare.h"
 #include "compare/platform.h"
 #include "core/error.h"
 #include "output/png_writer.h"

@@ -1,6 +1,6 @@
 // Outputs below their folder: links, foreign names, things that are no files.
-#include "output/confined_path.h"
 #include "core/error.h"
+#include "output/output_path.h"
 
 #include "support/folder.h"
 

@@ -1,5 +1,4 @@
 // The mark of PNG files, and every damage of a byte.
-#include "output/png_check.h"
 #include "output/png_reader.h"
 #include "output/png_writer.h"
 

@@ -9,7 +9,6 @@
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
-#include "scene/fields/speed_fields.h"
 
 namespace tumble {
 

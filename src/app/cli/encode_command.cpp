@@ -13,7 +13,6 @@
 #include "core/available_memory.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/png_check.h"
 #include "output/png_reader.h"
 #include "output/video_writer.h"
 

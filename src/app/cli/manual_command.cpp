@@ -2,8 +2,7 @@
 #include "app/cli/say.h"
 #include "app/cli/shared_options.h"
 #include "app/manual/manual.h"
-#include "output/confined_path.h"
-#include "output/make_folder.h"
+#include "output/output_path.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>

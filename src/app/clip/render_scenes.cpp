@@ -5,7 +5,6 @@
 #include "core/check.h"
 #include "core/error.h"
 #include "core/frame_rate.h"
-#include "core/rounding.h"
 #include "core/safe_text.h"
 #include "scene/hash/scene_hash.h"
 #include "sim/checkpoint/archive.h"

@@ -2,7 +2,7 @@
 
 #include "compare/difference_image.h"
 #include "compare/metrics/background.h"
-#include "output/make_folder.h"
+#include "output/output_path.h"
 #include "output/png_writer.h"
 
 namespace tumble {

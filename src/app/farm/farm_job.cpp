@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "output/file_bytes.h"
-#include "output/png_check.h"
+#include "output/png_reader.h"
 #include "output/temporary_file.h"
 #include "scene/toml/limits.h"
 

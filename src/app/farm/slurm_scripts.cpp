@@ -4,7 +4,7 @@
 #include "app/farm/shell_text.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/make_folder.h"
+#include "output/output_path.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>

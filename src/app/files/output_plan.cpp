@@ -3,7 +3,7 @@
 #include "app/files/frame_folder.h"
 #include "core/error.h"
 #include "core/safe_text.h"
-#include "output/output_target.h"
+#include "output/output_path.h"
 
 #include <fmt/format.h>
 

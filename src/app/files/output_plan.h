@@ -2,7 +2,7 @@
 // be one file, for any spelling of their names and through any links.
 #pragma once
 
-#include "output/confined_path.h"
+#include "output/output_path.h"
 
 #include <sys/types.h>
 
@@ -37,7 +37,7 @@ public:
 
     void add(const std::string& option, const std::filesystem::path& file);
     void add(const OutputSeries& series);
-    /// An output that must stay below a folder (confined_path.h).
+    /// An output that must stay below a folder (output_path.h).
     void add_below(const std::string& option, const std::filesystem::path& folder, const std::filesystem::path& name,
                    InnerLinks links = InnerLinks::followed);
     /// Folders below `folder` that are replaced as a whole, with all that they hold.

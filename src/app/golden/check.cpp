@@ -3,8 +3,8 @@
 #include "app/causes/explain_images.h"
 #include "app/causes/record_file.h"
 #include "compare/image_folder.h"
+#include "compare/pair_compare.h"
 #include "compare/platform.h"
-#include "compare/set_compare.h"
 #include "core/error.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #include "app/files/frame_folder.h"
 #include "core/error.h"
 #include "output/npz_archive.h"
-#include "output/png_check.h"
+#include "output/png_reader.h"
 
 #include <fmt/format.h>
 

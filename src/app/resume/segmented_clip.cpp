@@ -5,7 +5,7 @@
 #include "core/safe_text.h"
 #include "core/sha256.h"
 #include "output/file_bytes.h"
-#include "output/output_target.h"
+#include "output/output_path.h"
 #include "output/temporary_file.h"
 
 #include <fmt/format.h>

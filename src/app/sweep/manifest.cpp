@@ -1,6 +1,6 @@
 #include "app/sweep/manifest.h"
 
-#include "output/confined_path.h"
+#include "output/output_path.h"
 
 #include <nlohmann/json.hpp>
 

@@ -6,7 +6,7 @@
 #include "app/sweep/sample_folder.h"
 #include "app/sweep/sweep_plan.h"
 #include "app/sweep/toml_json.h"
-#include "output/confined_path.h"
+#include "output/output_path.h"
 #include "scene/description/description.h"
 #include "scene/hash/scene_hash.h"
 #include "scene/toml/set_values.h"

@@ -8,7 +8,7 @@
 #include "app/threads/interrupt.h"
 #include "app/workers/frame_memory.h"
 #include "core/error.h"
-#include "output/make_folder.h"
+#include "output/output_path.h"
 #include "output/video_writer.h"
 
 #include <fmt/format.h>

@@ -1,9 +1,9 @@
 #include "compare/metrics/flip.h"
 
 #include "compare/metrics/background.h"
-#include "compare/metrics/changed_region.h"
 #include "compare/metrics/flip_color.h"
 #include "compare/metrics/flip_filters.h"
+#include "compare/metrics/metric_map.h"
 #include "compare/metrics/row_filter.h"
 #include "core/check.h"
 

@@ -1,7 +1,7 @@
 #include "compare/metrics/ssim.h"
 
 #include "compare/metrics/background.h"
-#include "compare/metrics/changed_region.h"
+#include "compare/metrics/metric_map.h"
 #include "compare/metrics/row_filter.h"
 #include "core/check.h"
 #include "core/cpu_dispatch.h"

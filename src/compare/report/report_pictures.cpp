@@ -2,7 +2,6 @@
 
 #include "compare/difference_image.h"
 #include "compare/metrics/flip.h"
-#include "compare/metrics/heat_map.h"
 #include "compare/metrics/metric_map.h"
 #include "compare/metrics/pixel_windows.h"
 #include "compare/metrics/ssim.h"

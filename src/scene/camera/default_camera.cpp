@@ -2,7 +2,6 @@
 
 #include "core/deterministic_math.h"
 #include "scene/camera/camera_visibility.h"
-#include "scene/camera/throw_preview.h"
 #include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "scene/camera/throw_preview.h"
+#include "scene/camera/default_camera.h"
 
 #include "sim/geometry/shapes/shape.h"
 

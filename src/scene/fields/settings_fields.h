@@ -1,4 +1,4 @@
-// Fields of [simulation], [output], [light], [environment], [wind] and [contact].
+// Fields of [[speed]], [simulation], [output], [light], [environment], [wind] and [contact].
 #pragma once
 
 #include "scene/fields/choices.h"
@@ -123,6 +123,22 @@ void visit_fields(Of<PairRules>, Visitor& field, Self& self) {
     field(restitution, "restitution_rule", ByType(),
           {"how the restitution of a pair follows from the restitutions of its two bodies"});
     field(friction, "friction_rule", ByType(), {"the same of the friction"});
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<SpeedKeyframe>, Visitor& field, Self& self) {
+    field(self.time, "time", Required(ByCode()),
+          {"the time of the scene, or `\"impact:A,B\"`: the first impact of two bodies. Each later than the keyframe "
+           "before",
+           {},
+           "0 to 1e9",
+           "number, s, or string"});
+    field.key("after", {"added to the time of the impact; below 0: before it", "`0`", "±1e9", "number, s"});
+    field(self.factor, "factor", limits::clip_speed,
+          {"seconds of the motion in a second of the clip: 0.25 is slow motion. `--speed` multiplies it"});
+    field(self.hold, "hold", limits::time, {"of the clip, in which the motion stands still at that time"});
+    field(self.easing, "easing", ByType(), {"how the factor changes up to the next keyframe"});
+    if constexpr (requires { self.impact; }) field.inner(self.impact);
 }
 
 }  // namespace tumble

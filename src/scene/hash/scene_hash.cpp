@@ -10,7 +10,6 @@
 #include "scene/fields/label_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
-#include "scene/fields/speed_fields.h"
 
 #include <array>
 #include <bit>

@@ -1,6 +1,6 @@
 #include "scene/keys/readers.h"
 
-#include "scene/fields/speed_fields.h"
+#include "scene/fields/settings_fields.h"
 #include "scene/keys/body_index.h"
 #include "scene/keys/read_fields.h"
 

@@ -1,7 +1,7 @@
 #include "scene/mesh/mesh_faces.h"
 
 #include "core/deterministic_math.h"
-#include "core/mesh_components.h"
+#include "core/triangle_mesh.h"
 
 namespace tumble {
 

@@ -1,7 +1,7 @@
 #include "sim/frames/clip_speed.h"
 
 #include "core/error.h"
-#include "core/rounding.h"
+#include "core/frame_rate.h"
 #include "core/safe_text.h"
 #include "scene/toml/limits.h"
 #include "sim/world.h"

@@ -1,7 +1,7 @@
 #include "sim/frames/clip_timing.h"
 
 #include "core/error.h"
-#include "core/rounding.h"
+#include "core/frame_rate.h"
 #include "scene/toml/limits.h"
 
 #include <fmt/format.h>

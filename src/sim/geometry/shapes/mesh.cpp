@@ -1,7 +1,7 @@
 #include "sim/geometry/shapes/mesh.h"
 
 #include "core/error.h"
-#include "core/mesh_components.h"
+#include "core/triangle_mesh.h"
 #include "sim/geometry/shapes/shape.h"
 
 #include <algorithm>
