@@ -1,6 +1,7 @@
 // Differences between the bodies of two records of a panel.
 #pragma once
 
+#include "app/causes/motion_record.h"
 #include "app/causes/panel_view.h"
 
 #include <string>
@@ -8,6 +9,17 @@
 #include <vector>
 
 namespace tumble {
+
+// -- Differences of described values.
+
+struct ValueDifference {
+    std::string key, before, after;  // empty: the value is missing
+};
+
+std::vector<ValueDifference> value_differences(const ValueMap& before, const ValueMap& after);
+
+/// "0.5 to 0.8"; "changed" for values that cannot be shown.
+std::string value_change_text(const std::string& before, const std::string& after);
 
 // A cause of a difference between two images.
 

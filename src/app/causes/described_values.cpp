@@ -1,4 +1,4 @@
-#include "app/causes/described_values.h"
+#include "app/causes/run_recorder.h"
 
 #include "core/fnv_hash.h"
 #include "core/frame_rate.h"

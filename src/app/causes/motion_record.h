@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
@@ -79,5 +80,20 @@ struct MotionRecord {
     std::vector<PanelRecord> panels;
     bool whole_run = false;  // an image shows all of the motion: a plot
 };
+
+// -- Motion records as JSON files: described values as text, poses and digests as base64.
+
+/// The record of a folder of frames (frame_000000.png, ...).
+inline constexpr const char* folder_record_name = "frames.motion.json";
+
+std::string record_text(const MotionRecord& record);
+
+/// Writes through a temporary file. Throws RunError naming the path.
+void write_motion_record(const std::filesystem::path& file, const MotionRecord& record);
+
+/// Throws InputError naming the file if it is missing or no record of this format.
+MotionRecord read_motion_record(const std::filesystem::path& file);
+/// The same of a text.
+MotionRecord parse_record(const std::string& text, const std::filesystem::path& file);
 
 }  // namespace tumble

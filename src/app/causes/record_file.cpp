@@ -1,4 +1,4 @@
-#include "app/causes/record_file.h"
+#include "app/causes/motion_record.h"
 
 #include "core/error.h"
 #include "core/html_text.h"

@@ -1,6 +1,5 @@
 #include "app/causes/run_recorder.h"
 
-#include "app/causes/described_values.h"
 #include "core/fnv_hash.h"
 
 #include <algorithm>

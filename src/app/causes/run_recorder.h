@@ -5,6 +5,7 @@
 #include "app/composition/composition.h"
 #include "app/survey/survey.h"
 #include "render/camera/camera_animation.h"
+#include "scene/description/description.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -13,6 +14,16 @@
 #include <vector>
 
 namespace tumble {
+
+// -- The described values of a scene as text, by their paths, for motion records.
+
+BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body);
+
+/// Values of the scene without its bodies: light, simulation, forces, ... Without the camera: a record has its views.
+ValueMap values_of(const SceneDescription& scene);
+
+/// Size, samples and text of the whole image.
+ValueMap values_of(const Composition& composition);
 
 /// Sees the frames of a panel from the first one on.
 class PanelRecorder : public SurveyObserver {

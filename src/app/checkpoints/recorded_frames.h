@@ -3,7 +3,7 @@
 
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/checkpoints/frame_record.h"
-#include "app/survey/simulated_frames.h"
+#include "app/survey/survey.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -4,7 +4,6 @@
 #include "app/cli/shared_options.h"
 #include "app/clip/render_scenes.h"
 #include "app/farm/farm_job.h"
-#include "app/farm/openjd_template.h"
 #include "app/farm/slurm_scripts.h"
 #include "app/files/output_plan.h"
 #include "core/error.h"

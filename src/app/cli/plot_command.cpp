@@ -1,6 +1,6 @@
 #include "app/cli/plot_command.h"
 
-#include "app/causes/record_file.h"
+#include "app/causes/motion_record.h"
 #include "app/causes/run_recorder.h"
 #include "app/cli/command.h"
 #include "app/cli/say.h"

@@ -10,6 +10,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace tumble {
 
@@ -42,5 +43,12 @@ void add_panels(CLI::App& command, RenderCommand& clip, const std::string& what)
 void add_text(CLI::App& command, SceneOverrides& overrides);
 /// --speed, --shutter and --blur-samples.
 void add_clip_times(CLI::App& command, RenderCommand& clip);
+
+// -- --camera all: a render for each camera of a scene.
+
+/// The command, or with --camera all one for [camera] and one for each of [cameras], in the order of their names. Each
+/// writes into a folder of its camera's name inside the folders of the command. Throws InputError for outputs that can
+/// hold one camera only.
+std::vector<RenderCommand> of_each_camera(const RenderCommand& command);
 
 }  // namespace tumble

@@ -1,6 +1,6 @@
 #include "app/cli/render_run.h"
 
-#include "app/causes/record_file.h"
+#include "app/causes/motion_record.h"
 #include "app/causes/run_recorder.h"
 #include "app/checkpoints/checkpoint_folder.h"
 #include "app/checkpoints/recorded_frames.h"

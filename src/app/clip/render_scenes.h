@@ -7,7 +7,6 @@
 #include "app/files/frame_set.h"
 #include "app/plots/plotted_run.h"
 #include "app/survey/survey.h"
-#include "app/survey/surveyed_frames.h"
 #include "app/threads/interrupt.h"
 #include "framing/follow_path.h"
 #include "framing/motion_camera.h"

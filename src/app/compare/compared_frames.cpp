@@ -1,11 +1,13 @@
 #include "app/compare/compared_frames.h"
 
 #include "compare/difference_image.h"
+#include "compare/image_folder.h"
 #include "compare/metrics/background.h"
 #include "output/output_path.h"
 #include "output/png_writer.h"
 
 namespace tumble {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -45,6 +47,21 @@ void write_difference(const ImagePair& pair, const CompareOptions& options, cons
         write_difference_image(pair.reference->file, pair.image->file, options, file);
     else
         write_png(file, difference_image(pixels_of(*pair.reference), pixels_of(*pair.image), options));
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_record(const fs::path& name) { return name.filename().string().ends_with(".motion.json"); }
+
+}  // namespace
+
+void add_compared_folder(const fs::path& folder, OutputPlan& plan) {
+    for (const fs::path& file : files_in_folder(folder))
+        if (is_record(file) || is_picture_name(file)) plan.add_input(file);
+    plan.add_input_folder(
+        folder, [](const fs::path& name) { return !is_hidden(name) && (is_picture_name(name) || is_record(name)); });
 }
 
 }  // namespace tumble

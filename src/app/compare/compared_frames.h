@@ -1,6 +1,7 @@
 // Files of what a comparison finds: frames of clips for the report, and pictures of differences.
 #pragma once
 
+#include "app/files/output_plan.h"
 #include "compare/comparison.h"
 #include "compare/pair_compare.h"
 
@@ -35,5 +36,10 @@ std::string difference_name(const std::string& name);
 
 /// Writes the picture of the differences (difference_image.h) of a pair that can be read. Throws InputError, RunError.
 void write_difference(const ImagePair& pair, const CompareOptions& options, const std::filesystem::path& file);
+
+// -- A folder of pictures as an input.
+
+/// Its pictures and motion records, and all names that would be such files. Throws InputError if it cannot be read.
+void add_compared_folder(const std::filesystem::path& folder, OutputPlan& plan);
 
 }  // namespace tumble

@@ -1,6 +1,6 @@
 #include "app/composition/frame_composer.h"
 
-#include "app/composition/scaled_image.h"
+#include "app/composition/stamp.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/composition/scaled_image.h"
+#include "app/composition/stamp.h"
 
 #include "core/color.h"
 

@@ -3,6 +3,7 @@
 
 #include "core/image.h"
 #include "plot/canvas.h"
+#include "scene/description/mesh_paint.h"
 
 #include <string>
 #include <string_view>
@@ -34,5 +35,10 @@ struct TextBox {
 
 /// Sets text in lines of the box's width. Text that does not fit is set smaller.
 Stamp set_text(std::string_view text, const TextBox& box);
+
+// -- An image at another size: the mean of the light that its pixels cover, weighted by their alpha.
+
+/// sRGB with straight alpha, which is multiplied by the opacity. A larger image is interpolated.
+Image scaled_image(const Texture::Level& image, int width, int height, double opacity);
 
 }  // namespace tumble

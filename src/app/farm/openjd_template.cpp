@@ -1,4 +1,4 @@
-#include "app/farm/openjd_template.h"
+#include "app/farm/farm_job.h"
 
 #include "app/farm/farm_templates.h"
 #include "core/error.h"

@@ -1,6 +1,6 @@
 #include "app/golden/accept.h"
 
-#include "app/golden/references.h"
+#include "app/golden/suite.h"
 #include "compare/pair_compare.h"
 #include "core/error.h"
 #include "core/safe_text.h"

@@ -1,4 +1,4 @@
-#include "app/golden/case_keys.h"
+#include "app/golden/suite.h"
 
 #include "scene/toml/limits.h"
 #include "sim/frames/clip_timing.h"

@@ -1,7 +1,7 @@
 #include "app/golden/check.h"
 
-#include "app/causes/explain_images.h"
-#include "app/causes/record_file.h"
+#include "app/causes/explain.h"
+#include "app/causes/motion_record.h"
 #include "compare/image_folder.h"
 #include "compare/pair_compare.h"
 #include "compare/platform.h"

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/golden/suite.h"
+#include "app/threads/interrupt.h"
 #include "output/temporary_folder.h"
 
 #include <filesystem>
@@ -40,5 +41,11 @@ private:
 /// The folder NAME-HASH of the suite in `base`. Without it: in tumble/golden of $XDG_CACHE_HOME or of ~/.cache, or of
 /// the temporary folder without a home.
 std::filesystem::path cache_folder(const GoldenSuite& suite, const std::optional<std::filesystem::path>& base);
+
+// -- The causes of pixels apart from the scene: program, shaders, libraries that draw, fonts, processor.
+
+/// A text that is the same as long as all of these are. Libraries are loaded in a process of their own. Precondition:
+/// the program has no other thread.
+std::string program_identity(Interrupt& interrupt);
 
 }  // namespace tumble

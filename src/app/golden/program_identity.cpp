@@ -1,4 +1,4 @@
-#include "app/golden/program_identity.h"
+#include "app/golden/image_cache.h"
 
 #include "app/golden/child_tasks.h"
 #include "core/error.h"

@@ -1,6 +1,6 @@
-#include "app/golden/references.h"
+#include "app/golden/suite.h"
 
-#include "app/compare/compared_folder.h"
+#include "app/compare/compared_frames.h"
 #include "app/plots/variants.h"
 #include "core/error.h"
 #include "scene/load.h"

@@ -1,6 +1,5 @@
 #include "app/golden/suite.h"
 
-#include "app/golden/case_keys.h"
 #include "core/check.h"
 #include "core/frame_rate.h"
 #include "scene/toml/toml_reader.h"

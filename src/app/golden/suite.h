@@ -2,15 +2,18 @@
 #pragma once
 
 #include "app/composition/frame_layout.h"
+#include "app/files/output_plan.h"
 #include "compare/tolerances.h"
 #include "core/error.h"
 #include "scene/keys/overrides.h"
+#include "scene/toml/toml_reader.h"
 
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -79,5 +82,34 @@ struct NewCase {
 /// The suite's text with the case at its end; a new suite's if the file does not exist. Throws InputError for a mistake
 /// in either.
 std::string suite_text_with(const std::filesystem::path& suite, const NewCase& added);
+
+// -- The keys of a case: [[case]] and [defaults] of a golden.toml.
+
+/// Throws InputError at the first unknown key of [defaults].
+void check_default_keys(const TomlTable& defaults);
+
+/// A case of the table; keys that it does not have come from `defaults`. Relative scenes are relative to the folder of
+/// the suite's file; its tolerances are the base of the case's.
+GoldenCase read_case(const TomlTable& table, const std::optional<TomlTable>& defaults, const GoldenSuite& suite);
+
+/// A table with the keys of tolerances.toml, or the name of such a file.
+Tolerances read_tolerances(const TomlValue& value, const std::filesystem::path& folder,
+                           const PairTolerances& base = {});
+
+// -- The files of a suite: inputs, and the places of its references.
+
+/// NAME, or PLATFORM/NAME, below the folder of the references.
+std::filesystem::path reference_name(const std::string& name, const std::optional<std::string>& platform);
+
+/// The suite's file, its tolerances and masks, the scenes of the cases with all that they read.
+void add_suite_inputs(const GoldenSuite& suite, OutputPlan& plan);
+
+/// The folder of the references, as an input.
+void add_reference_inputs(const GoldenSuite& suite, OutputPlan& plan);
+
+/// The references of the cases, as outputs. Throws InputError if one would not be below the folder of the references,
+/// or if a link leads this folder out of that of the suite.
+void add_references(const GoldenSuite& suite, std::span<const GoldenCase* const> cases,
+                    const std::optional<std::string>& platform, OutputPlan& plan);
 
 }  // namespace tumble

@@ -2,7 +2,6 @@
 #pragma once
 
 #include "app/checkpoints/clip_state.h"
-#include "app/survey/simulated_frames.h"
 #include "app/survey/survey.h"
 #include "app/workers/motion_blur_frame.h"
 #include "overlay/overlay_builder.h"

@@ -1,4 +1,4 @@
-#include "app/sweep/name_template.h"
+#include "app/sweep/sweep_sample.h"
 
 #include "app/sweep/manifest.h"
 #include "core/error.h"

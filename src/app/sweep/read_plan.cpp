@@ -1,6 +1,5 @@
-#include "app/sweep/read_plan.h"
+#include "app/sweep/sweep_plan.h"
 
-#include "app/sweep/name_template.h"
 #include "app/sweep/read_axis.h"
 #include "app/sweep/sweep_sample.h"
 #include "core/error.h"

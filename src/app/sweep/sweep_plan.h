@@ -1,5 +1,5 @@
 // The plan of a sweep: one scene, the values that differ between its samples, and the files of each sample. Plain
-// values; read_plan.h makes them from a file.
+// values, which read_plan() makes from a file.
 #pragma once
 
 #include "app/sweep/sweep_axis.h"
@@ -75,5 +75,8 @@ struct SweepPlan {
     /// Number of combinations of listed values; 1 without lists or with random ones.
     std::int64_t combinations() const;
 };
+
+/// Throws InputError with file, line and column for any violation of the format.
+SweepPlan read_plan(const std::filesystem::path& file);
 
 }  // namespace tumble

@@ -1,6 +1,5 @@
 #include "app/sweep/sweep_sample.h"
 
-#include "app/sweep/name_template.h"
 #include "core/error.h"
 #include "core/safe_text.h"
 #include "scene/toml/toml_text.h"

@@ -1,6 +1,6 @@
 // Named causes of planted changes, from records of real runs that went through their files.
 #include "app/causes/explain.h"
-#include "app/causes/record_file.h"
+#include "app/causes/motion_record.h"
 #include "app/causes/run_recorder.h"
 #include "core/error.h"
 #include "scene/load.h"

@@ -1,7 +1,7 @@
 // The layout of frames, and text and plot on them.
 #include "app/composition/frame_composer.h"
 #include "app/composition/make_composition.h"
-#include "app/composition/scaled_image.h"
+#include "app/composition/stamp.h"
 #include "core/error.h"
 
 #include <gtest/gtest.h>

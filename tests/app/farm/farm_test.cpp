@@ -1,6 +1,5 @@
 // The pure parts of farm jobs: divisions of frames, lists of parts, words of shells and of templates.
 #include "app/farm/farm_job.h"
-#include "app/farm/openjd_template.h"
 #include "app/farm/shell_text.h"
 #include "core/error.h"
 

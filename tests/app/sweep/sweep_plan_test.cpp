@@ -1,5 +1,5 @@
 // Reading of plans: values, defaults, and the form of fixed values. Errors are in tests/cli/sweep_test.py.
-#include "app/sweep/read_plan.h"
+#include "app/sweep/sweep_plan.h"
 
 #include "support/folder.h"
 

@@ -1,7 +1,6 @@
 // The values of samples: distributions, independence of other samples and axes, pairs and names.
 #include "app/sweep/sweep_sample.h"
 
-#include "app/sweep/name_template.h"
 #include "core/error.h"
 
 #include <gtest/gtest.h>
