@@ -2,6 +2,7 @@
 
 #include "core/image.h"
 #include "output/png_writer.h"
+#include "scene/description/painted_mesh.h"
 
 #include <algorithm>
 #include <array>
@@ -57,16 +58,13 @@ Json PaintedMeshes::primitives(const MeshAsset& asset, const MeshPaint& paint, c
 }
 
 Json PaintedMeshes::primitive(const MeshAsset& asset, const MeshPaint& paint, std::uint32_t material) {
+    std::vector<std::uint32_t> triangles;
+    for (std::uint32_t triangle = 0; triangle < paint.material_of_triangle.size(); ++triangle)
+        if (paint.material_of_triangle[triangle] == material) triangles.push_back(triangle);
+    const PaintedCorners different = different_corners(asset.indices, paint, triangles);
     std::vector<float> positions, normals, places, colors;
-    std::vector<std::uint32_t> indices;
-    std::map<std::tuple<std::uint32_t, std::array<float, 2>, std::array<float, 3>>, std::uint32_t> made;
-    for (std::size_t i = 0; i < asset.indices.size(); ++i) {
-        if (paint.material_of_triangle[i / 3] != material) continue;
+    for (const std::size_t i : different.vertices) {
         const MeshPaint::Corner& corner = paint.corners[i];
-        const auto [entry, is_new] =
-            made.try_emplace({asset.indices[i], corner.uv, corner.color}, std::uint32_t(made.size()));
-        indices.push_back(entry->second);
-        if (!is_new) continue;
         const MeshAsset::Vertex& vertex = asset.vertices[asset.indices[i]];
         positions.insert(positions.end(), vertex.position, vertex.position + 3);
         normals.insert(normals.end(), vertex.normal, vertex.normal + 3);
@@ -80,7 +78,7 @@ Json PaintedMeshes::primitive(const MeshAsset& asset, const MeshPaint& paint, st
     if (look.texture || look.maps.bits() != 0) attributes["TEXCOORD_0"] = buffer_.add(places, 2, vertices, false);
     const bool colored = std::ranges::any_of(colors, [](float channel) { return channel != 1.0f; });
     if (colored) attributes["COLOR_0"] = buffer_.add(colors, 3, vertices, false);
-    return {{"attributes", std::move(attributes)}, {"indices", buffer_.add(indices)}};
+    return {{"attributes", std::move(attributes)}, {"indices", buffer_.add(different.indices)}};
 }
 
 Json PaintedMeshes::material(const MeshMaterial& material, const Appearance& look) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <numeric>
 #include <tuple>
+#include <utility>
 
 namespace tumble {
 
@@ -60,6 +61,22 @@ VertexPaint paint_of(const MeshMaterial& material, const MeshPaint::Corner& corn
 
 }  // namespace
 
+PaintedCorners different_corners(std::span<const std::uint32_t> indices, const MeshPaint& paint,
+                                 std::span<const std::uint32_t> triangles) {
+    PaintedCorners corners;
+    std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<float, 2>, std::array<float, 3>>, std::uint32_t> made;
+    for (const std::uint32_t triangle : triangles)
+        for (std::size_t i = 3 * std::size_t(triangle); i < 3 * std::size_t(triangle) + 3; ++i) {
+            const MeshPaint::Corner& corner = paint.corners[i];
+            const auto [entry, is_new] =
+                made.try_emplace({indices[i], paint.material_of_triangle[triangle], corner.uv, corner.color},
+                                 std::uint32_t(corners.vertices.size()));
+            corners.indices.push_back(entry->second);
+            if (is_new) corners.vertices.push_back(i);
+        }
+    return corners;
+}
+
 PaintedMesh paint_mesh(std::span<const std::uint32_t> indices, const MeshPaint& paint) {
     const std::vector<std::size_t> first = first_with_texture(paint.materials);
     const auto texture_of = [&](std::uint32_t triangle) { return first[paint.material_of_triangle[triangle]]; };
@@ -69,22 +86,16 @@ PaintedMesh paint_mesh(std::span<const std::uint32_t> indices, const MeshPaint& 
                      [&](std::uint32_t a, std::uint32_t b) { return texture_of(a) < texture_of(b); });
 
     PaintedMesh mesh;
-    std::map<std::tuple<std::uint32_t, std::uint32_t, std::array<float, 2>, std::array<float, 3>>, std::uint32_t> made;
-    for (const std::uint32_t triangle : order) {
-        const MeshMaterial* texture = &paint.materials[texture_of(triangle)];
-        if (mesh.ranges.empty() || mesh.ranges.back().material != texture)
-            mesh.ranges.push_back({texture, mesh.indices.size(), 0});
+    for (std::size_t n = 0; n < order.size(); ++n) {
+        const MeshMaterial* texture = &paint.materials[texture_of(order[n])];
+        if (mesh.ranges.empty() || mesh.ranges.back().material != texture) mesh.ranges.push_back({texture, 3 * n, 0});
         mesh.ranges.back().count += 3;
-        const std::uint32_t number = paint.material_of_triangle[triangle];
-        for (std::size_t i = 3 * std::size_t(triangle); i < 3 * std::size_t(triangle) + 3; ++i) {
-            const MeshPaint::Corner& corner = paint.corners[i];
-            const auto [entry, is_new] =
-                made.try_emplace({indices[i], number, corner.uv, corner.color}, std::uint32_t(mesh.source.size()));
-            mesh.indices.push_back(entry->second);
-            if (!is_new) continue;
-            mesh.source.push_back(indices[i]);
-            mesh.paint.push_back(paint_of(paint.materials[number], corner));
-        }
+    }
+    PaintedCorners corners = different_corners(indices, paint, order);
+    mesh.indices = std::move(corners.indices);
+    for (const std::size_t corner : corners.vertices) {
+        mesh.source.push_back(indices[corner]);
+        mesh.paint.push_back(paint_of(paint.materials[paint.material_of_triangle[corner / 3]], paint.corners[corner]));
     }
     return mesh;
 }

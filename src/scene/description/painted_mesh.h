@@ -32,6 +32,17 @@ struct PaintedMesh {
     std::vector<Range> ranges;
 };
 
+/// Corners of triangles, of which each different one is a vertex.
+struct PaintedCorners {
+    std::vector<std::size_t> vertices;   // one of the corners of each, among all corners of the mesh
+    std::vector<std::uint32_t> indices;  // of the triangles, into the vertices
+};
+
+/// Corners differ in their vertex of the mesh, their material, their place in a texture, or their color. `indices`: of
+/// all triangles of the mesh, in the order of MeshAsset::indices; `triangles`: those to take, in that order.
+PaintedCorners different_corners(std::span<const std::uint32_t> indices, const MeshPaint& paint,
+                                 std::span<const std::uint32_t> triangles);
+
 /// `indices`: of the triangles of the mesh, in the order of MeshAsset::indices.
 PaintedMesh paint_mesh(std::span<const std::uint32_t> indices, const MeshPaint& paint);
 
