@@ -73,5 +73,13 @@ TEST(Reference, IsLikeDemoScenes) {
                               10);
 }
 
+// Rounding decides from which side their faces at the height of the eye are seen.
+TEST(Reference, IsLikeFacesSeenEdgeOn) {
+    SceneDescription scene = load_scene(TUMBLE_SOURCE_DIR "/assets/scenes/tower_hit.toml");
+    scene.camera.eye = Vec3(5.2, 2.7, 6.9);
+    scene.camera.target = Vec3(0.35, 1.25, 0.0);
+    expect_like_reference(scene, 0.02, 80, 5);
+}
+
 }  // namespace
 }  // namespace tumble::reference_test

@@ -129,7 +129,9 @@ void EdgeFinder::add_box(std::size_t body, const DrawableBounds& item, std::uint
                 continue;
             }
             const ScreenPoint &from = corners[corner], &to = corners[corner | along];
-            found_.push_back(directed(from, to, corners[corner ^ bit], inner, outer));
+            // A face seen edge-on has no side of its own; the center is within every outline.
+            const ScreenPoint inside = both ? corners[corner ^ bit] : frame_->camera.pixel(item.center);
+            found_.push_back(directed(from, to, inside, inner, outer));
             if (both || !within(narrow_pixels, from, to, corners[corner ^ bit])) continue;
             found_.back().whole_box = narrow = true;
             found_.back().face = std::uint8_t(face);
