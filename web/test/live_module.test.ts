@@ -6,7 +6,7 @@ import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { before, test } from "node:test";
 import { DecimalSteps } from "../src/live/decimal.ts";
-import { simulate_command } from "../src/live/command.ts";
+import { setting_words, simulate_command } from "../src/live/command.ts";
 import { LiveModule } from "../src/live/module.ts";
 import { read_clip } from "../src/data/decode_clip.ts";
 import { repository, scenes_folder, temporary_folder } from "./program.ts";
@@ -133,4 +133,10 @@ test("sliders give decimal text", () => {
 test("the command quotes what a shell would read", () => {
   assert.equal(simulate_command("ball.toml", ["body.ball.restitution=0.65"]), "tumble simulate ball.toml --set body.ball.restitution=0.65");
   assert.equal(simulate_command("it's.toml", ['body."a b".mass=1']), `tumble simulate 'it'\\''s.toml' --set 'body."a b".mass=1'`);
+});
+
+test("a run is named by its settings", () => {
+  assert.equal(setting_words("body.ball.restitution=0.65"), "restitution 0.65");
+  assert.equal(setting_words("body.lower.angular_velocity.2=-0.003"), "angular velocity z -0.003");
+  assert.equal(setting_words("simulation.integrator=exact"), "integrator exact");
 });

@@ -90,6 +90,8 @@ test("reset shows the recorded run again, and a kept run stays as a second one",
   await page.getByRole("button", { name: "Keep for comparison" }).click();
   assert.equal((await page.evaluate(() => window.tumble.runs)).length, 2);
   await run_after(page, () => page.getByLabel("restitution of ball").press("End"));
+  assert.deepEqual(await page.locator('.tp-live [aria-label="Run"] > .tp-segment').allTextContents(),
+    ["restitution 1.00, impacts stepped", "kept: impacts stepped"]);
   await save_picture(page, "live-kept");
   await page.getByRole("button", { name: "Clear the comparison" }).click();
   await page.getByRole("button", { name: "Reset" }).click();

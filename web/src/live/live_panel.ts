@@ -3,7 +3,7 @@ import type { Clip, Run } from "../data/clip.ts";
 import { h, set_text } from "../ui/dom.ts";
 import type { Player } from "../ui/player.ts";
 import { build_run_bar } from "../ui/toolbar.ts";
-import { simulate_command } from "./command.ts";
+import { setting_words, simulate_command } from "./command.ts";
 import { build_control, type ControlView } from "./controls.ts";
 import { Editor } from "./editor.ts";
 import type { LiveError } from "./module.ts";
@@ -168,6 +168,7 @@ export class LivePanel {
         this.show_runs();
         state.set({ run: this.slot });
       }
+      this.show_name(run.label);
     } else {
       this.mount({ ...clip, runs: [run] });
     }
@@ -188,7 +189,7 @@ export class LivePanel {
   }
 
   private label(): string {
-    return this.moved.map((each) => each.replace(/^.*\.(?=[^.=]+=)/, "").replace("=", " ")).join(", ") || "as recorded";
+    return this.moved.map(setting_words).join(", ") || "as recorded";
   }
 
   private go_back(): void {
@@ -227,6 +228,12 @@ export class LivePanel {
     const own = element.querySelector<HTMLElement>(".tp-main > .tp-runs");
     if (own) own.hidden = more;
     this.clear.hidden = state.clip.runs.length <= this.slot + 1;
+  }
+
+  /** Of the live run, in the choice of runs. */
+  private show_name(name: string): void {
+    const place = this.runs.querySelectorAll('[aria-label="Run"] > .tp-segment, option')[this.slot];
+    if (place) place.lastChild!.textContent = name;
   }
 
   private save_page(): void {
