@@ -1,6 +1,7 @@
 // A page has no files and no limits of memory that it can ask for: the functions of the layers below that need them.
 #include "core/available_memory.h"
 #include "core/input_file.h"
+#include "scene/environment/exr_image.h"
 #include "scene/environment/hdr_image.h"
 #include "scene/mesh/height_grid.h"
 #include "scene/mesh/mesh_file.h"
@@ -30,6 +31,8 @@ bool is_texture_image(std::string_view) { return false; }
 std::shared_ptr<const Texture> make_texture(std::string_view, const std::string&, std::int64_t&) { refuse(); }
 
 std::string read_mesh_bytes(const std::filesystem::path&) { refuse(); }
+bool is_exr_image(std::string_view) { return false; }
+EnvironmentImage import_exr_image(std::string_view) { refuse(); }
 bool is_hdr_image(std::string_view) { return false; }
 EnvironmentImage read_hdr_image(std::string_view) { refuse(); }
 HeightGrid read_height_grid(const std::filesystem::path&) { refuse(); }
