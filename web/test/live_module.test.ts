@@ -2,9 +2,12 @@
 // live_data, in C, makes the native data.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
-import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, dirname, join } from "node:path";
 import { before, test } from "node:test";
+import type { LiveControlText } from "../lesson/blocks/stage.ts";
+import { compile_course } from "../lesson/course.ts";
+import { files_on_disk } from "../lesson/files.ts";
 import { DecimalSteps } from "../src/live/decimal.ts";
 import { setting_words, simulate_command } from "../src/live/command.ts";
 import { LiveModule } from "../src/live/module.ts";
@@ -41,16 +44,42 @@ function scenes(folder: string): string[] {
 /** Large scenes take minutes natively. */
 const too_large = /thousand|ten_thousand|heap|pile|tower|hundred/;
 
-for (const folder of [scenes_folder, join(repository, "examples"), join(repository, "course/scenes")]) {
+/** Fails where the module's run is not the native one, bytes or message. */
+function assert_native(name: string, file: string, settings: string[]): void {
+  const out = join(temporary_folder, "native.bin");
+  const native = spawnSync(live_data, [out, name, file, ...settings], { encoding: "utf8" });
+  const { bytes, error } = whole(name, readFileSync(file, "utf8"), settings);
+  const what = `${name} ${settings.join(" ")}: native: ${native.stderr}; module: ${error}`;
+  assert.equal(native.status === 0, bytes !== null, what);
+  if (bytes) assert.ok(Buffer.from(bytes).equals(readFileSync(out)), `the bytes differ: ${what}`);
+  else assert.ok(native.stderr.includes(error.slice(0, 40)), what);
+}
+
+for (const folder of [scenes_folder, join(scenes_folder, "teaching"), join(repository, "course/scenes")]) {
   for (const file of scenes(folder).filter((each) => !too_large.test(basename(each)))) {
     test(`${basename(folder)}/${basename(file)} has the native bytes`, { skip }, () => {
-      const name = basename(file), text = readFileSync(file, "utf8"), settings = ["simulation.duration=0.5"];
-      const out = join(temporary_folder, "native.bin");
-      const native = spawnSync(live_data, [out, name, file, ...settings], { encoding: "utf8" });
-      const { bytes, error } = whole(name, text, settings);
-      assert.equal(native.status === 0, bytes !== null, `native: ${native.stderr}; module: ${error}`);
-      if (bytes) assert.ok(Buffer.from(bytes).equals(readFileSync(out)), "the bytes differ");
-      else assert.ok(native.stderr.includes(error.slice(0, 40)), `native: ${native.stderr}; module: ${error}`);
+      assert_native(basename(file), file, ["simulation.duration=0.5"]);
+    });
+  }
+}
+
+const lessons = readdirSync(join(repository, "course")).filter((name) => /^\d.*\.md$/.test(name)).map((name) => join(repository, "course", name));
+const course = compile_course(lessons, files_on_disk);
+
+/** The ends and the middle of a slider, or all choices, as settings. */
+function tried({ key, min, max, step, choices }: LiveControlText): string[] {
+  if (choices.length > 0) return choices.map((each) => `${key}=${each}`);
+  const steps = new DecimalSteps(min, max, step);
+  return [0, Math.floor(steps.last / 2), steps.last].map((index) => `${key}=${steps.text(index)}`);
+}
+
+for (const lesson of course.lessons) {
+  for (const stage of lesson.stages.filter(({ live }) => live.length > 0)) {
+    test(`${lesson.name}, stage ${stage.id}: all sliders have the native bytes`, { skip }, () => {
+      const file = join(temporary_folder, `${stage.id}.toml`);
+      writeFileSync(file, stage.text ?? readFileSync(join(dirname(lesson.file), stage.scene!), "utf8"));
+      for (const setting of [[], ...stage.live.flatMap(tried).map((each) => [each])])
+        assert_native(`${stage.id}.toml`, file, [...stage.set, ...setting]);
     });
   }
 }
