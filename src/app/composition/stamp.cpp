@@ -62,7 +62,9 @@ SetLines break_lines(std::string_view text, const TextStyle& style, double width
         const std::size_t end = std::min(text.find('\n', first), text.size());
         std::string line;
         for (const std::string& word : joined(words_of(text.substr(first, end - first)))) {
-            const std::string longer = line.empty() ? word : line + ' ' + word;
+            std::string longer = line;
+            if (!line.empty()) longer += ' ';
+            longer += word;
             if (!line.empty() && canvas.text_width(longer, style) > width) {
                 put(line);
                 line = word;
