@@ -18,14 +18,13 @@ PLAYER = pathlib.Path(os.environ.get("TUMBLE_WEB", PROGRAM.parent.parent / "web"
 
 
 def check(lessons):
-    return subprocess.run([PROGRAM, "lesson", *lessons, "--check", "--no-pictures"], capture_output=True, text=True, check=False)
+    return subprocess.run([PROGRAM, "lesson", *lessons, "--check", "--no-pictures", "--quiet"], capture_output=True, text=True, check=False)
 
 
 class Course(unittest.TestCase):
     def test_states_what_the_runs_give(self):
         result = check(LESSONS)
-        errors = [line for line in result.stderr.splitlines() if not line.startswith("note: live stages of the lessons ")]
-        self.assertEqual((result.returncode, errors), (0, []))   # where the live part of pages is not built
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
 
     def test_the_list_of_lessons_is_whole(self):
         text = (ROOT / "course/README.md").read_text(encoding="utf-8")

@@ -28,7 +28,7 @@ def deflated(data):
 
 def make_web_folder(folder):
     """A web folder with the template of the source tree and a player that does nothing. Returns its path."""
-    values = {"hashes": f"{sha256(LOADER)} {sha256(PLAYER)}", "icon": "data:,", "style": "p { margin: 0 }", "loader": LOADER,
+    values = {"hashes": f"{sha256(LOADER)} {sha256(PLAYER)}", "icon": "data:,", "style": "p { margin: 0 }", "loader": LOADER, "contents": "",
               "player": base64.b64encode(deflated(PLAYER.encode())).decode()}
     folder.mkdir()
     text = re.sub(r"\[\[(\w+)\]\]", lambda m: values[m[1]], TEMPLATE.read_text(encoding="utf-8"))
