@@ -172,7 +172,7 @@ std::string unknown_option(const CLI::App& command, std::string_view word) {
             if (!one->get_group().empty()) names.push_back("--" + name);
     std::string whole = command.get_name();
     for (const CLI::App* above = command.get_parent(); above != nullptr; above = above->get_parent())
-        whole = above->get_name() + ' ' + whole;
+        whole.insert(0, above->get_name() + ' ');
     return fmt::format("unknown option \"{}\" of {}{}", safe_text(word), whole, nearest(word, names));
 }
 
