@@ -166,23 +166,26 @@ private:
         return true;
     }
 
+    // The square of a body's change, which becomes zero: it counts once, and all are zero for the next use.
+    static double taken(auto of_body) {
+        const double square = of_body.squaredNorm();
+        of_body.setZero();
+        return square;
+    }
+
     // Change::reflection() from the bodies of the active contacts alone: a pass touches few bodies of a heap.
     double reflection() {
         const double work_before = add_change(cluster_, active_, lambda_, change_);
         double square = 0.0;
-        const auto count = [&](auto of_body) {
-            square += of_body.squaredNorm();
-            of_body.setZero();  // counts each body once, and leaves all zero for the next use
+        const auto count = [&](std::uint32_t body, std::uint32_t bodies) {
+            if (body == VelocityRow::none) return;
+            square += bodies == 1 ? taken(change_.segment<6>(6 * Eigen::Index(body)))
+                                  : taken(change_.segment(6 * Eigen::Index(body), 6 * Eigen::Index(bodies)));
         };
         for (const ActiveSet::Demand& demand : active_) {
             const VelocityRow& row = cluster_.rows()[demand.row];
-            for (const auto& [body, bodies] : {std::pair(row.a, row.bodies_a()), std::pair(row.b, row.bodies_b())}) {
-                if (body == VelocityRow::none) continue;
-                if (bodies == 1)
-                    count(change_.segment<6>(6 * Eigen::Index(body)));
-                else
-                    count(change_.segment(6 * Eigen::Index(body), 6 * Eigen::Index(bodies)));
-            }
+            count(row.a, row.bodies_a());
+            count(row.b, row.bodies_b());
         }
         return reflection_factor(work_before, square);
     }
