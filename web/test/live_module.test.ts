@@ -12,19 +12,19 @@ import { DecimalSteps } from "../src/live/decimal.ts";
 import { setting_words, simulate_command } from "../src/live/command.ts";
 import { LiveModule } from "../src/live/module.ts";
 import { read_clip } from "../src/data/decode_clip.ts";
-import { repository, scenes_folder, temporary_folder } from "./program.ts";
+import { live_scenes, module_file, short_name, short_run } from "./live_scenes.ts";
+import { repository, temporary_folder } from "./program.ts";
 import { encode91 } from "../build/text91.mjs";
 import { decode91 } from "../src/live/text91.ts";
 import { tumble_path } from "./paths.mjs";
 
 const live_data = join(dirname(tumble_path()), "tests/live/live_data");
-const wasm = join(repository, "build/live/live.wasm");
-const skip = !existsSync(wasm) ? "there is no build/live/live.wasm (scripts/build-web --live)" :
+const skip = !existsSync(module_file) ? "there is no build/live/live.wasm (scripts/build-web --live)" :
   !existsSync(live_data) ? `there is no ${live_data}` : false;
 
 let module: LiveModule;
 before(async () => {
-  if (!skip) module = await LiveModule.of(await WebAssembly.compile(readFileSync(wasm)));
+  if (!skip) module = await LiveModule.of(await WebAssembly.compile(readFileSync(module_file)));
 });
 
 function whole(name: string, text: string, settings: string[]): { bytes: Uint8Array | null; error: string } {
@@ -34,15 +34,6 @@ function whole(name: string, text: string, settings: string[]): { bytes: Uint8Ar
   run.close();
   return { bytes, error };
 }
-
-/** Scenes without files, of a folder and short enough for a test of each. */
-function scenes(folder: string): string[] {
-  return readdirSync(folder).filter((name) => name.endsWith(".toml")).map((name) => join(folder, name))
-    .filter((file) => !/\b(file|image|texture|height_map|heights|normal_map|roughness_map)\s*=\s*"|\[sweep\]|\[\[axis\]\]/.test(readFileSync(file, "utf8")));
-}
-
-/** Large scenes take minutes natively. */
-const too_large = /thousand|ten_thousand|heap|pile|tower|hundred/;
 
 /** Fails where the module's run is not the native one, bytes or message. */
 function assert_native(name: string, file: string, settings: string[]): void {
@@ -55,13 +46,8 @@ function assert_native(name: string, file: string, settings: string[]): void {
   else assert.ok(native.stderr.includes(error.slice(0, 40)), what);
 }
 
-for (const folder of [scenes_folder, join(scenes_folder, "teaching"), join(repository, "course/scenes")]) {
-  for (const file of scenes(folder).filter((each) => !too_large.test(basename(each)))) {
-    test(`${basename(folder)}/${basename(file)} has the native bytes`, { skip }, () => {
-      assert_native(basename(file), file, ["simulation.duration=0.5"]);
-    });
-  }
-}
+for (const file of live_scenes())
+  test(`${short_name(file)} has the native bytes`, { skip }, () => assert_native(basename(file), file, [short_run]));
 
 const lessons = readdirSync(join(repository, "course")).filter((name) => /^\d.*\.md$/.test(name)).map((name) => join(repository, "course", name));
 const course = compile_course(lessons, files_on_disk);
