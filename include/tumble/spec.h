@@ -381,6 +381,14 @@ struct PairForce {
     double end = std::numeric_limits<double>::infinity();  // s
 };
 
+/// An impulse on all dynamic bodies that a point sees.
+struct Explosion {
+    Vec3 center;                        // m
+    std::optional<double> time = {};    // s
+    double impulse = 0.0;               // N s, sum of the lengths over all directions
+    std::optional<double> radius = {};  // m; bodies farther away feel nothing
+};
+
 /// A cosmetic rope from a fixed point to a point of a body, or between the anchors of a joint.
 struct Cord {
     std::string body;      // its name, or its index as text
@@ -407,6 +415,7 @@ struct SceneSpec {
     std::optional<Environment> environment = {};
     std::vector<Field> fields = {};
     std::vector<PairForce> pair_forces = {};
+    std::vector<Explosion> explosions = {};
     std::vector<Speed> speed = {};               // of clips
     std::map<std::string, Camera> cameras = {};  // by name, for shots
     std::vector<Shot> shots = {};

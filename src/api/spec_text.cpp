@@ -47,6 +47,10 @@ public:
         for (std::size_t i = 0; i < spec.forces.size(); ++i) write(spec.forces[i], i);
         for (std::size_t i = 0; i < spec.fields.size(); ++i) write(spec.fields[i], i);
         for (std::size_t i = 0; i < spec.pair_forces.size(); ++i) write(spec.pair_forces[i], i);
+        for (std::size_t i = 0; i < spec.explosions.size(); ++i) {
+            header("[[explosion]]", fmt::format("explosions[{}]", i));
+            write_fields<ExplosionDescription>(*this, spec.explosions[i], true);
+        }
         for (std::size_t i = 0; i < spec.cords.size(); ++i) write(spec.cords[i], i);
     }
 

@@ -55,7 +55,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     check_format(root);
     root.expect_keys({"format",  "title",       "simulation", "output",  "camera",    "cameras",    "shot",
                       "light",   "environment", "wind",       "contact", "materials", "body",       "joint",
-                      "chain",   "template",    "instance",   "force",   "field",     "pair_force", "cord",
+                      "chain",   "template",    "instance",   "force",   "field",     "pair_force", "explosion", "cord",
                       "overlay", "caption",     "speed",      "label",   "logo",      "inset"});
 
     SceneDescription scene;

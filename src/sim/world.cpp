@@ -152,6 +152,7 @@ struct World::State {
 
 void World::State::run_stages(const StepContext& step) {
     const std::uint64_t changes = sleep.changes() + joints.changes();
+    forces.begin(step);
     forces.wake(step);
     begin_joints(step);
     if (sleep.changes() + joints.changes() != changes) detection.out_of_date();

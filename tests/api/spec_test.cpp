@@ -120,6 +120,7 @@ SceneSpec everything_directed() {
     spec.pair_forces[0].bodies = {"crate", "ball"};
     spec.pair_forces[0].charges = {1e-3, -2e-3};
     spec.pair_forces[0].end = 1.0;
+    spec.explosions.push_back({{0.0, 0.1, 0.0}, 0.2, 3.0, 4.0});
     spec.speed.push_back({0.1, {"crate", "0"}, 0.5, 0.2, SpeedEasing::linear});
     spec.cameras["from above"].eye = Vec3{0.0, 9.0, 0.1};
     spec.cameras["from above"].keyframes = {{0.0, {}, {}, 30.0}, {1.0, {}, {}, 40.0}};

@@ -67,7 +67,7 @@ class Teaching(program.ProgramTest):
         return [row for row in rows if row["body"] == name]
 
     def test_there_is_a_scene_for_each_section(self):
-        self.assertEqual([path.name[:2] for path in SCENES], [f"{n:02}" for n in range(1, 19)])
+        self.assertEqual([path.name[:2] for path in SCENES], [f"{n:02}" for n in range(1, 20)])
 
     def test_captions_fill_the_clip(self):
         for path in SCENES:
@@ -265,6 +265,14 @@ class Teaching(program.ProgramTest):
             part = rows[60 * second + 1:60 * second + 60]
             self.assertGreater(max(length(vector(row, ("wx", "wy", "wz"))) for row in part), 0.2)
             self.assertGreater(min(float(row["y"]) for row in part), 0.23)
+
+    def test_explosion(self):
+        trajectory = self.simulate("19")
+        for name, distance in (("near", 0.5), ("middle", 1.0), ("far", 2.0)):
+            rows = self.body(trajectory, name)
+            self.near(length(vector(rows[29], ("vx", "vy", "vz"))), 0.0, 1e-12)
+            self.near(length(vector(rows[-1], ("vx", "vy", "vz"))), 200.0 / 4.0 * 0.1**2 / distance**2, 1e-9)
+        self.assertGreater(length(vector(self.body(trajectory, "box")[-1], ("wx", "wy", "wz"))), 0.1)
 
 
 if __name__ == "__main__":

@@ -61,6 +61,7 @@ const std::map<std::string, std::string> known = {
     {"scene/mesh/mesh_loader.cpp", "larger copies of meshes and compounds share their data"},
     {"scene/mesh/mesh_loader.h", "larger copies of meshes and compounds share their data"},
     {"sim/contact/model/rotational_friction.cpp", "parts of compounds"},
+    {"sim/fields/explosions.cpp", "solid angles in closed form"},
     {"sim/dynamics/body_builder.cpp", "a given center of mass: a compound of one part"},
     {"sim/geometry/collide.cpp", "parts of compounds"},
     {"sim/snapshot/measurement.cpp", "parts of compounds"},

@@ -42,6 +42,7 @@ void for_all_fields(auto&& use) {
     use.template operator()<FieldDescription>("field");
     use.template operator()<FieldRegion>("field region");
     use.template operator()<PairForceDescription>("pair force");
+    use.template operator()<ExplosionDescription>("explosion");
     use.template operator()<CordDescription>("cord");
     use.template operator()<SpeedKeyframe>("speed");
     use.template operator()<OverlayDescription>("overlay");

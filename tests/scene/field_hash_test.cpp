@@ -12,14 +12,15 @@ namespace {
 
 std::string hash_of(const std::string& text) { return scene_hash(parse_scene(text, "fields.toml")); }
 
-TEST(SceneHash, EveryKeyOfFieldsAndPairForcesChangesIt) {
+TEST(SceneHash, EveryKeyOfFieldsPairForcesAndExplosionsChangesIt) {
     const std::string bodies =
         "format = 1\n[[body]]\nname = \"a\"\nshape = { type = \"sphere\", radius = 0.1 }\n[[body]]\nname = \"b\"\n"
         "shape = { type = \"sphere\", radius = 0.1 }\nposition = [3, 0, 0]\n[[body]]\nname = \"c\"\n"
         "shape = { type = \"sphere\", radius = 0.1 }\nposition = [0, 3, 0]\n";
     const std::string point = "type = \"point\"\nstrength = 2\n", vortex = "type = \"vortex\"\nstrength = 2\n",
                       drag = "type = \"drag\"\nlinear = 1\nquadratic = 1\n", pair = "bodies = [\"a\", \"b\"]\n",
-                      charged = "type = \"coulomb\"\n" + pair, spring = "type = \"spring\"\n" + pair;
+                      charged = "type = \"coulomb\"\n" + pair, spring = "type = \"spring\"\n" + pair,
+                      blast = "center = [0, 1, 0]\nimpulse = 1\n";
     struct Pair {
         std::string table, one, other;
     };
@@ -40,7 +41,10 @@ TEST(SceneHash, EveryKeyOfFieldsAndPairForcesChangesIt) {
           {"pair_force", charged + "charges = [2, 2]", charged + "charges = [2, 2]\nsoftening = 0.1"},
           {"pair_force", spring + "stiffness = 1", spring + "stiffness = 2"},
           {"pair_force", spring + "stiffness = 1\ndamping = 1", spring + "stiffness = 1\nlength = 1"},
-          {"pair_force", spring + "stiffness = 1\nenabled = [1]", spring + "stiffness = 1\nenabled = [1, 2]"}})
+          {"pair_force", spring + "stiffness = 1\nenabled = [1]", spring + "stiffness = 1\nenabled = [1, 2]"},
+          {"explosion", blast, blast + "time = 1"},
+          {"explosion", "center = [0, 2, 0]\nimpulse = 1", "center = [0, 1, 0]\nimpulse = 2"},
+          {"explosion", blast + "radius = 3", blast + "radius = 4"}})
         for (const std::string& keys : {one, other})
             EXPECT_TRUE(seen.insert(hash_of(bodies + "[[" + table + "]]\n" + keys + "\n")).second) << keys;
 }

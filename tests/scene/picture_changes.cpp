@@ -103,7 +103,7 @@ const std::vector<std::vector<Change>> picture_changes = {
      {"width", "[logo]", "width = 0.1", "width = 0.2", false},
      {"margin", "[logo]", "margin = 0.02", "margin = 0.03", false},
      {"opacity", "[logo]", "opacity = 0.75", "opacity = 0.5", false}},
-    {{"type", "", "", "", true},  // ForcesOfFields, up to the pair force
+    {{"type", "", "", "", true},  // field_hash_test.cpp, up to the explosion
      {"acceleration", "", "", "", true},
      {"center", "", "", "", true},
      {"axis", "", "", "", true},
@@ -124,6 +124,10 @@ const std::vector<std::vector<Change>> picture_changes = {
      {"damping", "", "", "", true},
      {"length", "", "", "", true},
      {"enabled", "", "", "", true}},
+    {{"center", "", "", "", true},
+     {"time", "", "", "", true},
+     {"impulse", "", "", "", true},
+     {"radius", "", "", "", true}},
     {{"type", "", "", "", true},
      {"memory", "", "", "", true},
      {"scale", "", "", "", true},

@@ -427,6 +427,17 @@ TEST(SceneErrors, OfFieldsAndPairForces) {
     });
 }
 
+TEST(SceneErrors, OfExplosions) {
+    const auto blast = [&](const std::string& keys) { return body("@[[explosion]]\n" + keys); };
+    expect_errors({
+        {blast("impulse = 1"), "[[explosion]] needs \"center\""},
+        {blast("center = [0, 1, 0]"), "[[explosion]] needs \"impulse\""},
+        {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\ntime = @-1"), "must be 0 to"},
+        {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\nradius = @0"), "radius must be"},
+        {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\n@radiu = 2"), "did you mean"},
+    });
+}
+
 TEST(SceneErrors, OfForcesAndCords) {
     expect_errors({
         {body("name = \"crate\"\n[[force]]\nbody = @\"crat\"\nforce = [1, 0, 0]"),

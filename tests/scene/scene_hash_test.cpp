@@ -238,6 +238,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"field", "", "[[cord]]", "[[field]]\ntype = \"uniform\"\nacceleration = [1, 0, 0]\n[[cord]]", true},
      {"pair_force", "", "[[cord]]", "[[pair_force]]\ntype = \"gravity\"\nbodies = [\"ball\", \"stone\"]\n[[cord]]",
       true},
+     {"explosion", "", "[[cord]]", "[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\n[[cord]]", true},
      {"cord", "", "[[cord]]\nbody = \"paddle\"",
       "[[cord]]\nbody = \"ball\"\nanchor = [1, 0, 0]\n[[cord]]\nbody = \"paddle\"", false},
      {"joint", "", "[[joint]]", "[[joint]]\ntype = \"fixed\"\nbodies = [\"ball\", \"world\"]\n[[joint]]", true},

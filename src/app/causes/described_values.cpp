@@ -213,9 +213,9 @@ ValueMap values_of(const SceneDescription& scene) {
     if (scene.wind)
         values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) values["forces"] = forces_text(scene);
-    if (!scene.fields.empty() || !scene.pair_forces.empty())
+    if (!scene.fields.empty() || !scene.pair_forces.empty() || !scene.explosions.empty())
         for (const auto& [part, hash] : scene_parts(scene))
-            if (part == "fields" || part == "pair forces") values[part] = hash;
+            if (part == "fields" || part == "pair forces" || part == "explosions") values[part] = hash;
     if (!scene.cords.empty()) values["cords"] = cords_text(scene);
     values["overlay"] = shown_text(scene.overlay);
     for (std::size_t i = 0; i < scene.overlay.labels.size(); ++i) {

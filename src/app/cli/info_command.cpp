@@ -174,6 +174,7 @@ void print_head(const SceneDescription& scene) {
             stepped ? ", which have no closed form: bodies move step by step between their impacts" : "");
     }
     if (!scene.pair_forces.empty()) put("  forces    {} between bodies\n", scene.pair_forces.size());
+    if (!scene.explosions.empty()) put("  explosions {}\n", scene.explosions.size());
 }
 
 void print_groups(const SceneDescription& scene, const World& world) {

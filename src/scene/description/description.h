@@ -405,6 +405,7 @@ struct SceneDescription {
     std::vector<ForceDescription> forces;
     std::vector<FieldDescription> fields;
     std::vector<PairForceDescription> pair_forces;
+    std::vector<ExplosionDescription> explosions;
     std::vector<BodyDescription> bodies;  // with grids and scatters expanded
     std::vector<JointDescription> joints;
     std::vector<CordDescription> cords;

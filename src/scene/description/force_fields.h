@@ -60,4 +60,13 @@ struct PairForceDescription {
     double start = 0.0, end = 0.0;                        // s; infinity: forever
 };
 
+/// At a time each dynamic body takes the impulse that the explosion sends into the directions in which it sees the body,
+/// times (1 - d^2 / radius^2)^2, with d the distance of its center of mass.
+struct ExplosionDescription {
+    Vec3 center = Vec3::Zero();  // m
+    double time = 0.0;           // s
+    double impulse = 0.0;        // N s, the sum of the lengths over all directions
+    double radius = infinity;    // m
+};
+
 }  // namespace tumble

@@ -1,4 +1,4 @@
-// Fields of [[field]], its region, and [[pair_force]].
+// Fields of [[field]], its region, [[pair_force]] and [[explosion]].
 #pragma once
 
 #include "scene/fields/choices.h"
@@ -65,6 +65,17 @@ void visit_fields(Of<PairForceDescription>, Visitor& field, Self& self) {
     field.key("enabled",
               {"as of a field", "the whole clip", "0 to 1e9, `until` after `from`", "`[from]` or `[from, until]`, s"});
     field.inner(self.start, self.end);
+}
+
+template <class Visitor, class Self>
+void visit_fields(Of<ExplosionDescription>, Visitor& field, Self& self) {
+    field(self.center, "center", Required(limits::coordinate));
+    field(self.time, "time", limits::time,
+          {"it acts from then to the end of the step, for a quarter of a step at least"});
+    field(self.impulse, "impulse", Required(limits::explosion_impulse),
+          {"sum of the lengths over all directions. Negative: bodies are drawn in"});
+    field(self.radius, "radius", limits::size,
+          {"bodies whose center of mass is farther away feel nothing", "unbounded"});
 }
 
 }  // namespace tumble

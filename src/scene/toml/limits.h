@@ -86,6 +86,7 @@ inline constexpr double start_tolerance = 1e-9;   // m or rad: a start at a limi
 
 // -- Fields and forces between bodies
 inline constexpr Range field_strength{-1e30, 1e30, "m^3/s^2, or m^2/s^2 of a vortex"};
+inline constexpr Range explosion_impulse{-1e15, 1e15, "N s"};
 inline constexpr Range drag_linear{0.0, 1e15, "N s/m"};
 inline constexpr Range drag_quadratic{0.0, 1e15, "N s^2/m^2"};
 inline constexpr Range charge{-1e9, 1e9, "C"};

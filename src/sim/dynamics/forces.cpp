@@ -9,6 +9,12 @@
 namespace tumble {
 namespace {
 
+/// ForceDescription::body of an explosion's force.
+constexpr std::size_t of_explosion = SIZE_MAX;
+
+/// Least part of a step in which an explosion acts: in less, forces would be beyond all others by orders of magnitude.
+constexpr double least_blast = 0.25;
+
 bool covers(const ForceDescription& f, double from, double to) { return f.start <= from && f.end >= to; }
 
 void add(Wrench& sum, const ForceDescription& f, const Body& body, const Mat3& rotation) {
@@ -39,12 +45,33 @@ ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint3
       wind_(scene.wind),
       at_points_(scene.bodies.size()),
       place_(scene.fields, origin),
+      explosions_(scene.explosions, origin),
       pairs_(scene.pair_forces, places_of(scene.bodies.size(), order)),
       held_(pairs_.bodies().size(), Vec3::Zero()) {
     const std::vector<std::size_t> places = places_of(scene.bodies.size(), order);
     for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
-    for (std::uint32_t i = 0; i < at_points_.size(); ++i)
-        if (!at_points_[i].empty()) pushed_.push_back(i);
+    for (std::size_t body = 0; body < places.size(); ++body)
+        if (!at_points_[places[body]].empty() || (!explosions_.empty() && scene.bodies[body].dynamic()))
+            pushed_.push_back(std::uint32_t(places[body]));
+    std::sort(pushed_.begin(), pushed_.end());
+}
+
+void ForceField::light_explosions(const std::vector<Body>& bodies, double from, double to) {
+    if (explosions_.empty()) return;
+    for (const std::uint32_t i : blasted_)
+        std::erase_if(at_points_[i], [](const ForceDescription& f) { return f.body == of_explosion; });
+    blasted_.clear();
+    for (const ExplosionDescription& explosion : explosions_.within(from, to)) {
+        const double start = std::min(explosion.time, to - least_blast * (to - from));
+        for (const std::uint32_t i : pushed_) {
+            const Body& body = bodies[i];
+            const Vec3 impulse = body.dynamic() ? impulse_of(explosion, body.collider, body.pose()) : Vec3::Zero();
+            if (impulse.isZero(0.0)) continue;
+            blasted_.push_back(i);
+            at_points_[i].push_back({of_explosion, body.pose().to_body(explosion.center) + body.center_of_mass,
+                                     impulse / (to - start), false, start, to});
+        }
+    }
 }
 
 void ForceField::hold_pairs(const std::vector<Body>& bodies, double from, double to) {
@@ -153,6 +180,7 @@ Impulse ForceField::ending(std::size_t index, const Body& body, double from, dou
 ForceField ForceField::without_points() const {
     ForceField field = *this;
     field.pushed_.clear();
+    field.explosions_ = {};
     for (auto& list : field.at_points_) list.clear();
     return field;
 }

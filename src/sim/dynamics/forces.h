@@ -4,6 +4,7 @@
 
 #include "scene/description/description.h"
 #include "sim/dynamics/body.h"
+#include "sim/fields/explosions.h"
 #include "sim/fields/pair_forces.h"
 #include "sim/math/wrench.h"
 
@@ -22,6 +23,9 @@ public:
     const PairForces& pairs() const { return pairs_; }
     /// Takes the forces between the bodies at their present places as those of the step [from, to).
     void hold_pairs(const std::vector<Body>& bodies, double from, double to);
+    /// Turns the explosions in [from, to), the step that begins, into forces at points of the bodies at their present
+    /// poses. They end with the step.
+    void light_explosions(const std::vector<Body>& bodies, double from, double to);
     bool has_potential() const { return !place_.empty() || !pairs_.empty(); }
     /// J, in fields and in forces between bodies.
     double potential(const std::vector<Body>& bodies) const;
@@ -96,6 +100,8 @@ private:
     std::vector<std::vector<ForceDescription>> at_points_;  // by body
     std::vector<std::uint32_t> pushed_;
     PositionForces place_;
+    Explosions explosions_;
+    std::vector<std::uint32_t> blasted_;  // bodies with forces of explosions, which stand last in at_points_
     PairForces pairs_;
     std::vector<Vec3> held_;  // N, in the order of PairForces::bodies()
 };

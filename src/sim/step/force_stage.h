@@ -18,6 +18,8 @@ public:
 
     const ForceField& field() const { return field_; }
 
+    /// Begins the explosions of the step.
+    void begin(const StepContext& step);
     /// Wakes bodies on which a force begins or ends in the step.
     void wake(const StepContext& step) const;
 
