@@ -46,7 +46,8 @@ std::string data_html(const std::vector<ShellClip>& clips) {
 }
 
 std::map<std::string, std::string, std::less<>> values_of(const PageShell& shell) {
-    return {{"language", html_text(shell.language)},
+    return {{"language", html_text(shell.language.value_or("en"))},
+            {"player-language", html_text(shell.language.value_or(""))},
             {"title", html_text(shell.title)},
             {"description", html_text(shell.description)},
             {"generator", html_text(shell.generator)},

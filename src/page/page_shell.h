@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -27,12 +28,12 @@ struct ShellLink {
 /// Members are plain text, except names that end in _html.
 struct PageShell {
     std::string title;
-    std::string language = "en";
-    std::string description;    // a sentence, for search engines and the summary of links
-    std::string kind = "page";  // class of the body element: page, lesson, index, report
-    std::string generator;      // "Tumble 0.1.0"
-    std::string head_html;      // more of the head: <style>, <meta>
-    std::string body_html;      // content of <main>
+    std::optional<std::string> language;  // of all texts; without it "en", and the player has the reader's
+    std::string description;              // a sentence, for search engines and the summary of links
+    std::string kind = "page";            // class of the body element: page, lesson, index, report
+    std::string generator;                // "Tumble 0.1.0"
+    std::string head_html;                // more of the head: <style>, <meta>
+    std::string body_html;                // content of <main>
     std::vector<ShellClip> clips;
     ShellLink previous, next, up;
     bool live = false;        // for the template of live pages

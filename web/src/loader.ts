@@ -1,10 +1,17 @@
 // Unpacks the player, the only other script of the page, and runs it. Without it the films and pictures of the page stay.
+import * as de from "./texts/de.ts";
+import * as en from "./texts/en.ts";
+import * as es from "./texts/es.ts";
+import * as fr from "./texts/fr.ts";
+import { in_language, language } from "./texts/language.ts";
+
+const texts: Record<keyof typeof en.loader, string> = { en: en.loader, de: de.loader, es: es.loader, fr: fr.loader }[language];
 const root = document.documentElement;
 
 function explain_failure(text: string): void {
   root.dataset.player = "failed";
   for (const figure of document.querySelectorAll(".tumble-player")) {
-    const note = document.createElement("p");
+    const note = in_language(document.createElement("p"));
     note.className = "player-note";
     note.textContent = text;
     const caption = figure.querySelector("figcaption");
@@ -23,5 +30,5 @@ async function run_player(): Promise<void> {
 }
 
 if (typeof DecompressionStream === "undefined")
-  explain_failure("This browser is too old for the interactive view: it needs Chrome 103, Firefox 113, Safari 16.4 or later.");
-else run_player().catch(() => explain_failure("The interactive view could not be unpacked: the file of this page is damaged."));
+  explain_failure(texts.too_old);
+else run_player().catch(() => explain_failure(texts.damaged));

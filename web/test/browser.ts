@@ -10,6 +10,8 @@ export interface PageOptions {
   width?: number;
   height?: number;
   dark?: boolean;
+  /** Of the reader: "de-AT". */
+  language?: string;
   reduced_motion?: boolean;
   java_script?: boolean;
   /** More arguments of Chromium: no_webgl. */
@@ -65,6 +67,7 @@ export async function open_page(path: string, options: PageOptions = {}): Promis
   const context = await browser.newContext({
     offline: true,
     viewport: { width: options.width ?? 640, height: options.height ?? 360 },
+    locale: options.language ?? "en-US",
     colorScheme: options.dark ? "dark" : "light",
     reducedMotion: options.reduced_motion ? "reduce" : "no-preference",
     javaScriptEnabled: options.java_script ?? true,

@@ -184,7 +184,7 @@ test("a policy that forbids workers leaves the recorded run", { skip }, async ()
 
 test("a browser without WebAssembly leaves the recorded run", { skip }, async () => {
   const browser = await launch();
-  const context = await browser.newContext({ offline: true, viewport: { width: 640, height: 360 } });
+  const context = await browser.newContext({ offline: true, locale: "en-US", viewport: { width: 640, height: 360 } });
   await context.addInitScript(() => { Object.defineProperty(globalThis, "WebAssembly", { value: undefined }); });
   const page = await context.newPage();
   await page.goto(`file://${path}`);
@@ -195,7 +195,7 @@ test("a browser without WebAssembly leaves the recorded run", { skip }, async ()
 
 test("a browser without vectors leaves the recorded run", { skip }, async () => {
   const browser = await launch();
-  const context = await browser.newContext({ offline: true, viewport: { width: 640, height: 360 } });
+  const context = await browser.newContext({ offline: true, locale: "en-US", viewport: { width: 640, height: 360 } });
   await context.addInitScript(() => { WebAssembly.validate = () => false; });
   const page = await context.newPage();
   await page.goto(`file://${path}`);

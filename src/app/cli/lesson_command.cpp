@@ -27,6 +27,7 @@ struct LessonCommand {
     std::vector<std::filesystem::path> lessons;  // Markdown
     std::filesystem::path site;                  // folder of the pages
     std::string title = "Lessons";               // of the contents
+    std::optional<std::string> language;         // of the lessons
     bool check = false;                          // runs and checks everything, and writes nothing
     bool pictures = true;                        // of the stages, for print and for readers without WebGL
     bool films = false;                          // of the stages, for readers without WebGL
@@ -115,11 +116,14 @@ std::vector<SitePage> make_pages(const LessonCommand& command, const Course& cou
         posters.push_back(pictures.empty() ? std::string() : pictures.front().poster);
         const std::vector<std::vector<LiveControl>> recorded(lesson.stages.size());
         const auto& live = templates.live ? runs.scenes()[i].live : recorded;
-        const PageShell shell = lesson_page(course, i, {runs.results()[i], pictures, live}, generator);
+        PageShell shell = lesson_page(course, i, {runs.results()[i], pictures, live}, generator);
+        shell.language = command.language;
         pages.push_back({page_name(lesson), (shell.live ? *templates.live : templates.page).fill(shell)});
     }
-    if (!command.check)
-        pages.push_back({index_name, templates.page.fill(index_page(course, command.title, generator, posters))});
+    if (command.check) return pages;
+    PageShell index = index_page(course, command.title, generator, posters);
+    index.language = command.language;
+    pages.push_back({index_name, templates.page.fill(index)});
     return pages;
 }
 
@@ -182,6 +186,12 @@ void add_lesson(Command& command) {
                             ->check(folder_name())
                             ->type_name("SITE");
     command.add_option("--title", c.title, "Title of index.html")->option_text("TEXT [Lessons]");
+    command
+        .add_option("--language", c.language,
+                    "Language of the lessons and of the player: en, de, es or fr; without this the player\n"
+                    "has the reader's")
+        ->check(some_name())
+        ->type_name("CODE");
     command.add_flag("--check", c.check, "Run and check everything, and write nothing")->excludes(site);
     CLI::Option* film =
         command.add_flag("--film", c.films, "A film of each stage for readers without WebGL: larger pages");

@@ -32,7 +32,7 @@ struct PageCommand {
     std::optional<std::filesystem::path> output;  // without this, the first scene's name with .html
     SceneOverrides overrides;
     std::optional<std::string> title;  // without this, the first scene's
-    std::string language = "en";
+    std::optional<std::string> language;
     std::string compare;                  // of runs: single, ghost, side-by-side; empty: single
     std::string follow;                   // body that the camera follows
     double time = 0.0;                    // s, shown at first
@@ -226,9 +226,12 @@ void add_page(Command& command) {
                     "Plots that the page shows at first, as in energy,body.ball.y (names: tumble plot\n--help)")
         ->option_text("LIST [energy]");
     command.add_option("--title", c.title, "Title, in place of the scene's")->type_name("TEXT");
-    command.add_option("--language", c.language, "Language of the title, for screen readers")
+    command
+        .add_option("--language", c.language,
+                    "Language of the title and of the player: en, de, es or fr; without this the player\n"
+                    "has the reader's")
         ->check(some_name())
-        ->option_text("CODE [en]");
+        ->type_name("CODE");
     command.add_option("--time", c.time, "Moment shown at first")
         ->check(number_within(limits::duration.min, limits::duration.max))
         ->option_text("S [0]");

@@ -9,12 +9,14 @@ import { evaluate, residual, type Values } from "./evaluate.ts";
 import { impact_of } from "./stages.ts";
 import { moment_values, impact_values } from "./symbol_values.ts";
 import { value_text, with_values } from "./value_math.ts";
+import { in_language } from "../texts/language.ts";
+import { text_of } from "../texts/texts.ts";
 
 export class NumbersBlock {
   private readonly data: NumbersData;
   private readonly equation: Element | null;
   private readonly result = h("div", { class: "numbers-result", id: new_id("numbers"), hidden: true });
-  private readonly substituted = h("div", { class: "numbers-equation numbers-substituted", tabindex: 0, role: "group", "aria-label": "The equation with numbers" });
+  private readonly substituted = h("div", { class: "numbers-equation numbers-substituted", tabindex: 0, role: "group", "aria-label": text_of("with_numbers") });
   private readonly sides = h("dl", { class: "numbers-sides" });
   private readonly moment = h("p", { class: "numbers-moment", "aria-live": "polite" });
   private readonly open: HTMLButtonElement;
@@ -27,9 +29,10 @@ export class NumbersBlock {
     this.data = JSON.parse(element.dataset.numbers!) as NumbersData;
     this.impact = this.data.impact - 1;
     this.equation = element.querySelector("math");
-    this.open = h("button", { type: "button", class: "lesson-button numbers-open", "aria-expanded": "false", "aria-controls": this.result.id, onclick: () => this.toggle() }, "Put in the numbers");
-    this.exact = h("button", { type: "button", class: "lesson-link", "aria-pressed": "false", onclick: () => this.toggle_digits() }, "17 digits");
-    const bar = h("div", { class: "numbers-bar" }, this.open);
+    this.open = h("button", { type: "button", class: "lesson-button numbers-open", "aria-expanded": "false", "aria-controls": this.result.id, onclick: () => this.toggle() }, text_of("put_in_numbers"));
+    this.exact = h("button", { type: "button", class: "lesson-link", "aria-pressed": "false", onclick: () => this.toggle_digits() }, text_of("digits_17"));
+    const bar = in_language(h("div", { class: "numbers-bar" }, this.open));
+    in_language(this.result);
     if (this.data.moment === "impact") bar.append(this.impact_buttons());
     this.result.append(this.moment, this.substituted, this.sides, this.exact);
     element.append(bar, this.result);
@@ -40,8 +43,8 @@ export class NumbersBlock {
   private impact_buttons(): HTMLElement {
     const step = (label: string, text: string, way: 1 | -1): HTMLButtonElement =>
       h("button", { type: "button", class: "lesson-button", "aria-label": label, onclick: () => this.choose(this.impact + way) }, text);
-    return h("span", { class: "numbers-choice", role: "group", "aria-label": "Impact" },
-      step("Previous impact", "\u2190", -1), step("Next impact", "\u2192", 1));
+    return h("span", { class: "numbers-choice", role: "group", "aria-label": text_of("impact") },
+      step(text_of("previous_impact"), "\u2190", -1), step(text_of("next_impact"), "\u2192", 1));
   }
 
   private choose(index: number): void {
@@ -63,7 +66,7 @@ export class NumbersBlock {
   private toggle(): void {
     this.result.hidden = !this.result.hidden;
     this.open.setAttribute("aria-expanded", String(!this.result.hidden));
-    set_text(this.open, this.result.hidden ? "Put in the numbers" : "Hide the numbers");
+    set_text(this.open, text_of(this.result.hidden ? "put_in_numbers" : "hide_numbers"));
     this.show();
   }
 
@@ -89,18 +92,20 @@ export class NumbersBlock {
     const run = state.clip.runs.length > 1 && state.run.label ? `, ${state.run.label}` : "";
     if (this.data.moment === "now") {
       const body = state.get("body");
-      const name = body === null ? "no body" : state.run.scene.bodies[body].name;
-      return `${name} at ${number_text(state.get("time"), 4)} s${run}`;
+      const name = body === null ? text_of("no_body") : state.run.scene.bodies[body].name;
+      return text_of("body_at", { body: name, time: number_text(state.get("time"), 4) }) + run;
     }
     const impact = state.run.impacts[this.impact];
-    return `Impact ${this.impact + 1} of ${state.run.impacts.length}, at ${number_text(impact.time, 6)} s: ${pair_text(state.run, impact)}${run}`;
+    return text_of("impact_of", {
+      number: this.impact + 1, count: state.run.impacts.length, time: number_text(impact.time, 6), pair: pair_text(state.run, impact),
+    }) + run;
   }
 
   private show(): void {
     if (this.result.hidden || !this.equation) return;
     const values = this.values();
     if (!values) {
-      set_text(this.moment, "The run has no impact.");
+      set_text(this.moment, text_of("run_without_impact"));
       this.substituted.replaceChildren();
       this.sides.replaceChildren();
       return;
@@ -115,8 +120,8 @@ export class NumbersBlock {
     const difference = residual(left, right);
     this.element.dataset.residual = String(difference);
     this.sides.replaceChildren(
-      row("Left side", `${value_text(left, digits)} ${unit}`.trim(), "left"),
-      row("Right side", `${value_text(right, digits)} ${unit}`.trim(), "right"),
-      row("Residual", number_text(difference, 3, 0), "residual"));
+      row(text_of("left_side"), `${value_text(left, digits)} ${unit}`.trim(), "left"),
+      row(text_of("right_side"), `${value_text(right, digits)} ${unit}`.trim(), "right"),
+      row(text_of("residual"), number_text(difference, 3, 0), "residual"));
   }
 }

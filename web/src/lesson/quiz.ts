@@ -1,5 +1,7 @@
 // Questions with a number as the answer, or with choices.
 import { h } from "../ui/dom.ts";
+import { in_language } from "../texts/language.ts";
+import { text_of } from "../texts/texts.ts";
 
 /** With a decimal point or comma, and any minus; null if it is no number. */
 export function read_answer(text: string): number | null {
@@ -19,10 +21,10 @@ type Verdict = "right" | "wrong" | "unread";
 class Answer {
   private readonly result: HTMLOutputElement;
   private readonly solution: HTMLDetailsElement | null;
-  readonly hint: boolean;
+  private readonly hint: boolean;
 
   constructor(private readonly element: HTMLElement) {
-    this.result = element.querySelector<HTMLOutputElement>(".quiz-result")!;
+    this.result = in_language(element.querySelector<HTMLOutputElement>(".quiz-result")!);
     this.solution = element.querySelector<HTMLDetailsElement>(".quiz-answer");
     this.hint = element.querySelector(".quiz-hint") !== null;
   }
@@ -34,6 +36,10 @@ class Answer {
     if (verdict !== "right") return;
     if (this.solution) this.solution.open = true;
     this.element.dispatchEvent(new CustomEvent("tumble-answered", { bubbles: true }));
+  }
+
+  with_hint(text: string): string {
+    return this.hint ? `${text} ${text_of("hint_below")}` : text;
   }
 
   clear(): void {
@@ -49,8 +55,8 @@ function start_number(form: HTMLFormElement, shown: Answer, answer: number, tole
     const given = read_answer(input.value);
     const verdict = given === null ? "unread" : is_right(given, answer, tolerance) ? "right" : "wrong";
     input.toggleAttribute("aria-invalid", verdict !== "right");
-    shown.show(verdict, verdict === "unread" ? "Write a number, such as 0.25 or 3e-4." : verdict === "right" ? "Right." :
-      `Not yet: the number is too ${given! > answer ? "large" : "small"}.${shown.hint ? " There is a hint below." : ""}`);
+    shown.show(verdict, verdict === "unread" ? text_of("write_number") : verdict === "right" ? text_of("right") :
+      shown.with_hint(text_of(given! > answer ? "too_large" : "too_small")));
   });
   input.addEventListener("input", () => {
     input.removeAttribute("aria-invalid");
@@ -74,9 +80,9 @@ function start_choices(form: HTMLFormElement, shown: Answer, right: number): voi
     event.preventDefault();
     const chosen = inputs.find((input) => input.checked) ?? null;
     show_reason(chosen);
-    if (!chosen) shown.show("unread", "Choose one of the answers.");
-    else if (Number(chosen.value) === right) shown.show("right", "Right.");
-    else shown.show("wrong", `Not this one.${shown.hint ? " There is a hint below." : ""}`);
+    if (!chosen) shown.show("unread", text_of("choose_answer"));
+    else if (Number(chosen.value) === right) shown.show("right", text_of("right"));
+    else shown.show("wrong", shown.with_hint(text_of("not_this")));
   });
   form.addEventListener("change", () => {
     show_reason(null);

@@ -4,11 +4,16 @@ import type { Player } from "../ui/player.ts";
 import { symbols, unit_of } from "../../lesson/symbols.ts";
 import { is_infinite, value_text } from "./value_math.ts";
 import { meaning_of, type LessonStages } from "./stages.ts";
+import { in_language } from "../texts/language.ts";
+import { term_of, text_of } from "../texts/texts.ts";
 
 const gap = 8; // pixels between symbol and note
 
 function meaning_text(name: string): string {
-  return symbols.find((symbol) => symbol.name === name)?.meaning ?? "";
+  const meaning = symbols.find((symbol) => symbol.name === name)?.meaning ?? "";
+  const [, stem, body, side] = /^(.*?)(?: of ([AB]))?(?: (before|after) the impact)?$/.exec(meaning)!;
+  const text = body ? text_of("meaning_of", { meaning: term_of(stem), body }) : term_of(stem);
+  return side ? text_of(side === "before" ? "meaning_before" : "meaning_after", { meaning: text }) : text;
 }
 
 export class SymbolLight {
@@ -17,7 +22,7 @@ export class SymbolLight {
   private player: Player | null = null;
 
   constructor(private readonly stages: LessonStages, root: HTMLElement) {
-    document.body.append(this.note);
+    document.body.append(in_language(this.note));
     const symbol_at = (target: EventTarget | null): MathMLElement | null =>
       target instanceof Element ? target.closest<MathMLElement>("[data-symbol]") : null;
     root.addEventListener("pointerover", (event) => this.light(symbol_at(event.target)));
@@ -32,7 +37,7 @@ export class SymbolLight {
     if (!equation.querySelector("[data-symbol]")) return;
     equation.tabIndex = 0;
     equation.setAttribute("role", "group");
-    equation.setAttribute("aria-label", "Equation. Left and right arrow keys go through its symbols");
+    equation.setAttribute("aria-label", text_of("equation_keys"));
     equation.addEventListener("keydown", (event) => {
       const step = event.key === "ArrowRight" ? 1 : event.key === "ArrowLeft" ? -1 : 0;
       if (event.key === "Escape") this.light(null);
@@ -61,7 +66,7 @@ export class SymbolLight {
       this.player = player;
       player.view.highlight({ name, impact: meaning.impact, body: meaning.body });
       const value = meaning.values[name];
-      if (value !== undefined && is_infinite(name, value)) text.push("infinite: no impulse moves the body");
+      if (value !== undefined && is_infinite(name, value)) text.push(text_of("infinite"));
       else if (value !== undefined) text.push(`${value_text(value)} ${unit_of(name)}`.trim());
     }
     this.note.replaceChildren(h("span", {}, text[0]), ...(text[1] ? [h("b", {}, text[1])] : []));

@@ -1,5 +1,6 @@
 // Sliders and choices of a live page.
 import { h, new_id, set_text } from "../ui/dom.ts";
+import { text_of } from "../texts/texts.ts";
 import { DecimalSteps } from "./decimal.ts";
 import type { LiveControl } from "./options.ts";
 
@@ -28,7 +29,7 @@ function slider(control: LiveControl, changed: () => void): ControlView {
   const readout = h("output", { class: "tp-live-value" });
   let value: string | null = null;
   const show = (): void => {
-    const text = value === null ? "as in the scene" : shown(value, control.unit);
+    const text = value === null ? text_of("as_in_scene") : shown(value, control.unit);
     set_text(readout, text);
     input.setAttribute("aria-valuetext", text);
   };
@@ -49,7 +50,7 @@ function slider(control: LiveControl, changed: () => void): ControlView {
 function choice(control: LiveControl, changed: () => void): ControlView {
   const as_in_scene = control.value === undefined || !control.choices!.includes(control.value);
   const input = h("select", { class: "tp-select", disabled: true },
-    as_in_scene && h("option", { value: "" }, control.value ?? "as in the scene"),
+    as_in_scene && h("option", { value: "" }, control.value ?? text_of("as_in_scene")),
     ...control.choices!.map((each) => h("option", { value: each }, each)));
   const set = (to: string | null): void => { input.value = to !== null && control.choices!.includes(to) ? to : ""; };
   input.addEventListener("change", changed);

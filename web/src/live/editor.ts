@@ -1,6 +1,7 @@
 // The scene's text, to change: mistakes stand below it, with line and column.
 import { h } from "../ui/dom.ts";
 import type { LiveError } from "./module.ts";
+import { text_of } from "../texts/texts.ts";
 
 /** After the last key, ms. */
 const pause = 500;
@@ -14,16 +15,16 @@ export class Editor {
   constructor(private readonly name: string, private readonly given: string, changed: () => void) {
     this.area = h("textarea", {
       class: "tp-live-text", rows: 16, spellcheck: "false", autocapitalize: "off", autocomplete: "off", wrap: "off",
-      "aria-label": `Text of ${name}`, disabled: true,
+      "aria-label": text_of("text_of", { name }), disabled: true,
     });
     this.area.value = given;
     this.area.addEventListener("input", () => {
       clearTimeout(this.timer);
       this.timer = setTimeout(changed, pause) as unknown as number;
     });
-    this.element = h("details", { class: "tp-live-editor" }, h("summary", {}, "Change the scene"), this.area, this.mistake,
+    this.element = h("details", { class: "tp-live-editor" }, h("summary", {}, text_of("change_scene")), this.area, this.mistake,
       h("p", { class: "tp-live-links" },
-        h("button", { type: "button", class: "tp-link", onclick: () => this.save() }, "Save the scene")));
+        h("button", { type: "button", class: "tp-link", onclick: () => this.save() }, text_of("save_scene"))));
   }
 
   get text(): string {
@@ -55,7 +56,7 @@ export class Editor {
     if (error === null) return;
     if (error.line > 0) {
       this.mistake.append(h("button", { type: "button", class: "tp-link", onclick: () => this.go_to(error) },
-        `Line ${error.line}, column ${error.column}`), ": ");
+        text_of("line_column", { line: error.line, column: error.column })), ": ");
     }
     this.mistake.append(error.message.replace(/^(?:[^\n]*?:\d+:\d+: )?error: /, ""));
   }

@@ -1,6 +1,7 @@
 // The laboratory below a player: values to change, the scene's text, and the run that they give.
 import type { Clip, Run } from "../data/clip.ts";
 import { h, set_text } from "../ui/dom.ts";
+import { text_of } from "../texts/texts.ts";
 import type { Player } from "../ui/player.ts";
 import { build_run_bar } from "../ui/toolbar.ts";
 import { setting_words, simulate_command } from "./command.ts";
@@ -21,10 +22,10 @@ export class LivePanel {
   private readonly editor: Editor | null;
   private readonly status = h("p", { class: "tp-live-status", role: "status" });
   private readonly command = h("code", { class: "tp-live-command", tabindex: 0 });
-  private readonly stop = this.button("Stop", () => this.simulation.stop());
-  private readonly reset = this.button("Reset", () => this.go_back());
-  private readonly pin = this.button("Keep for comparison", () => this.keep());
-  private readonly clear = this.button("Clear the comparison", () => this.clear_kept());
+  private readonly stop = this.button(text_of("stop"), () => this.simulation.stop());
+  private readonly reset = this.button(text_of("reset"), () => this.go_back());
+  private readonly pin = this.button(text_of("keep"), () => this.keep());
+  private readonly clear = this.button(text_of("clear_kept"), () => this.clear_kept());
   private readonly runs = h("div");
   private readonly recorded: Run;
   private readonly simulation: Simulation;
@@ -49,19 +50,19 @@ export class LivePanel {
       progress: (share) => this.show_progress(share),
       data: (clip, whole, error) => this.show_clip(clip, whole, error),
       error: (error) => this.show_error(error),
-      stopped: () => { this.end(); set_text(this.status, "Stopped: the run is shown as far as it went."); },
+      stopped: () => { this.end(); set_text(this.status, text_of("stopped")); },
     });
     this.stop.hidden = true;
     this.clear.hidden = true;
-    this.element = h("section", { class: "tp-live", "aria-label": "Change and run again" },
+    this.element = h("section", { class: "tp-live", "aria-label": text_of("change_and_run") },
       h("div", { class: "tp-live-rows" }, ...this.controls.map(({ element }) => element)),
       h("div", { class: "tp-live-buttons" }, this.reset, this.pin, this.clear, this.stop,
-        this.button("Save the page", () => this.save_page())),
+        this.button(text_of("save_page"), () => this.save_page())),
       this.runs, this.status,
       this.editor?.element,
-      h("details", { class: "tp-live-check" }, h("summary", {}, "Show the command"),
-        h("p", {}, "The program gives the same run, to the last digit:"), this.command));
-    set_text(this.status, "The simulation is being unpacked; the recorded run is shown.");
+      h("details", { class: "tp-live-check" }, h("summary", {}, text_of("show_command")),
+        h("p", {}, text_of("same_run")), this.command));
+    set_text(this.status, text_of("unpacking"));
     this.show_command();
     this.attach();
     void this.simulation.start();
@@ -98,7 +99,7 @@ export class LivePanel {
     this.end();
     this.enable(false);
     this.element.dataset.live = "refused";
-    set_text(this.status, `${reason} The recorded run is shown.`);
+    set_text(this.status, `${reason} ${text_of("recorded_shown")}`);
   }
 
   /** Of the controls that the reader has moved. */
@@ -119,7 +120,7 @@ export class LivePanel {
 
   private show_command(): void {
     const { name } = this.options;
-    set_text(this.command, `${simulate_command(name, this.settings)}${this.editor?.edited ? `   # ${name} as saved from here` : ""}`);
+    set_text(this.command, `${simulate_command(name, this.settings)}${this.editor?.edited ? `   # ${text_of("command_scene", { name })}` : ""}`);
   }
 
   private run(): void {
@@ -141,8 +142,7 @@ export class LivePanel {
     if (passed < quiet_time) return;
     this.stop.hidden = false;
     const percent = Math.floor(100 * share);
-    set_text(this.status, passed < time_limit ? `Simulating: ${percent}\u202f%` :
-      `Simulating: ${percent}\u202f%. This takes long; stop, or choose a smaller scene or a larger step.`);
+    set_text(this.status, text_of(passed < time_limit ? "simulating" : "takes_long", { percent }));
   }
 
   private show_error(error: LiveError): void {
@@ -150,12 +150,12 @@ export class LivePanel {
     this.editor?.show(error);
     // An open editor has the mistake below it.
     const below = this.editor?.open && error.line > 0;
-    set_text(this.status, `${below ? "The scene has a mistake." : this.message_of(error)} The run before is shown.`);
+    set_text(this.status, `${below ? text_of("mistake") : this.message_of(error)} ${text_of("before_shown")}`);
   }
 
   private message_of({ message, line }: LiveError): string {
     const text = message.replace(/^(?:[^\n]*?:\d+:\d+: )?error: /, "");
-    return line > 0 ? `Line ${line}: ${text}.` : `${text}.`;
+    return line > 0 ? text_of("line", { line, message: text }) : `${text}.`;
   }
 
   private show_clip(clip: Clip, whole: boolean, error: LiveError | null): void {
@@ -175,7 +175,7 @@ export class LivePanel {
     if (!whole) return;
     this.end();
     this.editor?.show(null);
-    set_text(this.status, error ? `${this.message_of(error)} The run is shown until then.` : "");
+    set_text(this.status, error ? `${this.message_of(error)} ${text_of("until_then")}` : "");
     this.element.dataset.runs = String(Number(this.element.dataset.runs ?? 0) + 1);
   }
 
@@ -189,7 +189,7 @@ export class LivePanel {
   }
 
   private label(): string {
-    return this.moved.map(setting_words).join(", ") || "as recorded";
+    return this.moved.map(setting_words).join(", ") || text_of("as_recorded");
   }
 
   private go_back(): void {
@@ -199,7 +199,7 @@ export class LivePanel {
     if (!looks_alike(this.player.state.clip.runs[0], this.recorded)) return this.run();
     this.simulation.cancel();
     if (this.slot > 0) this.shown.drop(this.slot);
-    else this.shown.put(0, { ...this.recorded, label: "as recorded" });
+    else this.shown.put(0, { ...this.recorded, label: text_of("as_recorded") });
     this.show_runs();
     this.end();
     set_text(this.status, "");
@@ -209,7 +209,7 @@ export class LivePanel {
   private keep(): void {
     const { state } = this.player;
     const current = state.run;
-    this.shown.put(state.clip.runs.length, { ...current, label: `kept: ${current.label || "as recorded"}` });
+    this.shown.put(state.clip.runs.length, { ...current, label: text_of("kept", { label: current.label || text_of("as_recorded") }) });
     this.show_runs();
     state.set({ run: this.slot, compare: "ghost" });
   }
@@ -232,7 +232,7 @@ export class LivePanel {
 
   /** Of the live run, in the choice of runs. */
   private show_name(name: string): void {
-    const place = this.runs.querySelectorAll('[aria-label="Run"] > .tp-segment, option')[this.slot];
+    const place = this.runs.querySelectorAll(".tp-segments:first-child > .tp-segment, option")[this.slot];
     if (place) place.lastChild!.textContent = name;
   }
 

@@ -5,6 +5,7 @@ import { inflate_bytes } from "../data/inflate.ts";
 import type { LiveError } from "./module.ts";
 import type { FromWorker, LiveRequest, ToWorker } from "./protocol.ts";
 import { decode91 } from "./text91.ts";
+import { text_of } from "../texts/texts.ts";
 
 declare const LIVE_WORKER: string;
 
@@ -34,17 +35,15 @@ function compiled(): Promise<WebAssembly.Module> {
 }
 
 async function compile(): Promise<WebAssembly.Module> {
-  if (typeof WebAssembly === "undefined") throw new Error("This browser has no WebAssembly, or it is switched off.");
-  if (!WebAssembly.validate(with_vectors)) throw new Error("This browser is too old for the simulation: it needs Chrome 91, Firefox 89, Safari 16.4 or later.");
+  if (typeof WebAssembly === "undefined") throw new Error(text_of("no_webassembly"));
+  if (!WebAssembly.validate(with_vectors)) throw new Error(text_of("old_for_simulation"));
   const packed = decode91(document.getElementById("tumble-live")?.textContent?.trim() ?? "");
-  if (!packed?.length) throw new Error("This page has no simulation: it is damaged.");
+  if (!packed?.length) throw new Error(text_of("no_simulation"));
   const bytes = await inflate_bytes(packed) as Uint8Array<ArrayBuffer>;
   try {
     return await WebAssembly.compile(bytes);
   } catch (error) {
-    throw new Error(/unsafe-eval|Content Security|disallowed/i.test(String(error)) ?
-      "A rule of the server that the page comes from, or of this browser, forbids simulations (WebAssembly). Saved and opened as a file, the page may run." :
-      "The simulation of this page cannot be read: the page is damaged, or the browser too old.");
+    throw new Error(text_of(/unsafe-eval|Content Security|disallowed/i.test(String(error)) ? "forbidden" : "unreadable"));
   }
 }
 
@@ -95,7 +94,7 @@ export class Simulation {
 
   private start_worker(): void {
     this.ready = false;
-    const refused = "This browser refuses to start the simulation (a worker) in this page.";
+    const refused = text_of("no_worker");
     try {
       const address = URL.createObjectURL(new Blob([LIVE_WORKER], { type: "text/javascript" }));
       this.worker = new Worker(address);
@@ -107,7 +106,7 @@ export class Simulation {
     this.worker.onmessage = ({ data }: MessageEvent<FromWorker>) => this.hear(data);
     this.worker.onerror = (event) => {
       event.preventDefault();
-      this.events.failed(this.ready ? `The simulation failed: ${event.message}` : refused);
+      this.events.failed(this.ready ? text_of("simulation_failed", { reason: event.message }) : refused);
     };
     this.tell({ kind: "module", module: this.module! });
   }
@@ -128,7 +127,7 @@ export class Simulation {
       this.events.ready();
       this.send_waiting();
     } else if (message.kind === "failed") {
-      this.events.failed(`The simulation cannot run here: ${message.reason}`);
+      this.events.failed(text_of("cannot_run", { reason: message.reason }));
     } else if (message.id === this.last_id) {
       this.hear_of_run(message);
     }

@@ -8,6 +8,7 @@ import type { PlayerState } from "../ui/player_state.ts";
 import { impulse_terms, solve_impulse } from "./impulse_equation.ts";
 import { impulses_together, joint_row } from "./joint_impulses.ts";
 import { norm } from "./linear.ts";
+import { term_of, text_around, text_of } from "../texts/texts.ts";
 
 const most_terms = 6;  // of a sum on one line
 
@@ -20,7 +21,7 @@ const mn = (value: number, plain = false): MathMLElement => {
 };
 
 const equation_element = (markup: string, ...numbers: MathMLElement[]): HTMLElement => {
-  const element = h("div", { class: "tp-equation", tabindex: 0, role: "group", "aria-label": "Equation of the impulse" });
+  const element = h("div", { class: "tp-equation", tabindex: 0, role: "group", "aria-label": text_of("equation_of_impulse") });
   element.innerHTML = markup;
   element.append(...numbers);
   return element;
@@ -30,8 +31,7 @@ const line_of = (...parts: MathMLElement[]): MathMLElement => mathml("math", { d
 
 /** Larger residuals than rounding: something else takes part. */
 const largest_rounding = 1e-6;
-const others_act = "Contacts at rest, joints or impulses that the page does not keep act on these bodies in the same step, too: " +
-  "the equation without them gives another number.";
+const bold = (text: string): HTMLElement => h("b", {}, text);
 
 /** Eq. 20 with the numbers of the impact. */
 function impulse_alone(run: Run, index: number): HTMLElement[] {
@@ -48,11 +48,13 @@ function impulse_alone(run: Run, index: number): HTMLElement[] {
       mathml("mrow", {}, ...sum)),
     mo("="), mn(solved.j, true), ...with_unit("N\u2009s")));
   const remarks: string[] = [];
-  if (has_friction) remarks.push("The last term of the numerator is the share of the friction impulse.");
-  if (solved.residual > largest_rounding) remarks.push(others_act);
+  if (has_friction) remarks.push(text_of("friction_share"));
+  if (solved.residual > largest_rounding) remarks.push(text_of("others_act"));
   return [
     equation_element(equations.impulse, numbers),
-    h("p", { class: "tp-facts" }, "Recorded: ", h("b", {}, `${number_text(terms.j, 6)} N s`), "; residual ", h("b", {}, number_text(solved.residual, 3, 0)), "."),
+    h("p", { class: "tp-facts" }, ...text_around("recorded", {
+      impulse: bold(`${number_text(terms.j, 6)} N s`), residual: bold(number_text(solved.residual, 3, 0)),
+    })),
     ...remarks.map((text) => h("p", { class: "tp-hint" }, text))];
 }
 
@@ -66,14 +68,16 @@ function impulse_among_others(run: Run, index: number): HTMLElement[] {
     h("th", { scope: "row" }, String(i + 1)), h("td", {}, pair_text(run, run.impacts[i])),
     h("td", { class: "tp-number" }, number_text(run.impacts[i].impulse, 6)), h("td", { class: "tp-number" }, number_text(share, 6))));
   return [
-    h("p", { class: "tp-hint" }, `${shares.length} impulses act on these bodies together. Eq. 20 holds for one alone; they are the solution of joint equations, of which this is the row of impact ${index + 1}:`),
+    h("p", { class: "tp-hint" }, text_of("act_together", { count: shares.length, impact: index + 1 })),
     equation_element(equations.joint, numbers),
-    h("div", { class: "tp-shares", tabindex: 0, role: "group", "aria-label": "Impulses that act together" }, h("table", {},
-      h("thead", {}, h("tr", {}, ...["Impact", "Bodies", "j (N s)", "share (m/s)"].map((text) => h("th", { scope: "col" }, text)))),
+    h("div", { class: "tp-shares", tabindex: 0, role: "group", "aria-label": text_of("impulses_together") }, h("table", {},
+      h("thead", {}, h("tr", {}, ...[text_of("column_impact"), text_of("column_pair"), "j (N s)", text_of("column_share")].map((text) => h("th", { scope: "col" }, text)))),
       h("tbody", {}, ...rows))),
-    h("p", { class: "tp-facts" }, "Recorded: ", h("b", {}, `${number_text(run.impacts[index].impulse, 6)} N s`), ", after it ",
-      h("b", {}, `${number_text(after, 6)} m/s`), "; residual ", h("b", {}, number_text(residual, 3, 0)), "."),
-    ...(residual > largest_rounding ? [h("p", { class: "tp-hint" }, others_act)] : [])];
+    h("p", { class: "tp-facts" }, ...text_around("recorded_row", {
+      impulse: bold(`${number_text(run.impacts[index].impulse, 6)} N s`), velocity: bold(`${number_text(after, 6)} m/s`),
+      residual: bold(number_text(residual, 3, 0)),
+    })),
+    ...(residual > largest_rounding ? [h("p", { class: "tp-hint" }, text_of("others_act"))] : [])];
 }
 
 export class ImpactCard {
@@ -90,7 +94,7 @@ export class ImpactCard {
     const index = this.state.get("impact");
     const run = this.state.run;
     if (index === null || !run.impacts[index]) {
-      this.element.replaceChildren(h("p", { class: "tp-hint" }, "Choose an impact to see its impulse computed."));
+      this.element.replaceChildren(h("p", { class: "tp-hint" }, text_of("choose_impact")));
       return;
     }
     const impact = run.impacts[index];
@@ -98,14 +102,14 @@ export class ImpactCard {
       type: "button", class: "tp-segment", "data-before": String(before),
       onclick: () => this.state.set({ time: impact.time, playing: false, before }),
     }, label);
-    this.side_buttons = [side("before", true), side("after", false)];
+    this.side_buttons = [side(text_of("before"), true), side(text_of("after"), false)];
     this.element.replaceChildren(
       h("header", {},
-        h(this.heading, { class: "tp-title" }, `Impact ${index + 1}: ${pair_text(run, impact)}`),
-        h("div", { class: "tp-segments", role: "group", "aria-label": "State shown" }, ...this.side_buttons)),
-      h("p", { class: "tp-facts" }, `t = ${number_text(impact.time, 6)} s, ${impact.feature}, ` +
-        `${impact.exact ? "at its own time" : "at the time of the step"}` +
-        (norm([impact.fx, impact.fy, impact.fz]) > 0 ? `, friction impulse ${number_text(norm([impact.fx, impact.fy, impact.fz]), 4)} N s` : "")),
+        h(this.heading, { class: "tp-title" }, text_of("impact_title", { number: index + 1, pair: pair_text(run, impact) })),
+        h("div", { class: "tp-segments", role: "group", "aria-label": text_of("state_shown") }, ...this.side_buttons)),
+      h("p", { class: "tp-facts" }, `t = ${number_text(impact.time, 6)} s, ${term_of(impact.feature)}, ` +
+        text_of(impact.exact ? "at_own_time" : "at_step_time") +
+        (norm([impact.fx, impact.fy, impact.fz]) > 0 ? `, ${text_of("friction_impulse", { impulse: number_text(norm([impact.fx, impact.fy, impact.fz]), 4) })}` : "")),
       ...(impulses_together(run, index).length > 1 ? impulse_among_others(run, index) : impulse_alone(run, index)));
     this.show_side();
   }

@@ -5,6 +5,7 @@ import { h } from "../ui/dom.ts";
 import { number_text, trimmed_text } from "../ui/format.ts";
 import type { PlayerState } from "../ui/player_state.ts";
 import { norm } from "./linear.ts";
+import { text_of } from "../texts/texts.ts";
 
 /** Pixels; page.css has the same. */
 const row_height = 30;
@@ -18,14 +19,14 @@ interface Column {
 }
 
 const columns: Column[] = [
-  { title: "#", hint: "number", text: (_impact, index) => String(index + 1) },
-  { title: "t", hint: "time, s", text: (impact) => impact.time.toFixed(4) },
-  { title: "bodies", hint: "a and b: the normal points from a to b", class: "tp-left", text: (impact) => `${impact.a}, ${impact.b}` },
-  { title: "v\u207b", hint: "relative velocity along the normal before, m/s", text: (impact) => number_text(impact.v_before, 4) },
-  { title: "v\u207a", hint: "relative velocity along the normal after, m/s", text: (impact) => number_text(impact.v_after, 4) },
-  { title: "\u03b5", hint: "restitution", class: "tp-wide-only", text: (impact) => trimmed_text(impact.restitution, 3) },
-  { title: "j", hint: "impulse, N s", text: (impact) => number_text(impact.impulse, 4) },
-  { title: "|f|", hint: "friction impulse, N s", class: "tp-wide-only", text: (impact) => number_text(norm([impact.fx, impact.fy, impact.fz]), 3) },
+  { title: "#", hint: text_of("hint_number"), text: (_impact, index) => String(index + 1) },
+  { title: "t", hint: text_of("hint_time"), text: (impact) => impact.time.toFixed(4) },
+  { title: text_of("column_bodies"), hint: text_of("hint_bodies"), class: "tp-left", text: (impact) => `${impact.a}, ${impact.b}` },
+  { title: "v\u207b", hint: text_of("hint_before"), text: (impact) => number_text(impact.v_before, 4) },
+  { title: "v\u207a", hint: text_of("hint_after"), text: (impact) => number_text(impact.v_after, 4) },
+  { title: "\u03b5", hint: text_of("hint_restitution"), class: "tp-wide-only", text: (impact) => trimmed_text(impact.restitution, 3) },
+  { title: "j", hint: text_of("hint_impulse"), text: (impact) => number_text(impact.impulse, 4) },
+  { title: "|f|", hint: text_of("hint_friction"), class: "tp-wide-only", text: (impact) => number_text(norm([impact.fx, impact.fy, impact.fz]), 3) },
 ];
 
 export class ImpactList {
@@ -33,7 +34,7 @@ export class ImpactList {
   private readonly table = h("table", { class: "tp-impacts-table" },
     h("thead", {}, h("tr", {}, ...columns.map((column) => h("th", { scope: "col", title: column.hint, class: column.class }, column.title)))),
     this.body);
-  readonly element = h("div", { class: "tp-scroll tp-impacts-scroll", role: "group", "aria-label": "Impacts", tabindex: -1 }, this.table);
+  readonly element = h("div", { class: "tp-scroll tp-impacts-scroll", role: "group", "aria-label": text_of("panel_impacts"), tabindex: -1 }, this.table);
   private first = -1;
   private last = -1;
   /** The row that the tab key reaches. */

@@ -7,8 +7,7 @@ import { build_impacts } from "./impacts.ts";
 import { Plots } from "./plots.ts";
 import { build_source } from "./source.ts";
 import { StateTable } from "./state_table.ts";
-
-const titles: Record<PanelName, string> = { plots: "Plots", state: "State", impacts: "Impacts", source: "Source", about: "About this run" };
+import { text_of } from "../texts/texts.ts";
 
 export interface Panels {
   element: HTMLElement;
@@ -36,7 +35,7 @@ export function build_panels(player: Pick<Player, "clip" | "state" | "actions" |
       if (name === "impacts") state.on(["run"], () => { count.textContent = String(state.run.impacts.length); });
       // Sources and facts are for later; in lessons only the first panel is open.
       const open = lesson ? index === 0 : name !== "source" && name !== "about";
-      return h("details", { class: `tp-panel tp-panel-${name}`, open }, h("summary", {}, h(lesson ? "h3" : "h2", { class: "tp-title" }, titles[name], count)), content[name]());
+      return h("details", { class: `tp-panel tp-panel-${name}`, open }, h("summary", {}, h(lesson ? "h3" : "h2", { class: "tp-title" }, text_of(`panel_${name}`), count)), content[name]());
     });
   return { element: h("div", { class: "tp-panels", hidden: sections.length === 0 }, ...sections), plots };
 }

@@ -9,6 +9,7 @@ import { theme } from "../ui/theme.ts";
 import { energy_colors_dark, energy_colors_light, run_colors_dark, run_colors_light, run_dashes } from "./plot_style.ts";
 import type { PlotSubject } from "./quantities.ts";
 import { energy_stack, plot_series } from "./series.ts";
+import { text_of } from "../texts/texts.ts";
 
 interface Curve {
   label: string;
@@ -37,10 +38,10 @@ function energy_curves(state: PlayerState): Curves {
     label: layer.label, color: colors[layer.key], dash: [], filled: true, values: layer.edge, at: layer.at,
   })).reverse();
   drawn.push({
-    label: "at the start + work", color: dark ? "#f2f0ec" : "#222222", dash: [4, 3], filled: false,
+    label: text_of("at_start_and_work"), color: dark ? "#f2f0ec" : "#222222", dash: [4, 3], filled: false,
     values: stack.supply.values, at: stack.supply.at,
   });
-  return { times: stack.times, unit: "J", drawn, note: stack.shift > 0 ? "Potential energy from its lowest value." : "" };
+  return { times: stack.times, unit: "J", drawn, note: stack.shift > 0 ? text_of("potential_shift") : "" };
 }
 
 function quantity_curves(state: PlayerState, subject: Exclude<PlotSubject, { kind: "energy" }>): Curves {
@@ -112,7 +113,9 @@ export class Plot {
       return `${curve.label} ${text}`.trim();
     });
     if (!this.state.get("playing")) {
-      this.canvas_box.setAttribute("aria-label", `Plot of ${this.name()} at ${time.toFixed(3)} s: ${texts.join(", ")} ${this.curves.unit}`);
+      this.canvas_box.setAttribute("aria-label", text_of("plot_at", {
+        name: this.name(), time: time.toFixed(3), values: `${texts.join(", ")} ${this.curves.unit}`,
+      }));
     }
   }
 

@@ -6,6 +6,7 @@ import type { PlayerState } from "../ui/player_state.ts";
 import { on_theme } from "../ui/theme.ts";
 import { Plot } from "./plot.ts";
 import { body_quantities, joint_column, read_subjects, scene_quantities, type PlotSubject } from "./quantities.ts";
+import { text_of } from "../texts/texts.ts";
 
 interface Row {
   plot: Plot;
@@ -23,7 +24,7 @@ export class Plots {
 
   constructor(private readonly state: PlayerState, private readonly actions: Actions, text: string | undefined) {
     this.element.append(this.list,
-      h("button", { type: "button", class: "tp-link", onclick: () => this.add(this.another_subject()).querySelector("select")?.focus() }, "Add a plot"));
+      h("button", { type: "button", class: "tp-link", onclick: () => this.add(this.another_subject()).querySelector("select")?.focus() }, text_of("add_plot")));
     for (const subject of this.first_subjects(text)) this.add(subject);
     state.on(["time", "before", "playing"], () => { for (const row of this.rows) row.plot.show_time(); });
     state.on(["run", "compare"], () => this.rebuild());
@@ -59,19 +60,19 @@ export class Plots {
   private add(first: PlotSubject): HTMLElement {
     let subject = first;
     const bodies = this.state.run.scene.bodies, joints = [...this.state.run.joints.keys()];
-    const quantity = h("select", { class: "tp-select tp-quiet", "aria-label": "Quantity" },
-      h("optgroup", { label: "Scene" }, h("option", { value: "energy" }, "energies, stacked"),
+    const quantity = h("select", { class: "tp-select tp-quiet", "aria-label": text_of("quantity") },
+      h("optgroup", { label: text_of("scene") }, h("option", { value: "energy" }, text_of("energies_stacked")),
         ...[...scene_quantities].map(([key, each]) => h("option", { value: `scene.${key}` }, each.label))),
-      joints.length > 0 && h("optgroup", { label: "Joint" },
+      joints.length > 0 && h("optgroup", { label: text_of("joint") },
         ...joints.map((name) => h("option", { value: `joint.${name}` }, joint_column(name).label))),
-      bodies.length > 0 && h("optgroup", { label: "Body" },
+      bodies.length > 0 && h("optgroup", { label: text_of("body") },
         ...[...body_quantities].map(([key, each]) => h("option", { value: `body.${key}` }, each.label))));
-    const body = h("select", { class: "tp-select tp-quiet", "aria-label": "Body of the plot" },
+    const body = h("select", { class: "tp-select tp-quiet", "aria-label": text_of("body_of_plot") },
       ...bodies.map((each, index) => h("option", { value: index }, each.name)));
-    const of = h("span", { class: "tp-of" }, "of");
-    const name = (): string => (subject.kind === "body" ? `${body_quantities.get(subject.quantity)!.label} of ${bodies[subject.body].name}` :
+    const of = h("span", { class: "tp-of" }, text_of("of"));
+    const name = (): string => (subject.kind === "body" ? text_of("quantity_of", { quantity: body_quantities.get(subject.quantity)!.label, whose: bodies[subject.body].name }) :
       subject.kind === "scene" ? scene_quantities.get(subject.quantity)!.label :
-      subject.kind === "joint" ? joint_column(subject.quantity).label : "energies");
+      subject.kind === "joint" ? joint_column(subject.quantity).label : text_of("energies"));
     const plot = new Plot(this.state, this.actions, first, name);
     const show = (): void => {
       quantity.value = subject_key(subject);
@@ -93,7 +94,7 @@ export class Plots {
     const row: Row = { plot, element: h("section", { class: "tp-plot" }) };
     row.element.append(
       h("header", {}, quantity, of, body, h("button", {
-        type: "button", class: "tp-icon tp-remove", "aria-label": "Remove the plot", title: "Remove the plot",
+        type: "button", class: "tp-icon tp-remove", "aria-label": text_of("remove_plot"), title: text_of("remove_plot"),
         onclick: () => this.remove(row),
       }, icon("close"))),
       plot.canvas_box, plot.legend, plot.note);

@@ -1,6 +1,7 @@
 // Quantities that plots show: those of `tumble plot --of`, and more of a body. Of joints those that the page has.
 import texts from "../../../src/quantities/quantity_texts.json";
 import type { BodyState, EnergyTable, Run, Vec3 } from "../data/clip.ts";
+import { term_of, text_of } from "../texts/texts.ts";
 import { add, cross, dot, norm, transform, turned } from "./linear.ts";
 
 export interface BodyQuantity {
@@ -44,7 +45,7 @@ const body_values: Record<string, BodyQuantity["value"]> = {
   potential: potential_energy,
 };
 export const body_quantities = new Map<string, BodyQuantity>([...texts.body_quantities, ...texts.page_body_quantities].map(
-  ({ name, title, unit }) => [name, { label: title, unit, value: body_values[name] }]));
+  ({ name, title, unit }) => [name, { label: term_of(title), unit, value: body_values[name] }]));
 
 /** Over the dynamic bodies. */
 function sum(run: Run, frame: number, of: (state: BodyState) => Vec3): Vec3 {
@@ -66,13 +67,13 @@ const scene_values: Record<string, SceneQuantity["value"]> = {
   penetration: column((e, i) => e.max_penetration[i]),
 };
 export const scene_quantities = new Map<string, SceneQuantity>(texts.scene_quantities.map(
-  ({ name, title, unit }) => [name, { label: title, unit, value: scene_values[name] }]));
+  ({ name, title, unit }) => [name, { label: term_of(title), unit, value: scene_values[name] }]));
 
 /** Of a column of `Run.joints`; the name of a joint may hold dots. */
 export function joint_column(name: string): { label: string; unit: string } {
   const dot = name.lastIndexOf("."), quantity = name.slice(dot + 1);
   const { axis, unit } = texts.joint_quantities.find((each) => each.name === quantity) ?? { axis: quantity, unit: "" };
-  return { label: `${axis} of ${name.slice("joint.".length, dot)}`, unit };
+  return { label: text_of("quantity_of", { quantity: term_of(axis), whose: name.slice("joint.".length, dot) }), unit };
 }
 
 /** A plot: the stacked energies, a quantity of the scene, a column of a joint, or a quantity of a body. */

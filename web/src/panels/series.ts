@@ -3,6 +3,7 @@
 import type { EnergyTable, Run } from "../data/clip.ts";
 import { same_time } from "../ui/player_state.ts";
 import { body_quantities, joint_column, scene_quantities, type PlotSubject } from "./quantities.ts";
+import { text_of } from "../texts/texts.ts";
 
 export interface Series {
   label: string;
@@ -87,20 +88,9 @@ function frame_series(runs: Run[], unit: string, value: (run: Run, frame: number
   return { times, unit, series };
 }
 
-interface EnergyLayer {
-  key: keyof EnergyTable;
-  label: string;
-}
-
 /** From the bottom. */
-const energy_layers: EnergyLayer[] = [
-  { key: "potential", label: "potential" },
-  { key: "elastic", label: "elastic" },
-  { key: "kinetic_linear", label: "kinetic, linear" },
-  { key: "kinetic_angular", label: "kinetic, angular" },
-  { key: "impact_loss", label: "lost in impacts" },
-  { key: "friction_loss", label: "lost to friction" },
-];
+const energy_layers = (["potential", "elastic", "kinetic_linear", "kinetic_angular", "impact_loss", "friction_loss"] as const)
+  .map((key) => ({ key, label: text_of(`layer_${key}`) }));
 
 export interface EnergyStack {
   times: Float64Array;

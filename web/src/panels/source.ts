@@ -1,6 +1,7 @@
 // The texts that the clip was made from.
 import type { Clip } from "../data/clip.ts";
 import { h } from "../ui/dom.ts";
+import { text_of } from "../texts/texts.ts";
 
 /** Comments, tables, keys and strings of a line of TOML. */
 const tokens = /(#.*$)|("(?:\\.|[^"\\])*"|'[^']*')|(^\s*\[\[?[^\]]*\]\]?)|(^\s*[A-Za-z_][\w.-]*(?=\s*=))/gm;
@@ -22,6 +23,6 @@ function colored(text: string): (Node | string)[] {
 export function build_source(clip: Clip): HTMLElement {
   return h("div", { class: "tp-source" }, ...clip.sources.map((source) => h("figure", {},
     h("figcaption", {}, source.name, " ",
-      h("a", { class: "tp-link", download: source.name.replace(/^.*\//, ""), href: `data:text/plain;charset=utf-8,${encodeURIComponent(source.text)}` }, "Save")),
-    h("pre", { tabindex: 0, role: "group", "aria-label": `Source ${source.name}` }, h("code", {}, ...colored(source.text))))));
+      h("a", { class: "tp-link", download: source.name.replace(/^.*\//, ""), href: `data:text/plain;charset=utf-8,${encodeURIComponent(source.text)}` }, text_of("save"))),
+    h("pre", { tabindex: 0, role: "group", "aria-label": text_of("source_of", { name: source.name }) }, h("code", {}, ...colored(source.text))))));
 }

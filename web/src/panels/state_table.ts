@@ -4,6 +4,7 @@ import { h, new_id, set_text } from "../ui/dom.ts";
 import { number_text, plain_text, time_text, type Digits } from "../ui/format.ts";
 import type { PlayerState } from "../ui/player_state.ts";
 import { build_body_select } from "../ui/toolbar.ts";
+import { term_of, text_around, text_of } from "../texts/texts.ts";
 import { rotation_matrix, turned } from "./linear.ts";
 import { kinetic_energy, potential_energy } from "./quantities.ts";
 
@@ -54,7 +55,7 @@ function table_row(row: Row): { element: HTMLTableRowElement; cells: HTMLElement
   symbol.innerHTML = row.symbol;
   return {
     cells,
-    element: h("tr", {}, h("th", { scope: "row" }, symbol, h("span", { class: "tp-name" }, row.name), h("span", { class: "tp-unit" }, row.unit)),
+    element: h("tr", {}, h("th", { scope: "row" }, symbol, h("span", { class: "tp-name" }, term_of(row.name)), h("span", { class: "tp-unit" }, row.unit)),
       h("td", {}, h("div", { class: `tp-numbers tp-columns-${row.columns}` }, ...cells))),
   };
 }
@@ -84,12 +85,12 @@ export class StateTable {
     const caption = new_id("tp-state");
     this.table.setAttribute("aria-labelledby", caption);
     this.element.append(
-      h("div", { class: "tp-row" }, build_body_select(state), h("span", { id: caption, class: "tp-caption" }, "at ", this.moment)),
-      h("div", { class: "tp-scroll", tabindex: 0, role: "group", "aria-label": "State of the body" }, this.table),
+      h("div", { class: "tp-row" }, build_body_select(state), h("span", { id: caption, class: "tp-caption" }, ...text_around("state_at", { time: this.moment }))),
+      h("div", { class: "tp-scroll", tabindex: 0, role: "group", "aria-label": text_of("state_of_body") }, this.table),
       h("div", { class: "tp-row" },
-        toggle("Rotation as matrix", (on) => { this.as_matrix = on; }),
-        toggle("17 digits", (on) => { this.digits = on ? 17 : 6; }),
-        h("button", { type: "button", class: "tp-chip", onclick: () => void this.copy(copied) }, "Copy"), copied));
+        toggle(text_of("as_matrix"), (on) => { this.as_matrix = on; }),
+        toggle(text_of("digits_17"), (on) => { this.digits = on ? 17 : 6; }),
+        h("button", { type: "button", class: "tp-chip", onclick: () => void this.copy(copied) }, text_of("copy")), copied));
     state.on(["time", "run", "body", "before"], () => this.show());
     this.build();
   }
@@ -117,8 +118,8 @@ export class StateTable {
   }
 
   private show(): void {
-    const now = this.body_state();
-    set_text(this.moment, `${time_text(this.state.get("time"))}${this.state.get("before") ? ", before the impact" : ""}`);
+    const now = this.body_state(), time = time_text(this.state.get("time"));
+    set_text(this.moment, this.state.get("before") ? text_of("before_impact", { time }) : time);
     for (const { row, cells } of this.rows) {
       const values = now ? row.values(this.state.run, now.body, now.state) : [];
       const zero = now ? row.zero?.(this.state.run, now.body) : undefined;
@@ -135,13 +136,13 @@ export class StateTable {
     const lines = [`${this.state.run.scene.bodies[now.body].name}\tt = ${plain_text(this.state.get("time"))} s`];
     for (const { row } of this.rows) {
       const numbers = row.values(this.state.run, now.body, now.state).map((value) => plain_text(value, this.digits));
-      lines.push([row.name, row.unit, ...numbers].join("\t"));
+      lines.push([term_of(row.name), row.unit, ...numbers].join("\t"));
     }
     try {
       await navigator.clipboard.writeText(lines.join("\n"));
-      copied.textContent = "Copied";
+      copied.textContent = text_of("copied");
     } catch {
-      copied.textContent = "The browser refuses the clipboard";
+      copied.textContent = text_of("no_clipboard");
     }
     setTimeout(() => { copied.textContent = ""; }, 2000);
   }

@@ -2,6 +2,7 @@
 import { moment_at, moment_text, next_moment, previous_moment } from "./moments.ts";
 import type { Announcer } from "./live_region.ts";
 import { speeds, type PlayerState } from "./player_state.ts";
+import { text_of } from "../texts/texts.ts";
 
 export class Actions {
   constructor(private readonly state: PlayerState, private readonly announcer: Announcer) {}
@@ -27,7 +28,7 @@ export class Actions {
     const run = this.state.run;
     const moment = (direction > 0 ? next_moment : previous_moment)(run, this.state.get("time"));
     if (!moment) {
-      this.announcer.say(direction > 0 ? "No impact after this moment" : "No impact before this moment");
+      this.announcer.say(text_of(direction > 0 ? "no_impact_after" : "no_impact_before"));
       return;
     }
     this.state.set({ time: moment.time, playing: false, impact: moment.first });
@@ -45,18 +46,18 @@ export class Actions {
     const index = speeds.indexOf(this.state.get("speed")) + direction;
     if (index < 0 || index >= speeds.length) return;
     this.state.set({ speed: speeds[index] });
-    this.announcer.say(`Speed ${speeds[index]}`);
+    this.announcer.say(text_of("speed_now", { speed: speeds[index] }));
   }
 
   /** The impulse side of the shown moment: before or after. */
   toggle_before(): void {
     if (!moment_at(this.state.run, this.state.get("time"))) {
-      this.announcer.say("No impact at this moment");
+      this.announcer.say(text_of("no_impact_here"));
       return;
     }
     const before = !this.state.get("before");
     this.state.set({ before });
-    this.announcer.say(before ? "Velocities before the impact" : "Velocities after the impact");
+    this.announcer.say(text_of(before ? "velocities_before" : "velocities_after"));
   }
 
   choose_body(direction: 1 | -1): void {
@@ -66,6 +67,6 @@ export class Actions {
     const at = candidates.indexOf(this.state.get("body") ?? -1);
     const body = candidates[(at + direction + candidates.length) % candidates.length];
     this.state.set({ body });
-    this.announcer.say(`Body ${bodies[body].name}`);
+    this.announcer.say(text_of("body_chosen", { body: bodies[body].name }));
   }
 }

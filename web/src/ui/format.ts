@@ -49,11 +49,6 @@ export function time_text(time: number): string {
   return `${time.toFixed(3)} s`;
 }
 
-/** "1 frame", "3 frames". */
-export function count_text(count: number, noun: string, plural = `${noun}s`): string {
-  return `${count} ${count === 1 ? noun : plural}`;
-}
-
 /** Speed of playing: "¼×". */
 export function speed_text(speed: number): string {
   return `${speed === 0.25 ? "\u00bc" : speed === 0.5 ? "\u00bd" : speed}\u00d7`;

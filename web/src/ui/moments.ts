@@ -2,6 +2,7 @@
 import type { Impact, Run } from "../data/clip.ts";
 import { number_text } from "./format.ts";
 import { same_time } from "./player_state.ts";
+import { text_of } from "../texts/texts.ts";
 
 export interface Moment {
   time: number;
@@ -58,18 +59,20 @@ export function moment_at(run: Run, time: number): Moment | null {
 export function moment_text(run: Run, moment: Moment): string {
   const impact: Impact = run.impacts[moment.first];
   const count = moment.last - moment.first + 1;
-  const number = count === 1 ? `Impact ${moment.first + 1}` : `Impacts ${moment.first + 1} to ${moment.last + 1}`;
-  const at = `${number} at ${moment.time.toFixed(4)} s: `;
-  if (count === 1) return `${at}${pair_text(run, impact)}, impulse ${number_text(impact.impulse, 3)} N s`;
+  const at = { time: moment.time.toFixed(4), first: moment.first + 1, last: moment.last + 1 };
+  if (count === 1) {
+    const what = text_of("with_impulse", { pair: pair_text(run, impact), impulse: number_text(impact.impulse, 3) });
+    return text_of("impact_at", { ...at, what });
+  }
   const pairs = new Set(run.impacts.slice(moment.first, moment.last + 1).map((each) => pair_text(run, each)));
-  const named = [...pairs].slice(0, 3).join("; ") + (pairs.size > 3 ? `; ${pairs.size - 3} more pairs` : "");
-  return `${at}${named}`;
+  const named = [...pairs].slice(0, 3).join("; ") + (pairs.size > 3 ? `; ${text_of("more_pairs", { count: pairs.size - 3 })}` : "");
+  return text_of("impacts_at", { ...at, what: named });
 }
 
 /** The moving body first: "ball on ground". */
 export function pair_text(run: Run, impact: Impact): string {
   const a_moves = run.scene.bodies[impact.body_a]?.type === "dynamic";
   const b_moves = run.scene.bodies[impact.body_b]?.type === "dynamic";
-  if (a_moves && b_moves) return `${impact.a} and ${impact.b}`;
-  return b_moves ? `${impact.b} on ${impact.a}` : `${impact.a} on ${impact.b}`;
+  if (a_moves && b_moves) return text_of("both", { a: impact.a, b: impact.b });
+  return text_of("one_on_other", b_moves ? { a: impact.b, b: impact.a } : { a: impact.a, b: impact.b });
 }

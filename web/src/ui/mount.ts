@@ -6,6 +6,8 @@ import { icon_button } from "./transport.ts";
 import { read_options } from "./options.ts";
 import { Player } from "./player.ts";
 import { toggle_theme } from "./theme.ts";
+import { in_language } from "../texts/language.ts";
+import { text_of } from "../texts/texts.ts";
 
 /** Reads the clip with this id from the page. */
 export type ClipReader = (id: string) => Promise<Clip>;
@@ -18,14 +20,14 @@ function set_status(status: PageStatus): void {
 
 function add_theme_button(): void {
   const place = document.querySelector<HTMLElement>("[data-tumble-theme]") ?? document.body;
-  const button = icon_button("theme", "Dark or light", "", toggle_theme);
+  const button = in_language(icon_button("theme", text_of("theme"), "", toggle_theme));
   button.classList.add("tumble-theme");
   place.prepend(button);
 }
 
 function show_failure(figure: HTMLElement, error: unknown): void {
   const reason = error instanceof Error ? error.message : String(error);
-  figure.prepend(h("p", { class: "tp-note", role: "alert" }, `The clip of this page cannot be shown: ${reason}`));
+  figure.prepend(in_language(h("p", { class: "tp-note", role: "alert" }, text_of("cannot_show", { reason }))));
 }
 
 export async function mount_players(read_clip: ClipReader): Promise<Player[]> {

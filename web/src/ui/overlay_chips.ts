@@ -1,13 +1,13 @@
 // Toggles of the overlays that make sense for the clip, with the scale of the arrows that are on.
 import overlay_style from "../../../src/overlay/overlay_style.json";
 import { contact_states, type ArrowQuantity, type Clip, type OverlayName, type Run } from "../data/clip.ts";
+import { text_of } from "../texts/texts.ts";
 import { h } from "./dom.ts";
 import { short_text } from "./format.ts";
 import type { PlayerState } from "./player_state.ts";
 
 interface OverlayKind {
   name: OverlayName;
-  label: string;
   quantity?: ArrowQuantity;
   makes_sense(run: Run): boolean;
 }
@@ -23,24 +23,24 @@ const sleeps = (run: Run): boolean => run.contacts.state.includes(contact_states
   run.scene.bodies.some((body, index) => body.type === "dynamic" && run.motion.state(index, run.duration).asleep);
 
 const kinds: OverlayKind[] = [
-  { name: "velocity", label: "Velocity v", quantity: "velocity", makes_sense: dynamic },
-  { name: "omega", label: "Angular velocity \u03c9", quantity: "omega", makes_sense: turns },
-  { name: "momentum", label: "Momentum P", quantity: "momentum", makes_sense: dynamic },
-  { name: "angular-momentum", label: "Angular momentum L", quantity: "angular-momentum", makes_sense: turns },
-  { name: "impulses", label: "Impulses", quantity: "impulse", makes_sense: (run) => run.impacts.length > 0 },
-  { name: "forces", label: "Contact forces", quantity: "force", makes_sense: has_contacts },
-  { name: "loads", label: "Loads", quantity: "force", makes_sense: dynamic },
-  { name: "contacts", label: "Contacts", makes_sense: has_contacts },
-  { name: "normals", label: "Normals", makes_sense: has_contacts },
-  { name: "trails", label: "Trails", makes_sense: dynamic },
-  { name: "ghosts", label: "Ghosts", makes_sense: dynamic },
-  { name: "com", label: "Centers of mass", makes_sense: dynamic },
-  { name: "axes", label: "Body axes", makes_sense: dynamic },
-  { name: "aabb", label: "Bounding boxes", makes_sense: always },
-  { name: "joints", label: "Joints", makes_sense: (run) => run.joint_marks.length > 0 },
-  { name: "islands", label: "Islands", makes_sense: has_contacts },
-  { name: "sleep", label: "Sleep", makes_sense: sleeps },
-  { name: "names", label: "Names", makes_sense: always },
+  { name: "velocity", quantity: "velocity", makes_sense: dynamic },
+  { name: "omega", quantity: "omega", makes_sense: turns },
+  { name: "momentum", quantity: "momentum", makes_sense: dynamic },
+  { name: "angular-momentum", quantity: "angular-momentum", makes_sense: turns },
+  { name: "impulses", quantity: "impulse", makes_sense: (run) => run.impacts.length > 0 },
+  { name: "forces", quantity: "force", makes_sense: has_contacts },
+  { name: "loads", quantity: "force", makes_sense: dynamic },
+  { name: "contacts", makes_sense: has_contacts },
+  { name: "normals", makes_sense: has_contacts },
+  { name: "trails", makes_sense: dynamic },
+  { name: "ghosts", makes_sense: dynamic },
+  { name: "com", makes_sense: dynamic },
+  { name: "axes", makes_sense: dynamic },
+  { name: "aabb", makes_sense: always },
+  { name: "joints", makes_sense: (run) => run.joint_marks.length > 0 },
+  { name: "islands", makes_sense: has_contacts },
+  { name: "sleep", makes_sense: sleeps },
+  { name: "names", makes_sense: always },
 ];
 
 /** At first only these and the ones that are on; the others behind "More". */
@@ -61,22 +61,22 @@ export function build_overlay_chips(state: PlayerState): HTMLElement {
   const chips = kinds.filter((kind) => offered.includes(kind.name)).map((kind) => {
     const color = kind.quantity ? settings.color[kind.quantity] : null;
     const button = h("button", { type: "button", class: "tp-chip", "data-overlay": kind.name, onclick: () => toggle(kind.name) },
-      h("span", { class: "tp-swatch", style: color ? `--swatch: ${color}` : null }), kind.label);
+      h("span", { class: "tp-swatch", style: color ? `--swatch: ${color}` : null }), text_of(`overlay_${kind.name}`));
     const rare = !common.includes(kind.name) && !state.get("overlays").has(kind.name);
     if (rare) button.dataset.rare = "";
     return { kind, button };
   });
   const legend = h("p", { class: "tp-legend" });
-  const list = h("div", { class: "tp-chip-list", role: "group", "aria-label": "Overlays" }, ...chips.map((chip) => chip.button));
+  const list = h("div", { class: "tp-chip-list", role: "group", "aria-label": text_of("overlays") }, ...chips.map((chip) => chip.button));
   if (chips.some((chip) => "rare" in chip.button.dataset)) {
     const more = h("button", {
       type: "button", class: "tp-chip tp-more", "aria-expanded": "false",
       onclick: () => {
         const open = list.classList.toggle("tp-open");
         more.setAttribute("aria-expanded", String(open));
-        more.textContent = open ? "Fewer" : "More";
+        more.textContent = text_of(open ? "fewer" : "more");
       },
-    }, "More");
+    }, text_of("more"));
     list.append(more);
   }
 
@@ -90,7 +90,7 @@ export function build_overlay_chips(state: PlayerState): HTMLElement {
       if (scale > 0) scales.set(kind.quantity, `${short_text(1 / scale)} ${arrow_unit(kind.quantity)}`);
     }
     legend.replaceChildren(...[...scales].map(([quantity, text]) => h("span", {},
-      h("span", { class: "tp-arrow", style: `--swatch: ${settings.color[quantity as ArrowQuantity]}` }), `1 m of arrow: ${text}`)));
+      h("span", { class: "tp-arrow", style: `--swatch: ${settings.color[quantity as ArrowQuantity]}` }), text_of("arrow_scale", { scale: text }))));
     legend.hidden = scales.size === 0;
   };
   state.on(["overlays", "run"], show);

@@ -14,6 +14,8 @@ import { PlayerState, type PlayerValues } from "./player_state.ts";
 import { StageView } from "./stage_view.ts";
 import { build_run_bar, build_view_buttons } from "./toolbar.ts";
 import { build_transport } from "./transport.ts";
+import { in_language } from "../texts/language.ts";
+import { text_of } from "../texts/texts.ts";
 
 function initial_values(clip: Clip, options: PlayerOptions): Partial<PlayerValues> {
   const values: Partial<PlayerValues> = {};
@@ -49,11 +51,11 @@ export class Player {
   constructor(readonly element: HTMLElement, readonly clip: Clip, readonly options: PlayerOptions, on_no_webgl: () => void) {
     this.state = new PlayerState(clip, initial_values(clip, options));
     this.actions = new Actions(this.state, this.announcer);
-    const caption = element.querySelector(":scope > figcaption");
+    const caption = element.querySelector<HTMLElement>(":scope > figcaption");
     const fallback = [...element.childNodes].filter((node) => node !== caption);
-    const label = options.alt ? `${clip.title}: ${options.alt}` : clip.title || "Clip";
+    const label = options.alt ? `${clip.title}: ${options.alt}` : clip.title || text_of("clip");
     this.view = new StageView(this.state, options.view ? seen_from(clip, options.view) : clip, fallback,
-      `${label}. Press question mark for the keys.`, on_no_webgl);
+      text_of("stage_label", { label }), on_no_webgl);
 
     const help = build_help();
     const main = h("div", { class: "tp-main" });
@@ -69,7 +71,11 @@ export class Player {
       build_transport(this.state, this.actions, help.show),
       ...[build_run_bar(this.state)].filter((bar): bar is HTMLElement => bar !== null),
       overlays);
-    if (caption) main.append(caption);
+    if (caption) {
+      main.append(caption);
+      caption.lang = document.documentElement.lang;
+    }
+    in_language(element);
     element.replaceChildren(h("div", { class: "tp-body" }, main, panels.element), this.announcer.element, help.element);
     element.classList.add(options.layout === "lesson" ? "tp-lesson" : "tp-page");
     element.dataset.mounted = "";

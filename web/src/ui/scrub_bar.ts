@@ -4,6 +4,7 @@ import { h } from "./dom.ts";
 import { impact_marks } from "./impact_marks.ts";
 import type { PlayerState } from "./player_state.ts";
 import { on_theme } from "./theme.ts";
+import { text_of } from "../texts/texts.ts";
 
 const marks_height = 14;
 
@@ -12,7 +13,7 @@ export class ScrubBar {
   private readonly fill = h("div", { class: "tp-track-fill" });
   private readonly thumb = h("div", { class: "tp-thumb" });
   private readonly track = h("div", { class: "tp-track" }, this.fill, this.thumb);
-  readonly element = h("div", { class: "tp-scrub", role: "slider", tabindex: 0, "aria-label": "Time", "aria-valuemin": "0" },
+  readonly element = h("div", { class: "tp-scrub", role: "slider", tabindex: 0, "aria-label": text_of("time"), "aria-valuemin": "0" },
     this.marks, this.track);
 
   constructor(private readonly state: PlayerState, private readonly actions: Actions) {
@@ -44,7 +45,7 @@ export class ScrubBar {
     this.thumb.style.left = percent;
     this.element.setAttribute("aria-valuemax", this.state.duration.toFixed(3));
     this.element.setAttribute("aria-valuenow", time.toFixed(3));
-    this.element.setAttribute("aria-valuetext", `${Number(time.toFixed(3))} s, frame ${this.state.frame}`);
+    this.element.setAttribute("aria-valuetext", text_of("time_value", { time: Number(time.toFixed(3)), frame: this.state.frame }));
   }
 
   private draw_marks(): void {

@@ -6,11 +6,12 @@ import { h } from "./dom.ts";
 import type { PlayerState, Stage, SymbolHighlight } from "./player_state.ts";
 import { stage_pool, type PooledView } from "./stage_pool.ts";
 import { on_theme, theme } from "./theme.ts";
+import { text_of } from "../texts/texts.ts";
 
 export class StageView implements PooledView {
   readonly host = h("div", { class: "tp-stage-host" });
   readonly note = h("p", { class: "tp-note", hidden: true },
-    "The 3D stage needs WebGL, which this browser does not offer. The film shows the clip; plots, table and impacts work.");
+    text_of("no_webgl"));
   readonly element: HTMLElement;
   /** Whether a stage could not be made. */
   failed = false;
@@ -22,7 +23,7 @@ export class StageView implements PooledView {
 
   /** `clip`: the state's, or a copy with another camera. */
   constructor(private readonly state: PlayerState, private readonly clip: Clip, fallback: Node[], label: string, private readonly on_failure: () => void) {
-    this.element = h("div", { class: "tp-stage", tabindex: 0, role: "application", "aria-label": label, "aria-roledescription": "3D stage" },
+    this.element = h("div", { class: "tp-stage", tabindex: 0, role: "application", "aria-label": label, "aria-roledescription": text_of("stage") },
       h("div", { class: "tp-fallback" }, ...fallback), this.host, this.note);
     this.film = this.element.querySelector("video");
     state.on(["time", "run", "compare", "before"], () => this.show());
