@@ -4,11 +4,11 @@ import * as de from "./texts/de.ts";
 import * as en from "./texts/en.ts";
 import * as es from "./texts/es.ts";
 import * as fr from "./texts/fr.ts";
-import { filled, in_language, language } from "./texts/language.ts";
+import { filled, in_force, in_language } from "./texts/language.ts";
 import { translate_shell } from "./texts/shell_texts.ts";
 import { h } from "./ui/dom.ts";
 
-const texts: Record<keyof typeof en.contents, string> = { en: en.contents, de: de.contents, es: es.contents, fr: fr.contents }[language];
+const texts = in_force<Record<keyof typeof en.contents, string>>({ en: en.contents, de: de.contents, es: es.contents, fr: fr.contents });
 
 function line_of({ questions, answered }: LessonProgress): string {
   if (questions === 0) return texts.opened;

@@ -3,9 +3,9 @@ import * as de from "./texts/de.ts";
 import * as en from "./texts/en.ts";
 import * as es from "./texts/es.ts";
 import * as fr from "./texts/fr.ts";
-import { in_language, language } from "./texts/language.ts";
+import { in_force, in_language } from "./texts/language.ts";
 
-const texts: Record<keyof typeof en.loader, string> = { en: en.loader, de: de.loader, es: es.loader, fr: fr.loader }[language];
+const texts = in_force<Record<keyof typeof en.loader, string>>({ en: en.loader, de: de.loader, es: es.loader, fr: fr.loader });
 const root = document.documentElement;
 
 function explain_failure(text: string): void {

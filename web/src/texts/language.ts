@@ -15,6 +15,11 @@ export function first_known(codes: readonly string[]): Language {
 const root = typeof document === "undefined" ? null : document.documentElement;
 export const language: Language = root ? first_known([root.dataset.language ?? "", ...navigator.languages]) : "en";
 
+/** Of tables by language the page's. */
+export function in_force<T>(tables: Record<Language, T>): T {
+  return tables[language];
+}
+
 /** Tells screen readers the language of an element, if it is another one than the page's. */
 export function in_language<T extends HTMLElement>(element: T): T {
   if (root && root.lang.split("-")[0] !== language) element.lang = language;

@@ -3,11 +3,11 @@ import * as de from "./de.ts";
 import * as en from "./en.ts";
 import * as es from "./es.ts";
 import * as fr from "./fr.ts";
-import { filled, in_language, language, type Values } from "./language.ts";
+import { filled, in_force, in_language, language, type Values } from "./language.ts";
 
 type ShellKey = keyof typeof en.shell;
 
-const shell: Record<ShellKey, string> = { en: en.shell, de: de.shell, es: es.shell, fr: fr.shell }[language];
+const shell = in_force<Record<ShellKey, string>>({ en: en.shell, de: de.shell, es: es.shell, fr: fr.shell });
 
 /** Elements whose whole text it is. */
 const texts: [string, ShellKey][] = [

@@ -3,12 +3,13 @@ import * as de from "./de.ts";
 import * as en from "./en.ts";
 import * as es from "./es.ts";
 import * as fr from "./fr.ts";
-import { filled, language, type Language, type Values } from "./language.ts";
+import { filled, in_force, type Values } from "./language.ts";
 
 export type TextKey = keyof typeof en.player;
 
-const player: Record<TextKey, string> = { en: en.player, de: de.player, es: es.player, fr: fr.player }[language];
-const terms: Partial<Record<Language, Record<string, string>>> = { de: de.terms, es: es.terms, fr: fr.terms };
+// "Pure": the compiler of lessons, which shows no text, leaves the tables out.
+const player = /* @__PURE__ */ in_force<Record<TextKey, string>>({ en: en.player, de: de.player, es: es.player, fr: fr.player });
+const terms = /* @__PURE__ */ in_force<Record<string, string> | null>({ en: null, de: de.terms, es: es.terms, fr: fr.terms });
 
 export function text_of(key: TextKey, values?: Values): string {
   return filled(player[key], values);
@@ -21,8 +22,7 @@ export function text_around(key: TextKey, elements: Record<string, Node>): (Node
 
 /** A term of the program's data; "velocity x" by its "velocity". Unknown ones stay. */
 export function term_of(name: string): string {
-  const known = terms[language];
-  if (!known) return name;
+  if (!terms) return name;
   const [, stem, axis] = /^(.*?)( [xyz])?$/.exec(name)!;
-  return known[name] ?? (known[stem] ?? stem) + (axis ?? "");
+  return terms[name] ?? (terms[stem] ?? stem) + (axis ?? "");
 }
