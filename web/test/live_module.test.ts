@@ -12,7 +12,7 @@ import { DecimalSteps } from "../src/live/decimal.ts";
 import { setting_words, simulate_command } from "../src/live/command.ts";
 import { LiveModule } from "../src/live/module.ts";
 import { read_clip } from "../src/data/decode_clip.ts";
-import { live_scenes, module_file, short_name, short_run } from "./live_scenes.ts";
+import { live_scenes, module_file, scalar_module_file, short_name, short_run } from "./live_scenes.ts";
 import { repository, temporary_folder } from "./program.ts";
 import { encode91 } from "../build/text91.mjs";
 import { decode91 } from "../src/live/text91.ts";
@@ -48,6 +48,20 @@ function assert_native(name: string, file: string, settings: string[]): void {
 
 for (const file of live_scenes())
   test(`${short_name(file)} has the native bytes`, { skip }, () => assert_native(basename(file), file, [short_run]));
+
+test("without vector instructions the bytes are the same", {
+  skip: skip || (existsSync(scalar_module_file) ? false : "there is no build/live/scalar/live.wasm (scripts/build-live-module --scalar)"),
+}, async () => {
+  const with_vectors = module;
+  const scalar = await LiveModule.of(await WebAssembly.compile(readFileSync(scalar_module_file)));
+  for (const file of live_scenes()) {
+    const text = readFileSync(file, "utf8");
+    module = scalar;
+    const found = whole(basename(file), text, [short_run]).bytes;
+    module = with_vectors;
+    assert.deepEqual(found, whole(basename(file), text, [short_run]).bytes, short_name(file));
+  }
+});
 
 const lessons = readdirSync(join(repository, "course")).filter((name) => /^\d.*\.md$/.test(name)).map((name) => join(repository, "course", name));
 const course = compile_course(lessons, files_on_disk);

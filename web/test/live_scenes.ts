@@ -4,6 +4,8 @@ import { basename, join } from "node:path";
 import { repository, scenes_folder } from "./program.ts";
 
 export const module_file = join(repository, "build/live/live.wasm");
+/** Without vector instructions. */
+export const scalar_module_file = join(repository, "build/live/scalar/live.wasm");
 
 /** Seconds of each scene. */
 export const short_run = "simulation.duration=0.5";

@@ -1,12 +1,16 @@
-// The soft contact solver's inner loops, 4 lanes (sse2).
+// The soft contact solver's inner loops, 4 lanes (sse2; WebAssembly with vectors, and without).
 #include "sim/contact/model/settings.h"
 #include "sim/contact/model/spin_friction.h"
 #include "sim/contact/soft/settings.h"
 #include "sim/contact/soft/soft_joint_rows.h"
 #include "sim/contact/soft/soft_kernel.h"
 
+#include <cmath>
+
 #pragma GCC target("sse2")
+#ifdef __SSE__
 #include <immintrin.h>
+#endif
 
 #define TUMBLE_LANES 4
 

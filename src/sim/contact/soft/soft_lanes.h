@@ -36,8 +36,13 @@ inline Lanes low_pairs(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 
 inline Lanes high_pairs(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 6, 3, 7); }
 inline Lanes low_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 0, 1, 4, 5); }
 inline Lanes high_halves(Lanes a, Lanes b) { return __builtin_shufflevector(a, b, 2, 3, 6, 7); }
+#ifdef __SSE__
 inline Lanes root(Lanes a) { return Lanes(_mm_sqrt_ps(__m128(a))); }
 inline bool any(Lanes a) { return _mm_movemask_ps(_mm_cmpneq_ps(__m128(a), _mm_setzero_ps())) != 0; }
+#else  // a processor without vectors: the compiler takes each operation apart
+inline Lanes root(Lanes a) { return {std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])}; }
+inline bool any(Lanes a) { return a[0] != 0.0f || a[1] != 0.0f || a[2] != 0.0f || a[3] != 0.0f; }
+#endif
 template <class Row>
 inline Eights read(Row&& row) {
     Eights e;
