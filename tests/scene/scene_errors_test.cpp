@@ -432,7 +432,7 @@ TEST(SceneErrors, OfExplosions) {
     expect_errors({
         {blast("impulse = 1"), "[[explosion]] needs \"center\""},
         {blast("center = [0, 1, 0]"), "[[explosion]] needs \"impulse\""},
-        {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\ntime = @-1"), "must be 0 to"},
+        {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\ntime = @-1"), "time must be from 0 to"},
         {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\nradius = @0"), "radius must be"},
         {body("[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\n@radiu = 2"), "did you mean"},
     });
