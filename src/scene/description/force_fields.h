@@ -60,8 +60,8 @@ struct PairForceDescription {
     double start = 0.0, end = 0.0;                        // s; infinity: forever
 };
 
-/// At a time each dynamic body takes the impulse that the explosion sends into the directions in which it sees the body,
-/// times (1 - d^2 / radius^2)^2, with d the distance of its center of mass.
+/// At a time each dynamic body takes the impulse that the explosion sends into the directions in which it sees the
+/// body, times (1 - d^2 / radius^2)^2, with d the distance of its center of mass.
 struct ExplosionDescription {
     Vec3 center = Vec3::Zero();  // m
     double time = 0.0;           // s

@@ -21,8 +21,8 @@ constexpr int outline_planes = 128;
 /// Halvings of the angle of such a plane: to rounding.
 constexpr int halvings = 60;
 
-/// Steps of the search for a plane between the center and a body: a body so near that it has no such plane counts as one
-/// that the center is in.
+/// Steps of the search for a plane between the center and a body: a body so near that it has no such plane counts as
+/// one that the center is in.
 constexpr int most_steps = 200;
 
 /// Integral of the unit directions over the solid angle of a polygon that is counterclockwise seen from the origin.

@@ -29,9 +29,7 @@ ForceStage::ForceStage(const SceneDescription& scene, const BodySet& set)
       effects_(set.bodies.size()),
       ending_(field_.ever_changes() ? set.bodies.size() : 0) {}
 
-void ForceStage::begin(const StepContext& step) {
-    field_.light_explosions(step.set.bodies, step.start(), step.end());
-}
+void ForceStage::begin(const StepContext& step) { field_.light_explosions(step.set.bodies, step.start(), step.end()); }
 
 // Forces between bodies change with the motion of the others.
 void ForceStage::wake(const StepContext& step) const {
