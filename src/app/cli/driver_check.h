@@ -1,4 +1,4 @@
-// Checks of programs and drivers in processes of their own: one that crashes or hangs is a finding as well.
+// Checks of programs, drivers and libraries in processes of their own: one that crashes or hangs is a finding as well.
 #pragma once
 
 #include "app/threads/interrupt.h"

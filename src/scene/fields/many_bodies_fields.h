@@ -62,7 +62,7 @@ void visit_fields(Of<CopyLooks>, Visitor& field, Self& self) {
     field(self.colors, "colors", ByType(), {"each copy takes one at random", "the body's"});
 }
 
-/// A row of a file of poses. The columns of a field are those of its name, which go together.
+/// A row of a file of poses. A field named "x,y,z" has these three columns: a file has all of them or none.
 struct PoseRow {
     Vec3 position = Vec3::Zero();
     std::string name;
@@ -115,13 +115,12 @@ void visit_fields(Of<ChainRequest>, Visitor& field, Self& self) {
           {"the links form a regular polygon. `from` is a corner, and the middle of `from` and `to` is the center"});
     field(self.normal, "normal", Direction(),
           {"of the plane of a loop", "horizontal", "square to the line from `from` to `to`"});
-    field.key(
-        "joint",
-        {"`\"ball\"`, `\"hinge\"`, `\"universal\"` or `\"fixed\"`; or a table with `type` and keys of a joint, but "
-         "for those of its bodies and places. A hinge turns about the normal of the chain's plane, or about `axis`",
-         "`\"ball\"`",
-         {},
-         "string or table"});
+    field.key("joint",
+              {"`\"ball\"`, `\"hinge\"`, `\"universal\"` or `\"fixed\"`; or a table with `type` and keys of a joint, "
+               "without its bodies and anchors. The axis of a hinge is the normal of the chain's plane, or `axis`",
+               "`\"ball\"`",
+               {},
+               "string or table"});
     field(self.twist, "twist", limits::angle, {"turn of each link about the chain, relative to the link before"});
     field(self.colors, "colors", ByType(), {"links take them in turn", "the color of the links"});
     field.key("shape", {"as in a body, for each link", "required", {}, "table"});
@@ -178,7 +177,7 @@ void visit_fields(Of<InstanceRequest>, Visitor& field, Self& self) {
                        "within the limits of the joints", "table"});
     field(self.scale, "scale", limits::copy_scale, {"see below"});
     field(self.mass, "mass", limits::mass, {"of all dynamic bodies together", "from the template"});
-    field(self.color, "color", ByType(), {"of all bodies", "those of the template"});
+    field(self.color, "color", ByType(), {"of all bodies", "the template's colors"});
     for (const char* one : {"grid", "scatter", "colors"})
         field.key(one, {"as in [bodies](scene-format.md#many-bodies-from-one-table); copies are `NAME.0.BODY`, and a "
                         "copy has one color",

@@ -1,5 +1,4 @@
-// Values of a body that take code to read: its motion, its inertia, and the layers by which bodies choose what they
-// collide with.
+// Values of a body whose keys depend on each other: its motion, its inertia, and its collision layers.
 #pragma once
 
 #include "scene/description/description.h"

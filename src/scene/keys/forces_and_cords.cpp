@@ -18,7 +18,7 @@ namespace tumble {
 namespace {
 
 constexpr double pin_thickness = 0.15;  // radius of a pin over the thinnest extent of the smaller body
-constexpr double beyond = 1.5;          // by which it stands out of that body, over its radius
+constexpr double beyond = 1.5;          // length of a pin outside that body, over the radius of the pin
 
 /// A side of a joint with a body of finite size.
 struct PinSide {

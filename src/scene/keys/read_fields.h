@@ -75,7 +75,7 @@ void read_fields(const TomlTable& table, Struct& target) {
     visit_fields(Of<Struct>(), reader, target);
 }
 
-/// The same, after the check that the table has no keys but those, and those of `Others`, which are read elsewhere.
+/// The same, after a check for unknown keys. The keys of `Others` are known too, and read elsewhere.
 template <HasFields Struct, HasFields... Others>
 Struct read_all_fields(const TomlTable& table, Struct target = {}) {
     table.expect_keys(list_keys<Struct, Others...>().keys);

@@ -48,14 +48,14 @@ void read_cords(const TomlTable& root, SceneDescription& scene);
 /// Appends a cord for each joint that is visible.
 void add_cords_of_joints(SceneDescription& scene);
 
-// -- [[field]] and [[pair_force]].
+// -- [[field]], [[pair_force]] and [[explosion]].
 
-/// Reads both, after the bodies.
+/// Reads all three, after the bodies.
 void read_force_fields(const TomlTable& root, SceneDescription& scene);
 
 // -- The tables [overlay] and [[caption]], and the options that take their place.
 
-/// `bodies`: of the scene, to find those that the table names.
+/// `bodies`: all bodies of the scene, which the table may name.
 OverlayDescription read_overlay(const TomlTable& root, const std::vector<BodyDescription>& bodies,
                                 const SceneOverrides& overrides);
 

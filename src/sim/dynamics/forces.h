@@ -81,7 +81,7 @@ public:
     /// True if nothing but gravity ever acts on the body; true if forces at points ever act on any body.
     bool only_gravity(std::size_t index) const { return plain(index) && at_points_[index].empty(); }
     bool ever_changes() const { return !pushed_.empty(); }
-    /// Bodies with forces at points, ascending.
+    /// Bodies with forces at points, and with explosions all dynamic bodies; ascending.
     std::span<const std::uint32_t> pushed() const { return pushed_; }
 
 private:

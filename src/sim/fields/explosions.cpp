@@ -25,7 +25,7 @@ constexpr int halvings = 60;
 /// one that the center is in.
 constexpr int most_steps = 200;
 
-/// Integral of the unit directions over the solid angle of a polygon that is counterclockwise seen from the origin.
+/// Integral of the unit directions over the solid angle of a polygon, counterclockwise about these directions.
 Vec3 integral_over(std::span<const Vec3> corners) {
     Vec3 sum = Vec3::Zero();
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -84,7 +84,7 @@ Vec3 seen(const Polyhedron& hull, const Pose& pose) {
         for (const std::uint32_t vertex : face.vertices) corners.push_back(pose.to_world(hull.vertices[vertex]));
         sum += integral_over(corners);
     }
-    return -sum;  // corners are counterclockwise seen from outside, where the origin is: from it, around its view
+    return -sum;  // the corners of a face are clockwise about the directions to it
 }
 
 /// Over the cone between planes through the origin that touch the body.
