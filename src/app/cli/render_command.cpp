@@ -361,7 +361,7 @@ void add_render(Command& command) {
         "  tumble render scene.toml --frames one --start 2.5 --duration 2.5   only the one at 2.5 s\n"
         "  tumble render scene.toml --frames out --aov depth,segmentation   and out/aov_000000.npz ...\n"
         "  tumble render scene.toml --aov motion --aov-folder flow          no pictures at all\n"
-        "  tumble render scene.toml --frames out --aov depth --camera all   out/camera, and out/NAME of each other\n"
+        "  tumble render scene.toml --frames out --camera all   of each camera, in its own folder\n"
         "  tumble render a.toml b.toml                       side by side in a.mp4\n"
         "  tumble render scene.toml --vary simulation.integrator=explicit-euler,exact --overlay clock\n"
         "  tumble render scene.toml --plot energy --plot-place below\n"

@@ -145,7 +145,7 @@ void read_pair_forces(const TomlTable& root, SceneDescription& scene) {
     const auto list = root.find("pair_force");
     if (!list) return;
     if (scene.simulation.impacts == ImpactMode::exact)
-        list->fail("needs impacts = \"stepped\": between events a body moves alone");
+        list->origin().fail("needs impacts = \"stepped\": between events a body moves alone");
     const BodyIndex bodies(scene.bodies);
     for (TomlTable& table : list->tables("; write [[pair_force]] for each")) {
         table.set_title("[[pair_force]]");
@@ -162,7 +162,7 @@ void read_explosions(const TomlTable& root, SceneDescription& scene) {
     const auto list = root.find("explosion");
     if (!list) return;
     if (scene.simulation.impacts == ImpactMode::exact)
-        list->fail("needs impacts = \"stepped\": a flight between events knows no later impulse");
+        list->origin().fail("needs impacts = \"stepped\": a flight between events knows no later impulse");
     for (TomlTable& table : list->tables("; write [[explosion]] for each")) {
         table.set_title("[[explosion]]");
         scene.explosions.push_back(read_all_fields<ExplosionDescription>(table));
@@ -174,7 +174,7 @@ void read_explosions(const TomlTable& root, SceneDescription& scene) {
 void read_force_fields(const TomlTable& root, SceneDescription& scene) {
     for (const char* key : {"field", "pair_force", "explosion"})
         if (const auto list = root.find(key); list && scene.simulation.method == SimulationMethod::notes)
-            list->fail("is unknown to the method of the notes: give method = \"tumble\"");
+            list->origin().fail("is unknown to the method of the notes: give method = \"tumble\"");
     read_fields_of(root, scene);
     read_pair_forces(root, scene);
     read_explosions(root, scene);
