@@ -365,7 +365,7 @@ struct Field {
     double end = std::numeric_limits<double>::infinity();  // s
 };
 
-enum class PairForceType { gravity, coulomb, spring, inverse_square };
+enum class PairForceType { gravity, coulomb, spring, inverse_square, dipole };
 
 /// A force between each two of the bodies.
 struct PairForce {
@@ -377,6 +377,7 @@ struct PairForce {
     std::optional<double> stiffness = {};                  // N/m: spring
     std::optional<double> damping = {};                    // N s/m: spring
     std::optional<double> length = {};                     // m: spring
+    std::vector<Vec3> moments = {};                        // A m^2, body frame, one of each body: dipole
     double start = 0.0;                                    // s
     double end = std::numeric_limits<double>::infinity();  // s
 };

@@ -151,6 +151,11 @@ private:
             for (const double charge : f.charges) charges += (charges.empty() ? "" : ", ") + text_of(charge);
             value("charges", "charges", "[" + charges + "]");
         }
+        if (!f.moments.empty()) {
+            std::string moments;
+            for (const Vec3& moment : f.moments) moments += (moments.empty() ? "" : ", ") + text_of(moment);
+            value("moments", "moments", "[" + moments + "]");
+        }
         write_span(f.start, f.end);
     }
 

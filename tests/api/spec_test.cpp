@@ -120,6 +120,10 @@ SceneSpec everything_directed() {
     spec.pair_forces[0].bodies = {"crate", "ball"};
     spec.pair_forces[0].charges = {1e-3, -2e-3};
     spec.pair_forces[0].end = 1.0;
+    spec.pair_forces.emplace_back();
+    spec.pair_forces[1].type = PairForceType::dipole;
+    spec.pair_forces[1].bodies = {"crate", "ball"};
+    spec.pair_forces[1].moments = {{1e3, 0.0, 0.0}, {0.0, 2e3, 0.0}};
     spec.explosions.push_back({{0.0, 0.1, 0.0}, 0.2, 3.0, 4.0});
     spec.speed.push_back({0.1, {"crate", "0"}, 0.5, 0.2, SpeedEasing::linear});
     spec.cameras["from above"].eye = Vec3{0.0, 9.0, 0.1};
@@ -150,6 +154,7 @@ TEST(Spec, HasLightsDirectionAndForcesOfTheFile) {
     EXPECT_EQ(blamed([](SceneSpec& s) { s.lights[1].angle = 500.0; }), "lights[1].angle");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.fields[1].linear = -1.0; }), "fields[1].linear");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.pair_forces[0].bodies[1] = "bal"; }), "pair_forces[0].bodies");
+    EXPECT_EQ(blamed([](SceneSpec& s) { s.pair_forces[1].moments.pop_back(); }), "pair_forces[1].moments");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.speed[0].factor = 0.0; }), "speed[0].factor");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.shots[0].camera = "top"; }), "shots[0].camera");
     EXPECT_EQ(blamed([](SceneSpec& s) { s.cameras["from above"].vertical_fov = 0.0; }),

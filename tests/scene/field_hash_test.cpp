@@ -20,7 +20,7 @@ TEST(SceneHash, EveryKeyOfFieldsPairForcesAndExplosionsChangesIt) {
     const std::string point = "type = \"point\"\nstrength = 2\n", vortex = "type = \"vortex\"\nstrength = 2\n",
                       drag = "type = \"drag\"\nlinear = 1\nquadratic = 1\n", pair = "bodies = [\"a\", \"b\"]\n",
                       charged = "type = \"coulomb\"\n" + pair, spring = "type = \"spring\"\n" + pair,
-                      blast = "center = [0, 1, 0]\nimpulse = 1\n";
+                      magnets = "type = \"dipole\"\n" + pair, blast = "center = [0, 1, 0]\nimpulse = 1\n";
     struct Pair {
         std::string table, one, other;
     };
@@ -42,6 +42,7 @@ TEST(SceneHash, EveryKeyOfFieldsPairForcesAndExplosionsChangesIt) {
           {"pair_force", spring + "stiffness = 1", spring + "stiffness = 2"},
           {"pair_force", spring + "stiffness = 1\ndamping = 1", spring + "stiffness = 1\nlength = 1"},
           {"pair_force", spring + "stiffness = 1\nenabled = [1]", spring + "stiffness = 1\nenabled = [1, 2]"},
+          {"pair_force", magnets + "moments = [[1, 0, 0], [0, 0, 1]]", magnets + "moments = [[1, 0, 0], [0, 1, 0]]"},
           {"explosion", blast, blast + "time = 1"},
           {"explosion", "center = [0, 2, 0]\nimpulse = 1", "center = [0, 1, 0]\nimpulse = 2"},
           {"explosion", blast + "radius = 3", blast + "radius = 4"}})

@@ -43,19 +43,21 @@ struct FieldDescription {
     double start = 0.0, end = 0.0;  // s; infinity: forever
 };
 
-enum class PairForceKind { gravity, coulomb, spring, inverse_square };
+enum class PairForceKind { gravity, coulomb, spring, inverse_square, dipole };
 
 /// A force between the centers of mass of each two of the bodies, at the distance d, with s = d^2 + softening^2.
 ///   gravity         attracts by strength m1 m2 d / s^(3/2)
 ///   coulomb         repels by strength q1 q2 d / s^(3/2)
 ///   inverse_square  attracts by strength d / s^(3/2)
 ///   spring          attracts by stiffness (d - length) + damping d'
+///   dipole          force and torques of the energy strength (m1 m2 / s^(3/2) - 3 (m1 d) (m2 d) / s^(5/2))
 struct PairForceDescription {
     PairForceKind type = PairForceKind::gravity;
     std::vector<std::size_t> bodies;                      // indices into bodies, at least two
-    double strength = 0.0;                                // m^3/(kg s^2), N m^2/C^2, N m^2
+    double strength = 0.0;                                // m^3/(kg s^2), N m^2/C^2, N m^2, N/A^2
     double softening = 0.0;                               // m
     std::vector<double> charges;                          // C, of the bodies
+    std::vector<Vec3> moments;                            // A m^2, of the bodies, body frame
     double stiffness = 0.0, damping = 0.0, length = 0.0;  // N/m, N s/m, m
     double start = 0.0, end = 0.0;                        // s; infinity: forever
 };

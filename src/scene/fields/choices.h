@@ -82,7 +82,8 @@ inline constexpr auto choices<PairForceKind> =
     std::to_array<Choice<PairForceKind>>({{"gravity", PairForceKind::gravity},
                                           {"coulomb", PairForceKind::coulomb},
                                           {"spring", PairForceKind::spring},
-                                          {"1/r^2", PairForceKind::inverse_square}});
+                                          {"1/r^2", PairForceKind::inverse_square},
+                                          {"dipole", PairForceKind::dipole}});
 template <>
 inline constexpr auto choices<Pattern> = std::to_array<Choice<Pattern>>({{"plain", Pattern::plain},
                                                                          {"panel", Pattern::panel},

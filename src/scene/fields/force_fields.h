@@ -52,13 +52,19 @@ void visit_fields(Of<PairForceDescription>, Visitor& field, Self& self) {
            "array of strings"});
     field(self.strength, "strength", limits::field_strength,
           {"not of springs. Negative: the other way",
-           "6.6743e-11 of gravity, 8.9875517873681764e9 of charges; required "
+           "6.6743e-11 of gravity, 8.9875517873681764e9 of charges, 1e-7 of dipoles; required "
            "for `\"1/r^2\"`",
            {},
-           "number, m³/(kg s²), N m²/C² or N m²"});
+           "number, m³/(kg s²), N m²/C², N m² or N/A²"});
     field(self.softening, "softening", limits::size_or_zero, {"not of springs"});
     field(self.charges, "charges", ByCode(),
           {"coulomb: required, one of each entry of `bodies`", "none", "±1e9", "array of numbers, C"});
+    field(self.moments, "moments", ByCode(),
+          {.text = "dipole: required, one of each entry of `bodies`, body frame",
+           .standard = "none",
+           .range = "±1e9, not all zero",
+           .type = "array of vectors, A m²",
+           .later = true});
     field(self.stiffness, "stiffness", limits::stiffness, {"spring: required"});
     field(self.damping, "damping", limits::damping, {"spring"});
     field(self.length, "length", limits::size_or_zero, {"spring: distance without force"});

@@ -113,6 +113,15 @@ void read_bodies_of(const TomlTable& table, const BodyIndex& index, const SceneD
             given->fail(fmt::format("must have one charge for each of the {} entries of bodies, not {}", names.size(),
                                     charges.size()));
     }
+    std::vector<Vec3> moments;
+    if (const auto given = table.find("moments")) {
+        for (const TomlValue& one : given->items()) moments.push_back(one.vector(limits::magnetic_moment));
+        if (moments.size() != names.size())
+            given->fail(fmt::format("must have one moment for each of the {} entries of bodies, not {}", names.size(),
+                                    moments.size()));
+        if (std::all_of(moments.begin(), moments.end(), [](const Vec3& m) { return m.isZero(0.0); }))
+            given->fail("must not all be zero");
+    }
     for (std::size_t k = 0; k < names.size(); ++k)
         for (const std::size_t body : bodies_named(names[k], index, scene)) {
             if (std::find(force.bodies.begin(), force.bodies.end(), body) != force.bodies.end())
@@ -122,6 +131,7 @@ void read_bodies_of(const TomlTable& table, const BodyIndex& index, const SceneD
             if (endless(scene.bodies[body].shape)) names[k].fail("must have a center: a plane has none");
             force.bodies.push_back(body);
             if (!charges.empty()) force.charges.push_back(charges[k]);
+            if (!moments.empty()) force.moments.push_back(moments[k]);
         }
     if (force.bodies.size() < 2) bodies.fail("must name two bodies or more");
     if (force.bodies.size() > limits::pair_force_bodies)
@@ -137,11 +147,13 @@ void read_pair_forces(const TomlTable& root, SceneDescription& scene) {
     constexpr KeyOfTypes keys[] = {{"strength", others, bits<PairForceKind>(inverse_square)},
                                    {"softening", others, 0},
                                    {"charges", bits<PairForceKind>(coulomb), bits<PairForceKind>(coulomb)},
+                                   {"moments", bits<PairForceKind>(dipole), bits<PairForceKind>(dipole)},
                                    {"stiffness", springs, springs},
                                    {"damping", springs, 0},
                                    {"length", springs, 0}};
     constexpr double gravitation = 6.6743e-11;                 // m^3/(kg s^2), CODATA 2018
     constexpr double coulomb_constant = 8.9875517873681764e9;  // N m^2/C^2
+    constexpr double magnetic_constant = 1e-7;                 // N/A^2, mu_0 / (4 pi)
     const auto list = root.find("pair_force");
     if (!list) return;
     if (scene.simulation.impacts == ImpactMode::exact)
@@ -151,7 +163,10 @@ void read_pair_forces(const TomlTable& root, SceneDescription& scene) {
         table.set_title("[[pair_force]]");
         PairForceDescription force = read_all_fields<PairForceDescription>(table);
         check_keys(table, force.type, keys);
-        if (!table.has("strength")) force.strength = force.type == coulomb ? coulomb_constant : gravitation;
+        if (!table.has("strength"))
+            force.strength = force.type == coulomb  ? coulomb_constant
+                             : force.type == dipole ? magnetic_constant
+                                                    : gravitation;
         read_bodies_of(table, bodies, scene, force);
         read_span(table, force);
         scene.pair_forces.push_back(force);

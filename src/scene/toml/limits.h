@@ -90,6 +90,7 @@ inline constexpr Range explosion_impulse{-1e15, 1e15, "N s"};
 inline constexpr Range drag_linear{0.0, 1e15, "N s/m"};
 inline constexpr Range drag_quadratic{0.0, 1e15, "N s^2/m^2"};
 inline constexpr Range charge{-1e9, 1e9, "C"};
+inline constexpr Range magnetic_moment{-1e9, 1e9, "A m^2"};
 inline constexpr std::size_t pair_force_bodies = 1000;  // half a million pairs
 
 // -- Matter

@@ -31,11 +31,24 @@ std::vector<std::size_t> places_of(std::size_t count, std::span<const std::uint3
     return places;
 }
 
-std::vector<MassPoint> points_of(const PairForces& pairs, const std::vector<Body>& bodies) {
+/// The bodies with forces between each other at their present places.
+struct PresentPairs {
+    PresentPairs(const PairForces& pairs, const std::vector<Body>& bodies) {
+        for (const std::uint32_t i : pairs.bodies()) {
+            const Body& body = bodies[i];
+            points.push_back({body.dynamic() ? body.mass : infinity, body.position, body.velocity});
+            if (pairs.has_torques()) turns.push_back({body.rotation});
+        }
+    }
+    operator PairBodies() const { return {points, turns}; }
+
     std::vector<MassPoint> points;
-    for (const std::uint32_t i : pairs.bodies())
-        points.push_back({bodies[i].dynamic() ? bodies[i].mass : infinity, bodies[i].position, bodies[i].velocity});
-    return points;
+    std::vector<PairTurn> turns;
+};
+
+void operator+=(Wrench& sum, const Wrench& other) {
+    sum.force += other.force;
+    sum.torque += other.torque;
 }
 
 }  // namespace
@@ -47,7 +60,7 @@ ForceField::ForceField(const SceneDescription& scene, std::span<const std::uint3
       place_(scene.fields, origin),
       explosions_(scene.explosions, origin),
       pairs_(scene.pair_forces, places_of(scene.bodies.size(), order)),
-      held_(pairs_.bodies().size(), Vec3::Zero()) {
+      held_(pairs_.bodies().size()) {
     const std::vector<std::size_t> places = places_of(scene.bodies.size(), order);
     for (const ForceDescription& f : scene.forces) at_points_[places[f.body]].push_back(f);
     for (std::size_t body = 0; body < places.size(); ++body)
@@ -76,22 +89,22 @@ void ForceField::light_explosions(const std::vector<Body>& bodies, double from, 
 
 void ForceField::hold_pairs(const std::vector<Body>& bodies, double from, double to) {
     if (pairs_.empty()) return;
-    std::fill(held_.begin(), held_.end(), Vec3::Zero());
-    pairs_.add_mean(points_of(pairs_, bodies), from, to, held_);
+    std::fill(held_.begin(), held_.end(), Wrench());
+    pairs_.add_mean(PresentPairs(pairs_, bodies), from, to, held_);
 }
 
 double ForceField::potential(const std::vector<Body>& bodies) const {
-    double sum = pairs_.empty() ? 0.0 : pairs_.potential(points_of(pairs_, bodies));
+    double sum = pairs_.empty() ? 0.0 : pairs_.potential(PresentPairs(pairs_, bodies));
     if (place_.empty()) return sum;
     for (const Body& body : bodies)
         if (body.dynamic()) sum += place_.potential({body.mass, body.position, body.velocity});
     return sum;
 }
 
-Vec3 ForceField::held(std::size_t index) const {
+Wrench ForceField::held(std::size_t index) const {
     const auto members = pairs_.bodies();
     const auto found = std::lower_bound(members.begin(), members.end(), std::uint32_t(index));
-    if (found == members.end() || *found != index) return Vec3::Zero();
+    if (found == members.end() || *found != index) return {};
     return held_[std::size_t(found - members.begin())];
 }
 
@@ -109,7 +122,7 @@ Wrench ForceField::weather(const Body& body, const Vec3& velocity) const {
 Wrench ForceField::fields(std::size_t index, const Body& body, double from, double to) const {
     Wrench sum = weather(body, body.velocity);
     if (!place_.empty()) sum.force += place_.mean({body.mass, body.position, body.velocity}, from, to);
-    if (!pairs_.empty()) sum.force += held(index);
+    if (!pairs_.empty()) sum += held(index);
     return sum;
 }
 
@@ -123,7 +136,7 @@ void ForceField::add_points(Wrench& sum, std::size_t index, const Body& body, co
 Wrench ForceField::at(std::size_t index, const Body& body, const Vec3& position, const Vec3& velocity,
                       const Mat3& rotation, double time) const {
     Wrench sum = alone(index, body, position, velocity, rotation, time);
-    if (!pairs_.empty()) sum.force += held(index);
+    if (!pairs_.empty()) sum += held(index);
     return sum;
 }
 
@@ -207,6 +220,7 @@ bool ForceField::constant(std::size_t index, double from, double to) const {
 }
 
 bool ForceField::torque_free(std::size_t index, double time) const {
+    if (pairs_.has_torques() && pairs_.turns(std::uint32_t(index), time)) return false;
     return std::none_of(at_points_[index].begin(), at_points_[index].end(),
                         [&](const ForceDescription& f) { return time >= f.start && time < f.end; });
 }

@@ -65,7 +65,7 @@ public:
     double next_change(std::size_t index, double time) const;
     /// True if only gravity acts on the body throughout [from, to): its motion is then known in closed form.
     bool constant(std::size_t index, double from, double to) const;
-    /// True if no point force acts on the body at a time, so that it has no torque.
+    /// True if neither a point force nor a dipole acts on the body at a time, so that it has no torque.
     bool torque_free(std::size_t index, double time) const;
     /// Rate of deceleration by drag: |dF/dv| / m per m/s of the speed relative to the air, 1/m.
     double drag_rate(const Body& body) const;
@@ -93,7 +93,7 @@ private:
         return !wind_ && place_.empty() && (pairs_.empty() || !pairs_.has(std::uint32_t(index)));
     }
     Wrench weather(const Body& body, const Vec3& velocity) const;
-    Vec3 held(std::size_t index) const;
+    Wrench held(std::size_t index) const;
 
     Vec3 gravity_;
     std::optional<WindDescription> wind_;
@@ -103,7 +103,7 @@ private:
     Explosions explosions_;
     std::vector<std::uint32_t> blasted_;  // bodies with forces of explosions, which stand last in at_points_
     PairForces pairs_;
-    std::vector<Vec3> held_;  // N, in the order of PairForces::bodies()
+    std::vector<Wrench> held_;  // in the order of PairForces::bodies()
 };
 
 }  // namespace tumble

@@ -10,10 +10,11 @@ namespace {
 
 /// Two bodies of a force: with the line from one to the other.
 struct PairOfPoints {
-    std::size_t a, b;                       // indices of their points
-    double factor = 0.0;                    // of the strength: attracts where positive
-    Vec3 apart;                             // m
-    double distance = 0.0, smoothed = 0.0;  // m
+    std::size_t a, b;                                       // indices of their points
+    double factor = 1.0;                                    // of the strength: attracts where positive
+    Vec3 apart = Vec3::Zero();                              // m
+    Vec3 moment_a = Vec3::Zero(), moment_b = Vec3::Zero();  // A m^2, world
+    double distance = 0.0, smoothed = 0.0;                  // m
 };
 
 // On the first body, N.
@@ -27,6 +28,29 @@ Vec3 pull(const PairForceDescription& f, const PairOfPoints& p, const Vec3& part
     return f.strength * p.factor / (p.smoothed * p.smoothed * p.smoothed) * p.apart;
 }
 
+// U = k (m1 m2 / s^3 - 3 (m1 d) (m2 d) / s^5) with d from the first dipole to the second.
+double dipole_energy(const PairForceDescription& f, const PairOfPoints& p) {
+    if (!(p.smoothed > 0.0)) return 0.0;
+    const double s2 = p.smoothed * p.smoothed, s3 = s2 * p.smoothed;
+    return f.strength / s3 *
+           (p.moment_a.dot(p.moment_b) - 3.0 / s2 * p.moment_a.dot(p.apart) * p.moment_b.dot(p.apart));
+}
+
+/// The force of a dipole on the first body, the opposite of that on the second; with the torques on both.
+struct DipolePull {
+    Vec3 force, torque_a, torque_b;
+};
+
+// F = dU/dd, and m x B with the field B = k (3 d (m d) / s^5 - m / s^3) of the other: together they keep momentum and
+// angular momentum.
+DipolePull dipole_pull(const PairForceDescription& f, const PairOfPoints& p) {
+    if (!(p.smoothed > 0.0)) return {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+    const Vec3 &a = p.moment_a, &b = p.moment_b, &d = p.apart;
+    const double s2 = p.smoothed * p.smoothed, k = f.strength / (s2 * p.smoothed), ad = a.dot(d), bd = b.dot(d);
+    const Vec3 at_a = k * (3.0 * bd / s2 * d - b), at_b = k * (3.0 * ad / s2 * d - a);
+    return {3.0 * k / s2 * ((5.0 * ad * bd / s2 - a.dot(b)) * d - bd * a - ad * b), a.cross(at_a), b.cross(at_b)};
+}
+
 bool acts(const PairForceDescription& f, double time) { return time >= f.start && time < f.end; }
 
 }  // namespace
@@ -36,6 +60,10 @@ PairForces::PairForces(const std::vector<PairForceDescription>& forces, std::spa
     for (const PairForceDescription& f : forces_)
         for (const std::size_t body : f.bodies) bodies_.push_back(std::uint32_t(place[body]));
     sort_unique(bodies_);
+    for (const PairForceDescription& f : forces_)
+        if (f.type == PairForceKind::dipole)
+            for (const std::size_t body : f.bodies) magnets_.push_back(std::uint32_t(place[body]));
+    sort_unique(magnets_);
     for (PairForceDescription& f : forces_)
         for (std::size_t& body : f.bodies)
             body = std::size_t(std::lower_bound(bodies_.begin(), bodies_.end(), place[body]) - bodies_.begin());
@@ -43,55 +71,86 @@ PairForces::PairForces(const std::vector<PairForceDescription>& forces, std::spa
 
 bool PairForces::has(std::uint32_t body) const { return std::binary_search(bodies_.begin(), bodies_.end(), body); }
 
+bool PairForces::turns(std::uint32_t body, double time) const {
+    if (!std::binary_search(magnets_.begin(), magnets_.end(), body)) return false;
+    return std::any_of(forces_.begin(), forces_.end(), [&](const PairForceDescription& f) {
+        return f.type == PairForceKind::dipole && acts(f, time) &&
+               std::any_of(f.bodies.begin(), f.bodies.end(), [&](std::size_t k) { return bodies_[k] == body; });
+    });
+}
+
 template <class Use>
-void PairForces::each_pair(const PairForceDescription& f, std::span<const MassPoint> points, const Use& use) const {
+void PairForces::each_pair(const PairForceDescription& f, const PairBodies& bodies, const Use& use) const {
+    const std::span<const MassPoint> points = bodies.points;
     for (std::size_t i = 0; i < f.bodies.size(); ++i)
         for (std::size_t k = i + 1; k < f.bodies.size(); ++k) {
-            PairOfPoints p{f.bodies[i], f.bodies[k], 1.0, Vec3::Zero()};
+            PairOfPoints p{f.bodies[i], f.bodies[k]};
             p.apart = points[p.b].position - points[p.a].position;
             const double square = p.apart.squaredNorm();
             p.distance = std::sqrt(square);
             p.smoothed = std::sqrt(square + f.softening * f.softening);
             if (f.type == PairForceKind::gravity) p.factor = points[p.a].mass * points[p.b].mass;
             if (f.type == PairForceKind::coulomb) p.factor = -f.charges[i] * f.charges[k];
+            if (f.type == PairForceKind::dipole) {
+                p.moment_a = bodies.turns[p.a].rotation * f.moments[i];
+                p.moment_b = bodies.turns[p.b].rotation * f.moments[k];
+            }
             use(p);
         }
 }
 
-void PairForces::add(std::span<const MassPoint> points, double time, std::span<Vec3> forces) const {
-    add_mean(points, time, time, forces);
+void PairForces::add(const PairBodies& bodies, double time, std::span<Wrench> wrenches) const {
+    add_mean(bodies, time, time, wrenches);
 }
 
-void PairForces::add_mean(std::span<const MassPoint> points, double from, double to, std::span<Vec3> forces) const {
+void PairForces::add_mean(const PairBodies& bodies, double from, double to, std::span<Wrench> wrenches) const {
+    const std::span<const MassPoint> points = bodies.points;
     for (const PairForceDescription& f : forces_) {
         double share = acts(f, from) ? 1.0 : 0.0;
         if (to > from && !(f.start <= from && f.end >= to))
             share = std::max(0.0, std::min(to, f.end) - std::max(from, f.start)) / (to - from);
         if (share == 0.0) continue;
-        each_pair(f, points, [&](const PairOfPoints& p) {
+        if (f.type == PairForceKind::dipole) {
+            each_pair(f, bodies, [&](const PairOfPoints& p) {
+                const DipolePull pull = dipole_pull(f, p);
+                wrenches[p.a].force += share * pull.force;
+                wrenches[p.b].force -= share * pull.force;
+                wrenches[p.a].torque += share * pull.torque_a;
+                wrenches[p.b].torque += share * pull.torque_b;
+            });
+            continue;
+        }
+        each_pair(f, bodies, [&](const PairOfPoints& p) {
             const Vec3 force = share * pull(f, p, points[p.b].velocity - points[p.a].velocity);
-            forces[p.a] += force;
-            forces[p.b] -= force;
+            wrenches[p.a].force += force;
+            wrenches[p.b].force -= force;
         });
     }
 }
 
-double PairForces::rate(std::span<const MassPoint> points, double time) const {
+double PairForces::rate(const PairBodies& bodies, double time) const {
+    const std::span<const MassPoint> points = bodies.points;
     double fastest = 0.0;
     for (const PairForceDescription& f : forces_) {
         if (!acts(f, time)) continue;
-        each_pair(f, points, [&](const PairOfPoints& p) {
+        each_pair(f, bodies, [&](const PairOfPoints& p) {
             const auto gives = [&](std::size_t k) { return points[k].mass < infinity ? 1.0 / points[k].mass : 0.0; };
             const double inverse = gives(p.a) + gives(p.b), d = std::max(p.smoothed, p.distance);
             const double parting = (points[p.b].velocity - points[p.a].velocity).norm();
-            double stiffness = f.stiffness, damping = f.damping;
+            double stiffness = f.stiffness, damping = f.damping, turning = 0.0;
             if (f.type != PairForceKind::spring) {
                 if (!(d > 0.0)) return;
                 stiffness = std::abs(f.strength * p.factor) / (d * d * d);
                 damping = 0.0;
             }
+            if (f.type == PairForceKind::dipole) {
+                // The most, of two dipoles in line: d2U/dd2 = 24 k m1 m2 / d^5, torque per angle 2 k m1 m2 / d^3.
+                stiffness *= p.moment_a.norm() * p.moment_b.norm();
+                turning = 2.0 * stiffness * (bodies.turns[p.a].inverse_inertia + bodies.turns[p.b].inverse_inertia);
+                stiffness *= 24.0 / (d * d);
+            }
             const double passes = d > 0.0 ? parting / d : 0.0;
-            fastest = std::max(fastest, std::sqrt(stiffness * inverse) + damping * inverse + passes);
+            fastest = std::max(fastest, std::sqrt(stiffness * inverse + turning) + damping * inverse + passes);
         });
     }
     return fastest;
@@ -105,12 +164,14 @@ double PairForces::next_change(double time) const {
     return next;
 }
 
-double PairForces::potential(std::span<const MassPoint> points) const {
+double PairForces::potential(const PairBodies& bodies) const {
     double sum = 0.0;
     for (const PairForceDescription& f : forces_) {
         if (f.start > 0.0 || f.end < infinity) continue;
-        each_pair(f, points, [&](const PairOfPoints& p) {
-            if (f.type == PairForceKind::spring)
+        each_pair(f, bodies, [&](const PairOfPoints& p) {
+            if (f.type == PairForceKind::dipole)
+                sum += dipole_energy(f, p);
+            else if (f.type == PairForceKind::spring)
                 sum += 0.5 * f.stiffness * (p.distance - f.length) * (p.distance - f.length);
             else if (p.smoothed > 0.0)
                 sum -= f.strength * p.factor / p.smoothed;

@@ -5,6 +5,7 @@
 #include "sim/dynamics/integrators/runge_kutta_4.h"
 #include "sim/dynamics/integrators/splitting.h"
 #include "sim/math/free_rotation.h"
+#include "sim/math/keyframe_track.h"
 
 #include <fmt/format.h>
 
@@ -30,15 +31,20 @@ void PairFlight::place_others(double time) {
         const Body& body = (*bodies_)[index[k]];
         points_[k] = {body.dynamic() ? body.mass : infinity, body.position + (time - start_) * body.velocity,
                       body.velocity};
+        if (!turns_of_.empty())
+            turns_of_[k].rotation =
+                from_rotation_vector((time - start_) * body.angular_velocity).toRotationMatrix() * body.rotation;
     }
 }
 
 // The points of the present states, and the forces between them.
 void PairFlight::gather() {
-    for (const std::size_t k : flying_)
+    for (const std::size_t k : flying_) {
         points_[k] = {points_[k].mass, states_[k].position, masses_[k].inverse_mass * states_[k].momentum};
-    std::fill(pulls_.begin(), pulls_.end(), Vec3::Zero());
-    forces_->pairs().add(points_, middle_, pulls_);
+        if (!turns_of_.empty()) turns_of_[k].rotation = rotation_of(states_[k].orientation);
+    }
+    std::fill(pulls_.begin(), pulls_.end(), Wrench());
+    forces_->pairs().add(present(), middle_, pulls_);
 }
 
 // The rate of change of all states that fly, and of the time, the last number.
@@ -49,16 +55,18 @@ Eigen::VectorXd PairFlight::rates(const Eigen::VectorXd& y) {
         MassPoint& point = points_[flying_[n]];
         point.position = state.head<3>();
         point.velocity = masses_[flying_[n]].inverse_mass * state.segment<3>(7);
+        if (!turns_of_.empty()) turns_of_[flying_[n]].rotation = rotation_of(Quat(state.segment<4>(3)));
     }
     place_others(y[y.size() - 1]);
-    std::fill(pulls_.begin(), pulls_.end(), Vec3::Zero());
-    forces_->pairs().add(points_, middle_, pulls_);
+    std::fill(pulls_.begin(), pulls_.end(), Wrench());
+    forces_->pairs().add(present(), middle_, pulls_);
     Eigen::VectorXd rate(y.size());
     for (std::size_t n = 0; n < flying_.size(); ++n) {
         const std::size_t k = flying_[n];
         const auto law = [&](const Vec3& position, const Vec3& velocity, const Mat3& rotation) {
             Wrench wrench = forces_->alone(index[k], (*bodies_)[index[k]], position, velocity, rotation, middle_);
-            wrench.force += pulls_[k];
+            wrench.force += pulls_[k].force;
+            wrench.torque += pulls_[k].torque;
             return wrench;
         };
         const Eigen::Index at = numbers * Eigen::Index(n);
@@ -100,7 +108,8 @@ void PairFlight::kick(double h, double time) {
             const RigidState& s = states_[k];
             Wrench wrench = forces_->alone(index[k], (*bodies_)[index[k]], s.position,
                                            masses_[k].inverse_mass * s.momentum, rotation_of(s.orientation), middle_);
-            wrench.force += pulls_[k];
+            wrench.force += pulls_[k].force;
+            wrench.torque += pulls_[k].torque;
             RigidState& next = states_[k];
             next.momentum = before[k].momentum + share * h * wrench.force;
             if (share == 1.0) next.angular_momentum += h * wrench.torque;
@@ -119,7 +128,7 @@ void PairFlight::split(const Span& span) {
 // Fastest rate at which the motion of the present states changes, 1/s.
 double PairFlight::rate() const {
     const auto index = forces_->pairs().bodies();
-    double fastest = forces_->pairs().rate(points_, middle_);
+    double fastest = forces_->pairs().rate(present(), middle_);
     for (const std::size_t k : flying_) {
         const Body& body = (*bodies_)[index[k]];
         double own = forces_->field_rate(body, points_[k].position, points_[k].velocity, middle_) +
@@ -158,7 +167,8 @@ void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member
     states_.resize(members.size());
     masses_.resize(members.size());
     points_.assign(members.size(), {});
-    pulls_.assign(members.size(), Vec3::Zero());
+    turns_of_.assign(forces.pairs().has_torques() ? members.size() : 0, {});
+    pulls_.assign(members.size(), {});
     flying_.clear();
     bool exactly = false, by_parts = true;
     const auto index = forces.pairs().bodies();
@@ -169,6 +179,7 @@ void PairFlight::advance(const std::vector<Body>& bodies, std::span<const Member
         states_[k] = members[k].start;
         masses_[k] = mass_of(body);
         points_[k].mass = body.mass;
+        if (!turns_of_.empty()) turns_of_[k].inverse_inertia = 1.0 / body.principal_inertia.minCoeff();
         exactly = exactly || body.integrator == IntegratorKind::exact;
         by_parts = by_parts && body.integrator == IntegratorKind::splitting;
     }

@@ -34,6 +34,7 @@ private:
     };
     void place_others(double time);
     void gather();
+    PairBodies present() const { return {points_, turns_of_}; }
     void kick(double h, double time);
     void split(const Span& span);
     void step(const Span& span, bool exact);
@@ -48,7 +49,8 @@ private:
     std::vector<RigidState> states_;
     std::vector<RigidMass> masses_;
     std::vector<MassPoint> points_;
-    std::vector<Vec3> pulls_;  // N
+    std::vector<PairTurn> turns_of_;  // where dipoles act
+    std::vector<Wrench> pulls_;
     std::vector<std::size_t> flying_;
     bool turns_ = false;
 };
