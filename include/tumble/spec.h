@@ -328,6 +328,7 @@ struct Body {
     std::optional<std::array<double, 6>> inertia;          // kg m^2, about the center of mass: xx, yy, zz, xy, xz, yz
     std::vector<std::string> layers;                       // that the body belongs to
     std::optional<std::vector<std::string>> collide_with;  // layers; not given: all bodies
+    std::optional<double> water_drag;                      // drag coefficient, in place of the water's
 };
 
 /// A force at a point of a dynamic body over a time span.
@@ -390,6 +391,26 @@ struct Explosion {
     std::optional<double> radius = {};  // m; bodies farther away feel nothing
 };
 
+/// A wave on deep water.
+struct WaterWave {
+    double height = 0.0, length = 1.0;  // m, trough to crest, crest to crest
+    Vec3 direction{1.0, 0.0, 0.0};      // in which it travels, horizontal
+    double phase = 0.0;                 // degrees; 0: a crest at the origin of the world at time 0
+};
+
+/// Water below a level, in which bodies float.
+struct Water {
+    double level = 0.0;       // m, y
+    double density = 1000.0;  // kg/m^3
+    double drag = 1.0;        // drag coefficient
+    double viscosity = 0.0;   // Pa s
+    bool added_mass = true;   // a body that speeds up sets water in motion with it
+    Vec3 current;             // m/s, horizontal
+    Color color{0x2a, 0x6f, 0x8f};
+    bool visible_in_aov = true;
+    std::vector<WaterWave> waves = {};  // 16 at most
+};
+
 /// A cosmetic rope from a fixed point to a point of a body, or between the anchors of a joint.
 struct Cord {
     std::string body;      // its name, or its index as text
@@ -417,6 +438,7 @@ struct SceneSpec {
     std::vector<Field> fields = {};
     std::vector<PairForce> pair_forces = {};
     std::vector<Explosion> explosions = {};
+    std::optional<Water> water = {};
     std::vector<Speed> speed = {};               // of clips
     std::map<std::string, Camera> cameras = {};  // by name, for shots
     std::vector<Shot> shots = {};

@@ -7,6 +7,7 @@
 #include "scene/fields/joint_fields.h"
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/fields/water_fields.h"
 #include "tumble/spec.h"
 
 #include <fmt/format.h>
@@ -41,6 +42,7 @@ public:
         write_lights(spec);
         if (spec.environment) write(*spec.environment);
         if (spec.wind) write(*spec.wind);
+        if (spec.water) write(*spec.water);
         write(spec.contact);
         for (std::size_t i = 0; i < spec.bodies.size(); ++i) write(spec.bodies[i], i);
         for (std::size_t i = 0; i < spec.joints.size(); ++i) write_joint(spec.joints[i], i, *this);
@@ -168,6 +170,15 @@ private:
     void write(const Wind& w) {
         header("[wind]", "wind");
         write_fields<WindDescription>(*this, w);
+    }
+
+    void write(const Water& w) {
+        header("[water]", "water");
+        write_fields<WaterDescription>(*this, w);
+        for (std::size_t i = 0; i < w.waves.size(); ++i) {
+            header("[[water.waves]]", fmt::format("water.waves[{}]", i));
+            write_fields<tumble::WaterWave>(*this, w.waves[i]);
+        }
     }
 
     // A table of its own, because a body may have the mass instead of its material's density.

@@ -53,10 +53,10 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     set_values(document, overrides.set);
     const TomlTable root(document, {"scene", {file.string(), 1, 1}}, "a scene");
     check_format(root);
-    root.expect_keys({"format", "title",       "simulation", "output",  "camera",    "cameras",    "shot",
-                      "light",  "environment", "wind",       "contact", "materials", "body",       "joint",
-                      "chain",  "template",    "instance",   "force",   "field",     "pair_force", "explosion",
-                      "cord",   "overlay",     "caption",    "speed",   "label",     "logo",       "inset"});
+    root.expect_keys({"format",      "title", "simulation", "output",     "camera",    "cameras", "shot",    "light",
+                      "environment", "wind",  "contact",    "materials",  "body",      "joint",   "chain",   "template",
+                      "instance",    "force", "field",      "pair_force", "explosion", "cord",    "overlay", "caption",
+                      "speed",       "label", "logo",       "inset",      "water"});
 
     SceneDescription scene;
     scene.file = file.string();
@@ -66,6 +66,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     FileList files;
     scene.environment = read_environment(root, file.parent_path(), files, imports);
     scene.wind = read_wind(root);
+    scene.water = read_water(root, scene.simulation);
     scene.contact = read_contact(root);
     MeshCache meshes(imports, std::move(supplied));
     TextureFiles textures;

@@ -125,6 +125,9 @@ SceneSpec everything_directed() {
     spec.pair_forces[1].bodies = {"crate", "ball"};
     spec.pair_forces[1].moments = {{1e3, 0.0, 0.0}, {0.0, 2e3, 0.0}};
     spec.explosions.push_back({{0.0, 0.1, 0.0}, 0.2, 3.0, 4.0});
+    spec.water =
+        Water{-0.5, 1025.0, 0.9, 0.001, false, {0.1, 0.0, 0.2}, {1, 2, 3}, false, {{0.1, 2.0, {0.0, 0.0, 1.0}, 30.0}}};
+    spec.bodies[2].water_drag = 0.4;
     spec.speed.push_back({0.1, {"crate", "0"}, 0.5, 0.2, SpeedEasing::linear});
     spec.cameras["from above"].eye = Vec3{0.0, 9.0, 0.1};
     spec.cameras["from above"].keyframes = {{0.0, {}, {}, 30.0}, {1.0, {}, {}, 40.0}};

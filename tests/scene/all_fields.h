@@ -9,6 +9,7 @@
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/fields/water_fields.h"
 
 namespace tumble {
 
@@ -43,6 +44,8 @@ void for_all_fields(auto&& use) {
     use.template operator()<FieldRegion>("field region");
     use.template operator()<PairForceDescription>("pair force");
     use.template operator()<ExplosionDescription>("explosion");
+    use.template operator()<WaterDescription>("water");
+    use.template operator()<WaterWave>("wave");
     use.template operator()<CordDescription>("cord");
     use.template operator()<SpeedKeyframe>("speed");
     use.template operator()<OverlayDescription>("overlay");

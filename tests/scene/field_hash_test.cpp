@@ -50,5 +50,20 @@ TEST(SceneHash, EveryKeyOfFieldsPairForcesAndExplosionsChangesIt) {
             EXPECT_TRUE(seen.insert(hash_of(bodies + "[[" + table + "]]\n" + keys + "\n")).second) << keys;
 }
 
+TEST(SceneHash, EveryKeyOfWaterChangesIt) {
+    const std::string ball = "format = 1\n[[body]]\nshape = { type = \"sphere\", radius = 0.1 }\n[water]\n",
+                      wave = "waves = [{ height = 0.2, length = 4";
+    std::set<std::string> seen{hash_of(ball)};
+    for (const std::string& keys :
+         {std::string("level = 1"), std::string("density = 1025"), std::string("drag = 2"),
+          std::string("viscosity = 0.1"), std::string("added_mass = false"), std::string("current = [1, 0, 0]"),
+          std::string("color = \"#102030\""), std::string("visible_in_aov = false"), wave + " }]",
+          wave + ", direction = [0, 0, 1] }]", wave + ", phase = 90 }]",
+          std::string("waves = [{ height = 0.2, length = 5 }]"), std::string("waves = [{ height = 0.1, length = 4 }]")})
+        EXPECT_TRUE(seen.insert(hash_of(ball + keys + "\n")).second) << keys;
+    for (const char* keys : {"color = \"#102030\"\n", "visible_in_aov = false\n"})
+        EXPECT_EQ(motion_hash(parse_scene(ball + keys, "water.toml")), motion_hash(parse_scene(ball, "water.toml")));
+}
+
 }  // namespace
 }  // namespace tumble::field_hash_test

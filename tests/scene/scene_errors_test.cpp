@@ -444,6 +444,23 @@ TEST(SceneErrors, OfExplosions) {
     });
 }
 
+TEST(SceneErrors, OfWater) {
+    const auto with = [](const std::string& keys) { return "format = 1\n" + keys; };
+    expect_errors({
+        {with("[water]\ndensity = @-1"), "density must be above 0"},
+        {with("[water]\n@depth = 1"), "unknown key \"depth\" in [water]"},
+        {with("[water]\ncurrent = @[1, 1, 0]"), "current must be horizontal"},
+        {with("[water]\nwaves = [{ height = @1, length = 4 }]"), "height makes a wave that breaks"},
+        {with("[water]\nwaves = [{ height = 0.3, length = 3 }, { height = @0.3, length = 3 }]"), "(given 0.2)"},
+        {with("[water]\nwaves = [{ height = 0.1, length = 3, direction = @[0, 1, 0] }]"), "must be horizontal"},
+        {with("[water]\nwaves = [@{ height = 0.1 }]"), "needs \"length\""},
+        {with("[simulation]\ngravity = [0, 0, 0]\n[water]\nwaves = @[{ height = 0.1, length = 3 }]"), "need gravity"},
+        {with("@[water]\n[simulation]\ngravity = [1, -9, 0]"), "water needs gravity along -y"},
+        {with("@[water]\n[simulation]\nmethod = \"notes\""), "unknown to the method of the notes"},
+        {body("water_drag = @-1"), "water_drag must be from 0 to"},
+    });
+}
+
 TEST(SceneErrors, OfForcesAndCords) {
     expect_errors({
         {body("name = \"crate\"\n[[force]]\nbody = @\"crat\"\nforce = [1, 0, 0]"),

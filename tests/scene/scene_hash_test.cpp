@@ -239,6 +239,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"pair_force", "", "[[cord]]", "[[pair_force]]\ntype = \"gravity\"\nbodies = [\"ball\", \"stone\"]\n[[cord]]",
       true},
      {"explosion", "", "[[cord]]", "[[explosion]]\ncenter = [0, 1, 0]\nimpulse = 1\n[[cord]]", true},
+     {"water", "", "", "", true},  // field_hash_test.cpp
      {"cord", "", "[[cord]]\nbody = \"paddle\"",
       "[[cord]]\nbody = \"ball\"\nanchor = [1, 0, 0]\n[[cord]]\nbody = \"paddle\"", false},
      {"joint", "", "[[joint]]", "[[joint]]\ntype = \"fixed\"\nbodies = [\"ball\", \"world\"]\n[[joint]]", true},
@@ -317,6 +318,7 @@ const std::vector<std::vector<Change>> own_tables = {
      {"gravity_scale", "", "mass = 3", "mass = 3\ngravity_scale = 0.5", true},
      {"center_of_mass", "", "mass = 3", "mass = 3\ncenter_of_mass = [0, 0, 0]", true},
      {"inertia", "", "mass = 3", "mass = 3\ninertia = [1, 1, 1, 0, 0, 0]", true},
+     {"water_drag", "", "mass = 3", "mass = 3\nwater_drag = 0.3", true},
      {"layers", "", "mass = 3", "mass = 3\nlayers = [\"a\"]", true},
      {"collide_with", "", "mass = 3", "mass = 3\ncollide_with = []", true},
      {"roughness", "", "roughness = 0.9", "roughness = 0.8", false},

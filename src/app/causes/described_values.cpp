@@ -165,6 +165,7 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
     if (!body.layers.empty()) kind.matter["layers"] = fmt::format("{}", fmt::join(body.layers, ", "));
     if (body.collide_with) kind.matter["collide_with"] = fmt::format("[{}]", fmt::join(*body.collide_with, ", "));
     if (body.type == BodyType::dynamic) {
+        if (body.water_drag) kind.matter["water_drag"] = fmt::format("{}", *body.water_drag);
         if (body.gravity_scale != 1.0) kind.matter["gravity_scale"] = fmt::format("{}", body.gravity_scale);
         if (body.center_of_mass) kind.matter["center_of_mass"] = text_of(*body.center_of_mass);
         if (body.inertia) kind.matter["inertia"] = fmt::format("[{}]", fmt::join(*body.inertia, ", "));
@@ -213,9 +214,10 @@ ValueMap values_of(const SceneDescription& scene) {
     if (scene.wind)
         values["wind"] = fmt::format("{} {} {}", text_of(scene.wind->velocity), scene.wind->density, scene.wind->drag);
     if (!scene.forces.empty()) values["forces"] = forces_text(scene);
-    if (!scene.fields.empty() || !scene.pair_forces.empty() || !scene.explosions.empty())
+    if (!scene.fields.empty() || !scene.pair_forces.empty() || !scene.explosions.empty() || scene.water)
         for (const auto& [part, hash] : scene_parts(scene))
-            if (part == "fields" || part == "pair forces" || part == "explosions") values[part] = hash;
+            if (part == "fields" || part == "pair forces" || part == "explosions" || part == "water")
+                values[part] = hash;
     if (!scene.cords.empty()) values["cords"] = cords_text(scene);
     values["overlay"] = shown_text(scene.overlay);
     for (std::size_t i = 0; i < scene.overlay.labels.size(); ++i) {

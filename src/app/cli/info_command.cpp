@@ -175,6 +175,9 @@ void print_head(const SceneDescription& scene) {
     }
     if (!scene.pair_forces.empty()) put("  forces    {} between bodies\n", scene.pair_forces.size());
     if (!scene.explosions.empty()) put("  explosions {}\n", scene.explosions.size());
+    if (scene.water)
+        put("  water     below {:.4g} m, density {:.4g} kg/m^3, drag {:.4g}, {}\n", scene.water->level,
+            scene.water->density, scene.water->drag, count_text(scene.water->waves.size(), "wave", "waves"));
 }
 
 void print_groups(const SceneDescription& scene, const World& world) {

@@ -11,6 +11,7 @@
 #include "scene/description/joint.h"
 #include "scene/description/mesh_paint.h"
 #include "scene/description/overlay.h"
+#include "scene/description/water.h"
 
 #include <algorithm>
 #include <array>
@@ -344,6 +345,7 @@ struct BodyDescription {
     std::vector<Keyframe> keyframes;           // kinematic bodies only; empty: it stands still
     Interpolation interpolation = Interpolation::smooth;
     SoundMaterial sound = SoundMaterial::wood;
+    std::optional<double> water_drag;  // drag coefficient in water; empty: that of the water
 
     /// Restitution and friction of the body in a pair (PairRule): a dynamic body without values has these.
     static constexpr double default_restitution = 0.5, default_friction = 0.0;
@@ -411,6 +413,7 @@ struct SceneDescription {
     std::vector<CordDescription> cords;
     OverlayDescription overlay;
     std::vector<SpeedKeyframe> speed;  // of clips; empty: the scene's own
+    std::optional<WaterDescription> water;
 
     FrameTiming timing() const { return {output.fps, simulation.steps_per_frame}; }
     double step() const { return timing().step(); }  // s

@@ -170,6 +170,8 @@ void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
            "string"});
     field(self.keyframes, "keyframes", ByCode(), {"see [keyframes](#keyframes)", "none", {}, "array of tables"});
     field(self.interpolation, "interpolation", ByType(), {"see [keyframes](#keyframes)"});
+    field(self.water_drag, "water_drag", limits::drag,
+          {.text = "drag coefficient in [water](#water)", .standard = "that of the water", .later = true});
     for (const char* one : {"grid", "scatter", "poses"})
         field.key(one, {"see [many bodies from one table](#many-bodies-from-one-table)", "none"});
     if constexpr (requires { self.appearance; }) {

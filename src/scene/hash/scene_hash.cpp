@@ -10,6 +10,7 @@
 #include "scene/fields/label_fields.h"
 #include "scene/fields/overlay_fields.h"
 #include "scene/fields/settings_fields.h"
+#include "scene/fields/water_fields.h"
 
 #include <array>
 #include <bit>
@@ -88,7 +89,7 @@ public:
 
     void add_scene(const SceneDescription& scene) {
         const auto& [file, title, simulation, output, camera, light, lamps, environment, wind, contact, forces, fields,
-                     pair_forces, explosions, bodies, joints, cords, overlay, speed] = scene;
+                     pair_forces, explosions, bodies, joints, cords, overlay, speed, water] = scene;
         add_value(simulation);
         add_value(output);
         add_value(wind);
@@ -97,6 +98,7 @@ public:
         if (!fields.empty()) add_value(fields);            // other scenes keep their hash
         if (!pair_forces.empty()) add_value(pair_forces);  // the same
         if (!explosions.empty()) add_value(explosions);
+        if (water) add_value(*water);
         add_value(bodies);
         if (!joints.empty()) add_value(joints);  // scenes without joints keep their hash
         if (!all_) return;
@@ -291,7 +293,7 @@ std::string motion_hash(const SceneDescription& scene) { return hash_of(scene, C
 
 std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescription& scene) {
     const auto& [file, title, simulation, output, camera, light, lamps, environment, wind, contact, forces, fields,
-                 pair_forces, explosions, bodies, joints, cords, overlay, speed] = scene;
+                 pair_forces, explosions, bodies, joints, cords, overlay, speed, water] = scene;
     const auto part = [](const auto& value) { return DescriptionHash(Content::all).finish_with(value); };
     SimulationSettings of_any_duration = simulation;
     of_any_duration.duration = 0.0;
@@ -310,6 +312,7 @@ std::vector<std::pair<std::string, std::string>> scene_parts(const SceneDescript
     if (!fields.empty()) parts.emplace_back("fields", part(fields));
     if (!pair_forces.empty()) parts.emplace_back("pair forces", part(pair_forces));
     if (!explosions.empty()) parts.emplace_back("explosions", part(explosions));
+    if (water) parts.emplace_back("water", part(*water));
     if (!joints.empty()) parts.emplace_back("joints", part(joints));  // as in the hash
     parts.emplace_back("cords", part(cords));
     parts.emplace_back("overlay", text.finish_with(overlay));

@@ -14,7 +14,7 @@
 
 namespace tumble {
 
-// -- [simulation], [output], [light] and [wind]. For the first two, the file and the command line are merged first,
+// -- [simulation], [output], [light], [wind] and [water]. For the first two, the file and the command line are merged first,
 // each value with its source, and checked together after that: a step that fits the file's fps may not fit that of
 // --fps.
 
@@ -25,6 +25,8 @@ void read_run_settings(const TomlTable& root, const SceneOverrides& overrides, S
 /// [light], or all of [[light]] with the one that has shadows as the light.
 void read_lights(const TomlTable& root, SceneDescription& scene);
 std::optional<WindDescription> read_wind(const TomlTable& root);
+/// After the simulation, whose gravity makes the surface level.
+std::optional<WaterDescription> read_water(const TomlTable& root, const SimulationSettings& simulation);
 PairRules read_contact(const TomlTable& root);
 
 // -- [environment].

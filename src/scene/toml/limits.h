@@ -93,6 +93,10 @@ inline constexpr Range charge{-1e9, 1e9, "C"};
 inline constexpr Range magnetic_moment{-1e9, 1e9, "A m^2"};
 inline constexpr std::size_t pair_force_bodies = 1000;  // half a million pairs
 
+// -- Water
+inline constexpr Range viscosity{0.0, 1e12, "Pa s"};  // glass
+inline constexpr std::size_t waves = 16;              // each has its sine at every point of the surface
+
 // -- Matter
 inline constexpr Range mass{0.0, 1e30, "kg", true};         // half a sun
 inline constexpr Range density{0.0, 1e20, "kg/m^3", true};  // beyond a neutron star's 1e18
