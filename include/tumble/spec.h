@@ -267,12 +267,19 @@ struct Material {
     std::optional<std::string> texture = {};    // PNG or JPEG file, relative to SceneSpec::folder
     std::optional<double> texture_scale = {};   // m that the image covers once
     std::optional<TextureFilter> texture_filter = {};
-    std::optional<std::string> normal_map = {};     // image file: bumps
-    std::optional<std::string> roughness_map = {};  // image file, multiplies the roughness
-    std::optional<double> opacity = {};             // 0 to 1
-    std::optional<Color> emission = {};             // own light
-    std::optional<double> reflection = {};          // of a plane: share of what it mirrors, 0 to 1
-    std::optional<SoundMaterial> sound = {};        // of the body with --sound; wood where not given
+    std::optional<std::string> normal_map = {};       // image file: bumps
+    std::optional<std::string> roughness_map = {};    // image file, multiplies the roughness
+    std::optional<double> opacity = {};               // 0 to 1
+    std::optional<Color> emission = {};               // own light
+    std::optional<double> reflection = {};            // of a plane: share of what it mirrors, 0 to 1
+    std::optional<SoundMaterial> sound = {};          // of the body with --sound; wood where not given
+    std::optional<double> strength = {};              // Pa, in tension, of a body that breaks
+    std::optional<double> shear_strength = {};        // Pa
+    std::optional<double> compressive_strength = {};  // Pa; 0: pressure breaks nothing
+    std::optional<double> stiffness = {};             // Pa, Young's modulus
+    std::optional<double> toughness = {};             // J/m^2 of new crack
+    std::optional<double> blow_time = {};             // s; 0: by the size and the speed of sound
+    std::optional<Color> inner_color = {};            // of new faces
 };
 
 /// A pose of a kinematic body's origin.
@@ -304,6 +311,20 @@ struct ScaleRange {
     double smallest = 1.0, largest = 1.0;
 };
 
+enum class FracturePattern { voronoi, radial, slabs, bricks };
+
+/// How a body is cut into cells, whose bonds can break.
+struct Fracture {
+    int cells = 20;
+    FracturePattern pattern = FracturePattern::voronoi;
+    std::uint64_t seed = 1;
+    std::optional<Vec3> focus = {};       // m, body frame: radial and voronoi
+    std::optional<Vec3> axis = {};        // slabs
+    std::optional<int> depth = {};        // times that a piece may break again; not given: down to single cells
+    std::optional<double> smallest = {};  // m: cells of less than its cube are merged
+    std::vector<std::string> held = {};   // sides of the bounds ("-y") that hold a fixed body; empty: "-y"
+};
+
 /// One body; or many, with a grid or a scatter. Dynamic and fixed bodies of finite size may have copies.
 struct Body {
     std::string name;  // unique; the index as text where empty; of copies NAME.0, NAME.1 ...
@@ -329,6 +350,7 @@ struct Body {
     std::vector<std::string> layers;                       // that the body belongs to
     std::optional<std::vector<std::string>> collide_with;  // layers; not given: all bodies
     std::optional<double> water_drag;                      // drag coefficient, in place of the water's
+    std::optional<Fracture> fracture = {};
 };
 
 /// A force at a point of a dynamic body over a time span.

@@ -52,6 +52,7 @@ TUMBLE_DESCRIBED(SpeedEasing, SpeedEasing);
 TUMBLE_DESCRIBED(LightType, LightType);
 TUMBLE_DESCRIBED(FieldType, FieldKind);
 TUMBLE_DESCRIBED(PairForceType, PairForceKind);
+TUMBLE_DESCRIBED(FracturePattern, FracturePattern);
 TUMBLE_DESCRIBED(JointType, JointType);
 TUMBLE_DESCRIBED(JointFrame, JointFrame);
 #undef TUMBLE_DESCRIBED

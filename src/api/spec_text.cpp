@@ -186,10 +186,12 @@ private:
         if (!m.color && !m.density && !m.restitution && !m.friction && !m.rolling_friction && !m.spinning_friction &&
             !m.roughness && !m.metallic && !m.pattern && !m.pattern_color && !m.pattern_scale && !m.texture &&
             !m.texture_scale && !m.texture_filter && !m.normal_map && !m.roughness_map && !m.opacity && !m.emission &&
-            !m.reflection && !m.sound)
+            !m.reflection && !m.sound && !m.strength && !m.shear_strength && !m.compressive_strength && !m.stiffness &&
+            !m.toughness && !m.blow_time && !m.inner_color)
             return false;
         header(fmt::format("[materials.body{}]", body), fmt::format("bodies[{}].material", body));
         write_fields<tumble::Material>(*this, m);
+        write_fields<FractureMaterial>(*this, m);
         return true;
     }
 
@@ -211,6 +213,10 @@ private:
             write_fields<tumble::Keyframe>(*this, b.keyframes[k]);
         }
         write(b.shape, "body.shape", prefix + ".shape");
+        if (b.fracture) {
+            header("[body.fracture]", prefix + ".fracture");
+            write_fields<FractureRequest>(*this, *b.fracture, true);
+        }
         if (b.grid) write(*b.grid, prefix + ".grid");
         if (b.scatter) write(*b.scatter, prefix + ".scatter");
     }

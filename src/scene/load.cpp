@@ -3,6 +3,7 @@
 #include "scene/camera/camera.h"
 #include "scene/keys/bodies.h"
 #include "scene/keys/body_values.h"
+#include "scene/keys/fracture.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/materials.h"
 #include "scene/keys/readers.h"
@@ -98,6 +99,7 @@ SceneDescription parse_scene(const std::string& text, const std::filesystem::pat
     scene.overlay = read_overlay(root, scene.bodies, overrides);
     read_labels(root, std::move(logo), overrides, scene);
     read_speed(root, scene);
+    append_pieces(scene);
     return scene;
 }
 

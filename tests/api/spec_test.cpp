@@ -128,6 +128,12 @@ SceneSpec everything_directed() {
     spec.water =
         Water{-0.5, 1025.0, 0.9, 0.001, false, {0.1, 0.0, 0.2}, {1, 2, 3}, false, {{0.1, 2.0, {0.0, 0.0, 1.0}, 30.0}}};
     spec.bodies[2].water_drag = 0.4;
+    spec.bodies[1].fracture = Fracture{};
+    spec.bodies[1].fracture->cells = 4;
+    spec.bodies[1].fracture->pattern = FracturePattern::slabs;
+    spec.bodies[1].fracture->axis = Vec3{0.0, 1.0, 0.0};
+    spec.bodies[1].material.strength = 1e9;
+    spec.bodies[1].material.inner_color = Color{9, 8, 7};
     spec.speed.push_back({0.1, {"crate", "0"}, 0.5, 0.2, SpeedEasing::linear});
     spec.cameras["from above"].eye = Vec3{0.0, 9.0, 0.1};
     spec.cameras["from above"].keyframes = {{0.0, {}, {}, 30.0}, {1.0, {}, {}, 40.0}};

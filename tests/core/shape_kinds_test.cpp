@@ -54,6 +54,8 @@ const std::map<std::string, std::string> known = {
     {"render/aov/visibility_buffer.cpp", "meshes: holes of their textures"},
     {"render/aov/shape_instance.cpp", "parts of compounds; copies share their mesh"},
     {"render/scene/compound_expansion.cpp", "parts of compounds"},
+    {"scene/fracture/convex_parts.cpp", "the convex polyhedra of each kind"},
+    {"scene/fracture/cut_body.cpp", "meshes: colors of their files, and the shape of pieces"},
     {"scene/keys/instances.cpp", "makes a compound of one sphere"},
     {"scene/keys/made_shapes.cpp", "makes meshes from numbers"},
     {"scene/mesh/curved_mesh.cpp", "the triangles of curved shapes, for drawing"},

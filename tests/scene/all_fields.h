@@ -29,6 +29,8 @@ void for_all_fields(auto&& use) {
     use.template operator()<PairRules>("contact");
     use.template operator()<Material>("material");
     use.template operator()<BodyDescription>("body");
+    use.template operator()<FractureRequest>("fracture");
+    use.template operator()<FractureMaterial>("fracture material");
     use.template operator()<Keyframe>("body keyframe");
     use.template operator()<CompoundPart>("part");
     use.template operator()<GridRequest>("grid");

@@ -1,6 +1,6 @@
 // Grids and scatters: places of the copies, and their dependence on the seed only.
 #include "core/error.h"
-#include "scene/keys/random.h"
+#include "core/random.h"
 #include "scene/load.h"
 #include "sim/geometry/shapes/shape.h"
 

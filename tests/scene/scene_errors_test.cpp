@@ -458,6 +458,41 @@ TEST(SceneErrors, OfWater) {
         {with("@[water]\n[simulation]\ngravity = [1, -9, 0]"), "water needs gravity along -y"},
         {with("@[water]\n[simulation]\nmethod = \"notes\""), "unknown to the method of the notes"},
         {body("water_drag = @-1"), "water_drag must be from 0 to"},
+TEST(SceneErrors, OfFracture) {
+    const std::string hard = "strength = 1e6\n", slabs = ", pattern = \"slabs\"";
+    const auto in_body = [&](const std::string& keys) { return body(hard + "fracture = { " + keys + " }"); };
+    const auto of_shape = [&](const std::string& keys) {
+        return "format = 1\n[[body]]\nstrength = 1e6\nfracture = @{ cells = 8 }\nshape = { " + keys + " }\n";
+    };
+    expect_errors({
+        {body("fracture = @{}"), "needs a strength, in Pa"},
+        {in_body("cells = @1"), "must be from 2 to 4096"},
+        {in_body("cells = @5000"), "must be from 2 to 4096"},
+        {in_body("@cell = 8"), "did you mean"},
+        {in_body("pattern = @\"slab\""), "did you mean"},
+        {in_body("axis = @[1, 0, 0]"), "is for pattern = \"slabs\""},
+        {in_body("cells = 8" + slabs + ", focus = @[1, 0, 0]"), "\"radial\" or \"voronoi\""},
+        {in_body("held = @[\"-y\"]"), "nothing holds a dynamic one"},
+        {body("type = \"fixed\"\n" + hard + "fracture = { held = [@\"y\"] }"), "must be one of"},
+        {body("type = \"fixed\"\n" + hard + "fracture = { held = @[] }"), "at least one side"},
+        {body(hard + "fracture = @{ smallest = 1e-7 }"), "at least 1e-06 of the longest extent"},
+        {body(hard + "fracture = @{ smallest = 2 }"), "leaves one cell"},
+        {body(hard + "center_of_mass = [0, 0.1, 0]\nfracture = @{}"), "neither center_of_mass nor inertia"},
+        {body("strength = @0"), "must be above 0"},
+        {body("toughness = @-1"), "must be from 0 to"},
+        {of_shape("type = \"plane\"") + "type = \"fixed\"", "endless"},
+        {of_shape("type = \"compound\", parts = [{ shape = { type = \"sphere\", radius = 1 } }, { shape = { type = "
+                  "\"sphere\", radius = 1 }, position = [1, 0, 0] }]"),
+         "two parts of the compound overlap"},
+        {of_shape(
+             "type = \"compound\", parts = [{ shape = { type = \"sphere\", radius = 1 }, collide = false }, { shape = "
+             "{ type = \"sphere\", radius = 1 }, position = [3, 0, 0] }]"),
+         "a part of the compound does not"},
+        {of_shape("type = \"sphere\", radius = 1") + "type = \"fixed\"", "no face in the held sides"},
+        {in_body("cells = 8") + "\nname = \"pane\"\n[[force]]\nbody = @\"pane/1\"\nforce = [1, 0, 0]", "is a piece"},
+        {body(hard + "fracture = @{ cells = 8 }\nname = \"pane\"\n[[body]]\nname = \"pane/1\"\nshape = { type = "
+                     "\"sphere\", radius = 1 }"),
+         "a body has this name"},
     });
 }
 

@@ -321,6 +321,14 @@ const std::vector<std::vector<Change>> own_tables = {
      {"water_drag", "", "mass = 3", "mass = 3\nwater_drag = 0.3", true},
      {"layers", "", "mass = 3", "mass = 3\nlayers = [\"a\"]", true},
      {"collide_with", "", "mass = 3", "mass = 3\ncollide_with = []", true},
+     {"fracture", "", "mass = 3", "mass = 3\nstrength = 1\nfracture = {}", true},
+     {"strength", "", "", "", true},  // fracture_test.cpp, up to the inner color
+     {"shear_strength", "", "", "", true},
+     {"compressive_strength", "", "", "", true},
+     {"stiffness", "", "", "", true},
+     {"toughness", "", "", "", true},
+     {"blow_time", "", "", "", true},
+     {"inner_color", "", "", "", false},
      {"roughness", "", "roughness = 0.9", "roughness = 0.8", false},
      {"metallic", "", "metallic = 0.25", "metallic = 0.5", false},
      {"pattern", "", "pattern = \"grid\"", "pattern = \"checker\"", false},
@@ -510,9 +518,10 @@ TEST(SceneHash, TheListOfChangesHasEveryKeyOfTheReader) {
     for_all_fields([&]<class Struct>(const char*) {
         if (std::is_same_v<Struct, CopyLooks>) return;  // keys of a body
         if (std::is_same_v<Struct, PoseRow>) return;    // columns: posed_bodies_test.cpp
-        KeyList list = std::is_same_v<Struct, BodyDescription> ? list_keys<Struct, CopyLooks, Material>()
-                       : std::is_same_v<Struct, ChainRequest>  ? list_keys<Struct, Material>()
-                                                               : list_keys<Struct>();
+        KeyList list = std::is_same_v<Struct, BodyDescription>
+                           ? list_keys<Struct, CopyLooks, Material, FractureMaterial>()
+                       : std::is_same_v<Struct, ChainRequest> ? list_keys<Struct, Material>()
+                                                              : list_keys<Struct>();
         if (std::is_same_v<Struct, ChainRequest>) std::erase(list.keys, "reflection");  // of planes; a link is none
         known_keys.emplace(list.keys.begin(), list.keys.end());
     });

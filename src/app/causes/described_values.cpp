@@ -162,6 +162,12 @@ BodyKind kind_of(const SceneDescription& scene, const BodyDescription& body) {
         kind.matter["rolling_friction"] = surface_text(body.rolling_friction_in_pair());
         kind.matter["spinning_friction"] = surface_text(body.spinning_friction_in_pair());
     }
+    if (body.fracture) {
+        const FractureDescription& f = *body.fracture;
+        kind.matter["fracture"] = fmt::format("{} {} {} {}", f.pieces, name_of(f.pattern), f.seed, f.bonds.size());
+        kind.matter["strength"] = fmt::format("{} {} {} {} {} {}", f.strength, f.shear_strength, f.compressive_strength,
+                                              f.stiffness, f.toughness, f.blow_time);
+    }
     if (!body.layers.empty()) kind.matter["layers"] = fmt::format("{}", fmt::join(body.layers, ", "));
     if (body.collide_with) kind.matter["collide_with"] = fmt::format("[{}]", fmt::join(*body.collide_with, ", "));
     if (body.type == BodyType::dynamic) {

@@ -174,6 +174,16 @@ void print_head(const SceneDescription& scene) {
             stepped ? ", which have no closed form: bodies move step by step between their impacts" : "");
     }
     if (!scene.pair_forces.empty()) put("  forces    {} between bodies\n", scene.pair_forces.size());
+    std::size_t fragile = 0, pieces = 0, bonds = 0;
+    for (const BodyDescription& body : scene.bodies) {
+        if (!body.fracture) continue;
+        ++fragile;
+        pieces += body.fracture->pieces;
+        bonds += body.fracture->bonds.size();
+    }
+    if (fragile > 0)
+        put("  fracture  {} of {}, held by {}\n", count_text(fragile, "body", "bodies"),
+            count_text(pieces, "piece", "pieces"), count_text(bonds, "bond", "bonds"));
     if (!scene.explosions.empty()) put("  explosions {}\n", scene.explosions.size());
     if (scene.water)
         put("  water     below {:.4g} m, density {:.4g} kg/m^3, drag {:.4g}, {}\n", scene.water->level,

@@ -8,6 +8,7 @@
 #include "core/vector.h"
 #include "scene/description/environment.h"
 #include "scene/description/force_fields.h"
+#include "scene/description/fracture.h"
 #include "scene/description/joint.h"
 #include "scene/description/mesh_paint.h"
 #include "scene/description/overlay.h"
@@ -222,6 +223,7 @@ struct MeshAsset {
     std::vector<Vertex> vertices;  // for drawing
     std::vector<std::uint32_t> indices;
     std::shared_ptr<const MeshPaint> paint = nullptr;  // colors of the file; null: it has none
+    bool convex = false;  // a piece of a body: it collides as it is, without a search for its hull
 };
 
 struct PlaneShape {
@@ -346,6 +348,8 @@ struct BodyDescription {
     Interpolation interpolation = Interpolation::smooth;
     SoundMaterial sound = SoundMaterial::wood;
     std::optional<double> water_drag;  // drag coefficient in water; empty: that of the water
+    std::shared_ptr<const FractureDescription> fracture = nullptr;  // null: it never breaks
+    std::optional<std::size_t> piece_of = std::nullopt;             // index into bodies: the one that it is a cell of
 
     /// Restitution and friction of the body in a pair (PairRule): a dynamic body without values has these.
     static constexpr double default_restitution = 0.5, default_friction = 0.0;

@@ -3,6 +3,7 @@
 
 #include "scene/fields/choices.h"
 #include "scene/fields/field.h"
+#include "scene/fields/fracture_fields.h"
 #include "scene/toml/limits.h"
 
 #include <memory>
@@ -31,6 +32,7 @@ struct Material {
     std::optional<Color> emission;
     std::optional<double> reflection;
     std::optional<SoundMaterial> sound;
+    FractureMaterial fracture;
 };
 
 template <class Visitor, class Self>
@@ -83,6 +85,7 @@ void visit_fields(Of<Material>, Visitor& field, Self& self) {
           {"of a plane: share of what it mirrors, as polished stone or still water", "0"});
     field(self.sound, "sound", ByType(),
           {"the material that it sounds of, with `--sound`; `\"none\"` is silent", "`\"wood\"`"});
+    if constexpr (requires { self.fracture; }) field.inner(self.fracture);  // its keys: Of<FractureMaterial>
 }
 
 template <class Visitor, class Self>
@@ -174,9 +177,12 @@ void visit_fields(Of<BodyDescription>, Visitor& field, Self& self) {
           {.text = "drag coefficient in [water](#water)", .standard = "that of the water", .later = true});
     for (const char* one : {"grid", "scatter", "poses"})
         field.key(one, {"see [many bodies from one table](#many-bodies-from-one-table)", "none"});
+    field.key("fracture", {"see [fracture](#fracture)", "none: it never breaks", {}, "table"});
     if constexpr (requires { self.appearance; }) {
         field.shown(self.appearance);
         field.since(self.sound != SoundMaterial::wood, self.sound);
+        field.since(self.fracture != nullptr, std::string_view("fracture"), self.fracture);
+        field.since(self.piece_of.has_value(), self.piece_of);
     }
 }
 

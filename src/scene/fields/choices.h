@@ -165,6 +165,13 @@ inline constexpr auto choices<ArrowQuantity> =
                                           {"angular-momentum", ArrowQuantity::angular_momentum},
                                           {"torque", ArrowQuantity::torque}});
 
+template <>
+inline constexpr auto choices<FracturePattern> =
+    std::to_array<Choice<FracturePattern>>({{"voronoi", FracturePattern::voronoi},
+                                            {"radial", FracturePattern::radial},
+                                            {"slabs", FracturePattern::slabs},
+                                            {"bricks", FracturePattern::bricks}});
+
 /// True for enums with names, which are then complete.
 template <class Enum>
 concept Named = !choices<Enum>.empty() && choices<Enum>.size() == enumerator_count<Enum>();

@@ -182,6 +182,13 @@ private:
         for (const T& value : values) add_value(value);
     }
 
+    void add_value(const std::shared_ptr<const FractureDescription>& fracture) {
+        if (!fracture) return;
+        const FractureDescription& f = *fracture;  // pieces and bonds follow from the others
+        add_value(static_cast<const FractureRequest&>(f));
+        add_all(f.strength, f.shear_strength, f.compressive_strength, f.stiffness, f.toughness, f.blow_time);
+        if (all_) add_value(f.inner_color);
+    }
     void add_value(const MeshAsset::Vertex& vertex) {
         const auto& [position, normal] = vertex;
         add_bytes(std::as_bytes(std::span(position)));
@@ -192,7 +199,7 @@ private:
         add_all(vertices, triangles);
     }
     void add_value(const MeshAsset& asset) {
-        const auto& [file, doubled, mesh, vertices, indices, paint] = asset;  // the shape has the paint
+        const auto& [file, doubled, mesh, vertices, indices, paint, convex] = asset;  // the shape has the paint
         add_value(mesh);
         add_all(vertices, indices);
     }

@@ -1,7 +1,8 @@
 #include "scene/keys/arrays.h"
 
 #include "core/deterministic_math.h"
-#include "scene/keys/random.h"
+#include "core/random.h"
+#include "scene/keys/fracture.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
 #include "sim/geometry/shapes/shape.h"
@@ -273,6 +274,7 @@ std::vector<BodyDescription> make_copies(const CopiesRequest& request, const Bod
     for (BodyDescription& copy : copies) {
         const double factor = draw_scale(request.looks, shares, size_random);
         copy.shape = scaled(shape, factor, meshes);
+        if (factor != 1.0) enlarge_fracture(copy, factor);
         // A given mass stays, and so do the other moments per mass and squared length.
         if (copy.center_of_mass) *copy.center_of_mass *= factor;
         if (copy.inertia)

@@ -3,6 +3,7 @@
 #include "core/safe_text.h"
 #include "scene/keys/arrays.h"
 #include "scene/keys/body_values.h"
+#include "scene/keys/fracture.h"
 #include "scene/keys/posed_bodies.h"
 #include "scene/keys/read_fields.h"
 #include "scene/toml/limits.h"
@@ -121,6 +122,7 @@ BodyDescription read_body_model(const TomlTable& table, BodyType type, ShapeRequ
         table.find("density")->origin().fail("and mass exclude each other: give one of them");
     check_motion(table, body);
     read_matter(table, body);
+    read_fracture(table, material.fracture, body);
     if (const auto name = table.find("integrator"))
         body.integrator = name->choice(integrator_choices(sources.settings.method));
     return body;
@@ -139,7 +141,8 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
     if (!list) return bodies;
     BodyNames names({});
     std::uint64_t number = 0;
-    const std::vector<std::string_view> known = list_keys<BodyDescription, CopyLooks, Material>().keys;
+    const std::vector<std::string_view> known =
+        list_keys<BodyDescription, CopyLooks, Material, FractureMaterial>().keys;
     for (TomlTable& table : list->tables("; write [[body]] for each")) {
         table.set_title("[[body]]");
         table.expect_keys(known);
@@ -157,6 +160,8 @@ std::vector<BodyDescription> read_bodies(const TomlTable& root, const BodySource
             made = read_poses(table, *poses, model, bodies.size(), sources, names);
         else
             name_bodies(table, copies.has_value(), bodies.size(), names, made);
+        if (copies || poses)
+            for (std::size_t i = 0; i < made.size(); ++i) vary_fracture(made[i], i);
         if (bodies.empty())
             bodies = std::move(made);
         else

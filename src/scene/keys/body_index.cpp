@@ -22,6 +22,9 @@ std::size_t BodyIndex::find(const TomlValue& value, const std::string& name) con
         value.origin().fail(
             fmt::format("\"{0}\" is many bodies: name one of its copies, \"{0}.0\" for the first", safe_text(name)));
     }
+    if (const auto slash = name.rfind('/'); slash != std::string::npos && index_.count(name.substr(0, slash)))
+        value.origin().fail(fmt::format("\"{}\" is a piece, which exists after a break: name the body \"{}\"",
+                                        safe_text(name), safe_text(name.substr(0, slash))));
     std::vector<std::string_view> known;
     for (const auto& [other, i] : index_) known.push_back(other);
     value.origin().fail(fmt::format("\"{}\" is not the name of a body{}", safe_text(name), suggestion(name, known)));

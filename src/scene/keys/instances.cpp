@@ -2,6 +2,7 @@
 #include "core/safe_text.h"
 #include "scene/fields/many_bodies_fields.h"
 #include "scene/keys/arrays.h"
+#include "scene/keys/fracture.h"
 #include "scene/keys/joints.h"
 #include "scene/keys/read_fields.h"
 #include "scene/keys/templates.h"
@@ -78,6 +79,7 @@ void enlarge(SceneTemplate& content, double scale, double mass_factor, MeshCache
             for (double& moment : *body.inertia) moment *= mass_factor * scale * scale;
         if (scale == 1.0) continue;
         body.shape = meshes.enlarged(body.shape, scale);
+        enlarge_fracture(body, scale);
         body.position *= scale;
         for (Keyframe& key : body.keyframes) key.position *= scale;
     }
@@ -186,7 +188,11 @@ public:
         check_number_of_bodies(std::int64_t(bodies_.size()) + std::int64_t(places.size() * content.bodies.size()),
                                origin);
         check_number_of_joints(joints_.size() + places.size() * content.joints.size(), origin);
-        for (const BodyDescription& place : places) append(content, place, colored, origin);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            if (i > 0)
+                for (BodyDescription& body : content.bodies) vary_fracture(body, 1);
+            append(content, places[i], colored, origin);
+        }
         ++number_;
     }
 

@@ -91,11 +91,19 @@ Material overridden(const Material& material, const Material& over) {
             either(material.opacity, over.opacity),
             either(material.emission, over.emission),
             either(material.reflection, over.reflection),
-            either(material.sound, over.sound)};
+            either(material.sound, over.sound),
+            {either(material.fracture.strength, over.fracture.strength),
+             either(material.fracture.shear_strength, over.fracture.shear_strength),
+             either(material.fracture.compressive_strength, over.fracture.compressive_strength),
+             either(material.fracture.stiffness, over.fracture.stiffness),
+             either(material.fracture.toughness, over.fracture.toughness),
+             either(material.fracture.blow_time, over.fracture.blow_time),
+             either(material.fracture.inner_color, over.fracture.inner_color)}};
 }
 
 void read_material_keys(const TomlTable& table, const TextureSource& textures, Material& material) {
     read_fields(table, material);
+    read_fields(table, material.fracture);
     const auto read = [&](const char* key, std::shared_ptr<const Texture>& image, const auto& load) {
         const auto value = table.find(key);
         if (!value) return;
@@ -127,7 +135,7 @@ Materials read_materials(const TomlTable& root, const TextureSource& textures) {
     for (const auto& [name, value] : table->entries()) {
         TomlTable entry = value.table();
         entry.set_title(fmt::format("[materials.{}]", name));
-        entry.expect_keys(list_keys<Material>().keys);
+        entry.expect_keys(list_keys<Material, FractureMaterial>().keys);
         read_material_keys(entry, textures, materials[name]);
     }
     return materials;

@@ -112,6 +112,16 @@ inline constexpr double inertia_tolerance = 1e-9;  // of the largest moment: rou
 inline constexpr std::int64_t layers = 63;         // of a scene: bits of a word, one of them for bodies without a layer
 inline constexpr Range fraction{0.0, 1.0, ""};     // roughness, metallic, opacity
 
+// -- Fracture
+inline constexpr std::int64_t fracture_cells = 4096;     // of one body: a break solves a system of six rows for each
+inline constexpr std::size_t fracture_pieces = 100'000;  // of all bodies: each is a body of the scene from the start
+inline constexpr double least_cell = 1e-6;               // of the body's longest extent: hulls weld at 1e-9 of it
+inline constexpr Range stress{0.0, 1e15, "Pa", true};    // a thousand times diamond
+inline constexpr Range stress_or_zero{0.0, 1e15, "Pa"};
+inline constexpr Range elasticity{0.0, 1e18, "Pa", true};
+inline constexpr Range toughness{0.0, 1e12, "J/m^2"};
+inline constexpr Range blow_time{0.0, 1e3, "s"};
+
 // -- Light
 inline constexpr std::int64_t lamps = 4;                 // each has its values at every vertex, of which OpenGL has few
 inline constexpr Range light{0.0, 1e6, ""};              // a point of 1e6 is as bright as the sun at a distance of 1 km

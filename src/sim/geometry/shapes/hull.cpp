@@ -1,5 +1,6 @@
 #include "sim/geometry/shapes/hull.h"
 
+#include "core/disjoint_sets.h"
 #include "core/error.h"
 
 #include <fmt/format.h>
@@ -199,6 +200,94 @@ Polyhedron make_hull(const std::vector<Vec3>& points, const Vec3& origin) {
         for (auto& face : hull.faces) std::reverse(face.vertices.begin(), face.vertices.end());
         hull.complete();
     }
+    return hull;
+}
+
+namespace {
+
+using HullEdge = std::pair<std::uint32_t, std::uint32_t>;  // vertices in the order of its triangle
+
+/// The group of each triangle: coplanar neighbors share the lowest index among them.
+std::vector<std::size_t> coplanar_groups(const TriangleMesh& mesh, const std::vector<Vec3>& normals,
+                                         const std::map<HullEdge, std::size_t>& triangle_of) {
+    constexpr double same = 1.0 - 1e-12;  // cosine: angles up to 1.4e-6, of slivers that are welded
+    DisjointSets groups(mesh.triangles.size());
+    for (const auto& [edge, triangle] : triangle_of) {
+        const std::size_t other = triangle_of.at({edge.second, edge.first});
+        if (normals[triangle].dot(normals[other]) >= same) groups.join(triangle, other);
+    }
+    std::vector<std::size_t> group(mesh.triangles.size());
+    for (std::size_t t = 0; t < group.size(); ++t) group[t] = groups.root(t);
+    return group;
+}
+
+/// The one loop of these edges by their tails; empty if they form none or several.
+std::vector<std::uint32_t> only_loop(const std::map<std::uint32_t, std::uint32_t>& head_of) {
+    std::vector<std::uint32_t> loop;
+    std::uint32_t at = head_of.begin()->first;
+    do {
+        const auto next = head_of.find(at);
+        if (next == head_of.end() || loop.size() == head_of.size()) return {};
+        loop.push_back(at);
+        at = next->second;
+    } while (at != loop.front());
+    return loop.size() == head_of.size() ? loop : std::vector<std::uint32_t>();
+}
+
+/// Drops vertices within faces and within edges.
+void drop_flat_vertices(Polyhedron& hull) {
+    std::vector<int> faces_at(hull.vertices.size(), 0);
+    for (const Polyhedron::Face& face : hull.faces)
+        for (const std::uint32_t v : face.vertices) ++faces_at[v];
+    std::vector<std::uint32_t> place(hull.vertices.size());
+    std::vector<Vec3> kept;
+    for (std::size_t v = 0; v < place.size(); ++v) {
+        place[v] = std::uint32_t(kept.size());
+        if (faces_at[v] > 2) kept.push_back(hull.vertices[v]);
+    }
+    for (Polyhedron::Face& face : hull.faces) {
+        std::erase_if(face.vertices, [&](std::uint32_t v) { return faces_at[v] <= 2; });
+        for (std::uint32_t& v : face.vertices) v = place[v];
+    }
+    hull.vertices = std::move(kept);
+}
+
+}  // namespace
+
+std::optional<Polyhedron> convex_polyhedron(const TriangleMesh& mesh, const Vec3& origin) {
+    constexpr double rounding = 1e-9;  // of the size: the weld of meshes
+    if (mesh.triangles.size() < 4 || !closedness(mesh).closed()) return std::nullopt;
+    std::map<HullEdge, std::size_t> triangle_of;
+    std::vector<Vec3> normals;
+    for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const auto& v = mesh.triangles[t];
+        for (std::size_t i = 0; i < 3; ++i) triangle_of[{v[i], v[(i + 1) % 3]}] = t;
+        const Vec3 a = mesh.vertices[v[0]];
+        normals.push_back((mesh.vertices[v[1]] - a).cross(mesh.vertices[v[2]] - a).normalized());
+    }
+    const std::vector<std::size_t> group = coplanar_groups(mesh, normals, triangle_of);
+    std::vector<std::map<std::uint32_t, std::uint32_t>> rims(mesh.triangles.size());
+    for (const auto& [edge, triangle] : triangle_of)
+        if (group[triangle] != group[triangle_of.at({edge.second, edge.first})])
+            rims[group[triangle]][edge.first] = edge.second;
+    Polyhedron hull;
+    for (const Vec3& v : mesh.vertices) hull.vertices.push_back(v - origin);
+    for (const auto& rim : rims) {
+        if (rim.empty()) continue;
+        Polyhedron::Face face;
+        face.vertices = only_loop(rim);
+        if (face.vertices.size() < 3) return std::nullopt;
+        hull.faces.push_back(std::move(face));
+    }
+    drop_flat_vertices(hull);
+    for (const Polyhedron::Face& face : hull.faces)
+        if (face.vertices.size() < 3) return std::nullopt;
+    if (hull.faces.size() < 4) return std::nullopt;
+    hull.complete();
+    const double tolerance = rounding * hull.bounds.extent().norm();
+    for (const Polyhedron::Face& face : hull.faces)
+        for (const Vec3& v : hull.vertices)
+            if (!(face.normal.dot(v) <= face.offset + tolerance)) return std::nullopt;
     return hull;
 }
 

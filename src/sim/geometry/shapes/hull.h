@@ -3,10 +3,12 @@
 // so that two boxes meet in a four-cornered manifold and every feature has a stable index.
 #pragma once
 
+#include "core/triangle_mesh.h"
 #include "sim/geometry/shapes/interface.h"
 #include "sim/math/bounds_tree.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace tumble {
@@ -64,5 +66,9 @@ struct Polyhedron {
 /// The convex hull of points (Qhull), about `origin` as the new center. Throws InputError when the points have no
 /// volume.
 Polyhedron make_hull(const std::vector<Vec3>& points, const Vec3& origin);
+
+/// The polyhedron that a closed convex mesh encloses, about `origin`; empty for another mesh. Unlike Qhull, whose hash
+/// tables depend on addresses, it merges many coplanar triangles always in the same way.
+std::optional<Polyhedron> convex_polyhedron(const TriangleMesh& mesh, const Vec3& origin);
 
 }  // namespace tumble

@@ -260,6 +260,9 @@ CollisionShape make_collider(const MeshShape& mesh, const ColliderRequest& reque
                 made.surface = std::make_shared<CollisionMesh>(make_collision_mesh(asset.mesh, request.origin));
             return made.surface;
         }
+        if (!made.hull && asset.convex)
+            if (auto hull = convex_polyhedron(asset.mesh, request.origin))
+                made.hull = std::make_shared<Polyhedron>(std::move(*hull));
         if (!made.hull) made.hull = std::make_shared<Polyhedron>(make_hull(hull_points(mesh), request.origin));
         return made.hull;
     } catch (const InputError& error) {

@@ -1,4 +1,4 @@
-#include "scene/keys/random.h"
+#include "core/random.h"
 
 #include <algorithm>
 #include <cmath>

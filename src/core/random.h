@@ -12,7 +12,7 @@ namespace tumble {
 class Random {
 public:
     /// Purpose of a stream. Each has its own, so that a palette added to a grid does not change its positions.
-    enum class Purpose : std::uint64_t { position, rotation, size, color };
+    enum class Purpose : std::uint64_t { position, rotation, size, color, cut };
 
     /// The stream of one body table of a scene with that seed.
     Random(std::uint64_t seed, std::uint64_t body, Purpose purpose);

@@ -1,0 +1,202 @@
+#include "scene/fracture/cut_body.h"
+
+#include "core/deterministic_math.h"
+#include "core/error.h"
+#include "scene/description/looks.h"
+#include "scene/fracture/bonds.h"
+#include "scene/fracture/convex_parts.h"
+#include "scene/fracture/cut_pattern.h"
+#include "scene/toml/error_text.h"
+#include "scene/toml/limits.h"
+#include "sim/geometry/shapes/mesh.h"
+#include "sim/geometry/shapes/shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace tumble {
+namespace {
+
+// Lengths over the largest extent of the body.
+constexpr double cut_rounding = 1e-13;
+constexpr double weld_length = 1e-9;      // as of mesh files
+constexpr double touch_length = 1e-9;     // of faces that make a bond
+constexpr double least_bond_area = 1e-6;  // of the volume to 2/3: slivers of Voronoi cells hold nothing
+constexpr double usual_smallest = 1e-3;   // of the cube root of the volume
+
+double cube_root(double value) { return value > 0.0 ? exponential(logarithm(value) / 3.0) : 0.0; }
+
+Color paler(Color color) {
+    const auto pale = [](std::uint8_t c) { return std::uint8_t((255 * 9 + c * 11) / 20); };
+    return {pale(color.r), pale(color.g), pale(color.b)};
+}
+
+struct Cut {
+    std::vector<ConvexCell> cells;
+    std::vector<const ConvexPart*> part_of;
+};
+
+/// Numbers of cells of the parts by their volumes; one of each at least.
+std::vector<std::size_t> shares(const std::vector<ConvexPart>& parts, int cells, double volume) {
+    std::vector<std::size_t> counts;
+    double before = 0.0;
+    std::size_t given = 0;
+    for (const ConvexPart& part : parts) {
+        before += part.cell.volume();
+        const auto up_to = std::size_t(std::floor(before / volume * cells + 0.5));
+        counts.push_back(std::max<std::size_t>(1, up_to > given ? up_to - given : 0));
+        given += counts.back();
+    }
+    return counts;
+}
+
+Cut cut_parts(const std::vector<ConvexPart>& parts, const FractureDescription& fracture, const CutExtent& extent,
+              std::uint64_t seed, double volume) {
+    Random random(seed, fracture.seed, Random::Purpose::cut);
+    const double smallest = fracture.smallest.value_or(usual_smallest * cube_root(volume));
+    const CutTolerance tolerance{cut_rounding * extent.bounds.extent().maxCoeff(), smallest * smallest * smallest};
+    const std::vector<CutStrip> strips = cut_strips(fracture, extent, random);
+    const std::vector<std::size_t> counts = shares(parts, fracture.cells, volume);
+    Cut cut;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const ConvexCell& part = parts[i].cell;
+        if (fracture.pattern == FracturePattern::voronoi)
+            cut_by_sites(part, draw_sites(part, counts[i], fracture.focus, random), tolerance, cut.cells);
+        else
+            cut_by_strips(part, strips, tolerance, cut.cells);
+        cut.part_of.resize(cut.cells.size(), &parts[i]);
+    }
+    return cut;
+}
+
+/// The drawn surface of a cell: outer faces as the part looks, inner ones in their color.
+std::shared_ptr<const MeshAsset> piece_mesh(const ConvexCell& cell, const ConvexPart& part, const Appearance& look,
+                                            Color inner) {
+    auto asset = std::make_shared<MeshAsset>();
+    asset->mesh = cell.mesh();
+    asset->convex = true;
+    std::vector<MeshAsset::Vertex> own;  // in the frame of the part, where textures have their places
+    std::vector<bool> outer;             // of each triangle
+    const Quat to_part = part.rotation.conjugate();
+    const auto vertex = [](const Vec3& p, const Vec3& n) {
+        return MeshAsset::Vertex{{float(p.x()), float(p.y()), float(p.z())},
+                                 {float(n.x()), float(n.y()), float(n.z())}};
+    };
+    for (const ConvexCell::Face& face : cell.faces) {
+        const auto first = std::uint32_t(asset->vertices.size());
+        for (const std::uint32_t v : face.vertices) {
+            asset->vertices.push_back(vertex(cell.vertices[v], face.normal));
+            own.push_back(vertex(to_part * (cell.vertices[v] - part.position), to_part * face.normal));
+        }
+        for (std::uint32_t i = 2; i < face.vertices.size(); ++i) {
+            asset->indices.insert(asset->indices.end(), {first, first + i - 1, first + i});
+            outer.push_back(face.outer);
+        }
+    }
+    const auto paint = std::make_shared<MeshPaint>(*texture_paint(*part.shape, look, own, asset->indices));
+    MeshMaterial of_cut;
+    const std::array<double, 3> linear = to_linear(inner);
+    for (std::size_t c = 0; c < 3; ++c) of_cut.color[c] = float(linear[c]);
+    paint->materials.push_back(of_cut);
+    for (std::size_t t = 0; t < outer.size(); ++t)
+        if (!outer[t]) paint->material_of_triangle[t] = 1;
+    asset->paint = paint;
+    return asset;
+}
+
+BodyDescription piece_of(const BodyDescription& whole, const ConvexCell& cell, const ConvexPart& part) {
+    BodyDescription piece = whole;
+    piece.type = BodyType::dynamic;
+    piece.fracture = nullptr;
+    piece.keyframes.clear();
+    Appearance look = whole.appearance;
+    look.color = part.color.value_or(mean_color(look));
+    if (look.texture) look.color = part.color.value_or(whole.appearance.color);
+    if (const auto* mesh = std::get_if<MeshShape>(part.shape); mesh != nullptr && mesh->painted && !look.has_image())
+        look.color = mesh->asset->paint->mean;
+    const Color inner = whole.fracture->inner_color.value_or(paler(look.color));
+    MeshShape shape{piece_mesh(cell, part, look, inner)};
+    shape.painted = true;
+    piece.shape = std::move(shape);
+    piece.appearance.color = look.color;
+    piece.appearance.visible = whole.appearance.visible && part.visible;
+    piece.appearance.pattern = Pattern::panel;  // the paint has the texture
+    piece.appearance.pattern_color.reset();
+    piece.appearance.texture = piece.appearance.normal_map = piece.appearance.roughness_map = nullptr;
+    return piece;
+}
+
+/// Masses by volumes and densities; the last piece takes the rest of the whole's, so that they add up to it.
+void share_mass(const BodyDescription& whole, const Cut& cut, std::vector<BodyDescription>& pieces) {
+    const double mass = mass_properties(whole).mass;
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < cut.cells.size(); ++i) {
+        weights.push_back(cut.part_of[i]->density * cut.cells[i].volume());
+        sum += weights.back();
+    }
+    double before = 0.0;
+    for (std::size_t i = 0; i < pieces.size(); ++i) {
+        // A multiple of the last bit of the whole's mass: sums are exact.
+        const double share = (weights[i] / sum * mass + mass) - mass,
+                     own = i + 1 < pieces.size() ? share : mass - before;
+        before += own;
+        pieces[i].mass = own;
+        pieces[i].density = own / cut.cells[i].volume();
+    }
+}
+
+void check(const BodyDescription& whole, const Bounds& bounds) {
+    const FractureDescription& fracture = *whole.fracture;
+    const double longest = bounds.extent().maxCoeff();
+    if (fracture.smallest && *fracture.smallest < limits::least_cell * longest)
+        throw InputError(
+            fmt::format("has a smallest cell of {} m, and must have at least {} of the longest extent, {} m",
+                        number_text(*fracture.smallest), number_text(limits::least_cell), number_text(longest)));
+    if (whole.center_of_mass || whole.inertia)
+        throw InputError("is for bodies whose mass follows from their shape: give neither center_of_mass nor inertia");
+}
+
+}  // namespace
+
+CutBody cut_body(const BodyDescription& whole, std::uint64_t seed) {
+    const FractureDescription& fracture = *whole.fracture;
+    const std::vector<ConvexPart> parts = convex_parts(whole);
+    CutExtent extent;
+    double volume = 0.0;
+    for (const ConvexPart& part : parts) {
+        volume += part.cell.volume();
+        extent.corners.insert(extent.corners.end(), part.cell.vertices.begin(), part.cell.vertices.end());
+        extent.bounds.add(part.cell.bounds());
+    }
+    check(whole, extent.bounds);
+    const double longest = extent.bounds.extent().maxCoeff();
+    Cut cut = cut_parts(parts, fracture, extent, seed, volume);
+    if (cut.cells.size() < 2)
+        throw InputError(fmt::format("leaves one cell of at least {} m: give a smaller `smallest`, or a larger body",
+                                     number_text(fracture.smallest.value_or(usual_smallest * cube_root(volume)))));
+
+    CutBody made;
+    std::vector<Vec3> centers;
+    for (std::size_t i = 0; i < cut.cells.size(); ++i) {
+        cut.cells[i].weld(weld_length * longest);
+        centers.push_back(mesh_mass(cut.cells[i].mesh(), 1.0).center_of_mass);
+        made.pieces.push_back(piece_of(whole, cut.cells[i], *cut.part_of[i]));
+    }
+    share_mass(whole, cut, made.pieces);
+    const double root = cube_root(volume);
+    const BondRequest request{cut.cells, centers, touch_length * longest, least_bond_area * root * root};
+    made.bonds = find_bonds(request);
+    if (whole.type == BodyType::dynamic) return made;
+    const std::size_t inner = made.bonds.size();
+    hold_to_world(request, extent.bounds, fracture.held, made.bonds);
+    if (made.bonds.size() == inner)
+        throw InputError(
+            "has no face in the held sides of its bounds: give `held` with the sides that hold it to the world");
+    return made;
+}
+
+}  // namespace tumble
